@@ -1,0 +1,63 @@
+//! The commands, one file each. clap is known here and below, and nowhere else.
+
+mod info;
+mod render;
+
+use clap::{Parser, Subcommand};
+use std::io::Write;
+use tinta::{Error, Result};
+
+/// Cartoon, ink and charcoal drawings of 3D models, drawn the way the papers of 2001-2007 drew them.
+#[derive(Parser)]
+#[command(name = "tinta", version, arg_required_else_help = true, max_term_width = 100)]
+#[command(after_help = "\
+Examples:
+  tinta render builtin:bust -o bust.png          a drawing without any file of your own
+  tinta render cow.obj -o cow.png --style two-pass --tones 2
+  tinta info                                     which OpenGL is there
+
+Exit codes: 0 done, 2 could not be done; the reason is one sentence on standard error.")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Render(Box<render::Arguments>),
+    Info(info::Arguments),
+}
+
+/// Parses the command line and does what it says.
+pub fn run() -> Result<()> {
+    match Arguments::parse().command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+    }
+}
+
+/// Says a line to the person, on standard error; nobody listening is no error.
+pub fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// Writes text to standard output; a reader that has heard enough (`| head`) is no error.
+fn print(text: &str) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Error::Output {
+            path: "-".to_owned(),
+            problem: format!("standard output cannot be written ({error}); check where it goes"),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a value as JSON to standard output.
+fn print_json(value: &impl serde::Serialize) -> Result<()> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| Error::Output {
+        path: "-".to_owned(),
+        problem: format!("the record cannot be written as JSON ({error}); leave out --json and report this"),
+    })?;
+    print(&(text + "\n"))
+}

@@ -1,0 +1,53 @@
+//! `tinta info`: every way to a context and what came of it.
+
+use tinta::gl::context::{Attempt, Outcome, attempts};
+use tinta::{Backend, Error, Result};
+
+/// Show which OpenGL contexts can be made on this machine, and why others cannot
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Which ways to try: auto (all), egl, osmesa [default: auto]
+    #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
+    backend: Backend,
+
+    /// Print one JSON object instead of text [default: off]
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let attempts = attempts(arguments.backend);
+    if arguments.json {
+        super::print_json(&serde_json::json!({ "version": env!("CARGO_PKG_VERSION"), "attempts": attempts }))?;
+    } else {
+        super::print(&attempts.iter().map(in_words).collect::<String>())?;
+    }
+    if attempts.iter().any(|attempt| matches!(attempt.outcome, Outcome::Context(_))) {
+        return Ok(());
+    }
+    let reason = |attempt: Attempt| match attempt.outcome {
+        Outcome::Error(reason) => format!("{}: {reason}", attempt.device),
+        Outcome::Context(_) => attempt.device,
+    };
+    Err(Error::NoContext { attempts: attempts.into_iter().map(reason).collect() })
+}
+
+fn in_words(attempt: &Attempt) -> String {
+    let info = match &attempt.outcome {
+        Outcome::Error(reason) => return format!("{}\n  no context: {reason}\n\n", attempt.device),
+        Outcome::Context(info) => info,
+    };
+    let rows = [
+        ("vendor", info.vendor.clone()),
+        ("renderer", info.renderer.clone()),
+        ("GL version", info.version.clone()),
+        ("GLSL version", info.glsl_version.clone()),
+        ("alpha, depth bits", format!("{}, {}", info.alpha_bits, info.depth_bits)),
+        ("line widths", format!("{} to {} px", info.aliased_line_width[0], info.aliased_line_width[1])),
+        ("smooth line widths", format!("{} to {} px", info.smooth_line_width[0], info.smooth_line_width[1])),
+        ("largest picture", format!("{} px", info.largest_picture)),
+        ("timer queries", if info.timer_queries { "yes" } else { "no" }.to_owned()),
+    ];
+    let lines: String = rows.iter().map(|(name, value)| format!("  {name:<20}{value}\n")).collect();
+    format!("{}\n{lines}\n", attempt.device)
+}

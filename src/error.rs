@@ -1,0 +1,105 @@
+//! Everything that can go wrong with what a user gave us, one sentence each.
+//!
+//! A message names the file, option or driver concerned, says what is wrong and what to do about it.
+//! The library returns these and never prints or exits; `main` prints them and exits with code 2.
+
+/// The result of anything in this crate that can fail.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why tinta could not do what was asked.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A model file could not be read or holds nothing to draw.
+    #[error("{path}{}: {problem}", line.map(|line| format!(": line {line}")).unwrap_or_default())]
+    Model {
+        /// The file as the user named it.
+        path: String,
+        /// The line at fault, 1-based, where the format has lines and the reader knows it.
+        line: Option<u64>,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// A model has defects and `--strict` was asked for.
+    #[error("{path}: {defects}; mend the model, or leave out --strict to draw it without them")]
+    Strict {
+        /// The file as the user named it.
+        path: String,
+        /// The defects with their counts, in words.
+        defects: String,
+    },
+    /// A setting is nonsense by itself or together with another.
+    #[error("{setting}: {problem}")]
+    Setting {
+        /// The option as the user writes it.
+        setting: String,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// The output file cannot be written.
+    #[error("{path}: {problem}")]
+    Output {
+        /// The file as the user named it.
+        path: String,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// No way to an OpenGL 2.1 context worked.
+    #[error(
+        "no OpenGL 2.1 context could be made (tried {}); install Mesa's software renderer, on Debian: apt-get install libegl1 libgl1-mesa-dri libosmesa6",
+        attempts.join("; ")
+    )]
+    NoContext {
+        /// What was tried and why each attempt failed.
+        attempts: Vec<String>,
+    },
+    /// The picture is larger than the context can draw.
+    #[error(
+        "--size {width}x{height}: the largest picture {renderer} can draw is {limit_width}x{limit_height}; ask for a smaller one"
+    )]
+    PictureTooLarge {
+        /// Width asked for, pixels.
+        width: u32,
+        /// Height asked for, pixels.
+        height: u32,
+        /// Largest width, pixels.
+        limit_width: u32,
+        /// Largest height, pixels.
+        limit_height: u32,
+        /// GL_RENDERER of the context.
+        renderer: String,
+    },
+    /// The driver refused one of our shaders.
+    #[error("glsl/{path}: the driver refuses this shader ({log}); another driver may take it: see `tinta info`")]
+    Shader {
+        /// The shader, or the shaders linked together, below `glsl/`.
+        path: String,
+        /// The driver's log, on one line.
+        log: String,
+    },
+    /// GL reported an error after a plan, or lost what it was given.
+    #[error("the GL driver failed in {during} ({what}); try --backend osmesa, or a smaller --size")]
+    Gl {
+        /// The pass or call.
+        during: String,
+        /// The GL error by name.
+        what: String,
+    },
+}
+
+impl Error {
+    /// A model error without a line.
+    pub(crate) fn model(path: &str, problem: impl Into<String>) -> Self {
+        Self::Model { path: path.to_owned(), line: None, problem: problem.into() }
+    }
+
+    /// A setting error.
+    pub(crate) fn setting(setting: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Setting { setting: setting.into(), problem: problem.into() }
+    }
+
+    /// A GL error.
+    pub(crate) fn gl(during: impl Into<String>, what: impl Into<String>) -> Self {
+        Self::Gl { during: during.into(), what: what.into() }
+    }
+}

@@ -1,0 +1,50 @@
+//! OpenGL 2.1: contexts without a window, the fixed-function calls glow lacks, objects with owners, plans carried out.
+//!
+//! The only module with `unsafe` code. In: a [`crate::plan::Plan`] and a [`crate::scene::Scene`]. Out: pixels and times.
+//! It knows no style. Every `unsafe` block here rests on two facts, which its comment names: the context these functions
+//! were loaded from is current on this thread, and the objects passed are alive.
+
+#![expect(unsafe_code, reason = "OpenGL is a C interface; this module wraps all of it")]
+
+pub mod context;
+pub(crate) mod execute;
+mod legacy;
+mod objects;
+
+pub use context::{Attempt, Backend, ContextInfo};
+
+use crate::error::{Error, Result};
+use glow::HasContext;
+use legacy::Legacy;
+use std::cell::Cell;
+
+/// The loaded GL functions of one context, and how many of its objects are alive.
+pub(crate) struct Gl {
+    glow: glow::Context,
+    legacy: Legacy,
+    live_objects: Cell<usize>,
+}
+
+impl Gl {
+    /// Returns the error GL noted since the last call, if any, as ours.
+    pub(crate) fn check(&self, during: &str) -> Result<()> {
+        // SAFETY: the context is current: only its holder calls this, between make_current and release.
+        let code = unsafe { self.glow.get_error() };
+        if code == glow::NO_ERROR {
+            return Ok(());
+        }
+        // One call may leave several flags; they must not be blamed on the next.
+        // SAFETY: as above. A lost context could report errors for ever, hence the bound.
+        (0..16).take_while(|_| unsafe { self.glow.get_error() } != glow::NO_ERROR).count();
+        let what = match code {
+            glow::INVALID_ENUM => "GL_INVALID_ENUM".to_owned(),
+            glow::INVALID_VALUE => "GL_INVALID_VALUE".to_owned(),
+            glow::INVALID_OPERATION => "GL_INVALID_OPERATION".to_owned(),
+            glow::INVALID_FRAMEBUFFER_OPERATION => "GL_INVALID_FRAMEBUFFER_OPERATION".to_owned(),
+            glow::OUT_OF_MEMORY => "GL_OUT_OF_MEMORY".to_owned(),
+            glow::CONTEXT_LOST => "GL_CONTEXT_LOST".to_owned(),
+            other => format!("GL error {other:#06x}"),
+        };
+        Err(Error::gl(during, what))
+    }
+}

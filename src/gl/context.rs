@@ -1,0 +1,332 @@
+//! Ways to an OpenGL 2.1 context without a window, tried in order, each attempt remembered.
+
+mod egl;
+mod osmesa;
+
+use super::legacy::{self, Legacy};
+use super::{Gl, execute};
+use crate::error::{Error, Result};
+use crate::scene::Size;
+use glow::HasContext;
+use serde::Serialize;
+use std::cell::Cell;
+use std::ffi::{CStr, c_void};
+use std::rc::Rc;
+use std::str::FromStr;
+
+/// Which way to take.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Backend {
+    /// EGL, then OSMesa: the first that works.
+    #[default]
+    Auto,
+    /// EGL on a device, without a window system; hardware first.
+    Egl,
+    /// Mesa's off-screen library.
+    OsMesa,
+}
+
+impl Backend {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 3] = [("auto", Self::Auto), ("egl", Self::Egl), ("osmesa", Self::OsMesa)];
+}
+
+impl FromStr for Backend {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        Self::ALL
+            .iter()
+            .find(|(name, _)| *name == text)
+            .map(|(_, backend)| *backend)
+            .ok_or_else(|| "choose one of auto, egl, osmesa".to_owned())
+    }
+}
+
+/// What a context says about itself.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContextInfo {
+    /// `egl` or `osmesa`.
+    pub backend: &'static str,
+    /// The library, and the device where there is a choice.
+    pub device: String,
+    /// GL_VENDOR
+    pub vendor: String,
+    /// GL_RENDERER
+    pub renderer: String,
+    /// GL_VERSION
+    pub version: String,
+    /// GL_SHADING_LANGUAGE_VERSION
+    pub glsl_version: String,
+    /// Bits of the framebuffer's alpha, which holds the map's depth.
+    pub alpha_bits: i32,
+    /// Bits of the depth buffer.
+    pub depth_bits: i32,
+    /// Narrowest and widest line without smoothing, pixels.
+    pub aliased_line_width: [f32; 2],
+    /// Narrowest and widest smoothed line, pixels.
+    pub smooth_line_width: [f32; 2],
+    /// Largest picture, pixels: the smallest of viewport, texture and surface limits.
+    pub largest_picture: Size,
+    /// Whether passes can be timed on the device.
+    pub timer_queries: bool,
+}
+
+/// One way that was tried.
+#[derive(Debug, Clone, Serialize)]
+pub struct Attempt {
+    /// The library, and the device where there is a choice.
+    pub device: String,
+    /// What came of it: the context, or why there is none.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+/// What came of an attempt.
+#[derive(Debug, Clone, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// It works.
+    Context(Box<ContextInfo>),
+    /// Why it does not.
+    Error(String),
+}
+
+/// A context with its loaded functions; current on this thread only between [`Context::enter`] and its guard's end.
+pub(crate) struct Context {
+    platform: Platform,
+    gl: Rc<Gl>,
+    info: ContextInfo,
+}
+
+/// The platforms' contexts.
+enum Platform {
+    Egl(egl::EglContext),
+    OsMesa(osmesa::OsMesaContext),
+}
+
+/// A way not yet tried.
+enum Candidate {
+    Egl(egl::Device),
+    OsMesa,
+    /// A whole platform that is not there, and why.
+    Missing { device: String, reason: String },
+}
+
+impl Candidate {
+    fn all(backend: Backend) -> Vec<Self> {
+        let mut candidates = Vec::new();
+        if backend != Backend::OsMesa {
+            match egl::devices() {
+                Ok(devices) => candidates.extend(devices.into_iter().map(Self::Egl)),
+                Err(reason) => candidates.push(Self::Missing { device: "EGL".to_owned(), reason }),
+            }
+        }
+        if backend != Backend::Egl {
+            candidates.push(Self::OsMesa);
+        }
+        candidates
+    }
+
+    fn name(&self) -> String {
+        match self {
+            Self::Egl(device) => device.name.clone(),
+            Self::OsMesa => "OSMesa".to_owned(),
+            Self::Missing { device, .. } => device.clone(),
+        }
+    }
+
+    fn open(self) -> std::result::Result<Context, String> {
+        let device = self.name();
+        match self {
+            Self::Egl(device_found) => {
+                Context::load(Platform::Egl(egl::EglContext::open(&device_found)?), "egl", device)
+            }
+            Self::OsMesa => Context::load(Platform::OsMesa(osmesa::OsMesaContext::open()?), "osmesa", device),
+            Self::Missing { reason, .. } => Err(reason),
+        }
+    }
+}
+
+/// Tries every way of this backend and tells what came of each.
+pub fn attempts(backend: Backend) -> Vec<Attempt> {
+    Candidate::all(backend)
+        .into_iter()
+        .map(|candidate| {
+            let device = candidate.name();
+            let outcome = match candidate.open() {
+                Ok(context) => Outcome::Context(Box::new(context.info.clone())),
+                Err(reason) => Outcome::Error(reason),
+            };
+            Attempt { device, outcome }
+        })
+        .collect()
+}
+
+impl Context {
+    /// The first way of this backend that works.
+    pub fn open(backend: Backend) -> Result<Self> {
+        let mut attempts = Vec::new();
+        for candidate in Candidate::all(backend) {
+            let name = candidate.name();
+            match candidate.open() {
+                Ok(context) => return Ok(context),
+                Err(reason) => attempts.push(format!("{name}: {reason}")),
+            }
+        }
+        Err(Error::NoContext { attempts })
+    }
+
+    fn load(platform: Platform, backend: &'static str, device: String) -> std::result::Result<Self, String> {
+        platform.make_current()?;
+        let loaded = load_functions(&platform, backend, device);
+        platform.release();
+        let (gl, info) = loaded?;
+        Ok(Self { platform, gl: Rc::new(gl), info })
+    }
+
+    pub fn info(&self) -> &ContextInfo {
+        &self.info
+    }
+
+    pub fn gl(&self) -> &Rc<Gl> {
+        &self.gl
+    }
+
+    /// Makes the surface this large; refuses what the context cannot draw.
+    pub fn resize(&mut self, size: Size) -> Result<()> {
+        let limit = self.info.largest_picture;
+        if size.width > limit.width || size.height > limit.height {
+            return Err(Error::PictureTooLarge {
+                width: size.width,
+                height: size.height,
+                limit_width: limit.width,
+                limit_height: limit.height,
+                renderer: self.info.renderer.clone(),
+            });
+        }
+        let resized = match &mut self.platform {
+            Platform::Egl(context) => context.resize(size),
+            Platform::OsMesa(context) => context.resize(size),
+        };
+        resized.map_err(|reason| Error::gl(format!("making a surface of {size} pixels"), reason))
+    }
+
+    /// Makes the context current until the guard is dropped. Contexts of both platforms share one dispatch table inside
+    /// Mesa, so none is left current when another may be entered.
+    pub fn enter(&self) -> Result<Current<'_>> {
+        self.platform.make_current().map_err(|reason| Error::gl("making the context current", reason))?;
+        Ok(Current { platform: &self.platform })
+    }
+}
+
+/// While it lives its context is current.
+pub(crate) struct Current<'a> {
+    platform: &'a Platform,
+}
+
+impl Drop for Current<'_> {
+    fn drop(&mut self) {
+        self.platform.release();
+    }
+}
+
+impl Platform {
+    fn make_current(&self) -> std::result::Result<(), String> {
+        match self {
+            Self::Egl(context) => context.make_current(),
+            Self::OsMesa(context) => context.make_current(),
+        }
+    }
+
+    fn release(&self) {
+        match self {
+            Self::Egl(context) => context.release(),
+            Self::OsMesa(context) => context.release(),
+        }
+    }
+
+    fn proc_address(&self, name: &CStr) -> *const c_void {
+        match self {
+            Self::Egl(context) => context.proc_address(name),
+            Self::OsMesa(context) => context.proc_address(name),
+        }
+    }
+
+    fn largest_surface(&self) -> Size {
+        match self {
+            Self::Egl(context) => context.largest_surface(),
+            Self::OsMesa(context) => context.largest_surface(),
+        }
+    }
+}
+
+/// Loads GL for the current context and asks it about itself; an error is why it cannot serve.
+fn load_functions(
+    platform: &Platform,
+    backend: &'static str,
+    device: String,
+) -> std::result::Result<(Gl, ContextInfo), String> {
+    // SAFETY: the platform's context is current, and its loader returns GL functions of that context.
+    let legacy = unsafe { Legacy::load(|name| platform.proc_address(name)) }?;
+    // SAFETY: as above.
+    let glow = unsafe { glow::Context::from_loader_function_cstr(|name| platform.proc_address(name)) };
+    let text = |name: u32| {
+        // SAFETY: the context is current; `name` is one of the string names of GL 2.1.
+        unsafe { glow.get_parameter_string(name) }
+    };
+    let integer = |name: u32| {
+        // SAFETY: the context is current; `name` is a parameter of one integer.
+        unsafe { glow.get_parameter_i32(name) }
+    };
+    let range = |name: u32| {
+        let mut range = [0.0; 2];
+        // SAFETY: the context is current; `name` is a parameter of two numbers.
+        unsafe { glow.get_parameter_f32_slice(name, &mut range) };
+        range
+    };
+    let mut viewport = [0; 2];
+    // SAFETY: the context is current; the parameter has two integers.
+    unsafe { glow.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport) };
+    let texture = integer(glow::MAX_TEXTURE_SIZE);
+    let surface = platform.largest_surface();
+    let limit = |viewport: i32, surface: u32| (viewport.min(texture).max(0) as u32).min(surface);
+    let version = glow.version();
+    let version = (version.major, version.minor);
+    let timer_queries = version >= (3, 3)
+        || glow.supported_extensions().contains("GL_ARB_timer_query")
+        || glow.supported_extensions().contains("GL_EXT_timer_query");
+    let info = ContextInfo {
+        backend,
+        device,
+        vendor: text(glow::VENDOR),
+        renderer: text(glow::RENDERER),
+        version: text(glow::VERSION),
+        glsl_version: text(glow::SHADING_LANGUAGE_VERSION),
+        alpha_bits: integer(legacy::ALPHA_BITS),
+        depth_bits: integer(legacy::DEPTH_BITS),
+        aliased_line_width: range(legacy::ALIASED_LINE_WIDTH_RANGE),
+        smooth_line_width: range(legacy::SMOOTH_LINE_WIDTH_RANGE),
+        largest_picture: Size {
+            width: limit(viewport[0], surface.width),
+            height: limit(viewport[1], surface.height),
+        },
+        timer_queries,
+    };
+    let gl = Gl { glow, legacy, live_objects: Cell::new(0) };
+    // A core profile answers the questions about alpha and lines with an error: it lacks what the papers use.
+    gl.check("asking the context about itself").map_err(|_| "it is not a compatibility context".to_owned())?;
+    if version < (2, 1) {
+        return Err(format!("it is OpenGL {}, older than 2.1", info.version));
+    }
+    if info.alpha_bits < 8 || info.depth_bits < execute::DEPTH_BITS {
+        return Err(format!(
+            "its framebuffer has {} alpha and {} depth bits, fewer than 8 and {}",
+            info.alpha_bits,
+            info.depth_bits,
+            execute::DEPTH_BITS
+        ));
+    }
+    Ok((gl, info))
+}

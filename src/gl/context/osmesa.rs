@@ -1,0 +1,130 @@
+//! Mesa's off-screen library: a context that draws into our memory, with no device at all.
+
+use crate::scene::Size;
+use libloading::{Library, Symbol};
+use std::cell::RefCell;
+use std::ffi::{CStr, c_char, c_void};
+use std::ptr;
+use std::sync::OnceLock;
+
+type Handle = *mut c_void;
+
+/// The functions of the library used here.
+struct Functions {
+    create_context: unsafe extern "C" fn(*const i32, Handle) -> Handle,
+    destroy_context: unsafe extern "C" fn(Handle),
+    make_current: unsafe extern "C" fn(Handle, *mut c_void, u32, i32, i32) -> u8,
+    get_integer: unsafe extern "C" fn(i32, *mut i32),
+    get_proc_address: unsafe extern "C" fn(*const c_char) -> *const c_void,
+}
+
+const LIBRARIES: [&str; 3] = ["libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"];
+
+/// The library, loaded once and never unloaded: Mesa leaves threads and exit handlers behind.
+fn functions() -> Result<&'static Functions, String> {
+    static FUNCTIONS: OnceLock<Result<Functions, String>> = OnceLock::new();
+    FUNCTIONS.get_or_init(load).as_ref().map_err(Clone::clone)
+}
+
+fn load() -> Result<Functions, String> {
+    let mut reasons = Vec::new();
+    for name in LIBRARIES {
+        // SAFETY: loading Mesa runs its initialisers, which have no preconditions.
+        match unsafe { Library::new(name) } {
+            // The library stays for the life of the process.
+            Ok(library) => return find_functions(Box::leak(Box::new(library))),
+            Err(error) => reasons.push(error.to_string()),
+        }
+    }
+    Err(format!("the library is not there ({})", reasons[0]))
+}
+
+fn find_functions(library: &'static Library) -> Result<Functions, String> {
+    let missing = |error: libloading::Error| format!("the library lacks a function ({error})");
+    // SAFETY: the symbols are those of Mesa's osmesa.h, of the types given there.
+    unsafe {
+        let get = |name: &[u8]| library.get::<*const c_void>(name).map(|symbol: Symbol<'_, *const c_void>| *symbol);
+        Ok(Functions {
+            create_context: std::mem::transmute::<*const c_void, _>(
+                get(b"OSMesaCreateContextAttribs\0").map_err(missing)?,
+            ),
+            destroy_context: std::mem::transmute::<*const c_void, _>(get(b"OSMesaDestroyContext\0").map_err(missing)?),
+            make_current: std::mem::transmute::<*const c_void, _>(get(b"OSMesaMakeCurrent\0").map_err(missing)?),
+            get_integer: std::mem::transmute::<*const c_void, _>(get(b"OSMesaGetIntegerv\0").map_err(missing)?),
+            get_proc_address: std::mem::transmute::<*const c_void, _>(get(b"OSMesaGetProcAddress\0").map_err(missing)?),
+        })
+    }
+}
+
+/// A context and the memory it draws into.
+pub struct OsMesaContext {
+    functions: &'static Functions,
+    context: Handle,
+    size: Size,
+    /// RGBA8, bottom row first; Mesa writes here whenever the context is flushed while current.
+    memory: RefCell<Vec<u32>>,
+}
+
+impl OsMesaContext {
+    /// A GL 2.1 compatibility context with a surface of one pixel.
+    pub fn open() -> Result<Self, String> {
+        let functions = functions()?;
+        // OSMESA_FORMAT RGBA, DEPTH_BITS 24, STENCIL_BITS 0, ACCUM_BITS 0, PROFILE compatibility, VERSION 2.1, end.
+        let attributes = [0x22, 0x1908, 0x30, 24, 0x31, 0, 0x32, 0, 0x33, 0x35, 0x36, 2, 0x37, 1, 0, 0];
+        // SAFETY: the list ends with 0 and nothing is shared with another context.
+        let context = unsafe { (functions.create_context)(attributes.as_ptr(), ptr::null_mut()) };
+        if context.is_null() {
+            return Err("making a GL 2.1 context failed".to_owned());
+        }
+        Ok(Self { functions, context, size: Size { width: 1, height: 1 }, memory: RefCell::new(vec![0]) })
+    }
+
+    pub fn resize(&mut self, size: Size) -> Result<(), String> {
+        let mut memory = Vec::new();
+        memory.try_reserve_exact(size.pixel_count()).map_err(|_| "there is not enough memory".to_owned())?;
+        memory.resize(size.pixel_count(), 0);
+        *self.memory.borrow_mut() = memory;
+        self.size = size;
+        Ok(())
+    }
+
+    pub fn make_current(&self) -> Result<(), String> {
+        let mut memory = self.memory.borrow_mut();
+        let (width, height) = (self.size.width as i32, self.size.height as i32);
+        // SAFETY: the context is alive, and the memory holds width x height RGBA8 pixels and is only replaced while the
+        // context is not current: `resize` needs `&mut self`, which no guard of `Context::enter` leaves.
+        let made = unsafe {
+            (self.functions.make_current)(self.context, memory.as_mut_ptr().cast(), glow::UNSIGNED_BYTE, width, height)
+        };
+        if made == 0 { Err(format!("it cannot be made current at {} pixels", self.size)) } else { Ok(()) }
+    }
+
+    pub fn release(&self) {
+        // SAFETY: no context, no memory: Mesa flushes and lets go of both.
+        unsafe { (self.functions.make_current)(ptr::null_mut(), ptr::null_mut(), glow::UNSIGNED_BYTE, 0, 0) };
+    }
+
+    pub fn proc_address(&self, name: &CStr) -> *const c_void {
+        // SAFETY: the name ends with 0.
+        unsafe { (self.functions.get_proc_address)(name.as_ptr()) }
+    }
+
+    pub fn largest_surface(&self) -> Size {
+        const MAX_WIDTH: i32 = 0x24;
+        const MAX_HEIGHT: i32 = 0x25;
+        let limit = |name: i32| {
+            let mut value = 0;
+            // SAFETY: both names are one integer.
+            unsafe { (self.functions.get_integer)(name, &mut value) };
+            if value <= 0 { u32::MAX } else { value as u32 }
+        };
+        Size { width: limit(MAX_WIDTH), height: limit(MAX_HEIGHT) }
+    }
+}
+
+impl Drop for OsMesaContext {
+    fn drop(&mut self) {
+        // SAFETY: the context is alive and, its guards being gone, not current.
+        unsafe { (self.functions.destroy_context)(self.context) };
+    }
+}

@@ -1,0 +1,254 @@
+//! GL objects with one owner each, deleted when it is dropped, which must happen while their context is current.
+
+use super::Gl;
+use crate::error::{Error, Result};
+use crate::plan;
+use glow::HasContext;
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// Counts an object in, and out again when dropped.
+struct Live(Rc<Gl>);
+
+impl Live {
+    fn new(gl: &Rc<Gl>) -> Self {
+        gl.live_objects.set(gl.live_objects.get() + 1);
+        Self(gl.clone())
+    }
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        self.0.live_objects.set(self.0.live_objects.get() - 1);
+    }
+}
+
+fn out_of_names(error: String) -> Error {
+    Error::gl("making a GL object", error)
+}
+
+/// A vertex or index buffer.
+pub struct Buffer {
+    live: Live,
+    id: glow::Buffer,
+    target: u32,
+}
+
+impl Buffer {
+    /// Uploads bytes once, for drawing; `target` is GL_ARRAY_BUFFER or GL_ELEMENT_ARRAY_BUFFER.
+    pub fn new(gl: &Rc<Gl>, target: u32, bytes: &[u8]) -> Result<Self> {
+        // SAFETY: the context is current while anything holds an `Rc<Gl>` to work with; the bytes outlive the call.
+        unsafe {
+            let id = gl.glow.create_buffer().map_err(out_of_names)?;
+            let buffer = Self { live: Live::new(gl), id, target };
+            gl.glow.bind_buffer(target, Some(id));
+            gl.glow.buffer_data_u8_slice(target, bytes, glow::STATIC_DRAW);
+            gl.check("uploading a model")?;
+            Ok(buffer)
+        }
+    }
+
+    pub fn bind(&self) {
+        // SAFETY: the context is current and this buffer alive.
+        unsafe { self.live.0.glow.bind_buffer(self.target, Some(self.id)) }
+    }
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        // SAFETY: the context is current and this buffer alive and ours.
+        unsafe { self.live.0.glow.delete_buffer(self.id) }
+    }
+}
+
+/// A texture, NEAREST and clamped to its edge.
+pub struct Texture {
+    live: Live,
+    id: glow::Texture,
+    target: u32,
+}
+
+impl Texture {
+    /// An empty texture; `target` is GL_TEXTURE_1D or GL_TEXTURE_2D.
+    pub fn new(gl: &Rc<Gl>, target: u32) -> Result<Self> {
+        // SAFETY: the context is current; the parameters are those of every texture of GL 2.1.
+        unsafe {
+            let id = gl.glow.create_texture().map_err(out_of_names)?;
+            let texture = Self { live: Live::new(gl), id, target };
+            gl.glow.bind_texture(target, Some(id));
+            for (name, value) in [
+                (glow::TEXTURE_MIN_FILTER, glow::NEAREST),
+                (glow::TEXTURE_MAG_FILTER, glow::NEAREST),
+                (glow::TEXTURE_WRAP_S, glow::CLAMP_TO_EDGE),
+                (glow::TEXTURE_WRAP_T, glow::CLAMP_TO_EDGE),
+            ] {
+                gl.glow.tex_parameter_i32(target, name, value as i32);
+            }
+            Ok(texture)
+        }
+    }
+
+    pub fn bind(&self, unit: u32) {
+        // SAFETY: the context is current and this texture alive; GL 2.1 has at least two units, and plans use no more.
+        unsafe {
+            self.live.0.glow.active_texture(glow::TEXTURE0 + unit);
+            self.live.0.glow.bind_texture(self.target, Some(self.id));
+        }
+    }
+}
+
+impl Drop for Texture {
+    fn drop(&mut self) {
+        // SAFETY: the context is current and this texture alive and ours.
+        unsafe { self.live.0.glow.delete_texture(self.id) }
+    }
+}
+
+/// A linked program and where its uniforms are.
+pub struct Program {
+    live: Live,
+    id: glow::Program,
+    locations: HashMap<&'static str, Option<glow::UniformLocation>>,
+}
+
+impl Program {
+    /// Compiles and links the shaders a plan names.
+    pub fn new(gl: &Rc<Gl>, program: &plan::Program) -> Result<Self> {
+        // SAFETY: the context is current; shaders are attached, detached and deleted in that order.
+        unsafe {
+            let id = gl.glow.create_program().map_err(out_of_names)?;
+            let linked = Self { live: Live::new(gl), id, locations: HashMap::new() };
+            let vertex = Shader::new(gl, glow::VERTEX_SHADER, program.vertex)?;
+            let mut shaders = vec![vertex];
+            for path in &program.fragments {
+                shaders.push(Shader::new(gl, glow::FRAGMENT_SHADER, path)?);
+            }
+            for shader in &shaders {
+                gl.glow.attach_shader(id, shader.id);
+            }
+            gl.glow.link_program(id);
+            for shader in &shaders {
+                gl.glow.detach_shader(id, shader.id);
+            }
+            if gl.glow.get_program_link_status(id) {
+                return Ok(linked);
+            }
+            let path = format!("{} + {}", program.vertex, program.fragments.join(" + "));
+            Err(Error::Shader { path, log: one_line(&gl.glow.get_program_info_log(id)) })
+        }
+    }
+
+    pub fn bind(&self) {
+        // SAFETY: the context is current and this program alive.
+        unsafe { self.live.0.glow.use_program(Some(self.id)) }
+    }
+
+    /// Sets a uniform of this program, which is bound; one the driver has optimised away is no error.
+    pub fn set(&mut self, name: &'static str, value: plan::Value) {
+        let gl = &self.live.0.glow;
+        let id = self.id;
+        // SAFETY: the context is current, this program alive and bound.
+        let location =
+            self.locations.entry(name).or_insert_with(|| unsafe { gl.get_uniform_location(id, name) }).as_ref();
+        // SAFETY: as above; the value has the type the shader declares, which a test of every program checks.
+        unsafe {
+            match value {
+                plan::Value::Float(x) => gl.uniform_1_f32(location, x),
+                plan::Value::Vec2([x, y]) => gl.uniform_2_f32(location, x, y),
+                plan::Value::Vec3([x, y, z]) => gl.uniform_3_f32(location, x, y, z),
+            }
+        }
+    }
+
+    /// Points a sampler of this program, which is bound, at a texture unit.
+    pub fn set_sampler(&mut self, name: &'static str, unit: u32) {
+        let gl = &self.live.0.glow;
+        let id = self.id;
+        // SAFETY: the context is current, this program alive and bound.
+        unsafe {
+            let location = self.locations.entry(name).or_insert_with(|| gl.get_uniform_location(id, name)).as_ref();
+            gl.uniform_1_i32(location, unit as i32);
+        }
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        // SAFETY: the context is current and this program alive and ours.
+        unsafe { self.live.0.glow.delete_program(self.id) }
+    }
+}
+
+/// A compiled shader, needed until its program is linked.
+pub struct Shader {
+    live: Live,
+    id: glow::Shader,
+}
+
+impl Shader {
+    /// Compiles the shader of this path below `glsl/`.
+    pub fn new(gl: &Rc<Gl>, kind: u32, path: &'static str) -> Result<Self> {
+        let failed = |log: &str| Error::Shader { path: path.to_owned(), log: one_line(log) };
+        let source = crate::glsl::source(path).ok_or_else(|| failed("it is not part of this program"))?;
+        // SAFETY: the context is current.
+        unsafe {
+            let id = gl.glow.create_shader(kind).map_err(out_of_names)?;
+            let shader = Self { live: Live::new(gl), id };
+            gl.glow.shader_source(id, source);
+            gl.glow.compile_shader(id);
+            if gl.glow.get_shader_compile_status(id) {
+                return Ok(shader);
+            }
+            Err(failed(&gl.glow.get_shader_info_log(id)))
+        }
+    }
+}
+
+impl Drop for Shader {
+    fn drop(&mut self) {
+        // SAFETY: the context is current and this shader alive and ours.
+        unsafe { self.live.0.glow.delete_shader(self.id) }
+    }
+}
+
+/// A query of elapsed time on the device.
+pub struct TimerQuery {
+    live: Live,
+    id: glow::Query,
+}
+
+impl TimerQuery {
+    pub fn new(gl: &Rc<Gl>) -> Result<Self> {
+        // SAFETY: the context is current.
+        let id = unsafe { gl.glow.create_query() }.map_err(out_of_names)?;
+        Ok(Self { live: Live::new(gl), id })
+    }
+
+    pub fn begin(&self) {
+        // SAFETY: the context is current, this query alive and no other of its kind running.
+        unsafe { self.live.0.glow.begin_query(glow::TIME_ELAPSED, self.id) }
+    }
+
+    pub fn end(&self) {
+        // SAFETY: the context is current and this query running.
+        unsafe { self.live.0.glow.end_query(glow::TIME_ELAPSED) }
+    }
+
+    /// Waits for the device and returns the elapsed milliseconds.
+    pub fn milliseconds(&self) -> f64 {
+        // SAFETY: the context is current and this query ended. 32 bits of nanoseconds reach for four seconds.
+        let nanoseconds = unsafe { self.live.0.glow.get_query_parameter_u32(self.id, glow::QUERY_RESULT) };
+        f64::from(nanoseconds) * 1e-6
+    }
+}
+
+impl Drop for TimerQuery {
+    fn drop(&mut self) {
+        // SAFETY: the context is current and this query alive and ours.
+        unsafe { self.live.0.glow.delete_query(self.id) }
+    }
+}
+
+fn one_line(log: &str) -> String {
+    log.trim().lines().map(str::trim).collect::<Vec<_>>().join("; ")
+}

@@ -1,0 +1,64 @@
+//! The shaders, whole files from `glsl/`, carried inside the program.
+
+/// A shader's path below `glsl/` and its text.
+pub type Source = (&'static str, &'static str);
+
+macro_rules! sources {
+    ($($path:literal),* $(,)?) => {
+        /// Every shader there is; a test compares this with the folder.
+        pub const SOURCES: &[Source] = &[$(($path, include_str!(concat!("../glsl/", $path)))),*];
+    };
+}
+
+// A macro because include_str! takes literals only: a function would need every path twice.
+sources![
+    "evangelista/border-settings.frag",
+    "evangelista/border.frag",
+    "evangelista/border.vert",
+    "evangelista/filter-laplacian4.frag",
+    "evangelista/filter-laplacian8.frag",
+    "evangelista/filter-mitchell.frag",
+    "evangelista/filter-roberts.frag",
+    "evangelista/filter-sobel.frag",
+    "evangelista/map.frag",
+    "evangelista/map.vert",
+    "evangelista/tone-steps.frag",
+    "evangelista/tone-texture.frag",
+    "evangelista/toon-settings.frag",
+    "evangelista/toon.frag",
+    "evangelista/toon.vert",
+    "evangelista/two-pass-settings.frag",
+    "evangelista/two-pass.frag",
+    "evangelista/two-pass.vert",
+    "phong/phong.frag",
+    "phong/phong.vert",
+];
+
+/// The text of a shader; `None` if there is none of that path.
+pub fn source(path: &str) -> Option<&'static str> {
+    SOURCES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_holds_the_folder_and_every_file_begins_with_its_version() {
+        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("glsl");
+        let mut files = Vec::new();
+        for folder in std::fs::read_dir(&root).unwrap() {
+            let folder = folder.unwrap().path();
+            for file in std::fs::read_dir(&folder).unwrap() {
+                let path = file.unwrap().path();
+                files.push(path.strip_prefix(&root).unwrap().to_str().unwrap().to_owned());
+            }
+        }
+        files.sort();
+        assert!(!files.is_empty());
+        assert_eq!(files, SOURCES.iter().map(|(path, _)| (*path).to_owned()).collect::<Vec<_>>());
+        for (path, text) in SOURCES {
+            assert!(text.starts_with("#version 120\n//"), "{path} begins with its version and says what it is");
+        }
+    }
+}

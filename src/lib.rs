@@ -1,0 +1,45 @@
+//! tinta: the cartoon, ink and charcoal pipelines of 2001-2007 as their authors published them, on OpenGL 2.1.
+//!
+//! Data flows one way, and every arrow is a plain value:
+//!
+//! ```text
+//! model file ─► Mesh ─► Scene ─► Style::plan ─► Plan ─► Renderer (gl::execute) ─► Picture
+//! ```
+//!
+//! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`].
+//! Everything else is tested without a context, a window or a clock.
+//!
+//! ```no_run
+//! use std::sync::Arc;
+//! use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Style, StyleName, Target, load};
+//!
+//! # fn main() -> tinta::Result<()> {
+//! let bust = load("builtin:bust", &LoadOptions::default())?.mesh;
+//! let scene = Scene::new(vec![Arc::new(bust)], &SceneSettings::default())?;
+//! let style = Style::named(StyleName::ThreePass);
+//! let picture = Renderer::new(Backend::Auto)?.render(&scene, &style)?;
+//! Target::check("bust.png", false)?.write(&picture)
+//! # }
+//! ```
+
+pub mod error;
+pub mod mesh;
+pub mod camera;
+pub mod scene;
+pub mod styles;
+pub mod plan;
+pub mod glsl;
+pub mod gl;
+pub mod renderer;
+pub mod picture;
+pub mod record;
+pub mod tolerances;
+
+pub use camera::{Camera, CameraSettings, View};
+pub use error::{Error, Result};
+pub use gl::Backend;
+pub use mesh::{LoadOptions, Mesh, load};
+pub use picture::{Picture, Target};
+pub use renderer::Renderer;
+pub use scene::{Background, Color, Scene, SceneSettings, Size};
+pub use styles::{Show, Style, StyleName};

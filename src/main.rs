@@ -1,0 +1,15 @@
+//! The command line: parse, call the library, print the error, choose the exit code.
+
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match cli::run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            cli::say(&format!("tinta: {error}"));
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! A model as triangles over welded positions, with its normals, texture coordinates and materials.
+//!
+//! In: a file's polygons ([`soup::Soup`], one reader a format). Out: [`Mesh`], which everything after it shares:
+//! the edge list needs the welded positions, GL the corners' normals, the reference lines the f64 coordinates.
+//! Positions stay in f64 and in the file's own units; what GL gets is recentred and scaled by the scene.
+
+pub mod builtin;
+pub mod defects;
+pub mod load;
+mod normals;
+mod obj;
+mod ply;
+mod soup;
+mod stl;
+mod triangulate;
+mod vertices;
+mod weld;
+
+use glam::{DVec3, Vec2, Vec3};
+use serde::Serialize;
+use std::path::PathBuf;
+
+pub use builtin::BUILTINS;
+pub use defects::Defects;
+pub use load::{LoadOptions, Normals, UpAxis, load};
+pub use vertices::{Part, VertexArrays};
+
+/// Stands in index arrays for "this corner has none".
+pub const NONE: u32 = u32::MAX;
+
+/// A triangle mesh with shared positions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// How the user named it: a path or `builtin:…`.
+    pub name: String,
+    /// Welded positions in world space, file units, f64; each is used by at least one triangle.
+    pub positions: Vec<DVec3>,
+    /// For each position the lowest 0-based vertex number of the file that was welded into it.
+    pub file_vertices: Vec<u32>,
+    /// Each triangle's three positions, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Unit normals, world space.
+    pub normals: Vec<Vec3>,
+    /// Each triangle corner's normal; as long as `triangles`.
+    pub triangle_normals: Vec<[u32; 3]>,
+    /// Texture coordinates, origin at the lower left; empty when the model has none.
+    pub texture_coordinates: Vec<Vec2>,
+    /// Each triangle corner's texture coordinate or [`NONE`]; empty or as long as `triangles`.
+    pub triangle_texture_coordinates: Vec<[u32; 3]>,
+    /// The model's materials; may be empty.
+    pub materials: Vec<Material>,
+    /// Each triangle's material or [`NONE`]; empty or as long as `triangles`.
+    pub triangle_materials: Vec<u32>,
+    /// What was wrong with the file.
+    pub defects: Defects,
+}
+
+/// What a file says about a surface; the styles of the three texts use colour and texture only.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Material {
+    /// Its name in the file.
+    pub name: String,
+    /// Diffuse colour, red, green, blue in [0, 1] (MTL `Kd`); `None` where the file gives none.
+    pub color: Option<[f32; 3]>,
+    /// The colour texture's file (MTL `map_Kd`), beside the model; not opened until a style needs it.
+    pub texture: Option<PathBuf>,
+}
+
+impl Mesh {
+    /// Smallest and largest corner of the axis-aligned bounding box, world space, file units.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        bounds(&self.positions)
+    }
+
+    /// The normal of a triangle's plane, world space, unit length; zero only if the triangle has no area in f64.
+    pub fn face_normal(&self, triangle: usize) -> DVec3 {
+        let [a, b, c] = self.triangles[triangle].map(|index| self.positions[index as usize]);
+        (b - a).cross(c - a).normalize_or_zero()
+    }
+
+    /// The material of a triangle.
+    pub fn material(&self, triangle: usize) -> Option<&Material> {
+        let index = *self.triangle_materials.get(triangle)?;
+        self.materials.get(index as usize)
+    }
+}
+
+/// Smallest and largest corner of some points' bounding box; infinities, inverted, for no points.
+pub fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
+    points
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(*point), high.max(*point)))
+}

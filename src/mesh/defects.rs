@@ -1,0 +1,51 @@
+//! What is wrong with a model file, counted.
+//!
+//! Readers and [`super::soup`] fill the counts; the command line says them once, `--strict` makes them an error.
+
+use serde::Serialize;
+use std::fmt;
+
+/// Counts of what a reader found and left out or worked around; all zero for a clean file.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct Defects {
+    /// Triangles without area (also faces of fewer than three corners), left out.
+    pub degenerate_triangles: usize,
+    /// Triangles that repeat another with the same orientation, left out.
+    pub duplicate_triangles: usize,
+    /// Vertices with a coordinate that is NaN or infinite; the faces that use them are left out.
+    pub non_finite_vertices: usize,
+    /// Faces that name a vertex, normal or texture coordinate the file does not hold, left out.
+    pub out_of_range_faces: usize,
+    /// Vertices that no face uses, left out.
+    pub unused_vertices: usize,
+    /// Material files or materials that are named but not there; those faces get the default colour.
+    pub missing_materials: usize,
+}
+
+impl Defects {
+    /// Whether the file is clean.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl fmt::Display for Defects {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kinds = [
+            (self.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
+            (self.duplicate_triangles, "duplicate triangle", "duplicate triangles"),
+            (self.non_finite_vertices, "vertex that is not finite", "vertices that are not finite"),
+            (self.out_of_range_faces, "face with an index out of range", "faces with an index out of range"),
+            (self.unused_vertices, "unused vertex", "unused vertices"),
+            (self.missing_materials, "missing material", "missing materials"),
+        ];
+        let mut separator = "";
+        for (count, singular, plural) in kinds {
+            if count > 0 {
+                write!(out, "{separator}{count} {}", if count == 1 { singular } else { plural })?;
+                separator = ", ";
+            }
+        }
+        if separator.is_empty() { out.write_str("no defects") } else { Ok(()) }
+    }
+}

@@ -1,0 +1,224 @@
+//! Normals for the corners a file gives none for: smooth inside a group of faces, split along creases.
+//!
+//! In: welded triangles and a smoothing angle. Out: one unit normal per group of faces around a vertex, and each
+//! corner's index. A group is what can be reached around the vertex over shared edges whose faces differ by no more
+//! than the angle; faces weigh in with their angle at the vertex (Thuermer and Wuethrich 1998), which, unlike their
+//! area, does not change when a face is cut in two.
+
+use super::NONE;
+use glam::{DVec3, Vec3};
+
+/// Computes a normal for every corner whose entry in `triangle_normals` is [`NONE`] and appends it to `normals`.
+///
+/// `cos_smooth` is the cosine of the largest angle between neighbouring faces that still share a normal; above 1 none do.
+pub fn fill_missing(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    cos_smooth: f64,
+    normals: &mut Vec<Vec3>,
+    triangle_normals: &mut [[u32; 3]],
+) {
+    let face_normals: Vec<DVec3> = triangles
+        .iter()
+        .map(|triangle| {
+            let [a, b, c] = triangle.map(|index| positions[index as usize]);
+            (b - a).cross(c - a).normalize_or_zero()
+        })
+        .collect();
+    let incidence = Incidence::new(positions.len(), triangles);
+    let mut fan = Fan::default();
+    for vertex in 0..positions.len() {
+        let corners = incidence.corners(vertex);
+        let is_missing = |corner: &&u32| triangle_normals[(**corner / 3) as usize][(**corner % 3) as usize] == NONE;
+        if corners.iter().filter(is_missing).count() == 0 {
+            continue;
+        }
+        fan.gather(positions, triangles, &face_normals, corners);
+        fan.group(cos_smooth);
+        fan.write(corners, normals, triangle_normals);
+    }
+}
+
+/// For every position the triangle corners that meet there, as `3 * triangle + corner`.
+pub(super) struct Incidence {
+    starts: Vec<u32>,
+    corners: Vec<u32>,
+}
+
+impl Incidence {
+    pub(super) fn new(position_count: usize, triangles: &[[u32; 3]]) -> Self {
+        let mut starts = vec![0u32; position_count + 1];
+        for index in triangles.as_flattened() {
+            starts[*index as usize + 1] += 1;
+        }
+        for vertex in 0..position_count {
+            starts[vertex + 1] += starts[vertex];
+        }
+        let mut next = starts.clone();
+        let mut corners = vec![0u32; triangles.len() * 3];
+        for (corner, index) in triangles.as_flattened().iter().enumerate() {
+            let slot = &mut next[*index as usize];
+            corners[*slot as usize] = corner as u32;
+            *slot += 1;
+        }
+        Self { starts, corners }
+    }
+
+    pub(super) fn corners(&self, vertex: usize) -> &[u32] {
+        &self.corners[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    }
+}
+
+/// The faces around one vertex; kept between vertices for its memory.
+#[derive(Default)]
+struct Fan {
+    /// Each face's unit normal.
+    face_normals: Vec<DVec3>,
+    /// Each face's angle at the vertex, radians.
+    angles: Vec<f64>,
+    /// (far end of an edge at the vertex, face in the fan), two a face.
+    spokes: Vec<(u32, u32)>,
+    /// Union-find over the faces.
+    parents: Vec<u32>,
+    /// Each group's summed normal, then its index in the mesh's normals.
+    sums: Vec<DVec3>,
+    indices: Vec<u32>,
+}
+
+impl Fan {
+    fn gather(&mut self, positions: &[DVec3], triangles: &[[u32; 3]], all_normals: &[DVec3], corners: &[u32]) {
+        self.face_normals.clear();
+        self.angles.clear();
+        self.spokes.clear();
+        for (face, &corner) in corners.iter().enumerate() {
+            let triangle = triangles[corner as usize / 3];
+            let [at, next, previous] = [0, 1, 2].map(|step| triangle[(corner as usize % 3 + step) % 3]);
+            let to_next = positions[next as usize] - positions[at as usize];
+            let to_previous = positions[previous as usize] - positions[at as usize];
+            self.face_normals.push(all_normals[corner as usize / 3]);
+            self.angles.push(to_next.angle_between(to_previous));
+            self.spokes.push((next, face as u32));
+            self.spokes.push((previous, face as u32));
+        }
+    }
+
+    /// Joins faces that share an edge at this vertex and differ by no more than the angle.
+    fn group(&mut self, cos_smooth: f64) {
+        let count = self.face_normals.len() as u32;
+        self.parents.clear();
+        // Most fans are smooth throughout; then any two faces are within the angle and no edge needs to be looked at.
+        // Fans that only touch in the vertex are joined too when they agree so well; that does no harm.
+        let mean = self.face_normals.iter().sum::<DVec3>().normalize_or_zero();
+        let cos_half = ((1.0 + cos_smooth) * 0.5).max(0.0).sqrt();
+        if self.face_normals.iter().all(|normal| normal.dot(mean) >= cos_half) {
+            self.parents.resize(count as usize, 0);
+            return;
+        }
+        self.parents.extend(0..count);
+        self.spokes.sort_unstable();
+        for pair in 0..self.spokes.len() - 1 {
+            let ((far, face), (other_far, other_face)) = (self.spokes[pair], self.spokes[pair + 1]);
+            let smooth = self.face_normals[face as usize].dot(self.face_normals[other_face as usize]) >= cos_smooth;
+            if far == other_far && smooth {
+                let (root, other_root) = (self.root(face), self.root(other_face));
+                self.parents[root.max(other_root) as usize] = root.min(other_root);
+            }
+        }
+    }
+
+    fn root(&self, mut face: u32) -> u32 {
+        while self.parents[face as usize] != face {
+            face = self.parents[face as usize];
+        }
+        face
+    }
+
+    fn write(&mut self, corners: &[u32], normals: &mut Vec<Vec3>, triangle_normals: &mut [[u32; 3]]) {
+        self.sums.clear();
+        self.sums.resize(corners.len(), DVec3::ZERO);
+        self.indices.clear();
+        self.indices.resize(corners.len(), NONE);
+        for face in 0..corners.len() {
+            let root = self.root(face as u32) as usize;
+            self.sums[root] += self.face_normals[face] * self.angles[face];
+        }
+        for (face, &corner) in corners.iter().enumerate() {
+            let slot = &mut triangle_normals[corner as usize / 3][corner as usize % 3];
+            if *slot != NONE {
+                continue;
+            }
+            let root = self.root(face as u32) as usize;
+            // Faces that cancel each other out leave no direction: then the face's own normal is the best there is.
+            let smooth = self.sums[root].try_normalize();
+            if smooth.is_none() || self.indices[root] == NONE {
+                normals.push(smooth.unwrap_or(self.face_normals[face]).as_vec3());
+                self.indices[root] = normals.len() as u32 - 1;
+            }
+            *slot = self.indices[root];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn computed(positions: &[DVec3], triangles: &[[u32; 3]], angle: f64) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+        let (mut normals, mut indices) = (Vec::new(), vec![[NONE; 3]; triangles.len()]);
+        fill_missing(positions, triangles, angle.to_radians().cos(), &mut normals, &mut indices);
+        (normals, indices)
+    }
+
+    fn cube() -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let positions = (0..8).map(|i| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64)).collect();
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect();
+        (positions, triangles)
+    }
+
+    #[test]
+    fn a_cube_gets_flat_faces_below_its_right_angle() {
+        let (positions, triangles) = cube();
+        let (normals, indices) = computed(&positions, &triangles, 60.0);
+        for (triangle, corners) in triangles.iter().zip(&indices) {
+            let [a, b, c] = triangle.map(|i| positions[i as usize]);
+            let face = (b - a).cross(c - a).normalize().as_vec3();
+            for corner in corners {
+                assert!(normals[*corner as usize].distance(face) < 1e-6);
+            }
+        }
+        assert_eq!(normals.len(), 24, "three faces at each of eight corners");
+    }
+
+    #[test]
+    fn a_cube_gets_its_diagonals_above_its_right_angle_whatever_way_its_squares_are_cut() {
+        let (positions, triangles) = cube();
+        let (normals, indices) = computed(&positions, &triangles, 91.0);
+        assert_eq!(normals.len(), 8);
+        for (vertex, normal) in triangles.as_flattened().iter().zip(indices.as_flattened()) {
+            let diagonal = (positions[*vertex as usize] - DVec3::splat(0.5)).normalize().as_vec3();
+            assert!(normals[*normal as usize].distance(diagonal) < 1e-6);
+        }
+    }
+
+    #[test]
+    fn a_sheet_drawn_from_both_sides_keeps_both_normals() {
+        let positions = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let (normals, indices) = computed(&positions, &[[0, 1, 2], [0, 2, 1]], 180.0);
+        assert_eq!(normals[indices[0][0] as usize], Vec3::Z);
+        assert_eq!(normals[indices[1][0] as usize], Vec3::NEG_Z);
+    }
+
+    #[test]
+    fn a_fan_of_a_hundred_thousand_triangles_is_done_in_the_time_of_a_sort() {
+        let count = 100_000;
+        let rim = |i: u32| {
+            let turn = f64::from(i) / f64::from(count) * std::f64::consts::TAU;
+            DVec3::new(turn.cos(), 0.5 * f64::from(i % 2), turn.sin())
+        };
+        let positions: Vec<DVec3> = std::iter::once(DVec3::Y * 2.0).chain((0..count).map(rim)).collect();
+        let triangles: Vec<[u32; 3]> = (0..count).map(|i| [0, 1 + (i + 1) % count, 1 + i]).collect();
+        let (normals, _) = computed(&positions, &triangles, 180.0);
+        assert!(normals[0].distance(Vec3::Y) < 1e-3);
+    }
+}

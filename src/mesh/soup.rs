@@ -1,0 +1,345 @@
+//! What a reader hands over: a file's vertices and polygons as they stand there; and how that becomes a [`Mesh`].
+//!
+//! The one place where all formats are treated alike: bad faces are dropped and counted, vertices welded, polygons
+//! cut into triangles, missing normals computed, unused vertices left out.
+
+use super::{Defects, LoadOptions, Material, Mesh, NONE, Normals, bounds, normals, triangulate, weld};
+use crate::error::{Error, Result};
+use earcut::Earcut;
+use glam::{DVec3, Vec2, Vec3};
+
+/// A file's contents, unchecked but for one thing: every index is [`NONE`] or within its array.
+#[derive(Debug, Default)]
+pub struct Soup {
+    /// All vertices in the file's order and units.
+    pub positions: Vec<DVec3>,
+    /// All normals; any length.
+    pub normals: Vec<Vec3>,
+    /// All texture coordinates.
+    pub texture_coordinates: Vec<Vec2>,
+    /// The polygons' corners one after the other.
+    pub corners: Vec<Corner>,
+    /// How many corners each polygon has; empty when all are triangles.
+    pub polygon_sizes: Vec<u32>,
+    /// Each polygon's material or [`NONE`]; empty when there are none.
+    pub polygon_materials: Vec<u32>,
+    /// The materials.
+    pub materials: Vec<Material>,
+    /// What the reader already found.
+    pub defects: Defects,
+}
+
+/// One corner of a polygon: indices into the soup's arrays, [`NONE`] where it has none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Corner {
+    /// Into `positions`; never [`NONE`].
+    pub position: u32,
+    /// Into `normals`.
+    pub normal: u32,
+    /// Into `texture_coordinates`.
+    pub texture: u32,
+}
+
+impl Corner {
+    /// A corner that has a position only.
+    pub fn at(position: u32) -> Self {
+        Self { position, normal: NONE, texture: NONE }
+    }
+}
+
+impl Soup {
+    /// Polygon by polygon: its corners and its material.
+    fn polygons(&self) -> impl Iterator<Item = (&[Corner], u32)> {
+        let count = if self.polygon_sizes.is_empty() { self.corners.len() / 3 } else { self.polygon_sizes.len() };
+        let mut start = 0;
+        (0..count).map(move |polygon| {
+            let size = self.polygon_sizes.get(polygon).map_or(3, |size| *size as usize);
+            let corners = &self.corners[start..start + size];
+            start += size;
+            (corners, self.polygon_materials.get(polygon).copied().unwrap_or(NONE))
+        })
+    }
+
+    /// Makes the mesh. Fails if nothing is left to draw, or with `options.strict` if anything was wrong.
+    pub fn into_mesh(mut self, name: &str, options: &LoadOptions) -> Result<Mesh> {
+        for position in &mut self.positions {
+            *position = options.up_axis.to_y_up(*position);
+        }
+        let finite: Vec<bool> = self.positions.iter().map(|position| position.is_finite()).collect();
+        let mut defects = std::mem::take(&mut self.defects);
+        defects.non_finite_vertices += finite.iter().filter(|finite| !**finite).count();
+
+        let welded = self.welded(&finite, options.weld);
+        let mut pieces = self.triangulated(&finite, &welded, &mut defects);
+        pieces.drop_duplicates(&mut defects);
+        if pieces.triangles.is_empty() {
+            return Err(nothing_to_draw(name, &self, &defects));
+        }
+        defects.unused_vertices += self.unused(&finite);
+
+        let (positions, file_vertices) = compact(&self.positions, &mut pieces.triangles);
+        let mut mesh = Mesh {
+            name: name.to_owned(),
+            positions,
+            file_vertices,
+            triangles: pieces.triangles,
+            normals: Vec::new(),
+            triangle_normals: pieces.normals,
+            texture_coordinates: std::mem::take(&mut self.texture_coordinates),
+            triangle_texture_coordinates: pieces.texture_coordinates,
+            materials: std::mem::take(&mut self.materials),
+            triangle_materials: pieces.materials,
+            defects,
+        };
+        if mesh.triangle_texture_coordinates.as_flattened().iter().all(|index| *index == NONE) {
+            mesh.triangle_texture_coordinates.clear();
+        }
+        if mesh.triangle_materials.iter().all(|index| *index == NONE) {
+            mesh.triangle_materials.clear();
+        }
+        mesh.take_normals(&self.normals, options);
+        if options.strict && !mesh.defects.is_empty() {
+            return Err(Error::Strict { path: name.to_owned(), defects: mesh.defects.to_string() });
+        }
+        Ok(mesh)
+    }
+
+    /// For each vertex the one it is welded to, by a tolerance relative to the finite vertices' bounding-box diagonal.
+    fn welded(&self, finite: &[bool], tolerance: f64) -> Vec<u32> {
+        let points: Vec<DVec3> = self.positions.iter().zip(finite).filter(|(_, f)| **f).map(|(p, _)| *p).collect();
+        let (low, high) = bounds(&points);
+        let diagonal = (high - low).length();
+        weld::weld(&self.positions, if diagonal.is_finite() { tolerance * diagonal } else { 0.0 })
+    }
+
+    /// All triangles with area, over welded but not yet renumbered positions.
+    fn triangulated(&self, finite: &[bool], welded: &[u32], defects: &mut Defects) -> Pieces {
+        let mut pieces = Pieces::default();
+        let mut earcut = Earcut::new();
+        let (mut cut, mut points) = (Vec::new(), Vec::new());
+        for (corners, material) in self.polygons() {
+            if corners.iter().any(|corner| !finite[corner.position as usize]) {
+                continue;
+            }
+            points.clear();
+            points.extend(corners.iter().map(|corner| self.positions[corner.position as usize]));
+            triangulate::triangulate(&points, &mut earcut, &mut cut);
+            // A polygon whose area earcut cannot find loses triangles there: they are as good as degenerate.
+            defects.degenerate_triangles += corners.len().saturating_sub(2) - cut.len().min(corners.len() - 2);
+            for triangle in &cut {
+                let corners = triangle.map(|index| corners[index as usize]);
+                let positions = corners.map(|corner| welded[corner.position as usize]);
+                if self.has_area(positions) {
+                    pieces.triangles.push(positions);
+                    pieces.normals.push(corners.map(|corner| corner.normal));
+                    pieces.texture_coordinates.push(corners.map(|corner| corner.texture));
+                    pieces.materials.push(material);
+                } else {
+                    defects.degenerate_triangles += 1;
+                }
+            }
+        }
+        pieces
+    }
+
+    fn has_area(&self, [a, b, c]: [u32; 3]) -> bool {
+        if a == b || b == c || c == a {
+            return false;
+        }
+        let [a, b, c] = [a, b, c].map(|index| self.positions[index as usize]);
+        let (first, second) = (b - a, c - a);
+        // Scaled by the longer side, so that the product neither overflows nor vanishes for its size alone.
+        let scale = first.abs().max(second.abs()).max_element();
+        (first / scale).cross(second / scale) != DVec3::ZERO
+    }
+
+    /// How many finite vertices no polygon names.
+    fn unused(&self, finite: &[bool]) -> usize {
+        let mut used = vec![false; self.positions.len()];
+        for corner in &self.corners {
+            used[corner.position as usize] = true;
+        }
+        used.iter().zip(finite).filter(|(used, finite)| !**used && **finite).count()
+    }
+}
+
+/// Triangles with what belongs to their corners.
+#[derive(Default)]
+struct Pieces {
+    triangles: Vec<[u32; 3]>,
+    normals: Vec<[u32; 3]>,
+    texture_coordinates: Vec<[u32; 3]>,
+    materials: Vec<u32>,
+}
+
+impl Pieces {
+    /// Drops triangles that repeat an earlier one with the same orientation; the opposite side is another triangle.
+    fn drop_duplicates(&mut self, defects: &mut Defects) {
+        let turned = |[a, b, c]: [u32; 3]| {
+            if a < b && a < c {
+                [a, b, c]
+            } else if b < c {
+                [b, c, a]
+            } else {
+                [c, a, b]
+            }
+        };
+        let mut order: Vec<([u32; 3], u32)> =
+            self.triangles.iter().enumerate().map(|(index, triangle)| (turned(*triangle), index as u32)).collect();
+        order.sort_unstable();
+        let mut repeated: Vec<u32> =
+            order.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1].1).collect();
+        if repeated.is_empty() {
+            return;
+        }
+        repeated.sort_unstable();
+        defects.duplicate_triangles += repeated.len();
+        let keep: Vec<bool> =
+            (0..self.triangles.len() as u32).map(|index| repeated.binary_search(&index).is_err()).collect();
+        retain(&mut self.triangles, &keep);
+        retain(&mut self.normals, &keep);
+        retain(&mut self.texture_coordinates, &keep);
+        retain(&mut self.materials, &keep);
+    }
+}
+
+fn retain<T>(items: &mut Vec<T>, keep: &[bool]) {
+    let mut flags = keep.iter();
+    items.retain(|_| flags.next().copied().unwrap_or(false));
+}
+
+/// Renumbers the triangles to the positions they use, in the file's order; returns those and their file vertices.
+fn compact(all: &[DVec3], triangles: &mut [[u32; 3]]) -> (Vec<DVec3>, Vec<u32>) {
+    let mut number = vec![NONE; all.len()];
+    for index in triangles.as_flattened() {
+        number[*index as usize] = 0;
+    }
+    let (mut positions, mut file_vertices) = (Vec::new(), Vec::new());
+    for (index, slot) in number.iter_mut().enumerate().filter(|(_, slot)| **slot == 0) {
+        *slot = positions.len() as u32;
+        positions.push(all[index]);
+        file_vertices.push(index as u32);
+    }
+    for index in triangles.as_flattened_mut() {
+        *index = number[*index as usize];
+    }
+    (positions, file_vertices)
+}
+
+impl Mesh {
+    /// Takes over the file's normals as far as asked for and usable, and computes the rest.
+    fn take_normals(&mut self, file_normals: &[Vec3], options: &LoadOptions) {
+        let mut number = vec![NONE; file_normals.len()];
+        for slot in self.triangle_normals.as_flattened_mut() {
+            let normal = match options.normals {
+                Normals::File => file_normals.get(*slot as usize).and_then(|normal| normal.try_normalize()),
+                Normals::Smooth | Normals::Flat => None,
+            };
+            let Some(normal) = normal else {
+                *slot = NONE;
+                continue;
+            };
+            let file_index = std::mem::replace(slot, number[*slot as usize]) as usize;
+            if *slot == NONE {
+                *slot = self.normals.len() as u32;
+                number[file_index] = *slot;
+                self.normals.push(options.up_axis.to_y_up(normal.as_dvec3()).as_vec3());
+            }
+        }
+        let cos_smooth = match options.normals {
+            Normals::Flat => 2.0,
+            Normals::File | Normals::Smooth => options.smooth_angle_degrees.to_radians().cos(),
+        };
+        let (normals, triangle_normals) = (&mut self.normals, &mut self.triangle_normals);
+        normals::fill_missing(&self.positions, &self.triangles, cos_smooth, normals, triangle_normals);
+    }
+}
+
+fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
+    let problem = if soup.positions.is_empty() && soup.corners.is_empty() {
+        "it holds no vertices and no faces; is it the right file?".to_owned()
+    } else if soup.corners.is_empty() && defects.is_empty() {
+        format!("it holds {} vertices but no faces; export it with its faces", soup.positions.len())
+    } else {
+        format!("nothing is left to draw ({defects}); export it again with faces that have area")
+    };
+    Error::model(name, problem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::UpAxis;
+
+    fn square() -> Soup {
+        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
+        let corners = (0..4).map(Corner::at).collect();
+        Soup { positions, corners, polygon_sizes: vec![4], ..Soup::default() }
+    }
+
+    fn mesh(soup: Soup) -> Mesh {
+        soup.into_mesh("test", &LoadOptions::default()).unwrap()
+    }
+
+    #[test]
+    fn a_square_becomes_two_triangles_over_four_positions() {
+        let mesh = mesh(square());
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(mesh.normals, [Vec3::Z; 4]);
+        assert!(mesh.defects.is_empty());
+    }
+
+    #[test]
+    fn defects_are_counted_and_left_out() {
+        let mut soup = square();
+        soup.positions.extend([DVec3::splat(9.0), DVec3::new(f64::NAN, 0.0, 0.0), DVec3::X * 2.0]);
+        let mut face = |indices: &[u32]| {
+            soup.corners.extend(indices.iter().map(|index| Corner::at(*index)));
+            soup.polygon_sizes.push(indices.len() as u32);
+        };
+        face(&[1, 2, 0]); // repeats half of the square, turned
+        face(&[2, 1, 0]); // its other side
+        face(&[0, 1, 1]);
+        face(&[0, 1, 6]); // on one line
+        face(&[0, 1, 5]); // not finite
+        let mesh = mesh(soup);
+        assert_eq!(mesh.triangles.len(), 3);
+        let expected = Defects {
+            degenerate_triangles: 2,
+            duplicate_triangles: 1,
+            non_finite_vertices: 1,
+            unused_vertices: 1,
+            ..Defects::default()
+        };
+        assert_eq!(mesh.defects, expected);
+        assert_eq!(mesh.file_vertices, [0, 1, 2, 3]);
+    }
+
+    #[test]
+    fn strict_makes_a_defect_an_error_that_counts_it() {
+        let mut soup = square();
+        soup.positions.push(DVec3::splat(9.0));
+        let error = soup.into_mesh("a.obj", &LoadOptions { strict: true, ..LoadOptions::default() }).unwrap_err();
+        assert!(error.to_string().starts_with("a.obj: 1 unused vertex;"), "{error}");
+    }
+
+    #[test]
+    fn a_tiny_triangle_has_area_and_a_huge_one_too() {
+        for size in [1e-160, 1e-30, 1.0, 1e30, 1e150] {
+            let positions = [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p * size).to_vec();
+            let soup = Soup { positions, corners: (0..3).map(Corner::at).collect(), ..Soup::default() };
+            assert_eq!(mesh(soup).triangles.len(), 1, "size {size}");
+        }
+    }
+
+    #[test]
+    fn a_model_that_is_z_up_is_turned_to_stand_with_its_front_towards_z() {
+        let options = LoadOptions { up_axis: UpAxis::Z, ..LoadOptions::default() };
+        let mut soup = square();
+        soup.normals = vec![Vec3::Z];
+        soup.corners.iter_mut().for_each(|corner| corner.normal = 0);
+        let mesh = soup.into_mesh("test", &options).unwrap();
+        assert_eq!(mesh.normals, [Vec3::Y]);
+        assert_eq!(mesh.positions[3], DVec3::NEG_Z, "the model's back, +y, is away from the front view");
+    }
+}

@@ -1,0 +1,112 @@
+//! STL, binary and text, through the stl_io crate.
+//!
+//! The file's facet normals are not used: the corners' order says the same and is what edges are found by.
+
+use super::soup::{Corner, Soup};
+use crate::error::{Error, Result};
+use glam::DVec3;
+use std::io::Cursor;
+
+const HEADER_BYTES: usize = 84;
+const FACET_BYTES: usize = 50;
+
+/// Whether a file's length is what its facet count says: the one sure sign of binary STL, which may begin with `solid`.
+pub fn is_binary(bytes: &[u8]) -> bool {
+    facet_count(bytes).is_some_and(|count| bytes.len() == HEADER_BYTES + count * FACET_BYTES)
+}
+
+/// Whether the beginning of a file reads like text STL.
+pub fn is_text(head: &[u8]) -> bool {
+    head.starts_with(b"solid") && !head.contains(&0) && head.windows(5).any(|word| word == b"facet")
+}
+
+fn facet_count(bytes: &[u8]) -> Option<usize> {
+    let field = bytes.get(80..HEADER_BYTES)?;
+    Some(u32::from_le_bytes([field[0], field[1], field[2], field[3]]) as usize)
+}
+
+/// Reads an STL file's bytes. `path` is for messages.
+pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
+    let damaged = |error: std::io::Error| Error::model(path, format!("it is damaged ({error}); export it again"));
+    let mut whole;
+    if is_binary(bytes) {
+        // Keeps stl_io from taking a binary file whose header begins with "solid " for text.
+        whole = bytes.to_vec();
+        whole[..5].fill(b' ');
+    } else if is_text(&bytes[..bytes.len().min(4096)]) {
+        // stl_io wants a blank behind "solid", which nameless files lack.
+        let first_line = bytes.iter().position(|byte| *byte == b'\n').map_or(bytes.len(), |end| end + 1);
+        whole = b"solid x\n".to_vec();
+        whole.extend_from_slice(&bytes[first_line..]);
+    } else {
+        return Err(Error::model(path, truncated(bytes)));
+    }
+    let mut cursor = Cursor::new(whole);
+    let mut soup = Soup::default();
+    for facet in stl_io::create_stl_reader(&mut cursor).map_err(damaged)? {
+        for vertex in facet.map_err(damaged)?.vertices {
+            soup.corners.push(Corner::at(soup.positions.len() as u32));
+            soup.positions.push(DVec3::from_array(vertex.0.map(f64::from)));
+        }
+    }
+    Ok(soup)
+}
+
+fn truncated(bytes: &[u8]) -> String {
+    match facet_count(bytes) {
+        Some(count) => format!(
+            "its header promises {count} triangles in {} bytes but the file has {}; it is damaged or cut off, export it again",
+            HEADER_BYTES + count * FACET_BYTES,
+            bytes.len()
+        ),
+        None => format!("{} bytes are too few for an STL file; export it again", bytes.len()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn binary(header: &[u8], triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
+        let mut bytes = header.to_vec();
+        bytes.resize(80, 0);
+        bytes.extend((triangles.len() as u32).to_le_bytes());
+        for triangle in triangles {
+            bytes.extend([0u8; 12]);
+            triangle.as_flattened().iter().for_each(|number| bytes.extend(number.to_le_bytes()));
+            bytes.extend([0u8; 2]);
+        }
+        bytes
+    }
+
+    const TRIANGLE: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5]];
+
+    #[test]
+    fn binary_files_are_read_also_when_their_header_begins_with_solid() {
+        for header in [b"made by a test".as_slice(), b"solid but binary"] {
+            let soup = read(&binary(header, &[TRIANGLE; 2]), "t.stl").unwrap();
+            assert_eq!(soup.positions.len(), 6);
+            assert_eq!(soup.positions[5], DVec3::new(0.0, 1.0, 0.5));
+        }
+    }
+
+    #[test]
+    fn text_files_are_read_with_and_without_a_name() {
+        for name in ["", " a name"] {
+            let text = format!(
+                "solid{name}\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid\n"
+            );
+            let soup = read(text.as_bytes(), "t.stl").unwrap();
+            assert_eq!(soup.positions[2], DVec3::new(0.0, 1.0, 0.5));
+        }
+    }
+
+    #[test]
+    fn a_cut_off_file_is_refused_with_both_sizes() {
+        let mut bytes = binary(b"x", &[TRIANGLE; 2]);
+        bytes.truncate(150);
+        let message = read(&bytes, "t.stl").unwrap_err().to_string();
+        assert!(message.contains("promises 2 triangles in 184 bytes but the file has 150"), "{message}");
+        assert!(read(b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0", "t.stl").is_err());
+    }
+}

@@ -1,0 +1,326 @@
+//! A finished picture: RGBA8 and its size; written to files and read back. The one file that knows the image crate.
+
+use crate::error::{Error, Result};
+use crate::scene::Size;
+use image::codecs::{bmp::BmpEncoder, jpeg::JpegEncoder, png, pnm, tga::TgaEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Pixels as red, green, blue, alpha bytes (alpha straight), top row first.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Picture {
+    /// Width and height.
+    pub size: Size,
+    /// Four bytes a pixel, row by row from the top.
+    pub pixels: Vec<u8>,
+}
+
+impl Picture {
+    /// A picture from GL's rows, bottom row first.
+    pub fn from_bottom_up(size: Size, pixels: &[u8]) -> Self {
+        let row = size.width as usize * 4;
+        Self { size, pixels: pixels.chunks_exact(row).rev().flatten().copied().collect() }
+    }
+
+    /// The pixel in column `x` from the left and row `y` from the top, both clamped to the picture.
+    pub fn pixel(&self, x: i64, y: i64) -> [u8; 4] {
+        let x = x.clamp(0, i64::from(self.size.width) - 1) as usize;
+        let y = y.clamp(0, i64::from(self.size.height) - 1) as usize;
+        let start = (y * self.size.width as usize + x) * 4;
+        [0, 1, 2, 3].map(|channel| self.pixels[start + channel])
+    }
+
+    /// The same colours without transparency.
+    pub fn opaque(mut self) -> Self {
+        self.pixels.chunks_exact_mut(4).for_each(|pixel| pixel[3] = u8::MAX);
+        self
+    }
+
+    /// Alpha as an opaque grey.
+    pub fn alpha_as_grey(mut self) -> Self {
+        self.pixels.chunks_exact_mut(4).for_each(|pixel| {
+            let alpha = pixel[3];
+            pixel[..3].fill(alpha);
+            pixel[3] = u8::MAX;
+        });
+        self
+    }
+
+    fn is_opaque(&self) -> bool {
+        self.pixels.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX)
+    }
+
+    /// The largest difference of any byte between two pictures of one size, and how many pixels differ at all.
+    pub fn difference(&self, other: &Self) -> Option<Difference> {
+        if self.size != other.size {
+            return None;
+        }
+        let pairs = self.pixels.chunks_exact(4).zip(other.pixels.chunks_exact(4));
+        let largest_of = |(a, b): (&[u8], &[u8])| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
+        Some(pairs.map(largest_of).fold(Difference { largest: 0, pixels: 0 }, |sum, difference| Difference {
+            largest: sum.largest.max(difference),
+            pixels: sum.pixels + usize::from(difference > 0),
+        }))
+    }
+
+    /// Encodes the picture. Opaque pictures are written without an alpha channel unless `keep_alpha`.
+    fn encode(&self, format: PictureFormat, keep_alpha: bool, out: &mut impl Write) -> image::ImageResult<()> {
+        let has_alpha = keep_alpha || !self.is_opaque();
+        let rgb: Vec<u8>;
+        let (pixels, color) = if has_alpha && format.has_alpha() {
+            (&self.pixels, ExtendedColorType::Rgba8)
+        } else {
+            rgb = self.pixels.chunks_exact(4).flat_map(|pixel| &pixel[..3]).copied().collect();
+            (&rgb, ExtendedColorType::Rgb8)
+        };
+        let Size { width, height } = self.size;
+        match format {
+            PictureFormat::Png => {
+                let (compression, filter) = (png::CompressionType::Fast, png::FilterType::Adaptive);
+                png::PngEncoder::new_with_quality(out, compression, filter).write_image(pixels, width, height, color)
+            }
+            PictureFormat::Jpeg => JpegEncoder::new_with_quality(out, 92).write_image(pixels, width, height, color),
+            PictureFormat::Bmp => BmpEncoder::new(out).write_image(pixels, width, height, color),
+            PictureFormat::Tga => TgaEncoder::new(out).write_image(pixels, width, height, color),
+            PictureFormat::Ppm => {
+                let subtype = pnm::PnmSubtype::Pixmap(pnm::SampleEncoding::Binary);
+                pnm::PnmEncoder::new(out).with_subtype(subtype).write_image(pixels, width, height, color)
+            }
+        }
+    }
+
+    /// Reads a PNG file, for comparisons.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Output`] with the path when it is missing or no picture.
+    pub fn read_png(path: &Path) -> Result<Self> {
+        let failed = |error: image::ImageError| Error::Output {
+            path: path.display().to_string(),
+            problem: format!("it cannot be read as a picture ({error}); make it again"),
+        };
+        let image = image::open(path).map_err(failed)?.into_rgba8();
+        Ok(Self { size: Size { width: image.width(), height: image.height() }, pixels: image.into_raw() })
+    }
+}
+
+/// How far two pictures are apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Difference {
+    /// Largest difference of any channel, 0 to 255.
+    pub largest: u8,
+    /// Pixels that differ in any channel.
+    pub pixels: usize,
+}
+
+/// The file formats written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// Portable Network Graphics, with alpha where the picture has any.
+    Png,
+    /// JPEG, quality 92, no alpha.
+    Jpeg,
+    /// Windows bitmap, no alpha.
+    Bmp,
+    /// Truevision TGA, with alpha where the picture has any.
+    Tga,
+    /// Portable pixmap, binary, no alpha.
+    Ppm,
+}
+
+impl PictureFormat {
+    const EXTENSIONS: [(&'static str, Self); 6] = [
+        ("png", Self::Png),
+        ("jpg", Self::Jpeg),
+        ("jpeg", Self::Jpeg),
+        ("bmp", Self::Bmp),
+        ("tga", Self::Tga),
+        ("ppm", Self::Ppm),
+    ];
+
+    fn has_alpha(self) -> bool {
+        matches!(self, Self::Png | Self::Tga)
+    }
+}
+
+/// Where a picture goes, checked before the work and written whole or not at all.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Target {
+    /// Standard output, as PNG.
+    Stdout,
+    /// A file.
+    File {
+        /// As the user named it.
+        path: PathBuf,
+        /// By its extension.
+        format: PictureFormat,
+    },
+}
+
+impl Target {
+    /// Checks that `path` (or `-`) can be written and has a known extension; `transparent` pictures need one with alpha.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Output`] for an unknown extension, a directory, a folder that is missing or may not be written.
+    pub fn check(path: &str, transparent: bool) -> Result<Self> {
+        let refuse = |problem: String| Error::Output { path: path.to_owned(), problem };
+        if path == "-" {
+            return Ok(Self::Stdout);
+        }
+        let file = PathBuf::from(path);
+        let known = || PictureFormat::EXTENSIONS.map(|(extension, _)| extension).join(", ");
+        let extension = file.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
+        let format = extension.as_deref().and_then(|extension| {
+            PictureFormat::EXTENSIONS.iter().find(|(known, _)| *known == extension).map(|(_, format)| *format)
+        });
+        let format = match (format, extension) {
+            (Some(format), _) => format,
+            (None, Some(extension)) => {
+                return Err(refuse(format!("pictures are not written as .{extension}; use one of {}", known())));
+            }
+            (None, None) => return Err(refuse(format!("the name has no extension; use one of {}", known()))),
+        };
+        if transparent && !format.has_alpha() {
+            return Err(refuse("this format has no transparency; write .png, or leave out --transparent".to_owned()));
+        }
+        if file.is_dir() {
+            return Err(refuse("this is a directory; name a file in it".to_owned()));
+        }
+        temporary_beside(&file).map_err(|error| refuse(cannot_write(&file, &error)))?;
+        Ok(Self::File { path: file, format })
+    }
+
+    /// Writes the picture; a file appears complete or stays as it was.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Output`] when the disk is full, the folder gone, the pipe closed.
+    pub fn write(&self, picture: &Picture) -> Result<()> {
+        match self {
+            Self::Stdout => {
+                let failed = |error: &dyn std::fmt::Display| Error::Output {
+                    path: "-".to_owned(),
+                    problem: format!("standard output cannot be written ({error}); check where it goes"),
+                };
+                let mut bytes = Vec::new();
+                picture.encode(PictureFormat::Png, false, &mut bytes).map_err(|error| failed(&error))?;
+                let mut out = std::io::stdout().lock();
+                out.write_all(&bytes).and_then(|()| out.flush()).map_err(|error| failed(&error))
+            }
+            Self::File { path, format } => write_file(path, |out| picture.encode(*format, false, out)),
+        }
+    }
+}
+
+/// Writes a picture as RGBA PNG whatever its alpha: what GL held, byte for byte.
+///
+/// # Errors
+///
+/// [`Error::Output`] when the file cannot be written.
+pub fn write_rgba_png(picture: &Picture, path: &Path) -> Result<()> {
+    write_file(path, |out| picture.encode(PictureFormat::Png, true, out))
+}
+
+/// Writes beside the file, then renames: a link is followed, a file replaced only by a whole one.
+fn write_file(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResult<()>) -> Result<()> {
+    let failed = |problem: String| Error::Output { path: path.display().to_string(), problem };
+    let mut bytes = Vec::new();
+    encode(&mut bytes).map_err(|error| failed(format!("the picture cannot be encoded ({error}); try .png")))?;
+    let written = temporary_beside(path).and_then(|mut file| {
+        file.write_all(&bytes)?;
+        file.persist(resolved(path)).map_err(|error| error.error)?;
+        Ok(())
+    });
+    written.map_err(|error| failed(cannot_write(path, &error)))
+}
+
+/// A file that deletes itself, in the folder of `path`, with the permissions a new file there would get.
+fn temporary_beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let target = resolved(path);
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.prefix(".tinta-").tempfile_in(folder)
+}
+
+/// The file a link at `path` points to, so that the link stays.
+fn resolved(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
+}
+
+fn cannot_write(path: &Path, error: &std::io::Error) -> String {
+    use std::io::ErrorKind;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory => {
+            format!("the folder {} is not there; make it first", folder.display())
+        }
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            format!("the folder {} may not be written; choose another", folder.display())
+        }
+        ErrorKind::StorageFull => "the disk is full; free some space".to_owned(),
+        _ => format!("it cannot be written ({error})"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture() -> Picture {
+        let size = Size { width: 3, height: 2 };
+        Picture { size, pixels: (0..24).collect() }
+    }
+
+    #[test]
+    fn gls_rows_are_turned_over() {
+        let bottom_up: Vec<u8> = (12..24).chain(0..12).collect();
+        assert_eq!(Picture::from_bottom_up(picture().size, &bottom_up), picture());
+    }
+
+    #[test]
+    fn a_picture_written_as_png_is_read_back_byte_for_byte() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, picture) in [("alpha.png", picture()), ("opaque.png", picture().opaque())] {
+            let path = folder.path().join(name);
+            Target::check(path.to_str().unwrap(), false).unwrap().write(&picture).unwrap();
+            assert_eq!(Picture::read_png(&path).unwrap(), picture);
+        }
+    }
+
+    #[test]
+    fn differences_are_counted() {
+        let mut other = picture();
+        other.pixels[5] += 7;
+        other.pixels[6] -= 1;
+        assert_eq!(picture().difference(&other), Some(Difference { largest: 7, pixels: 1 }));
+        assert_eq!(picture().difference(&picture()), Some(Difference { largest: 0, pixels: 0 }));
+    }
+
+    #[test]
+    fn every_format_is_written_and_nothing_else_is_left_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        for (extension, _) in PictureFormat::EXTENSIONS {
+            let path = folder.path().join(format!("picture.{extension}"));
+            Target::check(path.to_str().unwrap(), false).unwrap().write(&picture().opaque()).unwrap();
+            let read = image::open(&path).unwrap();
+            assert_eq!((read.width(), read.height()), (3, 2), "{extension}");
+        }
+        let files = std::fs::read_dir(folder.path()).unwrap().count();
+        assert_eq!(files, PictureFormat::EXTENSIONS.len());
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_refused_before_any_work() {
+        let message = |path: &str, transparent| Target::check(path, transparent).unwrap_err().to_string();
+        assert!(message("drawing.xyz", false).contains("not written as .xyz"));
+        assert!(message("drawing", false).contains("no extension"));
+        assert!(message("drawing.jpg", true).contains("no transparency"));
+        assert!(message("no/such/folder/a.png", false).contains("folder no/such/folder is not there"));
+        let folder = tempfile::Builder::new().suffix(".png").tempdir().unwrap();
+        assert!(message(folder.path().to_str().unwrap(), false).contains("directory"));
+    }
+}

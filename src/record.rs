@@ -1,0 +1,124 @@
+//! What one rendering was and took, as one JSON object.
+
+use crate::camera::Projection;
+use crate::gl::ContextInfo;
+use crate::mesh::Defects;
+use crate::renderer::{PassTime, median};
+use crate::scene::{Background, Color, Scene, Size};
+use crate::styles::{Show, Style};
+use serde::Serialize;
+
+/// A rendering's record: enough to make the picture again and to compare its cost.
+#[derive(Debug, Clone, Serialize)]
+pub struct Record {
+    /// tinta's version.
+    pub version: &'static str,
+    /// The models in the order given, copies not repeated.
+    pub models: Vec<ModelRecord>,
+    /// How often the models are repeated.
+    pub copies: u32,
+    /// Triangles drawn, all copies together.
+    pub triangles: usize,
+    /// The style with every setting.
+    pub style: Style,
+    /// Which of its pictures.
+    pub show: Show,
+    /// The picture's size.
+    pub size: Size,
+    /// What is behind the objects.
+    pub background: Background,
+    /// The colour of surfaces without one, or of all.
+    pub color: Color,
+    /// Whether that colour replaces the model's own.
+    pub recolor: bool,
+    /// The camera, world space.
+    pub camera: CameraRecord,
+    /// The context.
+    pub gl: ContextInfo,
+    /// Each pass's median times.
+    pub passes: Vec<PassTime>,
+    /// Reading the models and making meshes of them.
+    pub load_ms: f64,
+    /// Opening the context; on its own thread beside the loading.
+    pub context_ms: f64,
+    /// The first frame: uploads and the driver's compiling included.
+    pub first_frame_ms: f64,
+    /// The frames after warm-up, read-back included.
+    pub frame_ms: Summary,
+}
+
+/// One model.
+#[derive(Debug, Clone, Serialize)]
+pub struct ModelRecord {
+    /// As the user named it.
+    pub path: String,
+    /// Welded positions.
+    pub vertices: usize,
+    /// Triangles with area.
+    pub triangles: usize,
+    /// What was wrong with the file.
+    pub defects: Defects,
+}
+
+/// A camera in numbers; lengths in file units, matrices as 16 numbers column by column.
+#[derive(Debug, Clone, Serialize)]
+pub struct CameraRecord {
+    eye: [f64; 3],
+    target: [f64; 3],
+    up: [f64; 3],
+    /// Full vertical angle; `null` in parallel projection.
+    fov_y_degrees: Option<f64>,
+    /// Height of the picture in parallel projection; `null` in perspective.
+    parallel_height: Option<f64>,
+    near: f64,
+    far: f64,
+    view_from_world: [f64; 16],
+    clip_from_view: [f64; 16],
+}
+
+impl CameraRecord {
+    /// The camera of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        let camera = &scene.camera;
+        let (fov_y_degrees, parallel_height) = match camera.projection {
+            Projection::Perspective { fov_y_degrees } => (Some(fov_y_degrees), None),
+            Projection::Parallel { height } => (None, Some(height)),
+        };
+        Self {
+            eye: camera.eye.to_array(),
+            target: camera.target.to_array(),
+            up: camera.up.to_array(),
+            fov_y_degrees,
+            parallel_height,
+            near: camera.near,
+            far: camera.far,
+            view_from_world: camera.view_from_world().to_cols_array(),
+            clip_from_view: camera.clip_from_view(scene.size.aspect()).to_cols_array(),
+        }
+    }
+}
+
+/// Some times and their summary, milliseconds.
+#[derive(Debug, Clone, Serialize)]
+pub struct Summary {
+    /// The middle one.
+    pub median: f64,
+    /// The smallest.
+    pub min: f64,
+    /// The largest.
+    pub max: f64,
+    /// All of them in the order measured.
+    pub all: Vec<f64>,
+}
+
+impl Summary {
+    /// Summarises at least one time; `None` for none.
+    pub fn new(all: Vec<f64>) -> Option<Self> {
+        Some(Self {
+            median: median(all.clone())?,
+            min: all.iter().copied().fold(f64::INFINITY, f64::min),
+            max: all.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            all,
+        })
+    }
+}

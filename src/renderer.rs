@@ -1,0 +1,260 @@
+//! A GL context and what it holds: scenes and styles go in, pictures and times come out.
+
+use crate::error::{Error, Result};
+use crate::gl::context::{Context, Current};
+use crate::gl::execute::Resources;
+use crate::gl::{Backend, ContextInfo};
+use crate::picture::Picture;
+use crate::plan::{Output, Plan, Step};
+use crate::scene::{Scene, Size};
+use crate::styles::{Show, Style};
+use serde::Serialize;
+use std::time::Instant;
+
+/// Draws scenes. Keeps meshes, shaders and textures between pictures; belongs to the thread that made it.
+pub struct Renderer {
+    // Dropped with the context current: see `Drop`.
+    resources: Resources,
+    context: Context,
+    size: Option<Size>,
+    pixels: Vec<u8>,
+}
+
+/// How long one pass takes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PassTime {
+    /// The pass's name in the plan.
+    pub name: &'static str,
+    /// Milliseconds by the clock from before its first call until GL has finished it; the median over the frames.
+    pub cpu_ms: f64,
+    /// Milliseconds by a timer query on the device; the median over the frames; `None` without timer queries.
+    pub gpu_ms: Option<f64>,
+}
+
+/// What GL held after one step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepPicture {
+    /// The pass's name.
+    pub pass: &'static str,
+    /// The step's name.
+    pub step: &'static str,
+    /// The framebuffer after it, or for a copy the texture; exactly GL's bytes.
+    pub picture: Picture,
+}
+
+impl Renderer {
+    /// Opens a context.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoContext`] with every attempt when none of this backend's ways works.
+    pub fn new(backend: Backend) -> Result<Self> {
+        let context = Context::open(backend)?;
+        Ok(Self { resources: Resources::new(context.gl()), context, size: None, pixels: Vec::new() })
+    }
+
+    /// What the context says about itself.
+    pub fn context(&self) -> &ContextInfo {
+        self.context.info()
+    }
+
+    /// Draws a scene in a style.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] from the style, [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
+    pub fn render(&mut self, scene: &Scene, style: &Style) -> Result<Picture> {
+        self.draw(scene, &style.plan(scene, Show::Final)?)
+    }
+
+    /// Carries out a plan made for this scene.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
+    pub fn draw(&mut self, scene: &Scene, plan: &Plan) -> Result<Picture> {
+        self.with_context(scene, plan, |frame| {
+            frame.all_steps()?;
+            frame.read_back()?;
+            Ok(frame.picture(plan.output))
+        })
+    }
+
+    /// Draws `frames` frames after `warm_up` unmeasured ones and returns each one's milliseconds, read-back included.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::draw`].
+    pub fn time_frames(&mut self, scene: &Scene, plan: &Plan, warm_up: usize, frames: usize) -> Result<Vec<f64>> {
+        self.with_context(scene, plan, |frame| {
+            let mut one = || {
+                let start = Instant::now();
+                frame.all_steps()?;
+                frame.read_back()?;
+                Ok(milliseconds_since(start))
+            };
+            for _ in 0..warm_up {
+                one()?;
+            }
+            (0..frames).map(|_| one()).collect()
+        })
+    }
+
+    /// Draws `frames` frames pass by pass, GL finishing each, and returns the passes' median times.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::draw`].
+    pub fn time_passes(&mut self, scene: &Scene, plan: &Plan, frames: usize) -> Result<Vec<PassTime>> {
+        let has_timers = self.context.info().timer_queries;
+        self.with_context(scene, plan, |frame| {
+            let mut times: Vec<(Vec<f64>, Vec<f64>)> = vec![Default::default(); plan.passes.len()];
+            for _ in 0..frames {
+                for (pass, (cpu, gpu)) in plan.passes.iter().zip(&mut times) {
+                    let timer = if has_timers { Some(frame.resources.timer()?) } else { None };
+                    let start = Instant::now();
+                    timer.iter().for_each(|timer| timer.begin());
+                    for step in &pass.steps {
+                        frame.resources.step(scene, step)?;
+                    }
+                    timer.iter().for_each(|timer| timer.end());
+                    frame.resources.finish();
+                    cpu.push(milliseconds_since(start));
+                    gpu.extend(timer.iter().map(|timer| timer.milliseconds()));
+                }
+            }
+            let row = |(pass, (cpu, gpu)): (&crate::plan::Pass, (Vec<f64>, Vec<f64>))| PassTime {
+                name: pass.name,
+                cpu_ms: median(cpu).unwrap_or(f64::NAN),
+                gpu_ms: median(gpu),
+            };
+            Ok(plan.passes.iter().zip(times).map(row).collect())
+        })
+    }
+
+    /// Draws one frame and returns what GL held after each step.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::draw`].
+    pub fn step_pictures(&mut self, scene: &Scene, plan: &Plan) -> Result<Vec<StepPicture>> {
+        self.with_context(scene, plan, |frame| {
+            let mut pictures = Vec::new();
+            for (pass, step) in plan.steps() {
+                frame.resources.step(scene, step)?;
+                match step {
+                    Step::CopyFramebuffer => frame.resources.read_border_map(scene.size, frame.pixels),
+                    Step::Clear { .. } | Step::Draw(_) => frame.resources.read_framebuffer(scene.size, frame.pixels),
+                }
+                frame.resources.check(pass)?;
+                pictures.push(StepPicture { pass, step: step.name(), picture: frame.picture(Output::Rgba) });
+            }
+            Ok(pictures)
+        })
+    }
+
+    /// Compiles a shader of `glsl/` by itself, to see whether this driver takes it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Shader`] with the driver's log.
+    pub fn compile_shader(&mut self, path: &'static str) -> Result<()> {
+        let _current = self.context.enter()?;
+        self.resources.compile(path)
+    }
+
+    /// How many GL objects this renderer holds: constant from frame to frame of one scene and plan.
+    pub fn live_objects(&self) -> usize {
+        self.resources.live_objects()
+    }
+
+    fn with_context<T>(
+        &mut self,
+        scene: &Scene,
+        plan: &Plan,
+        work: impl FnOnce(&mut Frame<'_>) -> Result<T>,
+    ) -> Result<T> {
+        if self.size != Some(scene.size) {
+            self.context.resize(scene.size)?;
+            self.size = Some(scene.size);
+            let bytes = scene.size.pixel_count() * 4;
+            self.pixels = Vec::new();
+            self.pixels
+                .try_reserve_exact(bytes)
+                .map_err(|_| Error::gl("reading the picture back", "there is not enough memory"))?;
+            self.pixels.resize(bytes, 0);
+        }
+        let current: Current<'_> = self.context.enter()?;
+        self.resources.prepare(scene, plan)?;
+        let mut frame = Frame { resources: &mut self.resources, pixels: &mut self.pixels, scene, plan };
+        let result = work(&mut frame);
+        let checked = self.resources.check("drawing");
+        drop(current);
+        let value = result?;
+        checked.map(|()| value)
+    }
+}
+
+/// A picture in the making, its context current.
+struct Frame<'a> {
+    resources: &'a mut Resources,
+    pixels: &'a mut Vec<u8>,
+    scene: &'a Scene,
+    plan: &'a Plan,
+}
+
+impl Frame<'_> {
+    fn all_steps(&mut self) -> Result<()> {
+        self.plan.steps().try_for_each(|(_, step)| self.resources.step(self.scene, step))
+    }
+
+    fn read_back(&mut self) -> Result<()> {
+        self.resources.read_framebuffer(self.scene.size, self.pixels);
+        self.resources.check("drawing")
+    }
+
+    fn picture(&self, output: Output) -> Picture {
+        let picture = Picture::from_bottom_up(self.scene.size, self.pixels);
+        match output {
+            Output::Rgba => picture,
+            Output::Rgb => picture.opaque(),
+            Output::AlphaAsGrey => picture.alpha_as_grey(),
+        }
+    }
+}
+
+impl Drop for Renderer {
+    fn drop(&mut self) {
+        // If the context cannot be made current any more the driver is gone, and its objects with it.
+        let current = self.context.enter();
+        self.resources.clear();
+        drop(current);
+    }
+}
+
+fn milliseconds_since(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
+}
+
+/// The middle value, or the mean of the two middle ones; `None` for none.
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() {
+        0 => None,
+        count if count % 2 == 1 => Some(values[middle]),
+        _ => Some((values[middle - 1] + values[middle]) * 0.5),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::median;
+
+    #[test]
+    fn the_median_is_the_middle() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), Some(2.5));
+        assert_eq!(median(Vec::new()), None);
+    }
+}

@@ -1,0 +1,331 @@
+//! What is drawn: meshes at their places, colours, a camera and a picture size.
+//!
+//! GL draws in scene space: the scene's centre is the origin and its radius 1, so that f32 suffices wherever the model
+//! lies and however large it is, and so that the papers' light, given in eye space without a unit, always stands at the
+//! same place relative to what it lights (errata E11). Scene space only moves and scales world space; nothing turns.
+
+use crate::camera::{Camera, CameraSettings};
+use crate::error::{Error, Result};
+use crate::mesh::{Mesh, NONE, bounds};
+use crate::tolerances::SCENE_RADIUS;
+use glam::{DMat4, DVec3, Mat4};
+use serde::Serialize;
+use std::fmt;
+use std::str::FromStr;
+use std::sync::Arc;
+
+/// A mesh at a place.
+#[derive(Debug, Clone)]
+pub struct Object {
+    /// The mesh, shared between copies.
+    pub mesh: Arc<Mesh>,
+    /// Where its own origin goes, world space.
+    pub offset: DVec3,
+}
+
+/// All that a style needs to know to plan a picture, and `gl` to draw it.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The meshes at their places.
+    pub objects: Vec<Object>,
+    /// Middle of the objects' bounding box, world space.
+    pub centre: DVec3,
+    /// Half the bounding box's diagonal, file units: the unit of scene space.
+    pub radius: f64,
+    /// The camera, world space.
+    pub camera: Camera,
+    /// The picture's size.
+    pub size: Size,
+    /// What is behind the objects.
+    pub background: Background,
+    /// The objects' colour where the model gives none, or everywhere with `recolor`.
+    pub color: Color,
+    /// Whether `color` replaces the model's own colours.
+    pub recolor: bool,
+}
+
+/// What the user asks of the scene.
+#[derive(Debug, Clone)]
+pub struct SceneSettings {
+    /// How often the models are repeated, on a square grid on the ground, as the first paper's scenes grow. Default 1.
+    pub copies: u32,
+    /// The camera.
+    pub camera: CameraSettings,
+    /// The picture's size. Default 512 x 512, the first paper's.
+    pub size: Size,
+    /// What is behind the objects. Default white.
+    pub background: Background,
+    /// One colour for everything instead of the model's own.
+    pub color: Option<Color>,
+}
+
+impl Default for SceneSettings {
+    fn default() -> Self {
+        Self {
+            copies: 1,
+            camera: CameraSettings::default(),
+            size: Size { width: 512, height: 512 },
+            background: Background::Color(Color([1.0; 3])),
+            color: None,
+        }
+    }
+}
+
+/// The colour of models that bring none: a warm light clay on which all three tones show.
+pub const DEFAULT_COLOR: Color = Color([0.93, 0.74, 0.52]);
+
+/// Gap between copies on the grid, as a share of the models' size.
+const COPY_GAP: f64 = 0.15;
+
+/// Points looked at one by one to fit the camera; larger scenes are fitted by their objects' boxes.
+const FITTED_POINTS: usize = 4_000_000;
+
+impl Scene {
+    /// Puts meshes together, each at its own coordinates, and fits the camera to them.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for what cannot be drawn: no mesh, no copy, a size of 0, a nonsensical camera, a scene whose
+    /// coordinates are beyond [`SCENE_RADIUS`].
+    pub fn new(meshes: Vec<Arc<Mesh>>, settings: &SceneSettings) -> Result<Self> {
+        if meshes.is_empty() || settings.copies == 0 {
+            return Err(Error::setting("--copies", "a scene needs at least one model and one copy of it"));
+        }
+        let Size { width, height } = settings.size;
+        if width == 0 || height == 0 {
+            return Err(Error::setting(format!("--size {width}x{height}"), "a picture has at least one pixel"));
+        }
+        let objects = on_grid(&meshes, settings.copies);
+        let corners: Vec<DVec3> = objects.iter().flat_map(Object::box_corners).collect();
+        let (low, high) = bounds(&corners);
+        let (centre, radius) = (low * 0.5 + high * 0.5, (high * 0.5 - low * 0.5).length());
+        if !SCENE_RADIUS.contains(&radius) {
+            return Err(Error::setting(
+                objects[0].mesh.name.clone(),
+                format!("the scene's radius is {radius:e}; scale the model to between 1e-120 and 1e120 units"),
+            ));
+        }
+        let aspect = f64::from(width) / f64::from(height);
+        let point_count: usize = objects.iter().map(|object| object.mesh.positions.len()).sum();
+        let camera = if point_count <= FITTED_POINTS {
+            let points = objects.iter().flat_map(|o| o.mesh.positions.iter().map(|point| *point + o.offset));
+            settings.camera.fit(centre, radius, aspect, points)?
+        } else {
+            settings.camera.fit(centre, radius, aspect, corners.iter().copied())?
+        };
+        Ok(Self {
+            objects,
+            centre,
+            radius,
+            camera,
+            size: settings.size,
+            background: settings.background,
+            color: settings.color.unwrap_or(DEFAULT_COLOR),
+            recolor: settings.color.is_some(),
+        })
+    }
+
+    /// The matrix from a mesh's arrays (recentred on `mesh_centre`, in scene radii) to eye space, rigid.
+    pub fn view_from_object(&self, object: &Object, mesh_centre: DVec3) -> Mat4 {
+        let view = self.camera.view_from_world();
+        // Everything relative to the eye in f64, so that a far-away scene loses nothing.
+        let from_eye = mesh_centre + object.offset - self.camera.eye;
+        let translation = view.transform_vector3(from_eye) / self.radius;
+        let rotation = DMat4::from_mat3(glam::DMat3::from_mat4(view));
+        (DMat4::from_translation(translation) * rotation).as_mat4()
+    }
+
+    /// The projection in scene radii.
+    pub fn clip_from_view(&self) -> Mat4 {
+        let mut camera = self.camera;
+        camera.near /= self.radius;
+        camera.far /= self.radius;
+        if let crate::camera::Projection::Parallel { height } = &mut camera.projection {
+            *height /= self.radius;
+        }
+        camera.clip_from_view(self.size.aspect()).as_mat4()
+    }
+
+    /// The colour of a run of triangles with this material (or [`NONE`]).
+    pub fn material_color(&self, mesh: &Mesh, material: u32) -> Color {
+        if self.recolor || material == NONE {
+            return self.color;
+        }
+        mesh.materials.get(material as usize).and_then(|material| material.color).map_or(self.color, Color)
+    }
+
+    /// Triangles of all objects together.
+    pub fn triangle_count(&self) -> usize {
+        self.objects.iter().map(|object| object.mesh.triangles.len()).sum()
+    }
+}
+
+impl Object {
+    fn box_corners(&self) -> [DVec3; 8] {
+        let (low, high) = self.mesh.bounds();
+        std::array::from_fn(|i| {
+            let pick = |bit: usize, low: f64, high: f64| if i >> bit & 1 == 1 { high } else { low };
+            self.offset + DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
+        })
+    }
+}
+
+/// The models repeated in rows along x, rows going back along -z.
+fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
+    let all: Vec<DVec3> = meshes.iter().map(|mesh| mesh.bounds()).flat_map(|(low, high)| [low, high]).collect();
+    let (low, high) = bounds(&all);
+    let step = (high - low) * (1.0 + COPY_GAP);
+    let columns = f64::from(copies).sqrt().ceil() as u32;
+    (0..copies)
+        .flat_map(|copy| {
+            let offset = DVec3::new(f64::from(copy % columns) * step.x, 0.0, -f64::from(copy / columns) * step.z);
+            meshes.iter().map(move |mesh| Object { mesh: mesh.clone(), offset })
+        })
+        .collect()
+}
+
+/// A picture's size in pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Size {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+}
+
+impl Size {
+    /// Width over height.
+    pub fn aspect(self) -> f64 {
+        f64::from(self.width) / f64::from(self.height)
+    }
+
+    /// Number of pixels.
+    pub fn pixel_count(self) -> usize {
+        self.width as usize * self.height as usize
+    }
+}
+
+impl fmt::Display for Size {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}x{}", self.width, self.height)
+    }
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        let (width, height) = text.split_once(['x', 'X']).unwrap_or((text, text));
+        match (width.parse(), height.parse()) {
+            (Ok(width), Ok(height)) if width > 0 && height > 0 => Ok(Self { width, height }),
+            _ => Err("a size is WIDTHxHEIGHT in pixels, each at least 1, or one number for both".to_owned()),
+        }
+    }
+}
+
+/// Red, green, blue in [0, 1], as GL gets them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Color(pub [f32; 3]);
+
+impl FromStr for Color {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        let [red, green, blue, alpha] = csscolorparser::parse(text)
+            .map(|color| color.to_array())
+            .map_err(|_| "a colour is a CSS name or #rrggbb, for example tan or #d2b48c".to_owned())?;
+        if alpha != 1.0 {
+            return Err("this colour is see-through; give an opaque one, or --transparent for no background".to_owned());
+        }
+        Ok(Self([red, green, blue]))
+    }
+}
+
+/// What is behind the objects.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Background {
+    /// A colour.
+    Color(Color),
+    /// Nothing: alpha 0.
+    Transparent,
+}
+
+impl Background {
+    /// The colour the framebuffer is cleared to: red, green, blue, alpha. Transparent is black without alpha, so that
+    /// ink blended over it is black with the ink's alpha.
+    pub fn clear_color(self) -> [f32; 4] {
+        match self {
+            Self::Color(Color([red, green, blue])) => [red, green, blue, 1.0],
+            Self::Transparent => [0.0; 4],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{LoadOptions, load};
+
+    fn open_box(settings: &SceneSettings) -> Scene {
+        let mesh = load("builtin:open-box", &LoadOptions::default()).unwrap().mesh;
+        Scene::new(vec![Arc::new(mesh)], settings).unwrap()
+    }
+
+    #[test]
+    fn scene_space_puts_every_corner_where_world_space_does() {
+        let scene = open_box(&SceneSettings { copies: 3, ..SceneSettings::default() });
+        let clip_from_world = scene.camera.clip_from_view(1.0) * scene.camera.view_from_world();
+        for object in &scene.objects {
+            let (low, high) = object.mesh.bounds();
+            let mesh_centre = low * 0.5 + high * 0.5;
+            let clip_from_object = scene.clip_from_view() * scene.view_from_object(object, mesh_centre);
+            for point in &object.mesh.positions {
+                let exact = clip_from_world.project_point3(*point + object.offset);
+                let local = ((*point - mesh_centre) / scene.radius).as_vec3();
+                let drawn = clip_from_object.project_point3(local).as_dvec3();
+                assert!(exact.distance(drawn) < 1e-5, "{exact} {drawn}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_scene_far_from_the_origin_gives_the_same_matrices() {
+        let near = open_box(&SceneSettings::default());
+        let mut far_mesh = (*near.objects[0].mesh).clone();
+        let shift = DVec3::new(1e9, -2e9, 5e8);
+        far_mesh.positions.iter_mut().for_each(|position| *position += shift);
+        let far = Scene::new(vec![Arc::new(far_mesh)], &SceneSettings::default()).unwrap();
+        let view = |scene: &Scene| scene.view_from_object(&scene.objects[0], scene.centre);
+        assert!(view(&near).abs_diff_eq(view(&far), 1e-6));
+        assert!(near.clip_from_view().abs_diff_eq(far.clip_from_view(), 1e-5));
+    }
+
+    #[test]
+    fn copies_stand_on_a_grid_without_touching() {
+        let scene = open_box(&SceneSettings { copies: 5, ..SceneSettings::default() });
+        assert_eq!(scene.objects.len(), 5);
+        let offsets: Vec<DVec3> = scene.objects.iter().map(|object| object.offset).collect();
+        assert!(offsets.iter().all(|offset| offset.y == 0.0));
+        let (low, high) = scene.objects[0].mesh.bounds();
+        let size = high - low;
+        for (i, a) in offsets.iter().enumerate() {
+            for b in &offsets[..i] {
+                assert!((a.x - b.x).abs() > size.x || (a.z - b.z).abs() > size.z);
+            }
+        }
+    }
+
+    #[test]
+    fn sizes_and_colours_are_read() {
+        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+        assert_eq!("64".parse(), Ok(Size { width: 64, height: 64 }));
+        for bad in ["0x5", "5x", "x", "-1x5", "1x2x3", ""] {
+            assert!(bad.parse::<Size>().is_err(), "{bad}");
+        }
+        assert_eq!("#ff0000".parse(), Ok(Color([1.0, 0.0, 0.0])));
+        assert_eq!("white".parse(), Ok(Color([1.0; 3])));
+        assert!("#ff000080".parse::<Color>().is_err());
+        assert!("no-colour".parse::<Color>().is_err());
+    }
+}

@@ -1,0 +1,211 @@
+//! `three-pass` and `two-pass`: Evangelista et al. 2005.
+//!
+//! With the paper's settings the published shaders run; any other setting runs their twins in which the constants are
+//! uniforms (`*-settings.frag`). A test shows that the twins draw the same picture.
+
+use super::{Border, Show, Tones};
+use crate::error::{Error, Result};
+use crate::plan::{Depth, Draw, Geometry, Output, Pass, Plan, Program, Step};
+use crate::scene::{Background, Scene};
+use serde::Serialize;
+
+/// Settings of both cartoon styles; the defaults are the paper's.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cartoon {
+    /// The tones.
+    pub tones: Tones,
+    /// The border; `None` draws the tones alone.
+    pub border: Option<Border>,
+    /// Whether a square of the background's colour is drawn behind the scene, as the paper does in every scene.
+    /// Default yes; without it the two-pass style loses the outer half of every silhouette (errata E10).
+    pub background_square: bool,
+}
+
+impl Default for Cartoon {
+    fn default() -> Self {
+        Self { tones: Tones::default(), border: Some(Border::default()), background_square: true }
+    }
+}
+
+/// The normals and the depth become colours.
+fn map_program() -> Program {
+    Program { vertex: "evangelista/map.vert", fragments: vec!["evangelista/map.frag"] }
+}
+
+/// What a pixel of the map holds where nothing is drawn and no square either: no normal, farthest depth.
+const EMPTY_MAP: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
+
+/// Borders alone are drawn on white, as in figure 12.
+const WHITE: [f32; 4] = [1.0; 4];
+
+impl Cartoon {
+    /// Map, tones, border blended on top (appendix 1).
+    pub(super) fn three_pass(&self, scene: &Scene, show: Show) -> Result<Plan> {
+        self.check(scene, show)?;
+        let mut passes = Vec::new();
+        let border = self.border.filter(|_| show != Show::Tones);
+        if border.is_some() || shows_map(show) {
+            passes.push(self.map_pass(scene, border.is_some() && !shows_map(show)));
+        }
+        if !shows_map(show) {
+            if show != Show::Borders {
+                passes.push(self.tone_pass(scene));
+            }
+            if let Some(border) = border {
+                passes.push(border_pass(&border, scene, show == Show::Borders));
+            }
+        }
+        Ok(self.finish(passes, show))
+    }
+
+    /// Map, then tones and border in one program (section 4.2, appendix 2).
+    pub(super) fn two_pass(&self, scene: &Scene, show: Show) -> Result<Plan> {
+        self.check(scene, show)?;
+        let border = self.border.filter(|_| show != Show::Tones);
+        let Some(border) = border.filter(|_| !shows_map(show) && show != Show::Borders) else {
+            // Its map, tones and borders by themselves are those of the three passes.
+            return self.three_pass(scene, show);
+        };
+        if scene.background == Background::Transparent && self.background_square {
+            return Err(Error::setting(
+                "--transparent",
+                "two-pass draws its outer borders on an opaque background square; use --style three-pass, or \
+                 --background-quad off and lose them",
+            ));
+        }
+        let steps = self.scene_steps(scene, |background| {
+            let published = border.is_published() && self.tones.are_published();
+            let (mut uniforms, mut textures) = (Border::published_uniforms(scene.size), Border::textures());
+            let mut fragments = vec!["evangelista/two-pass.frag"];
+            if !published {
+                fragments = vec!["evangelista/two-pass-settings.frag", self.tones.shader(), border.shader()];
+                uniforms = border.uniforms(scene.size);
+                uniforms.extend(self.tones.uniforms(background));
+                textures.extend(self.tones.textures());
+            }
+            Draw {
+                geometry: Geometry::Objects,
+                program: Program { vertex: "evangelista/two-pass.vert", fragments },
+                uniforms,
+                textures,
+                depth: Depth::TestAndWrite,
+                blend: false,
+            }
+        });
+        let pass = Pass { name: "tones-and-border", steps };
+        Ok(self.finish(vec![self.map_pass(scene, true), pass], show))
+    }
+
+    fn check(&self, scene: &Scene, show: Show) -> Result<()> {
+        self.tones.check()?;
+        match self.border {
+            Some(border) => border.check()?,
+            None if show == Show::Borders => {
+                return Err(Error::setting("--show borders", "there are none with --no-borders; leave out one of the two"));
+            }
+            None => {}
+        }
+        if scene.background == Background::Transparent && matches!(show, Show::Normals | Show::Depth) {
+            return Err(Error::setting("--transparent", "normals and depth are opaque pictures; leave it out here"));
+        }
+        Ok(())
+    }
+
+    fn finish(&self, passes: Vec<Pass>, show: Show) -> Plan {
+        let output = match show {
+            Show::Final | Show::Map | Show::Borders | Show::Tones => Output::Rgba,
+            Show::Normals => Output::Rgb,
+            Show::Depth => Output::AlphaAsGrey,
+        };
+        let reads_table = passes
+            .iter()
+            .flat_map(|pass| &pass.steps)
+            .any(|step| matches!(step, Step::Draw(draw) if draw.textures.iter().any(|(name, _)| *name == "toneTable")));
+        Plan { passes, tone_table: self.tones.table().filter(|_| reads_table), output }
+    }
+
+    /// Step 1: normals and depth into the framebuffer and, to be read later, into a texture.
+    fn map_pass(&self, scene: &Scene, copy: bool) -> Pass {
+        let draw = |geometry| {
+            Step::Draw(Draw {
+                geometry,
+                program: map_program(),
+                uniforms: Vec::new(),
+                textures: Vec::new(),
+                depth: Depth::TestAndWrite,
+                blend: false,
+            })
+        };
+        let mut steps = vec![Step::Clear { color: EMPTY_MAP }];
+        if self.background_square {
+            let [red, green, blue, _] = scene.background.clear_color();
+            steps.push(draw(Geometry::BackgroundSquare { color: [red, green, blue, 1.0] }));
+        }
+        steps.push(draw(Geometry::Objects));
+        if copy {
+            steps.push(Step::CopyFramebuffer);
+        }
+        Pass { name: "map", steps }
+    }
+
+    /// Step 2: uniform shading.
+    fn tone_pass(&self, scene: &Scene) -> Pass {
+        let published = self.tones.are_published();
+        let steps = self.scene_steps(scene, |background| Draw {
+            geometry: Geometry::Objects,
+            program: Program {
+                vertex: "evangelista/toon.vert",
+                fragments: match published {
+                    true => vec!["evangelista/toon.frag"],
+                    false => vec!["evangelista/toon-settings.frag", self.tones.shader()],
+                },
+            },
+            uniforms: if published { Vec::new() } else { self.tones.uniforms(background) },
+            textures: if published { Vec::new() } else { self.tones.textures() },
+            depth: Depth::TestAndWrite,
+            blend: false,
+        });
+        Pass { name: "tones", steps }
+    }
+
+    /// Clear, background square, objects; `draw` makes the draw for the background (true) or the objects (false).
+    fn scene_steps(&self, scene: &Scene, draw: impl Fn(bool) -> Draw) -> Vec<Step> {
+        let color = scene.background.clear_color();
+        let mut steps = vec![Step::Clear { color }];
+        if self.background_square && scene.background != Background::Transparent {
+            steps.push(Step::Draw(Draw { geometry: Geometry::BackgroundSquare { color }, ..draw(true) }));
+        }
+        steps.push(Step::Draw(draw(false)));
+        steps
+    }
+}
+
+/// Step 3: the filter over the whole picture, blended; `alone` on a white ground.
+fn border_pass(border: &Border, scene: &Scene, alone: bool) -> Pass {
+    let published = border.is_published();
+    let square = Draw {
+        geometry: Geometry::ScreenSquare,
+        program: Program {
+            vertex: "evangelista/border.vert",
+            fragments: match published {
+                true => vec!["evangelista/border.frag"],
+                false => vec!["evangelista/border-settings.frag", border.shader()],
+            },
+        },
+        uniforms: if published { Border::published_uniforms(scene.size) } else { border.uniforms(scene.size) },
+        textures: Border::textures(),
+        depth: Depth::Ignore,
+        blend: true,
+    };
+    let mut steps = Vec::new();
+    if alone {
+        let color = if scene.background == Background::Transparent { [0.0; 4] } else { WHITE };
+        steps.push(Step::Clear { color });
+    }
+    steps.push(Step::Draw(square));
+    Pass { name: "border", steps }
+}
+
+fn shows_map(show: Show) -> bool {
+    matches!(show, Show::Normals | Show::Depth | Show::Map)
+}

@@ -1,0 +1,51 @@
+//! `phong`: the realistic rendering the first paper compares its cartoons with (figures 5a and 8).
+
+use super::Show;
+use crate::error::{Error, Result};
+use crate::plan::{Depth, Draw, Geometry, Output, Pass, Plan, Program, Step, Uniform, Value};
+use crate::scene::Scene;
+use serde::Serialize;
+
+/// Settings of `phong`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Phong {
+    /// Share of the colour seen where no light falls. Default 0.25; more lightens the shadows.
+    pub ambient: f32,
+    /// Weight of the white highlight. Default 0.35.
+    pub specular: f32,
+    /// Exponent of the highlight. Default 24; more makes it smaller.
+    pub shininess: f32,
+}
+
+impl Default for Phong {
+    fn default() -> Self {
+        Self { ambient: 0.25, specular: 0.35, shininess: 24.0 }
+    }
+}
+
+impl Phong {
+    /// One pass: clear and draw.
+    pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
+        if !matches!(show, Show::Final | Show::Tones) {
+            return Err(Error::setting(
+                "--show",
+                "the style phong has no map and no borders; choose three-pass or two-pass, or show final",
+            ));
+        }
+        let uniform = |name, value| Uniform { name, value: Value::Float(value) };
+        let draw = Draw {
+            geometry: Geometry::Objects,
+            program: Program { vertex: "phong/phong.vert", fragments: vec!["phong/phong.frag"] },
+            uniforms: vec![
+                uniform("ambient", self.ambient),
+                uniform("specular", self.specular),
+                uniform("shininess", self.shininess),
+            ],
+            textures: Vec::new(),
+            depth: Depth::TestAndWrite,
+            blend: false,
+        };
+        let steps = vec![Step::Clear { color: scene.background.clear_color() }, Step::Draw(draw)];
+        Ok(Plan { passes: vec![Pass { name: "phong", steps }], tone_table: None, output: Output::Rgba })
+    }
+}

@@ -1,0 +1,196 @@
+//! The tones of the cartoon styles: which light gets which of one, two or three levels (section 3.2, figure 5).
+
+use super::find;
+use crate::error::{Error, Result};
+use crate::plan::{Texture, ToneTable, Uniform, Value};
+use serde::Serialize;
+use std::str::FromStr;
+
+/// Settings of the tones; the defaults are the listing's constants.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Tones {
+    /// How many tones, 1 to 3: the first, then the diffuse one, then the highlight. Default 3, the listing.
+    pub count: u8,
+    /// Diffuse value, in [0, 1], from which the second tone holds. Default 0.8; more shrinks the lit part.
+    pub diffuse_threshold: f32,
+    /// Specular value, in [0, 1], above which the third tone holds. Default 0.65; more shrinks the highlight.
+    pub specular_threshold: f32,
+    /// The factor each tone multiplies the colour by. Default 0.65, 0.95, 1.
+    pub levels: [f32; 3],
+    /// How a tone is found. Default by comparing.
+    pub lookup: ToneLookup,
+}
+
+/// How a tone is found from the light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ToneLookup {
+    /// By comparing with the thresholds, as in the listing.
+    Steps,
+    /// In a one-dimensional texture, as the paper mentions.
+    Texture,
+}
+
+impl ToneLookup {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("steps", Self::Steps), ("texture", Self::Texture)];
+}
+
+impl FromStr for ToneLookup {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+impl Default for Tones {
+    fn default() -> Self {
+        Self {
+            count: 3,
+            diffuse_threshold: 0.8,
+            specular_threshold: 0.65,
+            levels: [0.65, 0.95, 1.0],
+            lookup: ToneLookup::Steps,
+        }
+    }
+}
+
+/// A threshold no light reaches: light values end at 1.
+const NEVER: f32 = 2.0;
+
+/// Texels of the tone table: thresholds are exact to 1/1023.
+const TABLE_SIZE: usize = 1024;
+
+impl Tones {
+    /// Whether these are the constants of the listing, so that the listing itself can run.
+    pub(super) fn are_published(&self) -> bool {
+        *self == Self::default()
+    }
+
+    pub(super) fn check(&self) -> Result<()> {
+        if !(1..=3).contains(&self.count) {
+            return Err(Error::setting(format!("--tones {}", self.count), "there are 1, 2 or 3 tones"));
+        }
+        for (option, value) in [
+            ("--tone-thresholds", self.diffuse_threshold),
+            ("--tone-thresholds", self.specular_threshold),
+            ("--tone-levels", self.levels[0]),
+            ("--tone-levels", self.levels[1]),
+            ("--tone-levels", self.levels[2]),
+        ] {
+            if !value.is_finite() {
+                return Err(Error::setting(format!("{option} {value}"), "its numbers must be finite"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Diffuse and specular thresholds with those of unused tones out of reach.
+    fn thresholds(&self) -> [f32; 2] {
+        let with = |used: bool, threshold: f32| if used { threshold } else { NEVER };
+        [with(self.count >= 2, self.diffuse_threshold), with(self.count >= 3, self.specular_threshold)]
+    }
+
+    /// The tone of light on a surface: the same decision the shaders make.
+    ///
+    /// `diffuse` and `specular` in [0, 1].
+    pub fn tone(&self, diffuse: f32, specular: f32) -> f32 {
+        let [diffuse_threshold, specular_threshold] = self.thresholds();
+        if specular > specular_threshold {
+            self.levels[2]
+        } else if diffuse >= diffuse_threshold {
+            self.levels[1]
+        } else {
+            self.levels[0]
+        }
+    }
+
+    /// The fragment shader that finds the tones.
+    pub(super) fn shader(&self) -> &'static str {
+        match self.lookup {
+            ToneLookup::Steps => "evangelista/tone-steps.frag",
+            ToneLookup::Texture => "evangelista/tone-texture.frag",
+        }
+    }
+
+    /// Its uniforms; on the `background` every tone is 1, so that the square has the colour it was given.
+    pub(super) fn uniforms(&self, background: bool) -> Vec<Uniform> {
+        match self.lookup {
+            ToneLookup::Steps => vec![
+                Uniform { name: "toneThresholds", value: Value::Vec2(self.thresholds()) },
+                Uniform {
+                    name: "toneLevels",
+                    value: Value::Vec3(if background { [1.0; 3] } else { self.levels }),
+                },
+            ],
+            ToneLookup::Texture => {
+                let texel = 1.0 / TABLE_SIZE as f32;
+                vec![
+                    Uniform { name: "toneTableScale", value: Value::Vec2([1.0 - texel, 0.5 * texel]) },
+                    Uniform { name: "toneGain", value: Value::Float(if background { 0.0 } else { 1.0 }) },
+                ]
+            }
+        }
+    }
+
+    /// The textures it reads.
+    pub(super) fn textures(&self) -> Vec<(&'static str, Texture)> {
+        match self.lookup {
+            ToneLookup::Steps => Vec::new(),
+            ToneLookup::Texture => vec![("toneTable", Texture::ToneTable)],
+        }
+    }
+
+    /// The table, where one is read.
+    pub(super) fn table(&self) -> Option<ToneTable> {
+        (self.lookup == ToneLookup::Texture).then(|| {
+            let byte = |level: f32| (level.clamp(0.0, 1.0) * 255.0).round() as u8;
+            let [_, specular_threshold] = self.thresholds();
+            let texel = |index: usize| {
+                let light = index as f32 / (TABLE_SIZE - 1) as f32;
+                // 0 says "no highlight", so a black highlight is as dark as can be told from that.
+                let highlight = if light > specular_threshold { byte(self.levels[2]).max(1) } else { 0 };
+                [byte(self.tone(light, f32::NEG_INFINITY)), highlight]
+            };
+            ToneTable { texels: (0..TABLE_SIZE).map(texel).collect() }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_are_the_listings_tones() {
+        let tones = Tones::default();
+        assert!(tones.are_published());
+        assert_eq!(tones.tone(0.799, 0.65), 0.65);
+        assert_eq!(tones.tone(0.8, 0.65), 0.95);
+        assert_eq!(tones.tone(0.0, 0.66), 1.0);
+    }
+
+    #[test]
+    fn fewer_tones_leave_out_the_brightest() {
+        let with = |count| Tones { count, ..Tones::default() };
+        assert_eq!([1, 2, 3].map(|count| with(count).tone(1.0, 1.0)), [0.65, 0.95, 1.0]);
+        assert!(with(0).check().is_err());
+        assert!(with(4).check().is_err());
+    }
+
+    #[test]
+    fn the_table_says_what_the_steps_say() {
+        for count in 1..=3 {
+            let tones = Tones { count, lookup: ToneLookup::Texture, ..Tones::default() };
+            let texels = tones.table().unwrap().texels;
+            for light in (0..TABLE_SIZE).map(|i| i as f32 / (TABLE_SIZE - 1) as f32) {
+                for other in [0.0, 0.5, 1.0f32] {
+                    let at = |light: f32| texels[(light * (TABLE_SIZE - 1) as f32).round() as usize];
+                    let found = if at(other)[1] > 0 { at(other)[1] } else { at(light)[0] };
+                    assert_eq!(found, (tones.tone(light, other) * 255.0).round() as u8, "{light} {other}");
+                }
+            }
+        }
+    }
+}
