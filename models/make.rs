@@ -59,8 +59,7 @@ fn main() -> ExitCode {
 }
 
 fn write_all(folder: &Path) -> Result<(), String> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| format!("cannot make the folder {}: {error}", folder.display()))?;
+    std::fs::create_dir_all(folder).map_err(|error| format!("cannot make the folder {}: {error}", folder.display()))?;
     let makers: [fn() -> Model; 4] = [open_box::model, gear::model, ant::model, bust::model];
     for make in makers {
         let model = make();

@@ -257,7 +257,8 @@ impl CameraSettings {
         // Everything behind the eye: any range will do, the picture is empty.
         let fitted_far = if farthest + margin > 0.0 { farthest + margin } else { distance + radius };
         let far = self.far.unwrap_or(fitted_far.max(self.near.map_or(0.0, |near| near * 2.0)));
-        let fitted_near = if nearest - margin > far * NEAREST_FRACTION { nearest - margin } else { far * NEAREST_FRACTION };
+        let fitted_near =
+            if nearest - margin > far * NEAREST_FRACTION { nearest - margin } else { far * NEAREST_FRACTION };
         let near = self.near.unwrap_or(fitted_near.min(far * 0.5));
         if near >= far {
             return Err(Error::setting(

@@ -55,7 +55,7 @@ pub enum Error {
     },
     /// The picture is larger than the context can draw.
     #[error(
-        "--size {width}x{height}: the largest picture {renderer} can draw is {limit_width}x{limit_height}; ask for a smaller one"
+        "--size {width}x{height}: the largest picture {renderer} can draw is {limit_width}x{limit_height}; ask for a smaller one, or see `tinta info` for a --backend that draws larger ones"
     )]
     PictureTooLarge {
         /// Width asked for, pixels.

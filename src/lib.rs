@@ -22,17 +22,17 @@
 //! # }
 //! ```
 
-pub mod error;
-pub mod mesh;
 pub mod camera;
+pub mod error;
+pub mod gl;
+pub mod glsl;
+pub mod mesh;
+pub mod picture;
+pub mod plan;
+pub mod record;
+pub mod renderer;
 pub mod scene;
 pub mod styles;
-pub mod plan;
-pub mod glsl;
-pub mod gl;
-pub mod renderer;
-pub mod picture;
-pub mod record;
 pub mod tolerances;
 
 pub use camera::{Camera, CameraSettings, View};

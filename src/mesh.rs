@@ -87,7 +87,5 @@ impl Mesh {
 
 /// Smallest and largest corner of some points' bounding box; infinities, inverted, for no points.
 pub fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
-    points
-        .iter()
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(*point), high.max(*point)))
+    points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(*point), high.max(*point)))
 }

@@ -53,6 +53,8 @@ pub struct Draw {
     pub depth: Depth,
     /// Whether the colour is blended over what is there by its alpha.
     pub blend: bool,
+    /// Whether faces turned away from the eye (clockwise in the picture) are left out.
+    pub cull_back_faces: bool,
 }
 
 /// What can be drawn.
@@ -205,6 +207,9 @@ impl fmt::Display for Draw {
         }
         if self.depth == Depth::Ignore {
             write!(out, ", no depth test")?;
+        }
+        if self.cull_back_faces {
+            write!(out, ", back faces left out")?;
         }
         if self.blend {
             write!(out, ", blended")?;

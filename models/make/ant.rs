@@ -9,22 +9,10 @@ use crate::obj::{Material, Model, Part, Shading};
 use crate::sweep::{Ring, ellipsoid, sweep};
 use crate::vector::{Vec3, v};
 
-const BODY: Material = Material {
-    name: "body",
-    colour: [0.72, 0.33, 0.20],
-};
-const GASTER: Material = Material {
-    name: "gaster",
-    colour: [0.55, 0.26, 0.20],
-};
-const LIMB: Material = Material {
-    name: "limb",
-    colour: [0.80, 0.45, 0.24],
-};
-const EYE: Material = Material {
-    name: "eye",
-    colour: [0.20, 0.19, 0.22],
-};
+const BODY: Material = Material { name: "body", colour: [0.72, 0.33, 0.20] };
+const GASTER: Material = Material { name: "gaster", colour: [0.55, 0.26, 0.20] };
+const LIMB: Material = Material { name: "limb", colour: [0.80, 0.45, 0.24] };
+const EYE: Material = Material { name: "eye", colour: [0.20, 0.19, 0.22] };
 
 pub fn model() -> Model {
     let mut parts = Vec::new();
@@ -52,7 +40,7 @@ pub fn model() -> Model {
     for side in [-1.0, 1.0] {
         let hand = if side < 0.0 { "right" } else { "left" };
         let flip = |p: Vec3| v(p.x * side, p.y, p.z);
-        let eye = ellipsoid(flip(v(0.47, 1.46, 1.62)), v(0.10, 0.17, 0.17), 0.0, 10, 6);
+        let eye = ellipsoid(flip(v(0.47, 1.46, 1.62)), v(0.10, 0.17, 0.17), 0.0, 10, 5);
         add(format!("eye-{hand}"), EYE, eye);
         let mandible = [
             (v(0.20, 1.14, 1.94), 0.13),
@@ -89,48 +77,22 @@ pub fn model() -> Model {
                 (knee, 0.075),
             ];
             add(name("femur"), LIMB, limb(&femur, side, 7));
-            let tibia = [
-                (knee, 0.07),
-                (knee.lerp(ankle, 0.4), 0.085),
-                (ankle, 0.05),
-            ];
+            let tibia = [(knee, 0.07), (knee.lerp(ankle, 0.4), 0.085), (ankle, 0.05)];
             add(name("tibia"), LIMB, limb(&tibia, side, 6));
             let bend = ankle.lerp(toe, 0.55) + v(0.0, -0.02, 0.0);
             let tarsus = [(ankle, 0.05), (bend, 0.042), (toe, 0.03)];
             add(name("tarsus"), LIMB, limb(&tarsus, side, 6));
         }
     }
-    Model {
-        name: "ant",
-        title: "An ant: head, thorax, petiole, gaster, six legs, antennae, mandibles.",
-        parts,
-    }
+    Model { name: "ant", title: "An ant: head, thorax, petiole, gaster, six legs, antennae, mandibles.", parts }
 }
 
 /// Hip, trochanter, knee, ankle and toe of the three left legs, front first.
 fn legs() -> [[Vec3; 5]; 3] {
     [
-        [
-            v(0.20, 1.06, 0.72),
-            v(0.42, 0.86, 0.86),
-            v(1.02, 1.52, 1.30),
-            v(1.46, 0.34, 1.84),
-            v(1.66, 0.03, 2.24),
-        ],
-        [
-            v(0.19, 1.00, 0.14),
-            v(0.42, 0.80, 0.14),
-            v(1.20, 1.50, 0.20),
-            v(1.82, 0.34, 0.10),
-            v(2.18, 0.03, 0.12),
-        ],
-        [
-            v(0.17, 0.94, -0.40),
-            v(0.38, 0.76, -0.50),
-            v(1.08, 1.62, -1.06),
-            v(1.62, 0.36, -1.86),
-            v(1.86, 0.03, -2.30),
-        ],
+        [v(0.20, 1.06, 0.72), v(0.42, 0.86, 0.86), v(1.02, 1.52, 1.30), v(1.46, 0.34, 1.84), v(1.66, 0.03, 2.24)],
+        [v(0.19, 1.00, 0.14), v(0.42, 0.80, 0.14), v(1.20, 1.50, 0.20), v(1.82, 0.34, 0.10), v(2.18, 0.03, 0.12)],
+        [v(0.17, 0.94, -0.40), v(0.38, 0.76, -0.50), v(1.08, 1.62, -1.06), v(1.62, 0.36, -1.86), v(1.86, 0.03, -2.30)],
     ]
 }
 
@@ -151,11 +113,7 @@ fn head() -> Mesh {
     ];
     let rings: Vec<Ring> = profile
         .iter()
-        .map(|&(z, width, height)| Ring {
-            centre: v(0.0, 1.36 - 0.16 * (z - 1.3), z),
-            width,
-            height,
-        })
+        .map(|&(z, width, height)| Ring { centre: v(0.0, 1.36 - 0.16 * (z - 1.3), z), width, height })
         .collect();
     sweep(&rings, 16)
 }
@@ -164,11 +122,7 @@ fn head() -> Mesh {
 fn gaster() -> Mesh {
     let mut rings = Vec::new();
     let mut add = |z: f64, radius: f64| {
-        rings.push(Ring {
-            centre: v(0.0, 1.06 - 0.05 * z, -1.30 - z),
-            width: 0.66 * radius,
-            height: 0.62 * radius,
-        });
+        rings.push(Ring { centre: v(0.0, 1.06 - 0.05 * z, -1.30 - z), width: 0.66 * radius, height: 0.62 * radius });
     };
     // Distance behind the waist and radius; each plate starts with a step in.
     let outline = [
@@ -198,19 +152,13 @@ fn gaster() -> Mesh {
 /// A round limb through the given points of the left side, its ends domed.
 fn limb(points: &[(Vec3, f64)], side: f64, sides: usize) -> Mesh {
     let flip = |p: Vec3| v(p.x * side, p.y, p.z);
-    let ring = |centre: Vec3, radius: f64| Ring {
-        centre: flip(centre),
-        width: radius,
-        height: radius,
-    };
+    let ring = |centre: Vec3, radius: f64| Ring { centre: flip(centre), width: radius, height: radius };
     let (first, first_radius) = points[0];
     let (last, last_radius) = points[points.len() - 1];
     let ahead = (points[1].0 - first).normalized();
     let behind = (last - points[points.len() - 2].0).normalized();
-    let mut rings = vec![
-        ring(first - ahead * first_radius, 0.0),
-        ring(first - ahead * (0.6 * first_radius), 0.8 * first_radius),
-    ];
+    let mut rings =
+        vec![ring(first - ahead * first_radius, 0.0), ring(first - ahead * (0.6 * first_radius), 0.8 * first_radius)];
     rings.extend(points.iter().map(|&(centre, radius)| ring(centre, radius)));
     rings.push(ring(last + behind * (0.6 * last_radius), 0.8 * last_radius));
     rings.push(ring(last + behind * last_radius, 0.0));

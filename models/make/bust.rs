@@ -27,11 +27,17 @@ const COAT: Material = material("coat", [0.40, 0.52, 0.62]);
 const LAPEL: Material = material("lapel", [0.33, 0.43, 0.53]);
 const WAISTCOAT: Material = material("waistcoat", [0.80, 0.69, 0.48]);
 const LINEN: Material = material("linen", [0.96, 0.94, 0.88]);
+const BRASS: Material = material("brass", [0.88, 0.76, 0.42]);
 const STONE: Material = material("stone", [0.79, 0.78, 0.74]);
 
 const fn material(name: &'static str, colour: [f64; 3]) -> Material {
     Material { name, colour }
 }
+
+/// Cosines of the angles past which an edge stays sharp: on flesh and loose
+/// cloth, and on cut stuff.
+const SOFT: f64 = 0.5;
+const TAILORED: f64 = 0.75;
 
 type Field<'a> = &'a (dyn Fn(Vec3) -> f64 + Sync);
 
@@ -67,18 +73,88 @@ pub fn model() -> Model {
         if hidden(p, &[&clothes::coat, &clothes::lapels, &skin]) { 0.004 } else { 1.0 }
     };
     let even = |_: Vec3| 1.0;
-    let soft = 0.5;
-    let tailored = 0.75;
     let recipes = [
-        recipe("head", SKIN, &skin, [8.5, -17.5, 12.5, -11.5, 12.5], 0.17, 1650, soft, &skin_weight),
-        recipe("lips", LIP, &lips, [3.6, -8.8, -5.4, 5.8, 11.5], 0.07, 160, soft, &even),
-        recipe("brows", BROW, &brows, [6.8, 0.0, 4.0, 3.5, 11.0], 0.09, 140, soft, &even),
-        recipe("hair", HAIR, &hair::mass, [15.0, -14.0, 18.0, -16.5, 12.0], 0.3, 240, soft, &hair_weight),
-        recipe("coat", COAT, &clothes::coat, [16.0, -35.5, -6.0, -12.0, 12.0], 0.3, 300, tailored, &coat_weight),
-        recipe("waistcoat", WAISTCOAT, &clothes::waistcoat, [8.0, -35.0, -14.0, 0.0, 12.0], 0.25, 40, tailored, &under_coat),
-        recipe("lapels", LAPEL, &clothes::lapels, [14.0, -32.0, -6.0, -12.5, 12.0], 0.2, 240, tailored, &even),
-        recipe("cravat", LINEN, &clothes::cravat, [9.0, -25.0, -10.0, -10.0, 12.5], 0.18, 300, soft, &under_coat),
-        recipe("collar", LINEN, &clothes::collar, [8.0, -16.5, -8.0, -8.0, 7.5], 0.12, 70, tailored, &even),
+        Recipe {
+            name: "head",
+            material: SKIN,
+            field: &skin,
+            grid: grid([8.5, -17.5, 12.5, -11.5, 12.5], 0.17),
+            triangles: 1560,
+            crease_cosine: SOFT,
+            weight: &skin_weight,
+        },
+        Recipe {
+            name: "lips",
+            material: LIP,
+            field: &lips,
+            grid: grid([3.6, -8.8, -5.4, 5.8, 11.5], 0.07),
+            triangles: 160,
+            crease_cosine: SOFT,
+            weight: &even,
+        },
+        Recipe {
+            name: "brows",
+            material: BROW,
+            field: &brows,
+            grid: grid([6.8, 0.0, 4.0, 3.5, 11.0], 0.09),
+            triangles: 140,
+            crease_cosine: SOFT,
+            weight: &even,
+        },
+        Recipe {
+            name: "hair",
+            material: HAIR,
+            field: &hair::mass,
+            grid: grid([15.0, -14.0, 18.0, -16.5, 12.0], 0.3),
+            triangles: 200,
+            crease_cosine: SOFT,
+            weight: &hair_weight,
+        },
+        Recipe {
+            name: "coat",
+            material: COAT,
+            field: &clothes::coat,
+            grid: grid([16.0, -35.5, -6.0, -12.0, 12.0], 0.3),
+            triangles: 340,
+            crease_cosine: TAILORED,
+            weight: &coat_weight,
+        },
+        Recipe {
+            name: "waistcoat",
+            material: WAISTCOAT,
+            field: &clothes::waistcoat,
+            grid: grid([8.0, -35.0, -14.0, 0.0, 12.0], 0.25),
+            triangles: 40,
+            crease_cosine: TAILORED,
+            weight: &under_coat,
+        },
+        Recipe {
+            name: "lapels",
+            material: LAPEL,
+            field: &clothes::lapels,
+            grid: grid([14.0, -32.0, -6.0, -12.5, 12.0], 0.2),
+            triangles: 220,
+            crease_cosine: TAILORED,
+            weight: &even,
+        },
+        Recipe {
+            name: "cravat",
+            material: LINEN,
+            field: &clothes::cravat,
+            grid: grid([9.0, -25.0, -10.0, -10.0, 12.5], 0.18),
+            triangles: 360,
+            crease_cosine: SOFT,
+            weight: &under_coat,
+        },
+        Recipe {
+            name: "collar",
+            material: LINEN,
+            field: &clothes::collar,
+            grid: grid([8.0, -16.5, -8.0, -8.0, 7.5], 0.12),
+            triangles: 70,
+            crease_cosine: TAILORED,
+            weight: &even,
+        },
     ];
     let mut parts = all_cooked(&recipes);
     let ready = [
@@ -87,6 +163,7 @@ pub fn model() -> Model {
         ("irises", IRIS, face::irises()),
         ("lashes", BROW, face::lashes()),
         ("mouth-line", LIP_LINE, face.mouth_line()),
+        ("buttons", BRASS, clothes::buttons()),
         ("socle", STONE, clothes::socle()),
     ];
     for (name, material, mesh) in ready {
@@ -101,31 +178,12 @@ pub fn model() -> Model {
     for position in parts.iter_mut().flat_map(|part| &mut part.mesh.positions) {
         *position = (*position - v(0.0, clothes::FOOT, 0.0)) * SCALE;
     }
-    Model {
-        name: "bust",
-        title: "A portrait bust in the manner of the busts of Beethoven.",
-        parts,
-    }
+    Model { name: "bust", title: "A portrait bust, after the busts of Beethoven that the cartoon papers drew.", parts }
 }
 
 /// The box is given as half width, low y, high y, low z, high z.
-#[allow(clippy::too_many_arguments)]
-fn recipe<'a>(
-    name: &'static str,
-    material: Material,
-    field: Field<'a>,
-    [half_width, low_y, high_y, low_z, high_z]: [f64; 5],
-    step: f64,
-    triangles: usize,
-    crease_cosine: f64,
-    weight: Field<'a>,
-) -> Recipe<'a> {
-    let grid = Grid {
-        low: v(-half_width, low_y, low_z),
-        high: v(half_width, high_y, high_z),
-        step,
-    };
-    Recipe { name, material, field, grid, triangles, crease_cosine, weight }
+fn grid([half_width, low_y, high_y, low_z, high_z]: [f64; 5], step: f64) -> Grid {
+    Grid { low: v(-half_width, low_y, low_z), high: v(half_width, high_y, high_z), step }
 }
 
 /// Eyes, nose and mouth get more triangles than cheeks and forehead.
@@ -146,14 +204,8 @@ fn face_weight(p: Vec3) -> f64 {
 /// there are recipes: the few large ones set the time either way.
 fn all_cooked(recipes: &[Recipe]) -> Vec<Part> {
     std::thread::scope(|scope| {
-        let started: Vec<_> = recipes
-            .iter()
-            .map(|recipe| scope.spawn(move || cooked(recipe)))
-            .collect();
-        started
-            .into_iter()
-            .map(|thread| thread.join().expect("sculpting a part does not panic"))
-            .collect()
+        let started: Vec<_> = recipes.iter().map(|recipe| scope.spawn(move || cooked(recipe))).collect();
+        started.into_iter().map(|thread| thread.join().expect("sculpting a part does not panic")).collect()
     })
 }
 
@@ -165,8 +217,7 @@ fn cooked(recipe: &Recipe) -> Part {
         (recipe.field)(p).max(past.x).max(past.y).max(past.z)
     };
     let fine = polygonise(&boxed, recipe.grid).keep_large_pieces(0.2);
-    let draft = std::env::var("DRAFT").ok().and_then(|t| t.parse().ok()).unwrap_or(1.0);
-    let mesh: Mesh = decimate(&fine, (recipe.triangles as f64 * draft) as usize, recipe.weight);
+    let mesh: Mesh = decimate(&fine, recipe.triangles, recipe.weight);
     Part {
         name: recipe.name.to_owned(),
         material: Some(recipe.material),
@@ -181,11 +232,8 @@ fn cooked(recipe: &Recipe) -> Part {
 /// edge or a fold runs through the vertex, and the mesh is right.
 fn sculpted_normals(mesh: &Mesh, recipe: &Recipe) -> Vec<[Vec3; 3]> {
     let reach = 1.2 * recipe.grid.step;
-    let field_normals: Vec<Vec3> = mesh
-        .positions
-        .iter()
-        .map(|&p| gradient(recipe.field, p, reach).normalized())
-        .collect();
+    let field_normals: Vec<Vec3> =
+        mesh.positions.iter().map(|&p| gradient(recipe.field, p, reach).normalized()).collect();
     let mut corners = mesh.corner_normals(recipe.crease_cosine);
     for (triangle, normals) in mesh.triangles.iter().zip(&mut corners) {
         for (vertex, normal) in triangle.iter().zip(normals) {

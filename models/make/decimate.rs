@@ -23,38 +23,22 @@ impl Quadric {
         let d = -normal.dot(point);
         let n = normal;
         let a = [n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z];
-        Quadric {
-            a: a.map(|entry| entry * weight),
-            b: n * (d * weight),
-            c: d * d * weight,
-        }
+        Quadric { a: a.map(|entry| entry * weight), b: n * (d * weight), c: d * d * weight }
     }
 
     /// The squared distance to a point: a light pull that settles vertices on
     /// flat ground, where the planes alone leave them free to slide.
     fn point(point: Vec3, weight: f64) -> Quadric {
-        Quadric {
-            a: [weight, 0.0, 0.0, weight, 0.0, weight],
-            b: point * -weight,
-            c: point.dot(point) * weight,
-        }
+        Quadric { a: [weight, 0.0, 0.0, weight, 0.0, weight], b: point * -weight, c: point.dot(point) * weight }
     }
 
     fn plus(&self, other: &Quadric) -> Quadric {
-        Quadric {
-            a: std::array::from_fn(|i| self.a[i] + other.a[i]),
-            b: self.b + other.b,
-            c: self.c + other.c,
-        }
+        Quadric { a: std::array::from_fn(|i| self.a[i] + other.a[i]), b: self.b + other.b, c: self.c + other.c }
     }
 
     fn times(&self, p: Vec3) -> Vec3 {
         let [xx, xy, xz, yy, yz, zz] = self.a;
-        Vec3 {
-            x: xx * p.x + xy * p.y + xz * p.z,
-            y: xy * p.x + yy * p.y + yz * p.z,
-            z: xz * p.x + yz * p.y + zz * p.z,
-        }
+        Vec3 { x: xx * p.x + xy * p.y + xz * p.z, y: xy * p.x + yy * p.y + yz * p.z, z: xz * p.x + yz * p.y + zz * p.z }
     }
 
     fn error(&self, p: Vec3) -> f64 {
@@ -64,11 +48,7 @@ impl Quadric {
     /// The point of least error, by Cramer's rule, when it is well defined.
     fn best(&self) -> Option<Vec3> {
         let [xx, xy, xz, yy, yz, zz] = self.a;
-        let (r0, r1, r2) = (
-            Vec3 { x: xx, y: xy, z: xz },
-            Vec3 { x: xy, y: yy, z: yz },
-            Vec3 { x: xz, y: yz, z: zz },
-        );
+        let (r0, r1, r2) = (Vec3 { x: xx, y: xy, z: xz }, Vec3 { x: xy, y: yy, z: yz }, Vec3 { x: xz, y: yz, z: zz });
         let determinant = r0.dot(r1.cross(r2));
         let size = xx + yy + zz;
         if determinant.abs() < 1e-9 * size * size * size {
@@ -178,15 +158,12 @@ impl Collapser {
         let (pa, pb) = (self.mesh.positions[a], self.mesh.positions[b]);
         let middle = pa.lerp(pb, 0.5);
         let reach = (pb - pa).length();
-        let target = quadric
-            .best()
-            .filter(|&p| (p - middle).length() < 1.5 * reach)
-            .unwrap_or_else(|| {
-                let cheaper = |x: Vec3, y: Vec3| {
-                    if quadric.error(x) <= quadric.error(y) { x } else { y }
-                };
-                cheaper(middle, cheaper(pa, pb))
-            });
+        let target = quadric.best().filter(|&p| (p - middle).length() < 1.5 * reach).unwrap_or_else(|| {
+            let cheaper = |x: Vec3, y: Vec3| {
+                if quadric.error(x) <= quadric.error(y) { x } else { y }
+            };
+            cheaper(middle, cheaper(pa, pb))
+        });
         self.heap.push(Candidate {
             cost: quadric.error(target),
             edge: (a.min(b), a.max(b)),
@@ -220,19 +197,12 @@ impl Collapser {
 
     /// The link condition: only the two triangles on the edge vanish.
     fn stays_closed(&self, a: usize, b: usize) -> bool {
-        let shared = self
-            .neighbours(a)
-            .intersection(&self.neighbours(b))
-            .count();
+        let shared = self.neighbours(a).intersection(&self.neighbours(b)).count();
         shared == 2 && self.faces[a].len() + self.faces[b].len() > 6
     }
 
     fn neighbours(&self, vertex: usize) -> BTreeSet<usize> {
-        self.faces[vertex]
-            .iter()
-            .flat_map(|&face| self.mesh.triangles[face])
-            .filter(|&other| other != vertex)
-            .collect()
+        self.faces[vertex].iter().flat_map(|&face| self.mesh.triangles[face]).filter(|&other| other != vertex).collect()
     }
 
     /// Refuses a collapse that would pinch the surface, flip a triangle or
@@ -248,19 +218,15 @@ impl Collapser {
                     continue;
                 }
                 let before = self.mesh.area_vector(triangle);
-                let corners =
-                    triangle.map(|i| if i == moved { target } else { self.mesh.positions[i] });
+                let corners = triangle.map(|i| if i == moved { target } else { self.mesh.positions[i] });
                 let after = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-                let longest = (0..3)
-                    .map(|i| (corners[(i + 1) % 3] - corners[i]).length())
-                    .fold(0.0, f64::max);
+                let longest = (0..3).map(|i| (corners[(i + 1) % 3] - corners[i]).length()).fold(0.0, f64::max);
                 // A triangle that is a needle already has no direction to keep.
                 let straight = before.dot(after) > 0.25 * before.length() * after.length()
                     || before.length() < 1e-3 * longest * longest;
                 // Height over the longest edge; the fine mesh has few needles
                 // itself, but those it has must be free to go.
-                let needle = after.length() < 0.08 * longest * longest
-                    && after.length() < before.length();
+                let needle = after.length() < 0.08 * longest * longest && after.length() < before.length();
                 if !straight || needle {
                     return false;
                 }

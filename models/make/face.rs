@@ -5,12 +5,10 @@
 //! height of the head, three equal thirds from hairline to brow, to the base
 //! of the nose, to the chin. The features are those of a heavy, stern face.
 
-use crate::field::{
-    carve, chain, cone, ellipsoid, front_of, join, polygon, sphere, stroke, stroke_along,
-};
+use crate::field::{carve, chain, cone, ellipsoid, front_of, join, polygon, sphere, stroke, stroke_along};
 use crate::mesh::Mesh;
 use crate::sweep::{Ring, sweep};
-use crate::vector::{Vec3, sin_cos, v};
+use crate::vector::{Vec3, sin_cos, smoothstep, v};
 
 /// The left eye's centre; everything paired is sculpted at x > 0 and mirrored.
 pub const EYE: Vec3 = v(3.3, 0.0, 6.75);
@@ -28,18 +26,8 @@ const LID_THICKNESS: f64 = 0.22;
 /// The line where the lips meet, the fullest line of either lip and the outer
 /// edge of both: x, y and, for the lips, how far they stand out.
 const MOUTH_LINE: [[f64; 2]; 4] = [[0.0, -7.0], [0.6, -6.93], [1.7, -7.0], [2.75, -7.16]];
-const UPPER_LIP: [[f64; 3]; 4] = [
-    [0.0, -6.62, 0.10],
-    [0.65, -6.56, 0.14],
-    [1.7, -6.78, 0.08],
-    [2.6, -7.06, -0.04],
-];
-const LOWER_LIP: [[f64; 3]; 4] = [
-    [0.0, -7.42, 0.14],
-    [0.8, -7.42, 0.16],
-    [1.7, -7.32, 0.08],
-    [2.5, -7.22, -0.04],
-];
+const UPPER_LIP: [[f64; 3]; 4] = [[0.0, -6.62, 0.10], [0.65, -6.56, 0.14], [1.7, -6.78, 0.08], [2.6, -7.06, -0.04]];
+const LOWER_LIP: [[f64; 3]; 4] = [[0.0, -7.42, 0.14], [0.8, -7.42, 0.16], [1.7, -7.32, 0.08], [2.5, -7.22, -0.04]];
 const LIP_EDGE: [[f64; 2]; 12] = [
     [-1.0, -6.5],
     [0.0, -6.5],
@@ -63,40 +51,22 @@ pub fn halved(p: Vec3) -> Vec3 {
 pub struct Face {
     upper: Vec<(Vec3, f64)>,
     lower: Vec<(Vec3, f64)>,
-    line: Vec<(Vec3, f64)>,
+    line: Vec<Vec3>,
     brows: Vec<(Vec3, f64)>,
 }
 
 impl Face {
     pub fn new() -> Face {
         let lip = |points: &[[f64; 3]], radius: f64| -> Vec<(Vec3, f64)> {
-            points
-                .iter()
-                .map(|&[x, y, out]| (front_of(&bare, x, y) + v(0.0, 0.0, out - radius), radius))
-                .collect()
+            points.iter().map(|&[x, y, out]| (front_of(&bare, x, y) + v(0.0, 0.0, out - radius), radius)).collect()
         };
-        let mut face = Face {
-            upper: lip(&UPPER_LIP, 0.34),
-            lower: lip(&LOWER_LIP, 0.38),
-            line: Vec::new(),
-            brows: Vec::new(),
-        };
-        face.line = MOUTH_LINE
-            .iter()
-            .map(|&[x, y]| (front_of(&|p| face.skin(p), x, y), 0.15))
-            .collect();
+        let mut face =
+            Face { upper: lip(&UPPER_LIP, 0.34), lower: lip(&LOWER_LIP, 0.38), line: Vec::new(), brows: Vec::new() };
+        face.line = MOUTH_LINE.iter().map(|&[x, y]| front_of(&|p| face.skin(p), x, y) + v(0.0, 0.0, 0.06)).collect();
         // x, y and thickness, from the root of the nose to the temple.
-        let brows = [
-            (0.95, 1.5, 0.36),
-            (1.8, 1.72, 0.56),
-            (3.1, 2.08, 0.54),
-            (4.4, 2.2, 0.42),
-            (5.6, 1.6, 0.20),
-        ];
-        face.brows = brows
-            .iter()
-            .map(|&(x, y, radius)| (front_of(&bare, x, y) - v(0.0, 0.0, 0.5 * radius), radius))
-            .collect();
+        let brows = [(0.95, 1.5, 0.36), (1.8, 1.72, 0.56), (3.1, 2.08, 0.54), (4.4, 2.2, 0.42), (5.6, 1.6, 0.20)];
+        face.brows =
+            brows.iter().map(|&(x, y, radius)| (front_of(&bare, x, y) - v(0.0, 0.0, 0.5 * radius), radius)).collect();
         face
     }
 
@@ -111,11 +81,22 @@ impl Face {
         d
     }
 
-    /// The red of the lips, a film on the skin.
+    /// The red of the lips, a film on the skin that sinks into it at its edge,
+    /// for a step there would be inked.
     pub fn lips(&self, point: Vec3) -> f64 {
         let p = halved(point);
-        let film = (self.skin(p) - 0.07).max(6.5 - p.z);
-        film.max(-(self.skin(p) + 0.5)).max(polygon(p.x, p.y, &LIP_EDGE))
+        let skin = self.skin(p);
+        let edge = polygon(p.x, p.y, &LIP_EDGE);
+        let film = (skin - 0.09 + 0.2 * smoothstep(-0.2, 0.15, edge)).max(6.5 - p.z);
+        film.max(-(skin + 0.5)).max(edge - 0.15)
+    }
+
+    /// The dark line where the lips meet, as a thin cord laid between them.
+    pub fn mouth_line(&self) -> Mesh {
+        let left = self.line.iter().copied().zip([0.10, 0.10, 0.09, 0.03]);
+        let right = left.clone().skip(1).map(|(p, thickness)| (v(-p.x, p.y, p.z), thickness));
+        let points: Vec<(Vec3, f64)> = right.rev().chain(left).collect();
+        cord(&points)
     }
 
     /// Bushy eyebrows that run down toward the nose.
@@ -146,10 +127,10 @@ fn masses(p: Vec3) -> f64 {
     d = join(d, ellipsoid(p, v(0.0, -10.0, 7.9), v(2.3, 1.45, 1.75)), 1.1);
     // Cheekbones and the flesh below them.
     d = join(d, ellipsoid(p, v(5.0, -2.4, 5.3), v(1.9, 1.4, 2.0)), 1.6);
-    d = join(d, ellipsoid(p, v(4.0, -5.6, 4.9), v(2.4, 3.0, 2.8)), 1.8);
+    d = join(d, ellipsoid(p, v(4.0, -5.6, 4.7), v(2.4, 3.0, 2.6)), 1.8);
     // The heavy brow, lowest at the root of the nose.
     d = join(d, cone(p, v(0.9, 1.45, 8.45), v(5.0, 1.95, 6.4), 1.0, 0.85), 0.8);
-    join(d, cone(p, v(0.0, -19.0, -2.6), v(0.0, -5.0, -1.4), 6.0, 5.4), 1.5)
+    join(d, cone(p, v(0.0, -19.0, -2.6), v(0.0, -5.0, -1.4), 5.6, 5.2), 1.5)
 }
 
 /// Hollows for the eyes, then the lids as a shell round the eyeball, open
@@ -192,14 +173,14 @@ fn mouth_bed(p: Vec3, d: f64) -> f64 {
     d -= 0.3 * stroke(p, v(0.0, -6.4, 9.4), v(3.2, 2.0, 2.0));
     d += 0.3 * stroke(p, v(0.0, -5.4, 9.9), v(0.6, 1.0, 1.4));
     d += 0.6 * stroke(p, v(0.0, -8.8, 9.4), v(2.8, 0.95, 2.0));
-    d += 0.35 * stroke(p, v(3.1, -7.4, 8.3), v(0.9, 0.9, 1.2));
+    d += 0.3 * stroke(p, v(3.1, -7.4, 8.3), v(1.1, 1.0, 1.3));
     d + 0.2 * stroke(p, v(0.0, -10.3, 9.8), v(0.5, 1.0, 1.2))
 }
 
 /// Lines of age and will: from the nose to the mouth, between the brows, on
 /// the forehead, under the eyes.
 fn furrows(p: Vec3) -> f64 {
-    let mut dent = 0.3 * stroke_along(p, v(2.2, -3.6, 8.9), v(3.7, -6.8, 7.8), 1.1);
+    let mut dent = 0.22 * stroke_along(p, v(2.2, -3.6, 8.9), v(3.8, -6.8, 7.7), 1.3);
     dent += 0.35 * stroke_along(p, v(0.6, 1.0, 9.5), v(0.75, 2.7, 9.7), 0.5);
     dent += 0.2 * stroke_along(p, v(-2.6, 4.5, 9.3), v(2.6, 4.5, 9.3), 0.7);
     dent += 0.22 * stroke_along(p, v(2.2, -1.6, 8.0), v(4.2, -1.8, 7.2), 0.6);
@@ -222,64 +203,34 @@ pub fn irises() -> Mesh {
 fn cap(radius: f64, rim: f64, rings: &[f64]) -> Mesh {
     let ring = |turns: f64, radius: f64| {
         let (sine, cosine) = sin_cos(2.0 * std::f64::consts::PI * turns);
-        Ring {
-            centre: EYE + v(0.0, 0.0, radius * cosine),
-            width: radius * sine,
-            height: radius * sine,
-        }
+        Ring { centre: EYE + v(0.0, 0.0, radius * cosine), width: radius * sine, height: radius * sine }
     };
     let edge = ring(rim, radius);
-    let mut all = vec![
-        Ring { centre: edge.centre - v(0.0, 0.0, 0.12), width: 0.0, height: 0.0 },
-        edge,
-    ];
+    let mut all = vec![Ring { centre: edge.centre - v(0.0, 0.0, 0.12), width: 0.0, height: 0.0 }, edge];
     all.extend(rings.iter().rev().map(|&turns| ring(turns, radius)));
     all.push(ring(0.0, radius));
-    sweep(&all, 12)
+    sweep(&all, 10)
 }
 
 /// The rims of both upper lids with their lashes, as one dark line each.
 pub fn lashes() -> Mesh {
     let (centre, arc) = lid_arc(UPPER_LID);
     let radius = EYE_RADIUS + LID_THICKNESS;
-    let points: Vec<(Vec3, f64)> = [
-        (-1.40, 0.03),
-        (-1.05, 0.08),
-        (-0.4, 0.12),
-        (0.35, 0.13),
-        (1.0, 0.11),
-        (1.5, 0.03),
-    ]
-    .iter()
-    .map(|&(x, thickness): &(f64, f64)| {
-        let y = centre + (arc * arc - x * x).sqrt() - EYE_SLANT * x;
-        let z = (radius * radius - x * x - y * y).max(0.0).sqrt();
-        (EYE + v(x, y, z), thickness)
-    })
-    .collect();
+    let points: Vec<(Vec3, f64)> = [(-1.40, 0.03), (-1.05, 0.08), (-0.4, 0.12), (0.35, 0.13), (1.0, 0.11), (1.5, 0.03)]
+        .iter()
+        .map(|&(x, thickness): &(f64, f64)| {
+            let y = centre + (arc * arc - x * x).sqrt() - EYE_SLANT * x;
+            let z = (radius * radius - x * x - y * y).max(0.0).sqrt();
+            (EYE + v(x, y, z), thickness)
+        })
+        .collect();
     mirrored_pair(&cord(&points))
-}
-
-impl Face {
-    /// The dark line where the lips meet, as a thin cord laid between them.
-    pub fn mouth_line(&self) -> Mesh {
-        let left = |&(p, _): &(Vec3, f64)| p + v(0.0, 0.0, 0.06);
-        let thickness = [0.10, 0.10, 0.09, 0.03];
-        let points: Vec<(Vec3, f64)> = (1..self.line.len())
-            .rev()
-            .map(|i| (v(-self.line[i].0.x, self.line[i].0.y, self.line[i].0.z + 0.06), thickness[i]))
-            .chain(self.line.iter().zip(thickness).map(|(point, t)| (left(point), t)))
-            .collect();
-        cord(&points)
-    }
 }
 
 /// A four-sided cord through the points, pointed at both ends.
 fn cord(points: &[(Vec3, f64)]) -> Mesh {
-    let mut rings: Vec<Ring> = points
-        .iter()
-        .map(|&(centre, radius)| Ring { centre, width: radius, height: radius })
-        .collect();
+    let mut rings: Vec<Ring> =
+        points.iter().map(|&(centre, radius)| Ring { centre, width: radius, height: radius }).collect();
     let last = rings.len() - 1;
     rings[0].width = 0.0;
     rings[last].width = 0.0;

@@ -31,10 +31,7 @@ pub fn cone(p: Vec3, a: Vec3, b: Vec3, ra: f64, rb: f64) -> f64 {
 
 /// Capsules through a chain of (point, radius) pairs.
 pub fn chain(p: Vec3, points: &[(Vec3, f64)]) -> f64 {
-    points
-        .windows(2)
-        .map(|pair| cone(p, pair[0].0, pair[1].0, pair[0].1, pair[1].1))
-        .fold(f64::INFINITY, f64::min)
+    points.windows(2).map(|pair| cone(p, pair[0].0, pair[1].0, pair[0].1, pair[1].1)).fold(f64::INFINITY, f64::min)
 }
 
 /// The union with a fillet about `blend` wide.

@@ -34,10 +34,7 @@ const TOOTH_SHIFT: f64 = 0.25;
 const FLANK: [(f64, f64); 4] = [(0.33, 1.56), (0.265, 1.70), (0.19, 1.83), (0.105, 1.93)];
 
 pub fn model() -> Model {
-    let steel = Material {
-        name: "steel",
-        colour: [0.62, 0.70, 0.76],
-    };
+    let steel = Material { name: "steel", colour: [0.62, 0.70, 0.76] };
     Model {
         name: "gear",
         title: "A spur gear: 20 teeth, 5 lightening holes, hub and keyway; faceted, closed.",
@@ -66,16 +63,11 @@ struct Outline {
 
 fn outline(mesh: &mut Mesh, points: &[[f64; 2]], half_width: f64) -> Outline {
     let mut at = |z: f64| points.iter().map(|&[x, y]| mesh.add(v(x, y, z))).collect();
-    Outline {
-        front: at(half_width),
-        back: at(-half_width),
-    }
+    Outline { front: at(half_width), back: at(-half_width) }
 }
 
 fn circle(radius: f64, count: usize) -> Vec<[f64; 2]> {
-    (0..count)
-        .map(|i| polar(i as f64 / count as f64, radius))
-        .collect()
+    (0..count).map(|i| polar(i as f64 / count as f64, radius)).collect()
 }
 
 fn mesh() -> Mesh {
@@ -86,9 +78,7 @@ fn mesh() -> Mesh {
             let falling = FLANK.iter().rev().copied();
             rising
                 .chain(falling)
-                .map(move |(angle, radius)| {
-                    polar((tooth as f64 + TOOTH_SHIFT + angle) / TEETH as f64, radius)
-                })
+                .map(move |(angle, radius)| polar((tooth as f64 + TOOTH_SHIFT + angle) / TEETH as f64, radius))
         })
         .collect();
     let teeth = outline(&mut mesh, &tooth_points, RIM_HALF_WIDTH);
@@ -101,10 +91,7 @@ fn mesh() -> Mesh {
     let bore = outline(&mut mesh, &bore_points(), HUB_HALF_WIDTH);
 
     outer_wall(&mut mesh, &teeth.front, &teeth.back);
-    for (teeth, rim, front) in [
-        (&teeth.front, &rim.front, true),
-        (&teeth.back, &rim.back, false),
-    ] {
+    for (teeth, rim, front) in [(&teeth.front, &rim.front, true), (&teeth.back, &rim.back, false)] {
         tooth_faces(&mut mesh, teeth, rim, front);
     }
     inner_wall(&mut mesh, &rim.front, &rim_foot.front);
@@ -192,9 +179,8 @@ fn tooth_faces(mesh: &mut Mesh, teeth: &[usize], rim: &[usize], front: bool) {
 fn web(mesh: &mut Mesh, rim: &Outline, hub: &Outline) {
     let middle = 0.5 * (RIM_RADIUS + HUB_RADIUS);
     // The middles of the spokes, which two neighbouring sectors share.
-    let spoke_points: Vec<[f64; 2]> = (0..HOLES)
-        .map(|hole| polar((hole as f64 - 0.5) / HOLES as f64, middle))
-        .collect();
+    let spoke_points: Vec<[f64; 2]> =
+        (0..HOLES).map(|hole| polar((hole as f64 - 0.5) / HOLES as f64, middle)).collect();
     let spokes = outline(mesh, &spoke_points, WEB_HALF_WIDTH);
     for hole in 0..HOLES {
         let first = hole * RING_PER_HOLE + RING - RING_PER_HOLE / 2;
@@ -231,7 +217,5 @@ fn web(mesh: &mut Mesh, rim: &Outline, hub: &Outline) {
 /// the first toward the corner of rim and spoke the border starts at.
 fn hole_angles() -> Vec<f64> {
     let half = RING_PER_HOLE as f64 / 2.0;
-    (0..HOLE_POINTS)
-        .map(|i| (i as f64 - half) / HOLE_POINTS as f64)
-        .collect()
+    (0..HOLE_POINTS).map(|i| (i as f64 - half) / HOLE_POINTS as f64).collect()
 }

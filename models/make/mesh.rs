@@ -28,8 +28,7 @@ impl Mesh {
     pub fn append(&mut self, other: &Mesh) {
         let first = self.positions.len();
         self.positions.extend_from_slice(&other.positions);
-        self.triangles
-            .extend(other.triangles.iter().map(|t| t.map(|i| i + first)));
+        self.triangles.extend(other.triangles.iter().map(|t| t.map(|i| i + first)));
     }
 
     /// Twice the area times the outward unit normal.
@@ -87,12 +86,10 @@ impl Mesh {
         let mut order = BTreeMap::new();
         let mut pieces: Vec<Mesh> = Vec::new();
         for &triangle in &self.triangles {
-            let piece = *order
-                .entry(root(&mut parent, triangle[0]))
-                .or_insert_with(|| {
-                    pieces.push(Mesh::default());
-                    pieces.len() - 1
-                });
+            let piece = *order.entry(root(&mut parent, triangle[0])).or_insert_with(|| {
+                pieces.push(Mesh::default());
+                pieces.len() - 1
+            });
             pieces[piece].triangles.push(triangle);
         }
         for piece in &mut pieces {
@@ -118,11 +115,7 @@ impl Mesh {
     /// round the vertex that turn away from this one by less than the crease
     /// angle, given as its cosine.
     pub fn corner_normals(&self, crease_cosine: f64) -> Vec<[Vec3; 3]> {
-        let units: Vec<Vec3> = self
-            .triangles
-            .iter()
-            .map(|&t| self.area_vector(t).normalized())
-            .collect();
+        let units: Vec<Vec3> = self.triangles.iter().map(|&t| self.area_vector(t).normalized()).collect();
         let mut around = vec![Vec::new(); self.positions.len()];
         for (face, triangle) in self.triangles.iter().enumerate() {
             for corner in 0..3 {
@@ -167,19 +160,11 @@ impl Mesh {
         if let Some((from, to)) = edges.keys().find(|(a, b)| !edges.contains_key(&(*b, *a))) {
             return Some(format!("edge {from}-{to} is open"));
         }
-        let smallest = self
-            .triangles
-            .iter()
-            .map(|&t| self.area_vector(t).length())
-            .fold(f64::INFINITY, f64::min);
+        let smallest = self.triangles.iter().map(|&t| self.area_vector(t).length()).fold(f64::INFINITY, f64::min);
         if smallest < 1e-7 {
             return Some(format!("a triangle has twice the area {smallest:e} only"));
         }
-        if self
-            .pieces()
-            .iter()
-            .any(|piece| piece.signed_volume() <= 0.0)
-        {
+        if self.pieces().iter().any(|piece| piece.signed_volume() <= 0.0) {
             return Some("a piece is inside out".to_owned());
         }
         None

@@ -151,11 +151,7 @@ impl Normals {
 fn rounded(mesh: &Mesh) -> Mesh {
     let round = |x: f64| (x * 1e5).round() / 1e5;
     Mesh {
-        positions: mesh
-            .positions
-            .iter()
-            .map(|p| v(round(p.x), round(p.y), round(p.z)))
-            .collect(),
+        positions: mesh.positions.iter().map(|p| v(round(p.x), round(p.y), round(p.z))).collect(),
         triangles: mesh.triangles.clone(),
     }
 }

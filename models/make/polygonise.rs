@@ -22,34 +22,20 @@ const BLOCK: usize = 8;
 /// The corners of a cube walked from 0 to 7 along the three axes, one path per
 /// order of the axes: six tetrahedra that fill the cube and meet their
 /// neighbours' faces (Kuhn's subdivision).
-const PATHS: [[usize; 4]; 6] = [
-    [0, 1, 3, 7],
-    [0, 1, 5, 7],
-    [0, 2, 3, 7],
-    [0, 2, 6, 7],
-    [0, 4, 5, 7],
-    [0, 4, 6, 7],
-];
+const PATHS: [[usize; 4]; 6] = [[0, 1, 3, 7], [0, 1, 5, 7], [0, 2, 3, 7], [0, 2, 6, 7], [0, 4, 5, 7], [0, 4, 6, 7]];
 
 /// Polygonises the zero surface of `field`, which must be positive on the
 /// faces of the box and change by at most about 1.6 per unit of length.
 pub fn polygonise(field: &dyn Fn(Vec3) -> f64, grid: Grid) -> Mesh {
     let extent = grid.high - grid.low;
-    let blocks =
-        [extent.x, extent.y, extent.z].map(|e| (e / (grid.step * BLOCK as f64)).ceil() as usize);
-    let mut surface = Surface {
-        field,
-        grid,
-        mesh: Mesh::default(),
-        crossings: BTreeMap::new(),
-    };
+    let blocks = [extent.x, extent.y, extent.z].map(|e| (e / (grid.step * BLOCK as f64)).ceil() as usize);
+    let mut surface = Surface { field, grid, mesh: Mesh::default(), crossings: BTreeMap::new() };
     let block_size = grid.step * BLOCK as f64;
     let reach = block_size * 0.5 * 3f64.sqrt() * 1.7;
     for bz in 0..blocks[2] {
         for by in 0..blocks[1] {
             for bx in 0..blocks[0] {
-                let centre =
-                    grid.low + v(bx as f64 + 0.5, by as f64 + 0.5, bz as f64 + 0.5) * block_size;
+                let centre = grid.low + v(bx as f64 + 0.5, by as f64 + 0.5, bz as f64 + 0.5) * block_size;
                 if field(centre).abs() < reach {
                     surface.block([bx * BLOCK, by * BLOCK, bz * BLOCK]);
                 }
@@ -66,11 +52,7 @@ pub fn polygonise(field: &dyn Fn(Vec3) -> f64, grid: Grid) -> Mesh {
 /// The field's gradient by central differences over `2 * reach`.
 pub fn gradient(field: &dyn Fn(Vec3) -> f64, p: Vec3, reach: f64) -> Vec3 {
     let slope = |d: Vec3| (field(p + d) - field(p - d)) / (2.0 * reach);
-    v(
-        slope(v(reach, 0.0, 0.0)),
-        slope(v(0.0, reach, 0.0)),
-        slope(v(0.0, 0.0, reach)),
-    )
+    v(slope(v(reach, 0.0, 0.0)), slope(v(0.0, reach, 0.0)), slope(v(0.0, 0.0, reach)))
 }
 
 fn pulled_onto(field: &dyn Fn(Vec3) -> f64, start: Vec3, step: f64) -> Vec3 {
@@ -141,17 +123,13 @@ impl Surface<'_> {
         };
         // Outward is from the mean of the inside corners to the outside ones.
         let mean = |side: &[usize]| {
-            side.iter()
-                .fold(Vec3::ZERO, |sum, &i| sum + self.position(corners[i].0))
-                / side.len() as f64
+            side.iter().fold(Vec3::ZERO, |sum, &i| sum + self.position(corners[i].0)) / side.len() as f64
         };
         let outward = mean(&outside) - mean(&inside);
         for i in 1..polygon.len() - 1 {
             let [a, b, c] = [polygon[0], polygon[i], polygon[i + 1]];
             let along = self.mesh.area_vector([a, b, c]).dot(outward);
-            self.mesh
-                .triangles
-                .push(if along > 0.0 { [a, b, c] } else { [a, c, b] });
+            self.mesh.triangles.push(if along > 0.0 { [a, b, c] } else { [a, c, b] });
         }
     }
 

@@ -20,11 +20,7 @@ pub fn ellipsoid(centre: Vec3, radii: Vec3, slope: f64, sides: usize, count: usi
             let (sine, cosine) = sin_cos(std::f64::consts::PI * i as f64 / count as f64);
             let along = -cosine * radii.z;
             let sine = if i == 0 || i == count { 0.0 } else { sine };
-            Ring {
-                centre: centre + v(0.0, slope * along, along),
-                width: sine * radii.x,
-                height: sine * radii.y,
-            }
+            Ring { centre: centre + v(0.0, slope * along, along), width: sine * radii.x, height: sine * radii.y }
         })
         .collect();
     sweep(&rings, sides)

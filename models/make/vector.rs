@@ -28,11 +28,7 @@ impl Vec3 {
     }
 
     pub fn cross(self, other: Vec3) -> Vec3 {
-        v(
-            self.y * other.z - self.z * other.y,
-            self.z * other.x - self.x * other.z,
-            self.x * other.y - self.y * other.x,
-        )
+        v(self.y * other.z - self.z * other.y, self.z * other.x - self.x * other.z, self.x * other.y - self.y * other.x)
     }
 
     pub fn length(self) -> f64 {
@@ -42,11 +38,7 @@ impl Vec3 {
     /// The unit vector of the same direction; +y for a vector without one.
     pub fn normalized(self) -> Vec3 {
         let length = self.length();
-        if length > 1e-300 {
-            self / length
-        } else {
-            v(0.0, 1.0, 0.0)
-        }
+        if length > 1e-300 { self / length } else { v(0.0, 1.0, 0.0) }
     }
 
     /// The part of `self` at right angles to the unit vector `axis`.
@@ -59,11 +51,7 @@ impl Vec3 {
     }
 
     pub fn max(self, other: Vec3) -> Vec3 {
-        v(
-            self.x.max(other.x),
-            self.y.max(other.y),
-            self.z.max(other.z),
-        )
+        v(self.x.max(other.x), self.y.max(other.y), self.z.max(other.z))
     }
 }
 

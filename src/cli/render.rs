@@ -43,6 +43,10 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "background")]
     transparent: bool,
 
+    /// Leave out faces turned away: none, back; faster, and the same picture of closed models [default: none]
+    #[arg(long, value_name = "FACES", action = clap::ArgAction::Set, value_parser = parse_cull, default_value = "none", hide_default_value = true)]
+    cull: bool,
+
     /// One colour for all surfaces [default: the model's own, #edbd85 where it has none]
     #[arg(long, value_name = "COLOUR")]
     color: Option<Color>,
@@ -132,7 +136,7 @@ struct CartoonArguments {
     detection_factor: f32,
 
     /// Draw a square behind the scene, on or off; off loses outer borders [default: on]
-    #[arg(long, value_name = "ON|OFF", value_parser = parse_switch, default_value = "on", hide_default_value = true)]
+    #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
     background_quad: bool,
 
     /// Which picture: final, normals, depth, map, borders, tones [default: final]
@@ -240,8 +244,10 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         return Ok(());
     }
     let frames = arguments.run.frames as usize;
-    let times = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?)
-        .ok_or_else(|| Error::Setting { setting: "--frames".to_owned(), problem: "at least one is drawn".to_owned() })?;
+    let times = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?).ok_or_else(|| Error::Setting {
+        setting: "--frames".to_owned(),
+        problem: "at least one is drawn".to_owned(),
+    })?;
     let passes = renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?;
     if arguments.run.explain {
         return super::print(&explanation(&plan, &passes, &times, frames));
@@ -332,8 +338,16 @@ impl Arguments {
 
     fn style(&self) -> Style {
         let mut style = Style::named(self.style);
-        if let Style::ThreePass(cartoon) | Style::TwoPass(cartoon) = &mut style {
+        let cartoon = match &mut style {
+            Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => Some(cartoon),
+            Style::Phong(phong) => {
+                phong.cull_back_faces = self.cull;
+                None
+            }
+        };
+        if let Some(cartoon) = cartoon {
             let options = &self.cartoon;
+            cartoon.cull_back_faces = self.cull;
             cartoon.tones.count = options.tones;
             [cartoon.tones.diffuse_threshold, cartoon.tones.specular_threshold] = options.tone_thresholds;
             cartoon.tones.levels = options.tone_levels;
@@ -380,6 +394,14 @@ fn parse_normals(text: &str) -> std::result::Result<Normals, String> {
         "smooth" => Ok(Normals::Smooth),
         "flat" => Ok(Normals::Flat),
         _ => Err("choose one of file, smooth, flat".to_owned()),
+    }
+}
+
+fn parse_cull(text: &str) -> std::result::Result<bool, String> {
+    match text {
+        "none" => Ok(false),
+        "back" => Ok(true),
+        _ => Err("choose none or back".to_owned()),
     }
 }
 

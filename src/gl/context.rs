@@ -111,7 +111,10 @@ enum Candidate {
     Egl(egl::Device),
     OsMesa,
     /// A whole platform that is not there, and why.
-    Missing { device: String, reason: String },
+    Missing {
+        device: String,
+        reason: String,
+    },
 }
 
 impl Candidate {
@@ -308,10 +311,7 @@ fn load_functions(
         depth_bits: integer(legacy::DEPTH_BITS),
         aliased_line_width: range(legacy::ALIASED_LINE_WIDTH_RANGE),
         smooth_line_width: range(legacy::SMOOTH_LINE_WIDTH_RANGE),
-        largest_picture: Size {
-            width: limit(viewport[0], surface.width),
-            height: limit(viewport[1], surface.height),
-        },
+        largest_picture: Size { width: limit(viewport[0], surface.width), height: limit(viewport[1], surface.height) },
         timer_queries,
     };
     let gl = Gl { glow, legacy, live_objects: Cell::new(0) };

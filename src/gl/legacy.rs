@@ -27,14 +27,20 @@ pub const SMOOTH_LINE_WIDTH_RANGE: u32 = 0x0B22;
 /// `GL_ALIASED_LINE_WIDTH_RANGE`
 pub const ALIASED_LINE_WIDTH_RANGE: u32 = 0x846E;
 
+type Enumerated = unsafe extern "system" fn(u32);
+type LoadMatrix = unsafe extern "system" fn(*const f32);
+type Color = unsafe extern "system" fn(f32, f32, f32, f32);
+type VertexPointer = unsafe extern "system" fn(i32, u32, i32, *const c_void);
+type NormalPointer = unsafe extern "system" fn(u32, i32, *const c_void);
+
 /// The functions, each of the type the specification gives it.
 pub struct Legacy {
-    matrix_mode: unsafe extern "system" fn(u32),
-    load_matrix: unsafe extern "system" fn(*const f32),
-    color: unsafe extern "system" fn(f32, f32, f32, f32),
-    enable_client_state: unsafe extern "system" fn(u32),
-    vertex_pointer: unsafe extern "system" fn(i32, u32, i32, *const c_void),
-    normal_pointer: unsafe extern "system" fn(u32, i32, *const c_void),
+    matrix_mode: Enumerated,
+    load_matrix: LoadMatrix,
+    color: Color,
+    enable_client_state: Enumerated,
+    vertex_pointer: VertexPointer,
+    normal_pointer: NormalPointer,
 }
 
 impl Legacy {
@@ -54,12 +60,12 @@ impl Legacy {
         // SAFETY: each address is that of the function named, whose C type is the one in the table.
         unsafe {
             Ok(Self {
-                matrix_mode: std::mem::transmute::<*const c_void, _>(find(c"glMatrixMode")?),
-                load_matrix: std::mem::transmute::<*const c_void, _>(find(c"glLoadMatrixf")?),
-                color: std::mem::transmute::<*const c_void, _>(find(c"glColor4f")?),
-                enable_client_state: std::mem::transmute::<*const c_void, _>(find(c"glEnableClientState")?),
-                vertex_pointer: std::mem::transmute::<*const c_void, _>(find(c"glVertexPointer")?),
-                normal_pointer: std::mem::transmute::<*const c_void, _>(find(c"glNormalPointer")?),
+                matrix_mode: std::mem::transmute::<*const c_void, Enumerated>(find(c"glMatrixMode")?),
+                load_matrix: std::mem::transmute::<*const c_void, LoadMatrix>(find(c"glLoadMatrixf")?),
+                color: std::mem::transmute::<*const c_void, Color>(find(c"glColor4f")?),
+                enable_client_state: std::mem::transmute::<*const c_void, Enumerated>(find(c"glEnableClientState")?),
+                vertex_pointer: std::mem::transmute::<*const c_void, VertexPointer>(find(c"glVertexPointer")?),
+                normal_pointer: std::mem::transmute::<*const c_void, NormalPointer>(find(c"glNormalPointer")?),
             })
         }
     }

@@ -25,13 +25,7 @@ pub struct LoadOptions {
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self {
-            weld: 1e-7,
-            normals: Normals::File,
-            smooth_angle_degrees: 60.0,
-            up_axis: UpAxis::Y,
-            strict: false,
-        }
+        Self { weld: 1e-7, normals: Normals::File, smooth_angle_degrees: 60.0, up_axis: UpAxis::Y, strict: false }
     }
 }
 
@@ -188,9 +182,9 @@ fn read_file(path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     }
     let named = Format::by_name(path);
     let found = Format::by_content(&bytes);
-    let format = found.or(named).ok_or_else(|| {
-        Error::model(path, "this is not a model in a format known here; use an OBJ, PLY or STL file")
-    })?;
+    let format = found
+        .or(named)
+        .ok_or_else(|| Error::model(path, "this is not a model in a format known here; use an OBJ, PLY or STL file"))?;
     if let (Some(named), Some(found)) = (named, found)
         && named != found
     {

@@ -23,8 +23,7 @@ pub enum Materials {
 
 /// Whether the beginning of a file reads like OBJ: text with a line of one of its statements.
 pub fn looks_like(head: &[u8]) -> bool {
-    const STATEMENTS: [&[u8]; 10] =
-        [b"v", b"vt", b"vn", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"vp"];
+    const STATEMENTS: [&[u8]; 10] = [b"v", b"vt", b"vn", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"vp"];
     !head.contains(&0)
         && head.split(|byte| *byte == b'\n').any(|line| {
             let word = line.trim_ascii_start().split(u8::is_ascii_whitespace).next().unwrap_or_default();
@@ -51,9 +50,11 @@ pub fn read(bytes: &[u8], path: &str, materials: &Materials, remarks: &mut Vec<S
         Error::Model { path: path.to_owned(), line: Some(guard.line_number), problem: in_words(&error) }
     })?;
     let missing = missing.into_inner();
-    remarks.extend(missing.iter().map(|name| {
-        format!("{path}: material file {name} is not there; its faces get the default colour")
-    }));
+    remarks.extend(
+        missing
+            .iter()
+            .map(|name| format!("{path}: material file {name} is not there; its faces get the default colour")),
+    );
     let materials = materials.map_err(|error| Error::model(path, format!("its materials cannot be read ({error})")))?;
     let mut soup = guard.into_soup(&models);
     soup.defects.missing_materials += missing.len();
@@ -336,7 +337,8 @@ mod tests {
 
     #[test]
     fn faces_out_of_range_are_counted_and_the_others_kept() {
-        let soup = soup(&format!("{SQUARE}f 1 2 9\nf 0 1 2\nf 1/7 2/7 3/7\nf 1//2 2//2 3//2\nf -9 1 2\nf 1 2 3\nf 1 2\n"));
+        let soup =
+            soup(&format!("{SQUARE}f 1 2 9\nf 0 1 2\nf 1/7 2/7 3/7\nf 1//2 2//2 3//2\nf -9 1 2\nf 1 2 3\nf 1 2\n"));
         assert_eq!(soup.corners.len(), 3);
         assert_eq!(soup.defects.out_of_range_faces, 5);
         assert_eq!(soup.defects.degenerate_triangles, 1);

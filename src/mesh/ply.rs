@@ -10,7 +10,10 @@ use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 /// Reads a PLY file's bytes. `path` is for messages.
 pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
     if !bytes.starts_with(b"ply") {
-        return Err(Error::model(path, "it does not begin like a PLY file; it is damaged or misnamed, export it again"));
+        return Err(Error::model(
+            path,
+            "it does not begin like a PLY file; it is damaged or misnamed, export it again",
+        ));
     }
     let mut reader = Reader::new(bytes);
     let damaged = |error: ParseError| Error::Model {

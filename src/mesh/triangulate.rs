@@ -37,11 +37,10 @@ fn newell_normal(corners: &[DVec3]) -> DVec3 {
 fn is_convex(corners: &[DVec3], normal: DVec3) -> bool {
     let count = corners.len();
     let corner = |i: usize| corners[i % count];
-    let turns_left = (0..count).all(|i| {
-        (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i + 1)).dot(normal) >= 0.0
-    });
-    let fan_is_left = (1..count - 1)
-        .all(|i| (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]).dot(normal) >= 0.0);
+    let turns_left =
+        (0..count).all(|i| (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i + 1)).dot(normal) >= 0.0);
+    let fan_is_left =
+        (1..count - 1).all(|i| (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]).dot(normal) >= 0.0);
     turns_left && fan_is_left
 }
 
@@ -92,10 +91,8 @@ mod tests {
         let flat = [(1.0, 1.0), (1.0, 2.0), (0.0, 2.0), (0.0, 0.0), (2.0, 0.0), (2.0, 1.0)];
         let (u, v) = (DVec3::new(0.6, 0.8, 0.0), DVec3::new(-0.48, 0.36, 0.8));
         for start in 0..flat.len() {
-            let corners: Vec<DVec3> = (0..flat.len())
-                .map(|i| flat[(start + i) % flat.len()])
-                .map(|(x, y)| u * x + v * y)
-                .collect();
+            let corners: Vec<DVec3> =
+                (0..flat.len()).map(|i| flat[(start + i) % flat.len()]).map(|(x, y)| u * x + v * y).collect();
             let triangles = cut(&corners);
             let (sum, total) = area_vector(&corners, &triangles);
             assert_eq!(triangles.len(), 4);

@@ -108,9 +108,7 @@ impl Border {
         let channel = |channel: usize| {
             let at = |x, y| map(x, y)[channel];
             match self.filter {
-                Filter::Laplacian4 => {
-                    ((4.0 * at(0, 0) - at(0, -1) - at(-1, 0) - at(1, 0) - at(0, 1)) * factor).abs()
-                }
+                Filter::Laplacian4 => ((4.0 * at(0, 0) - at(0, -1) - at(-1, 0) - at(1, 0) - at(0, 1)) * factor).abs(),
                 Filter::Laplacian8 => {
                     let block = (-1..=1).flat_map(|y| (-1..=1).map(move |x| (x, y)));
                     ((9.0 * at(0, 0) - block.map(|(x, y)| at(x, y)).sum::<f64>()) * factor).abs()

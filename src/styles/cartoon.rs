@@ -19,11 +19,18 @@ pub struct Cartoon {
     /// Whether a square of the background's colour is drawn behind the scene, as the paper does in every scene.
     /// Default yes; without it the two-pass style loses the outer half of every silhouette (errata E10).
     pub background_square: bool,
+    /// Whether faces turned away from the eye are left out: faster, and the same picture of closed models. Default no.
+    pub cull_back_faces: bool,
 }
 
 impl Default for Cartoon {
     fn default() -> Self {
-        Self { tones: Tones::default(), border: Some(Border::default()), background_square: true }
+        Self {
+            tones: Tones::default(),
+            border: Some(Border::default()),
+            background_square: true,
+            cull_back_faces: false,
+        }
     }
 }
 
@@ -90,6 +97,7 @@ impl Cartoon {
                 textures,
                 depth: Depth::TestAndWrite,
                 blend: false,
+                cull_back_faces: self.cull_back_faces,
             }
         });
         let pass = Pass { name: "tones-and-border", steps };
@@ -101,7 +109,10 @@ impl Cartoon {
         match self.border {
             Some(border) => border.check()?,
             None if show == Show::Borders => {
-                return Err(Error::setting("--show borders", "there are none with --no-borders; leave out one of the two"));
+                return Err(Error::setting(
+                    "--show borders",
+                    "there are none with --no-borders; leave out one of the two",
+                ));
             }
             None => {}
         }
@@ -134,6 +145,7 @@ impl Cartoon {
                 textures: Vec::new(),
                 depth: Depth::TestAndWrite,
                 blend: false,
+                cull_back_faces: self.cull_back_faces,
             })
         };
         let mut steps = vec![Step::Clear { color: EMPTY_MAP }];
@@ -164,6 +176,7 @@ impl Cartoon {
             textures: if published { Vec::new() } else { self.tones.textures() },
             depth: Depth::TestAndWrite,
             blend: false,
+            cull_back_faces: self.cull_back_faces,
         });
         Pass { name: "tones", steps }
     }
@@ -196,6 +209,7 @@ fn border_pass(border: &Border, scene: &Scene, alone: bool) -> Pass {
         textures: Border::textures(),
         depth: Depth::Ignore,
         blend: true,
+        cull_back_faces: false,
     };
     let mut steps = Vec::new();
     if alone {

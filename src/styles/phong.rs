@@ -15,11 +15,13 @@ pub struct Phong {
     pub specular: f32,
     /// Exponent of the highlight. Default 24; more makes it smaller.
     pub shininess: f32,
+    /// Whether faces turned away from the eye are left out: faster, and the same picture of closed models. Default no.
+    pub cull_back_faces: bool,
 }
 
 impl Default for Phong {
     fn default() -> Self {
-        Self { ambient: 0.25, specular: 0.35, shininess: 24.0 }
+        Self { ambient: 0.25, specular: 0.35, shininess: 24.0, cull_back_faces: false }
     }
 }
 
@@ -44,6 +46,7 @@ impl Phong {
             textures: Vec::new(),
             depth: Depth::TestAndWrite,
             blend: false,
+            cull_back_faces: self.cull_back_faces,
         };
         let steps = vec![Step::Clear { color: scene.background.clear_color() }, Step::Draw(draw)];
         Ok(Plan { passes: vec![Pass { name: "phong", steps }], tone_table: None, output: Output::Rgba })

@@ -119,10 +119,7 @@ impl Tones {
         match self.lookup {
             ToneLookup::Steps => vec![
                 Uniform { name: "toneThresholds", value: Value::Vec2(self.thresholds()) },
-                Uniform {
-                    name: "toneLevels",
-                    value: Value::Vec3(if background { [1.0; 3] } else { self.levels }),
-                },
+                Uniform { name: "toneLevels", value: Value::Vec3(if background { [1.0; 3] } else { self.levels }) },
             ],
             ToneLookup::Texture => {
                 let texel = 1.0 / TABLE_SIZE as f32;

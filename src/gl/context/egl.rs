@@ -72,7 +72,8 @@ impl EglContext {
         let attributes =
             ContextAttributesBuilder::new().with_context_api(ContextApi::OpenGl(Some(Version::new(2, 1)))).build(None);
         // SAFETY: config and display belong together; no native window is involved.
-        let context = unsafe { display.create_context(&config, &attributes) }.map_err(step("making a GL 2.1 context"))?;
+        let context =
+            unsafe { display.create_context(&config, &attributes) }.map_err(step("making a GL 2.1 context"))?;
         let size = Size { width: 1, height: 1 };
         let surface = create_surface(&display, &config, size)?;
         Ok(Self { context: context.treat_as_possibly_current(), surface, size, config, display })
@@ -119,8 +120,7 @@ impl EglContext {
 
 fn create_surface(display: &Display, config: &Config, size: Size) -> Result<Surface<PbufferSurface>, String> {
     let side = |pixels: u32| NonZeroU32::new(pixels).ok_or("a surface of no pixels");
-    let attributes =
-        SurfaceAttributesBuilder::<PbufferSurface>::new().build(side(size.width)?, side(size.height)?);
+    let attributes = SurfaceAttributesBuilder::<PbufferSurface>::new().build(side(size.width)?, side(size.height)?);
     // SAFETY: the config is the display's and was asked for with pbuffer support.
     unsafe { display.create_pbuffer_surface(config, &attributes) }
         .map_err(|error| format!("making an off-screen surface of {size} pixels failed ({error})"))

@@ -8,14 +8,19 @@ use std::ptr;
 use std::sync::OnceLock;
 
 type Handle = *mut c_void;
+type CreateContext = unsafe extern "C" fn(*const i32, Handle) -> Handle;
+type DestroyContext = unsafe extern "C" fn(Handle);
+type MakeCurrent = unsafe extern "C" fn(Handle, *mut c_void, u32, i32, i32) -> u8;
+type GetInteger = unsafe extern "C" fn(i32, *mut i32);
+type GetProcAddress = unsafe extern "C" fn(*const c_char) -> *const c_void;
 
 /// The functions of the library used here.
 struct Functions {
-    create_context: unsafe extern "C" fn(*const i32, Handle) -> Handle,
-    destroy_context: unsafe extern "C" fn(Handle),
-    make_current: unsafe extern "C" fn(Handle, *mut c_void, u32, i32, i32) -> u8,
-    get_integer: unsafe extern "C" fn(i32, *mut i32),
-    get_proc_address: unsafe extern "C" fn(*const c_char) -> *const c_void,
+    create_context: CreateContext,
+    destroy_context: DestroyContext,
+    make_current: MakeCurrent,
+    get_integer: GetInteger,
+    get_proc_address: GetProcAddress,
 }
 
 const LIBRARIES: [&str; 3] = ["libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"];
@@ -45,13 +50,21 @@ fn find_functions(library: &'static Library) -> Result<Functions, String> {
     unsafe {
         let get = |name: &[u8]| library.get::<*const c_void>(name).map(|symbol: Symbol<'_, *const c_void>| *symbol);
         Ok(Functions {
-            create_context: std::mem::transmute::<*const c_void, _>(
+            create_context: std::mem::transmute::<*const c_void, CreateContext>(
                 get(b"OSMesaCreateContextAttribs\0").map_err(missing)?,
             ),
-            destroy_context: std::mem::transmute::<*const c_void, _>(get(b"OSMesaDestroyContext\0").map_err(missing)?),
-            make_current: std::mem::transmute::<*const c_void, _>(get(b"OSMesaMakeCurrent\0").map_err(missing)?),
-            get_integer: std::mem::transmute::<*const c_void, _>(get(b"OSMesaGetIntegerv\0").map_err(missing)?),
-            get_proc_address: std::mem::transmute::<*const c_void, _>(get(b"OSMesaGetProcAddress\0").map_err(missing)?),
+            destroy_context: std::mem::transmute::<*const c_void, DestroyContext>(
+                get(b"OSMesaDestroyContext\0").map_err(missing)?,
+            ),
+            make_current: std::mem::transmute::<*const c_void, MakeCurrent>(
+                get(b"OSMesaMakeCurrent\0").map_err(missing)?,
+            ),
+            get_integer: std::mem::transmute::<*const c_void, GetInteger>(
+                get(b"OSMesaGetIntegerv\0").map_err(missing)?,
+            ),
+            get_proc_address: std::mem::transmute::<*const c_void, GetProcAddress>(
+                get(b"OSMesaGetProcAddress\0").map_err(missing)?,
+            ),
         })
     }
 }
