@@ -259,7 +259,7 @@ impl CameraSettings {
         let far = self.far.unwrap_or(fitted_far.max(self.near.map_or(0.0, |near| near * 2.0)));
         let fitted_near =
             if nearest - margin > far * NEAREST_FRACTION { nearest - margin } else { far * NEAREST_FRACTION };
-        let near = self.near.unwrap_or(fitted_near.min(far * 0.5));
+        let near = self.near.unwrap_or(if fitted_near < far { fitted_near } else { far * 0.5 });
         if near >= far {
             return Err(Error::setting(
                 format!("--near {near} --far {far}"),
@@ -295,12 +295,12 @@ mod tests {
                 let settings = CameraSettings { view: name.parse().unwrap(), parallel, ..CameraSettings::default() };
                 let camera = fit(&settings, &points, aspect).unwrap();
                 let clip_from_world = camera.clip_from_view(aspect) * camera.view_from_world();
-                let largest = points
-                    .iter()
-                    .map(|point| clip_from_world.project_point3(*point))
-                    .inspect(|ndc| assert!(ndc.z.abs() <= 1.0, "{name}: depth {}", ndc.z))
-                    .map(|ndc| ndc.x.abs().max(ndc.y.abs()))
-                    .fold(0.0, f64::max);
+                let drawn: Vec<DVec3> = points.iter().map(|point| clip_from_world.project_point3(*point)).collect();
+                let largest = drawn.iter().map(|ndc| ndc.x.abs().max(ndc.y.abs())).fold(0.0, f64::max);
+                let (nearest, farthest) =
+                    drawn.iter().fold((1.0f64, -1.0f64), |(n, f), ndc| (n.min(ndc.z), f.max(ndc.z)));
+                assert!((-1.0..-0.9).contains(&nearest), "{name}: the nearest point has depth {nearest}");
+                assert!((0.9..1.0).contains(&farthest), "{name}: the farthest point has depth {farthest}");
                 assert!((largest - FRAME_FILL).abs() < 1e-9, "{name} parallel {parallel}: reaches {largest}");
             }
         }

@@ -168,6 +168,19 @@ impl Renderer {
         self.resources.live_objects()
     }
 
+    /// Deletes everything the renderer holds and returns how many GL objects are then still alive: 0, or there is a leak.
+    pub fn close(mut self) -> usize {
+        self.release();
+        self.resources.live_objects()
+    }
+
+    fn release(&mut self) {
+        // If the context cannot be made current any more the driver is gone, and its objects with it.
+        let current = self.context.enter();
+        self.resources.clear();
+        drop(current);
+    }
+
     fn with_context<T>(
         &mut self,
         scene: &Scene,
@@ -225,10 +238,7 @@ impl Frame<'_> {
 
 impl Drop for Renderer {
     fn drop(&mut self) {
-        // If the context cannot be made current any more the driver is gone, and its objects with it.
-        let current = self.context.enter();
-        self.resources.clear();
-        drop(current);
+        self.release();
     }
 }
 

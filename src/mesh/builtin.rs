@@ -34,7 +34,12 @@ pub const BUILTINS: [Builtin; 4] = [
         obj: include_bytes!("../../models/ant.obj"),
         mtl: include_bytes!("../../models/ant.mtl"),
     },
-    Builtin { name: "gear", what: "a gear wheel", obj: include_bytes!("../../models/gear.obj"), mtl: b"" },
+    Builtin {
+        name: "gear",
+        what: "a gear wheel",
+        obj: include_bytes!("../../models/gear.obj"),
+        mtl: include_bytes!("../../models/gear.mtl"),
+    },
 ];
 
 /// The built-in model a name stands for; `None` if the name is a path, an error if it names none.

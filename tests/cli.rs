@@ -1,0 +1,281 @@
+//! The program as a user meets it: files, messages, exit codes, records.
+
+use crate::support::root;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn tinta(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_tinta")).args(arguments).current_dir(root()).output().unwrap()
+}
+
+/// Asserts exit code 2, empty standard output and one sentence that contains all `words`.
+fn refused(arguments: &[&str], words: &[&str]) {
+    let output = tinta(arguments);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert!(output.stdout.is_empty(), "{arguments:?}");
+    for word in words {
+        assert!(message.contains(word), "{arguments:?} should say {word:?} but says {message:?}");
+    }
+    assert!(!message.contains("panicked"), "{message}");
+}
+
+fn refused_in_one_line(arguments: &[&str], words: &[&str]) {
+    refused(arguments, words);
+    let message = String::from_utf8_lossy(&tinta(arguments).stderr).into_owned();
+    assert_eq!(message.trim_end().lines().count(), 1, "{message}");
+}
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().unwrap().to_owned()
+    }
+
+    fn file(&self, name: &str, bytes: &[u8]) -> String {
+        std::fs::write(self.0.path().join(name), bytes).unwrap();
+        self.path(name)
+    }
+}
+
+#[test]
+fn a_picture_is_written_and_nothing_is_said() {
+    let folder = Folder::new();
+    let picture = folder.path("bust.png");
+    let output = tinta(&["render", "builtin:bust", "-o", &picture, "--size", "64x48"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.stdout.is_empty() && output.stderr.is_empty());
+    let size = image::image_dimensions(&picture).unwrap();
+    assert_eq!(size, (64, 48));
+}
+
+#[test]
+fn a_dash_writes_png_to_standard_output() {
+    let output = tinta(&["render", "builtin:ant", "-o", "-", "--size", "40"]);
+    assert_eq!(image::load_from_memory(&output.stdout).unwrap().width(), 40);
+    refused_in_one_line(&["render", "builtin:ant", "-o", "-", "--json"], &["-o -", "name a file"]);
+}
+
+#[test]
+fn models_that_cannot_be_read_are_refused_by_name() {
+    let folder = Folder::new();
+    let out = folder.path("out.png");
+    let render = |model: &str, words: &[&str]| refused_in_one_line(&["render", model, "-o", &out], words);
+    render("no-such.obj", &["no-such.obj: there is no such file"]);
+    render(folder.0.path().to_str().unwrap(), &["this is a directory"]);
+    render(&folder.file("empty.obj", b""), &["empty.obj: the file is empty"]);
+    render(&folder.file("garbage.obj", &[0, 200, 3, 255, 0, 17]), &["garbage.obj"]);
+    render(&folder.file("garbage.ply", b"\x00\x01\x02 not ply"), &["garbage.ply: it does not begin like a PLY"]);
+    render(&folder.file("garbage.stl", &[7; 500]), &["garbage.stl: its header promises"]);
+    render(&folder.file("notes.txt", b"dear diary"), &["notes.txt: this is not a model"]);
+    render(&folder.file("cut.obj", b"v 0 0 0\nv 1 0 0\nv 0 1"), &["cut.obj: line 3: a vertex is not three numbers"]);
+    render(&folder.file("points.obj", b"v 0 0 0\nv 1 0 0\n"), &["points.obj: it holds 2 vertices but no faces"]);
+    render(&folder.file("line.obj", b"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), &["1 degenerate triangle"]);
+    render("builtin:unicorn", &["builtin:unicorn: there is no such built-in model", "builtin:bust"]);
+    assert!(!Path::new(&out).exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_model_without_permission_is_refused() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::new();
+    let model = folder.file("secret.obj", b"v 0 0 0\n");
+    std::fs::set_permissions(&model, std::fs::Permissions::from_mode(0o000)).unwrap();
+    if std::fs::read(&model).is_ok() {
+        eprintln!("SKIPPED a_model_without_permission_is_refused: the super-user may read everything");
+        return;
+    }
+    refused_in_one_line(&["render", &model, "-o", &folder.path("out.png")], &["secret.obj: it may not be read"]);
+}
+
+#[test]
+fn a_model_is_read_by_its_content_where_its_name_disagrees() {
+    let folder = Folder::new();
+    let ply = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    let model = folder.file("misnamed.obj", ply);
+    let output = tinta(&["render", &model, "-o", &folder.path("out.png"), "--size", "32"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("misnamed.obj: named OBJ but holds PLY"));
+}
+
+#[test]
+fn defects_are_said_once_and_refused_when_strict() {
+    let folder = Folder::new();
+    let model = folder.file("faulty.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\nf 1 2 3\nf 1 1 2\nf 1 2 99\n");
+    let out = folder.path("out.png");
+    let arguments = ["render", &model, "-o", &out, "--size", "32"];
+    let output = tinta(&arguments);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let counts = "1 degenerate triangle, 1 duplicate triangle, 1 face with an index out of range, 1 unused vertex";
+    assert!(said.contains(counts), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    refused_in_one_line(&["render", &model, "-o", &out, "--strict"], &["faulty.obj", counts, "--strict"]);
+}
+
+#[test]
+fn nonsensical_settings_are_refused_by_name() {
+    let folder = Folder::new();
+    let out = folder.path("out.png");
+    let render = |options: &[&str], words: &[&str]| {
+        let mut arguments = vec!["render", "builtin:open-box", "-o", &out];
+        arguments.extend(options);
+        refused(&arguments, words);
+    };
+    render(&["--size", "0x10"], &["--size"]);
+    render(&["--size", "100000x100000"], &["--size 100000x100000", "the largest picture"]);
+    render(&["--eye", "1,2,3", "--target", "1,2,3"], &["--eye and --target", "same point"]);
+    render(&["--up", "0,0,0"], &["--up"]);
+    render(&["--eye", "0,0,9", "--target", "0,0,0", "--up", "0,0,1"], &["--up", "along the view"]);
+    render(&["--fov", "180"], &["--fov 180"]);
+    render(&["--fov", "-1"], &["--fov -1"]);
+    render(&["--near", "5", "--far", "4"], &["--near 5 --far 4"]);
+    render(&["--near", "0"], &["--near"]);
+    render(&["--tones", "4"], &["--tones 4"]);
+    render(&["--tone-levels", "1,2"], &["--tone-levels", "3 numbers"]);
+    render(&["--detection-factor", "nan"], &["--detection-factor NaN"]);
+    render(&["--weld", "2"], &["--weld 2"]);
+    render(&["--smooth-angle", "181"], &["--smooth-angle 181"]);
+    render(&["--copies", "0"], &["--copies"]);
+    render(&["--style", "cubist"], &["cubist", "three-pass"]);
+    render(&["--background", "blurple"], &["blurple", "CSS name"]);
+    render(&["--transparent", "--style", "two-pass"], &["--transparent", "three-pass"]);
+    render(&["--show", "map", "--style", "phong"], &["--show", "phong has no map"]);
+    render(&["--show", "borders", "--no-borders"], &["--show borders", "--no-borders"]);
+    render(&["--no-such-option"], &["--no-such-option"]);
+    assert!(!Path::new(&out).exists());
+}
+
+#[test]
+fn outputs_are_checked_before_the_work_and_kept_when_it_fails() {
+    let folder = Folder::new();
+    refused_in_one_line(
+        &["render", "no-such.obj", "-o", "drawing.xyz"],
+        &["drawing.xyz: pictures are not written as .xyz"],
+    );
+    refused_in_one_line(
+        &["render", "builtin:ant", "-o", "no/such/a.png"],
+        &["no/such/a.png: the folder no/such is not there"],
+    );
+    refused_in_one_line(&["render", "builtin:ant", "-o", "a.jpg", "--transparent"], &["a.jpg", "no transparency"]);
+    let kept = folder.file("kept.png", b"what was there");
+    refused_in_one_line(&["render", "no-such.obj", "-o", &kept], &["no-such.obj"]);
+    assert_eq!(std::fs::read(&kept).unwrap(), b"what was there");
+}
+
+#[test]
+fn the_record_says_what_was_drawn_and_how_long_it_took() {
+    let folder = Folder::new();
+    let out = folder.path("out.png");
+    let options = ["--json", "--frames", "3", "--size", "80x60", "--view", "front", "--copies", "4"];
+    let mut arguments = vec!["render", "builtin:open-box", "-o", &out];
+    arguments.extend(options);
+    let output = tinta(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(record["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(record["models"][0]["path"], "builtin:open-box");
+    assert_eq!(record["models"][0]["triangles"], 10);
+    assert_eq!(record["models"][0]["vertices"], 8);
+    assert_eq!(record["triangles"], 40);
+    assert_eq!(record["style"]["name"], "three-pass");
+    assert_eq!(record["style"]["border"]["filter"], "laplacian4");
+    assert_eq!(record["size"], serde_json::json!({ "width": 80, "height": 60 }));
+    assert_eq!(record["camera"]["fov_y_degrees"], 30.0);
+    let passes: Vec<&str> = record["passes"].as_array().unwrap().iter().map(|p| p["name"].as_str().unwrap()).collect();
+    assert_eq!(passes, ["map", "tones", "border"]);
+    assert!(record["passes"][0]["cpu_ms"].as_f64().unwrap() > 0.0);
+    assert_eq!(record["frame_ms"]["all"].as_array().unwrap().len(), 3);
+    for key in ["load_ms", "context_ms", "first_frame_ms"] {
+        assert!(record[key].as_f64().unwrap() > 0.0, "{key}");
+    }
+    assert_eq!(record["gl"]["alpha_bits"], 8);
+    // The matrices are column by column: the view takes the eye to the origin, the projection the target to the middle.
+    let matrix = |name: &str| {
+        let numbers: Vec<f64> =
+            record["camera"][name].as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect();
+        glam::DMat4::from_cols_slice(&numbers)
+    };
+    let point = |name: &str| {
+        let numbers: Vec<f64> =
+            record["camera"][name].as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect();
+        glam::DVec3::from_slice(&numbers)
+    };
+    let eye = matrix("view_from_world").transform_point3(point("eye"));
+    assert!(eye.length() < 1e-9);
+    let middle = (matrix("clip_from_view") * matrix("view_from_world")).project_point3(point("target"));
+    assert!(middle.x.abs() < 1e-9 && middle.y.abs() < 1e-9 && middle.z.abs() < 1.0);
+}
+
+#[test]
+fn the_plan_is_explained_with_times() {
+    let folder = Folder::new();
+    let output = tinta(&["render", "builtin:open-box", "-o", &folder.path("a.png"), "--explain", "--size", "50"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    for words in ["pass 1: map", "copy the framebuffer", "evangelista/border.frag", "whole picture"] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+}
+
+#[test]
+fn a_dump_holds_every_step() {
+    let folder = Folder::new();
+    let steps = folder.path("steps");
+    let output = tinta(&["render", "builtin:ant", "-o", &folder.path("a.png"), "--size", "50", "--dump", &steps]);
+    assert_eq!(output.status.code(), Some(0));
+    let mut names: Vec<String> =
+        std::fs::read_dir(&steps).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names.first().unwrap(), "01-map-clear.png");
+    assert_eq!(names.last().unwrap(), "08-border-square.png");
+    let map = image::open(Path::new(&steps).join("04-map-copy.png")).unwrap();
+    assert_eq!(map.color(), image::ColorType::Rgba8);
+}
+
+#[test]
+fn info_lists_every_attempt_in_words_and_as_json() {
+    let text = String::from_utf8(tinta(&["info"]).stdout).unwrap();
+    assert!(text.contains("EGL device 0") && text.contains("OSMesa") && text.contains("largest picture"), "{text}");
+    let json: serde_json::Value = serde_json::from_slice(&tinta(&["info", "--json"]).stdout).unwrap();
+    let attempts = json["attempts"].as_array().unwrap();
+    assert!(attempts.len() >= 2);
+    let working = attempts.iter().find(|attempt| attempt["context"].is_object()).unwrap();
+    for key in ["vendor", "renderer", "version", "glsl_version", "alpha_bits", "depth_bits", "aliased_line_width"] {
+        assert!(!working["context"][key].is_null(), "{key}");
+    }
+}
+
+#[test]
+fn without_any_driver_the_sentence_says_what_was_tried_and_what_to_install() {
+    // A vendor folder without vendors leaves libEGL without a driver.
+    let folder = Folder::new();
+    let output = Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .args(["render", "builtin:ant", "--backend", "egl", "-o", &folder.path("a.png")])
+        .env("__EGL_VENDOR_LIBRARY_DIRS", folder.0.path())
+        .env_remove("__EGL_VENDOR_LIBRARY_FILENAMES")
+        .output()
+        .unwrap();
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("EGL") && message.contains("apt-get install"), "{message}");
+}
+
+#[test]
+fn help_states_every_default() {
+    let text = String::from_utf8(tinta(&["render", "--help"]).stdout).unwrap();
+    let options: Vec<&str> = text.lines().filter(|line| line.trim_start().starts_with("--")).collect();
+    assert!(options.len() > 25, "{text}");
+    let defaults = text.matches("[default").count();
+    // Every option but -o, -h states one.
+    assert!(defaults >= options.len() - 1, "{defaults} defaults for {} options:\n{text}", options.len());
+    assert!(text.contains("builtin:bust"));
+    assert_eq!(tinta(&["--help"]).status.code(), Some(0));
+    assert_eq!(tinta(&[]).status.code(), Some(2));
+}

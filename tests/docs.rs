@@ -1,0 +1,63 @@
+//! What the documents name exists: files, folders, options of the program.
+
+use crate::support::root;
+use std::path::PathBuf;
+use std::process::Command;
+
+fn documents() -> Vec<(PathBuf, String)> {
+    let mut paths = vec![root().join("README.md"), root().join("CHANGELOG.md"), root().join("models/SOURCES.md")];
+    paths.extend(std::fs::read_dir(root().join("docs")).unwrap().map(|file| file.unwrap().path()));
+    paths
+        .into_iter()
+        .filter(|path| path.extension().is_some_and(|extension| extension == "md"))
+        .map(|path| (path.clone(), std::fs::read_to_string(&path).unwrap()))
+        .collect()
+}
+
+/// The words of a document that stand in backquotes or as the target of a link.
+fn quoted(text: &str) -> Vec<String> {
+    let spans = text.split('`').skip(1).step_by(2).map(str::to_owned);
+    let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next()).map(str::to_owned);
+    spans.chain(links).collect()
+}
+
+#[test]
+fn every_path_named_in_the_documents_exists() {
+    let mut checked = 0;
+    for (document, text) in documents() {
+        for word in quoted(&text) {
+            let is_path =
+                ["src/", "glsl/", "models/", "tests/", "docs/", "scripts/", "benches/", "evangelista/", "phong/"]
+                    .iter()
+                    .any(|folder| word.starts_with(folder))
+                    && !word.contains([' ', '*', '…', '{', '<', '\n']);
+            if !is_path {
+                continue;
+            }
+            let word = word.split('#').next().unwrap_or_default();
+            let beside = document.parent().unwrap().join(word);
+            let found = [root().join(word), beside, root().join("glsl").join(word)].iter().any(|path| path.exists());
+            assert!(found, "{} names {word}, which is not there", document.display());
+            checked += 1;
+        }
+    }
+    assert!(checked > 20, "only {checked} paths were found to check");
+}
+
+#[test]
+fn every_option_named_in_the_documents_exists() {
+    let help = |command: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_tinta")).args([command, "--help"]).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let known = help("render") + &help("info");
+    for (document, text) in documents() {
+        for line in text.lines().filter(|line| line.contains("tinta ")) {
+            for option in line.split([' ', '`']).filter(|word| word.starts_with("--") && word.len() > 2) {
+                let option = option.trim_end_matches([',', '.', ';', ':', ')']);
+                let named = option.split('=').next().unwrap_or(option);
+                assert!(known.contains(named) || named == "--help", "{}: {named} in {line:?}", document.display());
+            }
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Memory and GL objects over many frames; in a process of its own, because other tests' memory would count too.
+
+use std::sync::Arc;
+use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
+
+/// Growth allowed over 1,000 frames, KiB: a frame that leaked one 64 x 64 RGBA picture would need 16,000.
+const ALLOWED_KIB: u64 = 1024;
+
+#[test]
+fn a_thousand_frames_leave_memory_and_objects_as_they_were() {
+    let mesh = load("builtin:ant", &LoadOptions::default()).unwrap().mesh;
+    let settings = SceneSettings { size: Size { width: 64, height: 64 }, ..SceneSettings::default() };
+    let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
+    for backend in [Backend::Egl, Backend::OsMesa] {
+        let mut renderer = Renderer::new(backend).unwrap_or_else(|error| panic!("{error}"));
+        let mut frames = |count| {
+            for (_, style) in StyleName::ALL {
+                let plan = Style::named(style).plan(&scene, Show::Final).unwrap();
+                renderer.time_frames(&scene, &plan, 0, count).unwrap();
+                renderer.time_passes(&scene, &plan, 2).unwrap();
+            }
+            renderer.live_objects()
+        };
+        let (objects, memory) = (frames(100), resident_kib());
+        assert!(objects > 0);
+        assert_eq!(frames(334), objects);
+        let grown = resident_kib().saturating_sub(memory);
+        assert!(grown < ALLOWED_KIB, "{backend:?}: 1,002 frames grew the process by {grown} KiB");
+    }
+}
+
+#[test]
+fn a_renderer_deletes_every_object_it_made() {
+    let scene_mesh = Arc::new(load("builtin:open-box", &LoadOptions::default()).unwrap().mesh);
+    let scene = Scene::new(vec![scene_mesh], &SceneSettings::default()).unwrap();
+    for backend in [Backend::Egl, Backend::OsMesa] {
+        let mut renderer = Renderer::new(backend).unwrap_or_else(|error| panic!("{error}"));
+        renderer.render(&scene, &Style::named(StyleName::ThreePass)).unwrap();
+        assert!(renderer.live_objects() >= 6, "a mesh's two buffers, the squares, the map, three programs");
+        assert_eq!(renderer.close(), 0);
+    }
+}
+
+/// Resident memory of this process.
+fn resident_kib() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap();
+    let line = status.lines().find(|line| line.starts_with("VmRSS:")).unwrap();
+    line.split_ascii_whitespace().nth(1).unwrap().parse().unwrap()
+}

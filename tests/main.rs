@@ -1,0 +1,9 @@
+//! Tests that need a GL context or the finished program. One binary, so that it links once.
+
+mod cli;
+mod docs;
+mod goldens;
+mod pipeline;
+mod shared_models;
+mod support;
+mod twin;
