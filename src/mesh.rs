@@ -67,6 +67,23 @@ pub struct Material {
 }
 
 impl Mesh {
+    /// One triangle in the plane z = 0, facing +z.
+    pub fn triangle() -> Self {
+        Self {
+            name: "a triangle".to_owned(),
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            file_vertices: vec![0, 1, 2],
+            triangles: vec![[0, 1, 2]],
+            normals: vec![Vec3::Z],
+            triangle_normals: vec![[0; 3]],
+            texture_coordinates: Vec::new(),
+            triangle_texture_coordinates: Vec::new(),
+            materials: Vec::new(),
+            triangle_materials: Vec::new(),
+            defects: Defects::default(),
+        }
+    }
+
     /// Smallest and largest corner of the axis-aligned bounding box, world space, file units.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         bounds(&self.positions)

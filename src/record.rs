@@ -41,7 +41,10 @@ pub struct Record {
     pub load_ms: f64,
     /// Opening the context; on its own thread beside the loading.
     pub context_ms: f64,
-    /// The first frame: uploads and the driver's compiling included.
+    /// Drawing one triangle while the models were still being read, so that the driver compiles its shaders meanwhile;
+    /// `null` where they were read before.
+    pub warm_up_ms: Option<f64>,
+    /// The first frame: uploads included, and the driver's compiling unless it was warmed up.
     pub first_frame_ms: f64,
     /// The frames after warm-up, read-back included.
     pub frame_ms: Summary,

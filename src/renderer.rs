@@ -1,14 +1,17 @@
 //! A GL context and what it holds: scenes and styles go in, pictures and times come out.
 
+use crate::camera::CameraSettings;
 use crate::error::{Error, Result};
 use crate::gl::context::{Context, Current};
 use crate::gl::execute::Resources;
 use crate::gl::{Backend, ContextInfo};
+use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::{Output, Plan, Step};
-use crate::scene::{Scene, Size};
+use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use serde::Serialize;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Draws scenes. Keeps meshes, shaders and textures between pictures; belongs to the thread that made it.
@@ -56,6 +59,19 @@ impl Renderer {
     /// What the context says about itself.
     pub fn context(&self) -> &ContextInfo {
         self.context.info()
+    }
+
+    /// Draws one triangle the way `style` will draw at this size, so that the driver compiles its shaders now: worth it while
+    /// a large model is still being read on another thread.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::render`].
+    pub fn warm_up(&mut self, settings: &SceneSettings, style: &Style, show: Show) -> Result<()> {
+        let camera = CameraSettings::default();
+        let scene =
+            Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings { copies: 1, camera, ..settings.clone() })?;
+        self.draw(&scene, &style.plan(&scene, show)?).map(drop)
     }
 
     /// Draws a scene in a style.

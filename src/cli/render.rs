@@ -210,25 +210,25 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     make_dump_folder(arguments)?;
     let style = arguments.style();
     let started = Instant::now();
-    // The context needs as long as a large model: both at once. The renderer stays on this thread, as GL wants.
-    let (renderer, context_ms, loaded, load_ms) = std::thread::scope(|scope| {
+    // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
+    let settings = arguments.scene_settings();
+    let (renderer, loaded, load_ms) = std::thread::scope(|scope| {
         let loading = scope.spawn(|| {
             let loaded = load_models(arguments);
             (loaded, milliseconds_since(started))
         });
-        let renderer = Renderer::new(arguments.run.backend);
-        let context_ms = milliseconds_since(started);
+        let renderer = open_renderer(arguments, &settings, &style, || loading.is_finished());
         match loading.join() {
-            Ok((loaded, load_ms)) => (renderer, context_ms, loaded, load_ms),
+            Ok((loaded, load_ms)) => (renderer, loaded, load_ms),
             Err(panic) => std::panic::resume_unwind(panic),
         }
     });
     let loaded = loaded?;
     loaded.iter().flat_map(|loaded| &loaded.remarks).for_each(|remark| super::say(&format!("tinta: {remark}")));
     let meshes = loaded.into_iter().map(|loaded| Arc::new(loaded.mesh)).collect();
-    let scene = Scene::new(meshes, &arguments.scene_settings())?;
+    let scene = Scene::new(meshes, &settings)?;
     let plan = style.plan(&scene, arguments.cartoon.show)?;
-    let mut renderer = renderer?;
+    let Opened { mut renderer, context_ms, warm_up_ms } = renderer?;
 
     let first_frame = Instant::now();
     let picture = renderer.draw(&scene, &plan)?;
@@ -268,9 +268,37 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         passes,
         load_ms,
         context_ms,
+        warm_up_ms,
         first_frame_ms,
         frame_ms: times,
     })
+}
+
+/// A renderer and how long it took to get ready.
+struct Opened {
+    renderer: Renderer,
+    context_ms: f64,
+    warm_up_ms: Option<f64>,
+}
+
+/// Opens the context and, if the models are not there yet, warms it up.
+fn open_renderer(
+    arguments: &Arguments,
+    settings: &SceneSettings,
+    style: &Style,
+    models_are_read: impl Fn() -> bool,
+) -> Result<Opened> {
+    let start = Instant::now();
+    let mut renderer = Renderer::new(arguments.run.backend)?;
+    let context_ms = milliseconds_since(start);
+    let warm_up_ms = if models_are_read() {
+        None
+    } else {
+        let start = Instant::now();
+        renderer.warm_up(settings, style, arguments.cartoon.show)?;
+        Some(milliseconds_since(start))
+    };
+    Ok(Opened { renderer, context_ms, warm_up_ms })
 }
 
 fn load_models(arguments: &Arguments) -> Result<Vec<Loaded>> {

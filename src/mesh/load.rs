@@ -177,11 +177,15 @@ fn check(options: &LoadOptions) -> Result<()> {
 
 fn read_file(path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     let bytes = fs::read(path).map_err(|error| Error::model(path, cannot_read(Path::new(path), &error)))?;
+    read_bytes(&bytes, path, remarks)
+}
+
+fn read_bytes(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     if bytes.is_empty() {
         return Err(Error::model(path, "the file is empty; export the model again"));
     }
     let named = Format::by_name(path);
-    let found = Format::by_content(&bytes);
+    let found = Format::by_content(bytes);
     let format = found
         .or(named)
         .ok_or_else(|| Error::model(path, "this is not a model in a format known here; use an OBJ, PLY or STL file"))?;
@@ -193,10 +197,10 @@ fn read_file(path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     match format {
         Format::Obj => {
             let folder = Path::new(path).parent().unwrap_or(Path::new("")).to_path_buf();
-            obj::read(&bytes, path, &obj::Materials::Beside(folder), remarks)
+            obj::read(bytes, path, &obj::Materials::Beside(folder), remarks)
         }
-        Format::Ply => ply::read(&bytes, path),
-        Format::Stl => stl::read(&bytes, path),
+        Format::Ply => ply::read(bytes, path),
+        Format::Stl => stl::read(bytes, path),
     }
 }
 
@@ -241,5 +245,80 @@ mod tests {
         let mut binary = vec![0u8; 84 + 50];
         binary[80] = 1;
         assert_eq!(Format::by_content(&binary), Some(Format::Stl));
+    }
+
+    /// Small valid files of every format, each with all that its reader knows.
+    fn valid_files() -> [(&'static str, Vec<u8>); 5] {
+        let obj =
+            "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -4//-1 -2 -1\n";
+        let header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
+            property list uchar int vertex_indices\nend_header\n";
+        let text_ply = format!("ply\nformat ascii 1.0\n{header}0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+        let mut binary_ply = format!("ply\nformat binary_little_endian 1.0\n{header}").into_bytes();
+        [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().for_each(|x| binary_ply.extend(x.to_le_bytes()));
+        binary_ply.push(3);
+        [0i32, 1, 2].iter().for_each(|index| binary_ply.extend(index.to_le_bytes()));
+        let text_stl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n\
+            endsolid a\n";
+        let mut binary_stl = vec![b' '; 80];
+        binary_stl.extend(1u32.to_le_bytes());
+        binary_stl.extend([0u8; 12]);
+        [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().for_each(|x| binary_stl.extend(x.to_le_bytes()));
+        binary_stl.extend([0u8; 2]);
+        [
+            ("a.obj", obj.into()),
+            ("t.ply", text_ply.into()),
+            ("b.ply", binary_ply),
+            ("t.stl", text_stl.into()),
+            ("b.stl", binary_stl),
+        ]
+    }
+
+    fn mesh_of(bytes: &[u8], name: &str) -> Result<Mesh> {
+        read_bytes(bytes, name, &mut Vec::new())?.into_mesh(name, &LoadOptions::default())
+    }
+
+    #[test]
+    fn the_valid_files_are_valid() {
+        for (name, bytes) in valid_files() {
+            let mesh = mesh_of(&bytes, name).unwrap();
+            assert!(mesh.defects.is_empty() || name == "a.obj", "{name}: {}", mesh.defects);
+        }
+    }
+
+    proptest::proptest! {
+        #![proptest_config(proptest::prelude::ProptestConfig::with_cases(4000))]
+
+        /// Changed bytes, inserted numbers, cut ends: a mesh of finite numbers or an error that names the file.
+        #[test]
+        fn damaged_files_give_a_sound_mesh_or_an_error_and_never_a_panic(
+            file in 0usize..5,
+            changes in proptest::collection::vec((0usize..400, proptest::num::u8::ANY), 0..6),
+            insertion in (0usize..400, proptest::sample::select(vec!["", "nan", "-1", "1e999", "4294967296", "\\\n", "\n", "/", "#"])),
+            keep in 0usize..400,
+        ) {
+            let (name, mut bytes) = valid_files()[file].clone();
+            for (place, byte) in changes {
+                let length = bytes.len();
+                bytes[place % length] = byte;
+            }
+            let place = insertion.0 % bytes.len();
+            bytes.splice(place..place, insertion.1.bytes());
+            if keep < bytes.len() {
+                bytes.truncate(keep);
+            }
+            match mesh_of(&bytes, name) {
+                Ok(mesh) => {
+                    assert!(mesh.positions.iter().all(|position| position.is_finite()));
+                    assert!(mesh.normals.iter().all(|normal| normal.is_finite()));
+                    let count = mesh.positions.len() as u32;
+                    assert!(mesh.triangles.as_flattened().iter().all(|index| *index < count));
+                    let normals = mesh.normals.len() as u32;
+                    assert!(mesh.triangle_normals.as_flattened().iter().all(|index| *index < normals));
+                    super::super::VertexArrays::new(&mesh, 1.0);
+                }
+                Err(error) => assert!(error.to_string().starts_with(name), "{error}"),
+            }
+        }
     }
 }
