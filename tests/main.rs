@@ -3,6 +3,7 @@
 mod cli;
 mod docs;
 mod goldens;
+mod licences;
 mod pipeline;
 mod shared_models;
 mod support;
