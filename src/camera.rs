@@ -3,7 +3,7 @@
 //! In: [`CameraSettings`] and the scene's points. Out: a [`Camera`] in world space, file units, y up.
 
 use crate::error::{Error, Result};
-use crate::tolerances::{CAMERA_ALIGNMENT, DEPTH_MARGIN, FRAME_FILL, NEAREST_FRACTION};
+use crate::tolerances::{CAMERA_ALIGNMENT, DEPTH_MARGIN, FRAME_FILL, LARGEST_COORDINATE, NEAREST_FRACTION, SAME_POINT};
 use glam::dcamera::rh::proj::opengl;
 use glam::dcamera::rh::view::look_at_mat4;
 use glam::{DMat4, DVec3};
@@ -184,7 +184,7 @@ impl CameraSettings {
             None => self.view.towards_eye(),
         };
         let scale = self.eye.map_or(1.0, |eye| eye.abs().max_element().max(target.abs().max_element()));
-        let Some(back) = towards_eye.try_normalize().filter(|_| towards_eye.length() > scale * 1e-12) else {
+        let Some(back) = towards_eye.try_normalize().filter(|_| towards_eye.length() > scale * SAME_POINT) else {
             return Err(Error::setting("--eye and --target", "they are the same point; move one of them"));
         };
         let up = self.up_for(back)?;
@@ -224,8 +224,9 @@ impl CameraSettings {
             ));
         }
         for (name, vector) in [("--eye", self.eye), ("--target", self.target), ("--up", self.up)] {
-            if vector.is_some_and(|vector| !vector.is_finite()) {
-                return Err(Error::setting(name, "its three numbers must be finite"));
+            let within = |vector: DVec3| vector.is_finite() && vector.abs().max_element() <= LARGEST_COORDINATE;
+            if vector.is_some_and(|vector| !within(vector)) {
+                return Err(Error::setting(name, format!("its three numbers must lie within {LARGEST_COORDINATE:e}")));
             }
         }
         for (name, distance) in [("--near", self.near), ("--far", self.far)] {
@@ -238,13 +239,13 @@ impl CameraSettings {
 
     /// The given up vector if it is one, else +y, else, looking straight down or up, the scene's back or front.
     fn up_for(&self, back: DVec3) -> Result<DVec3> {
-        let is_along_view = |up: DVec3| up.normalize().cross(back).length() < CAMERA_ALIGNMENT;
-        match self.up {
-            Some(up) if up == DVec3::ZERO => Err(Error::setting("--up", "a vector of length 0 points nowhere")),
-            Some(up) if is_along_view(up) => {
+        let is_along_view = |up: DVec3| up.cross(back).length() < CAMERA_ALIGNMENT;
+        match self.up.map(DVec3::try_normalize) {
+            Some(None) => Err(Error::setting("--up", "a vector of length 0 points nowhere")),
+            Some(Some(up)) if is_along_view(up) => {
                 Err(Error::setting("--up", "it points along the view; choose another direction"))
             }
-            Some(up) => Ok(up.normalize()),
+            Some(Some(up)) => Ok(up),
             None if is_along_view(DVec3::Y) => Ok(if back.y > 0.0 { DVec3::NEG_Z } else { DVec3::Z }),
             None => Ok(DVec3::Y),
         }
@@ -329,7 +330,10 @@ mod tests {
         let eye = Some(DVec3::new(0.0, 0.0, 5.0));
         assert!(refused(CameraSettings { eye, target: eye, ..base() }).contains("same point"));
         assert!(refused(CameraSettings { eye, up: Some(DVec3::Z), ..base() }).contains("along the view"));
-        assert!(refused(CameraSettings { up: Some(DVec3::ZERO), ..base() }).contains("--up"));
+        for length in [0.0, 1e-200, 1e200, f64::NAN] {
+            assert!(refused(CameraSettings { up: Some(DVec3::X * length), ..base() }).contains("--up"), "{length}");
+        }
+        assert!(refused(CameraSettings { eye: Some(DVec3::Z * 1e200), ..base() }).contains("--eye"));
         for fov_y_degrees in [0.0, -1.0, 180.0, f64::NAN] {
             assert!(refused(CameraSettings { fov_y_degrees, ..base() }).contains("--fov"));
         }

@@ -35,6 +35,8 @@ pub mod scene;
 pub mod styles;
 pub mod tolerances;
 
+mod names;
+
 pub use camera::{Camera, CameraSettings, View};
 pub use error::{Error, Result};
 pub use gl::Backend;

@@ -88,18 +88,16 @@ impl Mesh {
     pub fn bounds(&self) -> (DVec3, DVec3) {
         bounds(&self.positions)
     }
+}
 
-    /// The normal of a triangle's plane, world space, unit length; zero only if the triangle has no area in f64.
-    pub fn face_normal(&self, triangle: usize) -> DVec3 {
-        let [a, b, c] = self.triangles[triangle].map(|index| self.positions[index as usize]);
-        (b - a).cross(c - a).normalize_or_zero()
-    }
-
-    /// The material of a triangle.
-    pub fn material(&self, triangle: usize) -> Option<&Material> {
-        let index = *self.triangle_materials.get(triangle)?;
-        self.materials.get(index as usize)
-    }
+/// The unit normal of a triangle, counter-clockwise seen from its tip; `None` if it has no area.
+///
+/// Scaled before and after the product, so that neither tiny nor huge nor needle-thin triangles lose it to rounding alone.
+pub(crate) fn triangle_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+    let (first, second) = (b - a, c - a);
+    let scale = first.abs().max(second.abs()).max_element();
+    let product = (first / scale).cross(second / scale);
+    (product / product.abs().max_element()).try_normalize()
 }
 
 /// Smallest and largest corner of some points' bounding box; infinities, inverted, for no points.

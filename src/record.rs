@@ -2,7 +2,7 @@
 
 use crate::camera::Projection;
 use crate::gl::ContextInfo;
-use crate::mesh::Defects;
+use crate::mesh::{Defects, LoadOptions};
 use crate::renderer::{PassTime, median};
 use crate::scene::{Background, Color, Scene, Size};
 use crate::styles::{Show, Style};
@@ -15,6 +15,8 @@ pub struct Record {
     pub version: &'static str,
     /// The models in the order given, copies not repeated.
     pub models: Vec<ModelRecord>,
+    /// How they were read.
+    pub load: LoadOptions,
     /// How often the models are repeated.
     pub copies: u32,
     /// Triangles drawn, all copies together.
@@ -115,13 +117,13 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Summarises at least one time; `None` for none.
-    pub fn new(all: Vec<f64>) -> Option<Self> {
-        Some(Self {
-            median: median(all.clone())?,
-            min: all.iter().copied().fold(f64::INFINITY, f64::min),
-            max: all.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    /// Summarises times; zeros for none.
+    pub fn new(all: Vec<f64>) -> Self {
+        Self {
+            median: median(all.clone()).unwrap_or_default(),
+            min: all.iter().copied().min_by(f64::total_cmp).unwrap_or_default(),
+            max: all.iter().copied().max_by(f64::total_cmp).unwrap_or_default(),
             all,
-        })
+        }
     }
 }

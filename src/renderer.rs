@@ -122,6 +122,9 @@ impl Renderer {
     ///
     /// As [`Renderer::draw`].
     pub fn time_passes(&mut self, scene: &Scene, plan: &Plan, frames: usize) -> Result<Vec<PassTime>> {
+        if frames == 0 {
+            return Err(Error::setting("--frames 0", "at least one frame is needed to time one"));
+        }
         let has_timers = self.context.info().timer_queries;
         self.with_context(scene, plan, |frame| {
             let mut times: Vec<(Vec<f64>, Vec<f64>)> = vec![Default::default(); plan.passes.len()];
@@ -141,7 +144,7 @@ impl Renderer {
             }
             let row = |(pass, (cpu, gpu)): (&crate::plan::Pass, (Vec<f64>, Vec<f64>))| PassTime {
                 name: pass.name,
-                cpu_ms: median(cpu).unwrap_or(f64::NAN),
+                cpu_ms: median(cpu).unwrap_or_default(),
                 gpu_ms: median(gpu),
             };
             Ok(plan.passes.iter().zip(times).map(row).collect())
@@ -158,6 +161,8 @@ impl Renderer {
             let mut pictures = Vec::new();
             for (pass, step) in plan.steps() {
                 frame.resources.step(scene, step)?;
+                // Before reading: a copy that failed leaves a texture of another size.
+                frame.resources.check(pass)?;
                 match step {
                     Step::CopyFramebuffer => frame.resources.read_border_map(scene.size, frame.pixels),
                     Step::Clear { .. } | Step::Draw(_) => frame.resources.read_framebuffer(scene.size, frame.pixels),
@@ -191,10 +196,11 @@ impl Renderer {
     }
 
     fn release(&mut self) {
-        // If the context cannot be made current any more the driver is gone, and its objects with it.
-        let current = self.context.enter();
-        self.resources.clear();
-        drop(current);
+        match self.context.enter() {
+            Ok(_current) => self.resources.clear(),
+            // The driver is gone and its objects with it; deleting them now would be calling GL without a context.
+            Err(_) => self.resources.forget(),
+        }
     }
 
     fn with_context<T>(
@@ -205,13 +211,13 @@ impl Renderer {
     ) -> Result<T> {
         if self.size != Some(scene.size) {
             self.context.resize(scene.size)?;
-            self.size = Some(scene.size);
             let bytes = scene.size.pixel_count() * 4;
             self.pixels = Vec::new();
             self.pixels
                 .try_reserve_exact(bytes)
                 .map_err(|_| Error::gl("reading the picture back", "there is not enough memory"))?;
             self.pixels.resize(bytes, 0);
+            self.size = Some(scene.size);
         }
         let current: Current<'_> = self.context.enter()?;
         self.resources.prepare(scene, plan)?;
@@ -258,7 +264,8 @@ impl Drop for Renderer {
     }
 }
 
-fn milliseconds_since(start: Instant) -> f64 {
+/// Milliseconds by the clock since an instant.
+pub fn milliseconds_since(start: Instant) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
 }
 

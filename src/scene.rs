@@ -7,7 +7,7 @@
 use crate::camera::{Camera, CameraSettings};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, NONE, bounds};
-use crate::tolerances::SCENE_RADIUS;
+use crate::tolerances::{LARGEST_DISTANCE, SCENE_RADIUS};
 use glam::{DMat4, DVec3, Mat4};
 use serde::Serialize;
 use std::fmt;
@@ -74,8 +74,11 @@ impl Default for SceneSettings {
 /// The colour of models that bring none: a warm light clay on which all three tones show.
 pub const DEFAULT_COLOR: Color = Color([0.93, 0.74, 0.52]);
 
-/// Gap between copies on the grid, as a share of the models' size.
+/// Gap between copies on the grid, as a share of the models' largest extent.
 const COPY_GAP: f64 = 0.15;
+
+/// Most copies: each is drawn by itself in every pass.
+const LARGEST_COPIES: u32 = 100_000;
 
 /// Points looked at one by one to fit the camera; larger scenes are fitted by their objects' boxes.
 const FITTED_POINTS: usize = 4_000_000;
@@ -88,8 +91,11 @@ impl Scene {
     /// [`Error::Setting`] for what cannot be drawn: no mesh, no copy, a size of 0, a nonsensical camera, a scene whose
     /// coordinates are beyond [`SCENE_RADIUS`].
     pub fn new(meshes: Vec<Arc<Mesh>>, settings: &SceneSettings) -> Result<Self> {
-        if meshes.is_empty() || settings.copies == 0 {
-            return Err(Error::setting("--copies", "a scene needs at least one model and one copy of it"));
+        if meshes.is_empty() || !(1..=LARGEST_COPIES).contains(&settings.copies) {
+            return Err(Error::setting(
+                format!("--copies {}", settings.copies),
+                format!("a scene has at least one model and 1 to {LARGEST_COPIES} copies of it"),
+            ));
         }
         let Size { width, height } = settings.size;
         if width == 0 || height == 0 {
@@ -102,10 +108,14 @@ impl Scene {
         if !SCENE_RADIUS.contains(&radius) {
             return Err(Error::setting(
                 objects[0].mesh.name.clone(),
-                format!("the scene's radius is {radius:e}; scale the model to between 1e-120 and 1e120 units"),
+                format!(
+                    "the scene's radius is {radius:e}; scale the model to between {:e} and {:e} units",
+                    SCENE_RADIUS.start(),
+                    SCENE_RADIUS.end()
+                ),
             ));
         }
-        let aspect = f64::from(width) / f64::from(height);
+        let aspect = settings.size.aspect();
         let point_count: usize = objects.iter().map(|object| object.mesh.positions.len()).sum();
         let camera = if point_count <= FITTED_POINTS {
             let points = objects.iter().flat_map(|o| o.mesh.positions.iter().map(|point| *point + o.offset));
@@ -113,7 +123,7 @@ impl Scene {
         } else {
             settings.camera.fit(centre, radius, aspect, corners.iter().copied())?
         };
-        Ok(Self {
+        let scene = Self {
             objects,
             centre,
             radius,
@@ -122,7 +132,24 @@ impl Scene {
             background: settings.background,
             color: settings.color.unwrap_or(DEFAULT_COLOR),
             recolor: settings.color.is_some(),
-        })
+        };
+        scene.check_precision()?;
+        Ok(scene)
+    }
+
+    /// Refuses a camera whose matrices f32 cannot hold with the precision depth needs.
+    fn check_precision(&self) -> Result<()> {
+        let distance = (self.camera.eye - self.centre).length() / self.radius;
+        if distance > LARGEST_DISTANCE || !self.clip_from_view().is_finite() {
+            return Err(Error::setting(
+                "--fov, --eye, --near and --far",
+                format!(
+                    "the eye is {distance:.3e} scene radii away, more than the {LARGEST_DISTANCE:e} GL can resolve, or the \
+                     planes are too far apart; use --parallel, or bring them closer"
+                ),
+            ));
+        }
+        Ok(())
     }
 
     /// The matrix from a mesh's arrays (recentred on `mesh_centre`, in scene radii) to eye space, rigid.
@@ -174,7 +201,8 @@ impl Object {
 fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
     let all: Vec<DVec3> = meshes.iter().map(|mesh| mesh.bounds()).flat_map(|(low, high)| [low, high]).collect();
     let (low, high) = bounds(&all);
-    let step = (high - low) * (1.0 + COPY_GAP);
+    // Models that are flat along an axis would otherwise stand in one another.
+    let step = (high - low) + (high - low).max_element() * COPY_GAP;
     let columns = f64::from(copies).sqrt().ceil() as u32;
     (0..copies)
         .flat_map(|copy| {
@@ -314,6 +342,28 @@ mod tests {
                 assert!((a.x - b.x).abs() > size.x || (a.z - b.z).abs() > size.z);
             }
         }
+    }
+
+    #[test]
+    fn copies_of_a_flat_model_do_not_stand_in_one_another() {
+        let mut settings = SceneSettings { copies: 9, ..SceneSettings::default() };
+        let scene = Scene::new(vec![Arc::new(Mesh::triangle())], &settings).unwrap();
+        let rows: std::collections::BTreeSet<u64> = scene.objects.iter().map(|o| (-o.offset.z).to_bits()).collect();
+        assert_eq!(rows.len(), 3);
+        settings.copies = u32::MAX;
+        assert!(Scene::new(vec![Arc::new(Mesh::triangle())], &settings).is_err());
+    }
+
+    #[test]
+    fn a_camera_beyond_f32_is_refused_by_name() {
+        let refused = |camera: CameraSettings| {
+            let settings = SceneSettings { camera, ..SceneSettings::default() };
+            Scene::new(vec![Arc::new(Mesh::triangle())], &settings).unwrap_err().to_string()
+        };
+        let base = CameraSettings::default;
+        assert!(refused(CameraSettings { fov_y_degrees: 1e-160, ..base() }).contains("--fov"));
+        assert!(refused(CameraSettings { fov_y_degrees: 1e-6, ..base() }).contains("--parallel"));
+        assert!(refused(CameraSettings { eye: Some(DVec3::Z * 1e30), ..base() }).contains("--eye"));
     }
 
     #[test]

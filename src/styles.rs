@@ -17,6 +17,7 @@ pub use phong::Phong;
 pub use tones::{ToneLookup, Tones};
 
 use crate::error::Result;
+use crate::names::find;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use serde::Serialize;
@@ -120,12 +121,4 @@ impl FromStr for Show {
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         find(&Self::ALL, text)
     }
-}
-
-/// The value of a name in a table of names; the error lists them.
-fn find<T: Copy>(table: &[(&str, T)], text: &str) -> std::result::Result<T, String> {
-    table.iter().find(|(name, _)| *name == text).map(|(_, value)| *value).ok_or_else(|| {
-        let names: Vec<&str> = table.iter().map(|(name, _)| *name).collect();
-        format!("choose one of {}", names.join(", "))
-    })
 }

@@ -14,34 +14,39 @@ fn documents() -> Vec<(PathBuf, String)> {
         .collect()
 }
 
-/// The words of a document that stand in backquotes or as the target of a link.
-fn quoted(text: &str) -> Vec<String> {
-    let spans = text.split('`').skip(1).step_by(2).map(str::to_owned);
-    let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next()).map(str::to_owned);
-    spans.chain(links).collect()
+/// The words of a document that stand in backquotes and begin like a path of this project.
+fn quoted_paths(text: &str) -> Vec<&str> {
+    const FOLDERS: [&str; 9] =
+        ["src/", "glsl/", "models/", "tests/", "docs/", "scripts/", "benches/", "evangelista/", "phong/"];
+    text.split('`')
+        .skip(1)
+        .step_by(2)
+        .filter(|word| FOLDERS.iter().any(|folder| word.starts_with(folder)) && !word.contains([' ', '*', '…', '\n']))
+        .collect()
+}
+
+/// The targets of a document's links and pictures that are files of this project.
+fn link_targets(text: &str) -> Vec<&str> {
+    let targets = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next());
+    targets.filter(|target| !target.is_empty() && !target.contains("://")).collect()
 }
 
 #[test]
 fn every_path_named_in_the_documents_exists() {
     let mut checked = 0;
     for (document, text) in documents() {
-        for word in quoted(&text) {
-            let is_path =
-                ["src/", "glsl/", "models/", "tests/", "docs/", "scripts/", "benches/", "evangelista/", "phong/"]
-                    .iter()
-                    .any(|folder| word.starts_with(folder))
-                    && !word.contains([' ', '*', '…', '{', '<', '\n']);
-            if !is_path {
-                continue;
-            }
-            let word = word.split('#').next().unwrap_or_default();
-            let beside = document.parent().unwrap().join(word);
-            let found = [root().join(word), beside, root().join("glsl").join(word)].iter().any(|path| path.exists());
-            assert!(found, "{} names {word}, which is not there", document.display());
+        let folder = document.parent().unwrap();
+        for path in quoted_paths(&text) {
+            let found = [root().join(path), root().join("glsl").join(path)].iter().any(|path| path.exists());
+            assert!(found, "{} names {path}, which is not there", document.display());
+            checked += 1;
+        }
+        for target in link_targets(&text) {
+            assert!(folder.join(target).exists(), "{} links to {target}, which is not there", document.display());
             checked += 1;
         }
     }
-    assert!(checked > 20, "only {checked} paths were found to check");
+    assert!(checked > 60, "only {checked} paths were found to check");
 }
 
 #[test]

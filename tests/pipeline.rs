@@ -1,6 +1,6 @@
 //! The pipeline on real contexts: shaders compile, both backends agree, twins agree, nothing leaks, limits are kept.
 
-use crate::support::{BACKENDS, renderer, scene, scene_with, styles};
+use crate::support::{BACKENDS, renderer, scene, scene_with, skip, styles};
 use std::sync::Arc;
 use tinta::picture::Difference;
 use tinta::styles::{Border, Cartoon, Filter, ToneLookup, Tones};
@@ -25,7 +25,7 @@ fn egl_and_osmesa_of_one_mesa_draw_the_same_bytes() {
     let [mut egl, mut osmesa] = BACKENDS.map(renderer);
     if egl.context().version != osmesa.context().version {
         // Not a pass: said aloud, because only one and the same Mesa promises equal bytes.
-        eprintln!("SKIPPED egl_and_osmesa_of_one_mesa_draw_the_same_bytes: EGL is {:?}", egl.context().version);
+        skip(&format!("equal bytes of EGL and OSMesa: EGL is {}", egl.context().version));
         return;
     }
     for model in ["builtin:bust", "builtin:open-box", "builtin:ant", "builtin:gear"] {
@@ -149,6 +149,21 @@ fn without_the_background_square_two_pass_loses_ink_outside() {
     };
     let (with, without) = (ink(true), ink(false));
     assert!(without < with * 3 / 4, "{without} against {with} dark pixels");
+}
+
+#[test]
+fn the_background_square_hides_nothing_however_far_the_planes_are_apart() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let mut settings = SceneSettings { size: Size { width: 64, height: 64 }, ..SceneSettings::default() };
+    (settings.camera.near, settings.camera.far) = (Some(1e-4), Some(1e4));
+    let scene = scene_with("builtin:gear", settings);
+    let mut drawn = |background_square| {
+        let style = Style::ThreePass(Cartoon { background_square, border: None, ..Cartoon::default() });
+        renderer.render(&scene, &style).unwrap()
+    };
+    let (with, without) = (drawn(true), drawn(false));
+    assert!(without.pixels.chunks_exact(4).filter(|pixel| pixel[0] < 250).count() > 500);
+    assert_eq!(with.difference(&without), Some(EQUAL));
 }
 
 #[test]

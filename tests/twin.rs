@@ -5,9 +5,43 @@ use tinta::picture::write_rgba_png;
 use tinta::styles::{Border, Cartoon, Filter};
 use tinta::{Picture, Show, Style};
 
+/// The border at a pixel from the map around it, as the shaders define it but in f64: 0 none, 1 and more black.
+///
+/// `map(x, y)` is the map's four channels in [0, 1] at this offset in pixels, y up, clamped at the rim.
+fn response(border: &Border, map: impl Fn(i32, i32) -> [f64; 4]) -> f64 {
+    let factor = f64::from(border.detection_factor);
+    let channel = |channel: usize| {
+        let at = |x, y| map(x, y)[channel];
+        match border.filter {
+            Filter::Laplacian4 => ((4.0 * at(0, 0) - at(0, -1) - at(-1, 0) - at(1, 0) - at(0, 1)) * factor).abs(),
+            Filter::Laplacian8 => {
+                let block = (-1..=1).flat_map(|y| (-1..=1).map(move |x| (x, y)));
+                ((9.0 * at(0, 0) - block.map(|(x, y)| at(x, y)).sum::<f64>()) * factor).abs()
+            }
+            Filter::Mitchell => {
+                let corners = [(-1, -1), (1, -1), (-1, 1), (1, 1)];
+                corners.map(|(x, y)| (at(0, 0) - at(x, y)).abs()).iter().sum::<f64>() * factor.abs()
+            }
+            Filter::Sobel => {
+                let weight = |along: i32, across: i32| f64::from(along * (2 - across.abs()));
+                let block = (-1..=1).flat_map(|y| (-1..=1).map(move |x| (x, y)));
+                let (x, y) = block.fold((0.0, 0.0), |(sum_x, sum_y), (x, y)| {
+                    (sum_x + weight(x, y) * at(x, y), sum_y + weight(y, x) * at(x, y))
+                });
+                x.hypot(y) * factor.abs()
+            }
+            Filter::Roberts => {
+                let falling: f64 = at(0, 0) - at(1, 1);
+                falling.hypot(at(1, 0) - at(0, 1)) * factor.abs()
+            }
+        }
+    };
+    (0..4).map(channel).sum()
+}
+
 /// The border at a pixel from the dumped map; y is turned over, as GL's rows go up.
 fn border_at(border: &Border, map: &Picture, x: i64, y: i64) -> f64 {
-    border.response(|dx, dy| map.pixel(x + i64::from(dx), y - i64::from(dy)).map(|byte| f64::from(byte) / 255.0))
+    response(border, |dx, dy| map.pixel(x + i64::from(dx), y - i64::from(dy)).map(|byte| f64::from(byte) / 255.0))
 }
 
 /// Ink over a tone: black with the border as alpha, clamped as GL clamps.
@@ -78,4 +112,36 @@ fn the_twin_notices_a_filter_that_is_not_the_one_drawn() {
         })
         .fold(0.0, f64::max);
     assert!(worst > 20.0, "Sobel passes for the Laplacian: {worst}");
+}
+
+fn with(filter: Filter) -> Border {
+    Border { filter, detection_factor: 1.0 }
+}
+
+#[test]
+fn every_filter_is_silent_on_an_even_map_and_speaks_at_a_step() {
+    for (name, filter) in Filter::ALL {
+        assert!(response(&with(filter), |_, _| [0.3; 4]).abs() < 1e-12, "{name}");
+        let step = |x: i32, _| [f64::from(i32::from(x > 0)), 0.0, 0.0, 0.0];
+        assert!(response(&with(filter), step) > 0.5, "{name}");
+    }
+}
+
+#[test]
+fn only_the_laplacians_are_silent_on_a_ramp() {
+    let ramp = |x: i32, y: i32| [0.5 + 0.1 * f64::from(x) + 0.05 * f64::from(y), 0.0, 0.0, 0.0];
+    let on_ramp = |filter| response(&with(filter), ramp);
+    assert!(on_ramp(Filter::Laplacian4) < 1e-12);
+    assert!(on_ramp(Filter::Laplacian8) < 1e-12);
+    // Central differences of 0.2 and 0.1 weighted 1 + 2 + 1.
+    assert!((on_ramp(Filter::Sobel) - 0.8f64.hypot(0.4)).abs() < 1e-12);
+    assert!((on_ramp(Filter::Roberts) - 0.15f64.hypot(0.05)).abs() < 1e-12);
+    assert!((on_ramp(Filter::Mitchell) - 2.0 * (0.15 + 0.05)).abs() < 1e-12);
+}
+
+#[test]
+fn a_right_angle_is_forty_percent_black_with_the_papers_factor() {
+    // Errata E9: a crease between normals (0, 0, 1) and (1, 0, 0), seen on the z side.
+    let crease = |x: i32, _| if x > 0 { [1.0, 0.0, 0.0, 0.5] } else { [0.0, 0.0, 1.0, 0.5] };
+    assert!((response(&Border::default(), crease) - 0.4).abs() < 1e-7);
 }

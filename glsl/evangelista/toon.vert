@@ -4,11 +4,11 @@
 // Out: diffuse in [0, 1], reflectVec and viewVec (eye space), the object's colour.
 // Repaired: E1 (parentheses of the diffuse line), E3 (#version 120 for the f suffixes).
 
-varying float diffuse;
 varying vec3 reflectVec;
 varying vec3 viewVec;
+varying float diffuse;
 // Pode ser trocado para uniform
-const vec3 lightPos = vec3(1.0f, 1.0f, 1.0f);
+const vec3 lightPos = vec3(1.0f,1.0f,1.0f);
 void main() {
     vec3 normal=normalize(gl_NormalMatrix*gl_Normal);
     vec3 vertexPos=vec3(gl_ModelViewMatrix*gl_Vertex);

@@ -8,7 +8,7 @@ use tinta::mesh::load::Loaded;
 use tinta::mesh::{BUILTINS, Normals, UpAxis, load};
 use tinta::picture::write_rgba_png;
 use tinta::record::{CameraRecord, ModelRecord, Record, Summary};
-use tinta::renderer::PassTime;
+use tinta::renderer::{PassTime, milliseconds_since};
 use tinta::styles::{Border, Filter, ToneLookup};
 use tinta::{
     Backend, Background, CameraSettings, Color, Error, LoadOptions, Renderer, Result, Scene, SceneSettings, Show, Size,
@@ -51,7 +51,7 @@ pub struct Arguments {
     #[arg(long, value_name = "COLOUR")]
     color: Option<Color>,
 
-    /// Repeat the models on a square grid [default: 1]
+    /// Repeat the models on a square grid, up to 100000 times [default: 1]
     #[arg(long, value_name = "N", default_value = "1", hide_default_value = true)]
     copies: u32,
 
@@ -105,7 +105,7 @@ struct CameraArguments {
 }
 
 #[derive(clap::Args)]
-#[command(next_help_heading = "Cartoon styles (the defaults are the paper's)")]
+#[command(next_help_heading = "Cartoon styles (the defaults are the paper's; phong uses none of these)")]
 struct CartoonArguments {
     /// Number of tones, 1 to 3 [default: 3]
     #[arg(long, value_name = "N", default_value = "3", hide_default_value = true)]
@@ -156,7 +156,7 @@ struct ModelArguments {
     weld: f64,
 
     /// Normals: file (computed where it has none), smooth, flat [default: file]
-    #[arg(long, value_name = "WHERE", value_parser = parse_normals, default_value = "file", hide_default_value = true)]
+    #[arg(long, value_name = "WHERE", default_value = "file", hide_default_value = true)]
     normals: Normals,
 
     /// Largest angle between faces that computed normals round off, degrees [default: 60]
@@ -244,10 +244,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         return Ok(());
     }
     let frames = arguments.run.frames as usize;
-    let times = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?).ok_or_else(|| Error::Setting {
-        setting: "--frames".to_owned(),
-        problem: "at least one is drawn".to_owned(),
-    })?;
+    let times = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?);
     let passes = renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?;
     if arguments.run.explain {
         return super::print(&explanation(&plan, &passes, &times, frames));
@@ -255,6 +252,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     super::print_json(&Record {
         version: env!("CARGO_PKG_VERSION"),
         models: model_records(&scene, arguments.models.len()),
+        load: arguments.load_options(),
         copies: arguments.copies,
         triangles: scene.triangle_count(),
         style,
@@ -302,13 +300,7 @@ fn open_renderer(
 }
 
 fn load_models(arguments: &Arguments) -> Result<Vec<Loaded>> {
-    let options = LoadOptions {
-        weld: arguments.model.weld,
-        normals: arguments.model.normals,
-        smooth_angle_degrees: arguments.model.smooth_angle,
-        up_axis: arguments.model.up_axis,
-        strict: arguments.model.strict,
-    };
+    let options = arguments.load_options();
     arguments.models.iter().map(|path| load(path, &options)).collect()
 }
 
@@ -345,6 +337,16 @@ fn explanation(plan: &tinta::plan::Plan, passes: &[PassTime], times: &Summary, f
 }
 
 impl Arguments {
+    fn load_options(&self) -> LoadOptions {
+        LoadOptions {
+            weld: self.model.weld,
+            normals: self.model.normals,
+            smooth_angle_degrees: self.model.smooth_angle,
+            up_axis: self.model.up_axis,
+            strict: self.model.strict,
+        }
+    }
+
     fn scene_settings(&self) -> SceneSettings {
         SceneSettings {
             copies: self.copies,
@@ -416,15 +418,6 @@ fn parse_numbers<T: std::str::FromStr, const N: usize>(text: &str) -> std::resul
         .ok_or_else(|| format!("give {N} numbers with commas between them and no blanks"))
 }
 
-fn parse_normals(text: &str) -> std::result::Result<Normals, String> {
-    match text {
-        "file" => Ok(Normals::File),
-        "smooth" => Ok(Normals::Smooth),
-        "flat" => Ok(Normals::Flat),
-        _ => Err("choose one of file, smooth, flat".to_owned()),
-    }
-}
-
 fn parse_cull(text: &str) -> std::result::Result<bool, String> {
     match text {
         "none" => Ok(false),
@@ -441,6 +434,27 @@ fn parse_switch(text: &str) -> std::result::Result<bool, String> {
     }
 }
 
-fn milliseconds_since(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64() * 1e3
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        arguments: Arguments,
+    }
+
+    #[test]
+    fn without_options_the_command_line_means_the_librarys_defaults() {
+        let arguments = Line::try_parse_from(["tinta", "a.obj", "-o", "a.png"]).unwrap().arguments;
+        assert_eq!(arguments.style(), Style::named(StyleName::ThreePass));
+        assert_eq!(arguments.load_options(), LoadOptions::default());
+        let (asked, default) = (arguments.scene_settings(), SceneSettings::default());
+        assert_eq!(asked.camera, default.camera);
+        assert_eq!((asked.copies, asked.size), (default.copies, default.size));
+        assert_eq!((asked.background, asked.color), (default.background, default.color));
+        assert_eq!(arguments.run.backend, Backend::default());
+        assert_eq!(arguments.cartoon.show, Show::default());
+    }
 }

@@ -3,9 +3,10 @@
 mod egl;
 mod osmesa;
 
+use super::Gl;
 use super::legacy::{self, Legacy};
-use super::{Gl, execute};
 use crate::error::{Error, Result};
+use crate::names::find;
 use crate::scene::Size;
 use glow::HasContext;
 use serde::Serialize;
@@ -13,6 +14,9 @@ use std::cell::Cell;
 use std::ffi::{CStr, c_void};
 use std::rc::Rc;
 use std::str::FromStr;
+
+/// Fewest bits of the depth buffer: with fewer, surfaces of a fitted scene show through each other.
+const DEPTH_BITS: i32 = 24;
 
 /// Which way to take.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -36,11 +40,7 @@ impl FromStr for Backend {
     type Err = String;
 
     fn from_str(text: &str) -> std::result::Result<Self, String> {
-        Self::ALL
-            .iter()
-            .find(|(name, _)| *name == text)
-            .map(|(_, backend)| *backend)
-            .ok_or_else(|| "choose one of auto, egl, osmesa".to_owned())
+        find(&Self::ALL, text)
     }
 }
 
@@ -135,7 +135,7 @@ impl Candidate {
     fn name(&self) -> String {
         match self {
             Self::Egl(device) => device.name.clone(),
-            Self::OsMesa => "OSMesa".to_owned(),
+            Self::OsMesa => osmesa::name(),
             Self::Missing { device, .. } => device.clone(),
         }
     }
@@ -320,12 +320,10 @@ fn load_functions(
     if version < (2, 1) {
         return Err(format!("it is OpenGL {}, older than 2.1", info.version));
     }
-    if info.alpha_bits < 8 || info.depth_bits < execute::DEPTH_BITS {
+    if info.alpha_bits < 8 || info.depth_bits < DEPTH_BITS {
         return Err(format!(
-            "its framebuffer has {} alpha and {} depth bits, fewer than 8 and {}",
-            info.alpha_bits,
-            info.depth_bits,
-            execute::DEPTH_BITS
+            "its framebuffer has {} alpha and {} depth bits, fewer than 8 and {DEPTH_BITS}",
+            info.alpha_bits, info.depth_bits
         ));
     }
     Ok((gl, info))

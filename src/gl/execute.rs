@@ -7,15 +7,12 @@ use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Part, VertexArrays};
 use crate::plan::{self, Depth, Draw, Geometry, Plan, Step};
 use crate::scene::{Color, Scene, Size};
-use crate::tolerances::{BACKGROUND_DEPTH, BACKGROUND_DISTANCE};
+use crate::tolerances::BACKGROUND_DISTANCE;
 use glam::{DVec3, Mat4, Vec3, Vec4};
 use glow::HasContext;
 use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
-
-/// Fewest bits of the depth buffer: the background square and the cleared depth must differ.
-pub const DEPTH_BITS: i32 = 24;
 
 /// Indices after which the driver is told to begin: Mesa's software renderer collects triangles on one core until then
 /// and fills pixels on the others after it. 12,000 triangles take 15 % off the bunny's frame; a tenth of that costs more in
@@ -170,8 +167,8 @@ impl Resources {
             Geometry::Objects => self.draw_objects(scene),
             Geometry::BackgroundSquare { color } => {
                 let far_away = Mat4::from_translation(Vec3::new(0.0, 0.0, -BACKGROUND_DISTANCE));
-                // x and y as they are, depth constant: a parallel projection of a square that fills the picture.
-                let flat = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::ZERO, Vec4::new(0.0, 0.0, BACKGROUND_DEPTH, 1.0));
+                // x and y as they are, depth that of the far plane: a parallel projection that fills the picture.
+                let flat = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::ZERO, Vec4::new(0.0, 0.0, 1.0, 1.0));
                 self.draw_square(0, color, &far_away, &flat);
             }
             Geometry::ScreenSquare => self.draw_square(4, [1.0; 4], &Mat4::IDENTITY, &Mat4::IDENTITY),
@@ -318,6 +315,11 @@ impl Resources {
     /// Deletes everything; the context must be current.
     pub fn clear(&mut self) {
         *self = Self::new(&self.gl.clone());
+    }
+
+    /// Lets go of everything without a word to GL, for a context that is lost.
+    pub fn forget(&mut self) {
+        std::mem::forget(std::mem::replace(self, Self::new(&self.gl.clone())));
     }
 
     /// How many GL objects are alive.

@@ -37,7 +37,7 @@ pub struct Buffer {
 impl Buffer {
     /// Uploads bytes once, for drawing; `target` is GL_ARRAY_BUFFER or GL_ELEMENT_ARRAY_BUFFER.
     pub fn new(gl: &Rc<Gl>, target: u32, bytes: &[u8]) -> Result<Self> {
-        // SAFETY: the context is current while anything holds an `Rc<Gl>` to work with; the bytes outlive the call.
+        // SAFETY: the context is current, as it must be to call `Resources`' methods; the bytes outlive the call.
         unsafe {
             let id = gl.glow.create_buffer().map_err(out_of_names)?;
             let buffer = Self { live: Live::new(gl), id, target };
@@ -251,4 +251,38 @@ impl Drop for TimerQuery {
 
 fn one_line(log: &str) -> String {
     log.trim().lines().map(str::trim).collect::<Vec<_>>().join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gl::Backend;
+    use crate::gl::context::Context;
+
+    #[test]
+    fn dropping_the_owner_deletes_the_object() {
+        for backend in [Backend::Egl, Backend::OsMesa] {
+            let context = Context::open(backend).unwrap_or_else(|error| panic!("{error}"));
+            let _current = context.enter().unwrap();
+            let gl = context.gl();
+            let buffer = Buffer::new(gl, glow::ARRAY_BUFFER, &[0; 24]).unwrap();
+            let texture = Texture::new(gl, glow::TEXTURE_2D).unwrap();
+            let shaders = plan::Program { vertex: "evangelista/map.vert", fragments: vec!["evangelista/map.frag"] };
+            let program = Program::new(gl, &shaders).unwrap();
+            let query = TimerQuery::new(gl).unwrap();
+            query.begin();
+            query.end();
+            let (buffer_id, texture_id, program_id) = (buffer.id, texture.id, program.id);
+            // SAFETY: the context is current; asking after a name is safe whether or not it is alive.
+            let alive = || unsafe {
+                let glow = &gl.glow;
+                [glow.is_buffer(buffer_id), glow.is_texture(texture_id), glow.is_program(program_id)]
+            };
+            assert_eq!(alive(), [true; 3], "{backend:?}");
+            assert_eq!(gl.live_objects.get(), 4, "the shaders went with the linking");
+            drop((buffer, texture, program, query));
+            assert_eq!(alive(), [false; 3], "{backend:?}");
+            assert_eq!(gl.live_objects.get(), 0);
+        }
+    }
 }

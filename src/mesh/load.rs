@@ -2,6 +2,8 @@
 
 use super::{Mesh, builtin, obj, ply, soup::Soup, stl};
 use crate::error::{Error, Result};
+use crate::names::find;
+use crate::tolerances::{LARGEST_WELD, WELD};
 use glam::DVec3;
 use serde::Serialize;
 use std::{fs, path::Path, str::FromStr};
@@ -25,7 +27,7 @@ pub struct LoadOptions {
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self { weld: 1e-7, normals: Normals::File, smooth_angle_degrees: 60.0, up_axis: UpAxis::Y, strict: false }
+        Self { weld: WELD, normals: Normals::File, smooth_angle_degrees: 60.0, up_axis: UpAxis::Y, strict: false }
     }
 }
 
@@ -39,6 +41,19 @@ pub enum Normals {
     Smooth,
     /// Computed: each face its own.
     Flat,
+}
+
+impl Normals {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 3] = [("file", Self::File), ("smooth", Self::Smooth), ("flat", Self::Flat)];
+}
+
+impl FromStr for Normals {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        find(&Self::ALL, text)
+    }
 }
 
 /// The model's axis that shall point up.
@@ -63,6 +78,16 @@ pub enum UpAxis {
 }
 
 impl UpAxis {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 6] = [
+        ("x", Self::X),
+        ("y", Self::Y),
+        ("z", Self::Z),
+        ("-x", Self::MinusX),
+        ("-y", Self::MinusY),
+        ("-z", Self::MinusZ),
+    ];
+
     /// Rotates a vector so that this axis becomes +y; exact, components only change places and signs.
     pub fn to_y_up(self, v: DVec3) -> DVec3 {
         match self {
@@ -80,15 +105,7 @@ impl FromStr for UpAxis {
     type Err = String;
 
     fn from_str(text: &str) -> std::result::Result<Self, String> {
-        match text.strip_prefix('+').unwrap_or(text) {
-            "x" => Ok(Self::X),
-            "y" => Ok(Self::Y),
-            "z" => Ok(Self::Z),
-            "-x" => Ok(Self::MinusX),
-            "-y" => Ok(Self::MinusY),
-            "-z" => Ok(Self::MinusZ),
-            _ => Err("an axis is one of x, y, z, -x, -y, -z".to_owned()),
-        }
+        find(&Self::ALL, text)
     }
 }
 
@@ -160,10 +177,10 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
 }
 
 fn check(options: &LoadOptions) -> Result<()> {
-    if !(0.0..=0.1).contains(&options.weld) {
+    if !(0.0..=LARGEST_WELD).contains(&options.weld) {
         return Err(Error::setting(
             format!("--weld {}", options.weld),
-            "the tolerance is a share of the model's size from 0 to 0.1",
+            format!("the tolerance is a share of the model's size from 0 to {LARGEST_WELD}"),
         ));
     }
     if !(0.0..=180.0).contains(&options.smooth_angle_degrees) {

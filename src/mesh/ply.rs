@@ -16,12 +16,18 @@ pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
         ));
     }
     let mut reader = Reader::new(bytes);
+    let text = bytes[..bytes.len().min(256)].windows(12).any(|words| words == b"format ascii");
     let damaged = |error: ParseError| Error::Model {
         path: path.to_owned(),
-        line: error.line().map(|line| line as u64),
+        // In a binary file the crate counts elements, not lines.
+        line: error.line().filter(|_| text).map(|line| line as u64),
         problem: format!("it is damaged or cut off ({}); export it again", cause(&error)),
     };
     let header = Parser::<Ignored>::new().read_header(&mut reader).map_err(damaged)?;
+    // An element without properties takes no bytes, so any number of them fits into any file.
+    if header.elements.values().any(|element| element.properties.is_empty() && element.count > 0) {
+        return Err(Error::model(path, "its header has an element without properties; export it again"));
+    }
     let mut soup = Soup::default();
     let mut faces: Vec<Face> = Vec::new();
     for (name, element) in &header.elements {
@@ -73,9 +79,14 @@ fn add_faces(soup: &mut Soup, faces: &[Face]) {
     }
 }
 
-/// The crate's message without the line number it may repeat.
+/// The crate's message without the line number, which ours has, and without the line itself.
 fn cause(error: &ParseError) -> String {
-    error.to_string().replace('\n', " ")
+    let message = error.to_string();
+    let message = match message.strip_prefix("Line ").and_then(|rest| rest.split_once(": ")) {
+        Some((_, message)) => message,
+        None => &message,
+    };
+    message.lines().next().unwrap_or_default().trim_end_matches([':', '.']).chars().take(120).collect()
 }
 
 #[derive(Default)]
@@ -184,5 +195,8 @@ mod tests {
     fn a_header_that_promises_billions_is_refused_without_the_memory() {
         let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nend_header\nabc";
         assert!(read(text.as_bytes(), "t.ply").is_err());
+        let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nend_header\n";
+        let message = read(text.as_bytes(), "t.ply").unwrap_err().to_string();
+        assert!(message.contains("element without properties"), "{message}");
     }
 }

@@ -3,8 +3,9 @@
 //! The one place where all formats are treated alike: bad faces are dropped and counted, vertices welded, polygons
 //! cut into triangles, missing normals computed, unused vertices left out.
 
-use super::{Defects, LoadOptions, Material, Mesh, NONE, Normals, bounds, normals, triangulate, weld};
+use super::{Defects, LoadOptions, Material, Mesh, NONE, Normals, bounds, normals, triangle_normal, triangulate, weld};
 use crate::error::{Error, Result};
+use crate::tolerances::LARGEST_COORDINATE;
 use earcut::Earcut;
 use glam::{DVec3, Vec2, Vec3};
 
@@ -69,13 +70,14 @@ impl Soup {
         let mut defects = std::mem::take(&mut self.defects);
         defects.non_finite_vertices += finite.iter().filter(|finite| !**finite).count();
 
-        let welded = self.welded(&finite, options.weld);
+        let used = self.used(&finite);
+        let welded = self.welded(&used, options.weld, name)?;
         let mut pieces = self.triangulated(&finite, &welded, &mut defects);
         pieces.drop_duplicates(&mut defects);
         if pieces.triangles.is_empty() {
             return Err(nothing_to_draw(name, &self, &defects));
         }
-        defects.unused_vertices += self.unused(&finite);
+        defects.unused_vertices += finite.iter().zip(&used).filter(|(finite, used)| **finite && !**used).count();
 
         let (positions, file_vertices) = compact(&self.positions, &mut pieces.triangles);
         let mut mesh = Mesh {
@@ -104,12 +106,19 @@ impl Soup {
         Ok(mesh)
     }
 
-    /// For each vertex the one it is welded to, by a tolerance relative to the finite vertices' bounding-box diagonal.
-    fn welded(&self, finite: &[bool], tolerance: f64) -> Vec<u32> {
-        let points: Vec<DVec3> = self.positions.iter().zip(finite).filter(|(_, f)| **f).map(|(p, _)| *p).collect();
+    /// For each vertex the one it is welded to, by a tolerance relative to the used vertices' bounding-box diagonal; vertices
+    /// that nobody uses stay alone and do not count.
+    fn welded(&self, used: &[bool], tolerance: f64, name: &str) -> Result<Vec<u32>> {
+        let alone = DVec3::NAN;
+        let points: Vec<DVec3> =
+            self.positions.iter().zip(used).map(|(p, used)| if *used { *p } else { alone }).collect();
         let (low, high) = bounds(&points);
-        let diagonal = (high - low).length();
-        weld::weld(&self.positions, if diagonal.is_finite() { tolerance * diagonal } else { 0.0 })
+        if points.iter().any(|point| point.abs().max_element() > LARGEST_COORDINATE) {
+            let problem = format!("its coordinates reach beyond {LARGEST_COORDINATE:e}; scale it down");
+            return Err(Error::model(name, problem));
+        }
+        let diagonal = if low.cmple(high).all() { (high - low).length() } else { 0.0 };
+        Ok(weld::weld(&points, tolerance * diagonal))
     }
 
     /// All triangles with area, over welded but not yet renumbered positions.
@@ -146,20 +155,16 @@ impl Soup {
         if a == b || b == c || c == a {
             return false;
         }
-        let [a, b, c] = [a, b, c].map(|index| self.positions[index as usize]);
-        let (first, second) = (b - a, c - a);
-        // Scaled by the longer side, so that the product neither overflows nor vanishes for its size alone.
-        let scale = first.abs().max(second.abs()).max_element();
-        (first / scale).cross(second / scale) != DVec3::ZERO
+        triangle_normal([a, b, c].map(|index| self.positions[index as usize])).is_some()
     }
 
-    /// How many finite vertices no polygon names.
-    fn unused(&self, finite: &[bool]) -> usize {
+    /// Which vertices are finite and named by a polygon.
+    fn used(&self, finite: &[bool]) -> Vec<bool> {
         let mut used = vec![false; self.positions.len()];
         for corner in &self.corners {
-            used[corner.position as usize] = true;
+            used[corner.position as usize] = finite[corner.position as usize];
         }
-        used.iter().zip(finite).filter(|(used, finite)| !**used && **finite).count()
+        used
     }
 }
 
@@ -325,11 +330,34 @@ mod tests {
 
     #[test]
     fn a_tiny_triangle_has_area_and_a_huge_one_too() {
-        for size in [1e-160, 1e-30, 1.0, 1e30, 1e150] {
+        for size in [1e-160, 1e-30, 1.0, 1e30, 1e59] {
             let positions = [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p * size).to_vec();
             let soup = Soup { positions, corners: (0..3).map(Corner::at).collect(), ..Soup::default() };
-            assert_eq!(mesh(soup).triangles.len(), 1, "size {size}");
+            assert_eq!(mesh(soup).normals, [Vec3::Z; 3], "size {size}");
         }
+    }
+
+    #[test]
+    fn a_stray_vertex_does_not_weld_a_far_away_model_together() {
+        let mut soup = square();
+        soup.positions.iter_mut().for_each(|position| *position += DVec3::new(5e5, 4.6e6, 0.0));
+        soup.positions.push(DVec3::ZERO);
+        let mesh = mesh(soup);
+        assert_eq!((mesh.triangles.len(), mesh.defects.unused_vertices), (2, 1));
+    }
+
+    #[test]
+    fn needles_have_unit_normals_and_coordinates_beyond_reason_are_refused() {
+        let soup = |points: [DVec3; 3]| Soup {
+            positions: points.to_vec(),
+            corners: (0..3).map(Corner::at).collect(),
+            ..Soup::default()
+        };
+        let needle = mesh(soup([DVec3::ZERO, DVec3::X, DVec3::new(0.5, 1e-200, 0.0)]));
+        assert_eq!(needle.normals, [Vec3::Z; 3]);
+        let huge = soup([DVec3::ZERO, DVec3::X * 1e200, DVec3::Y]);
+        let message = huge.into_mesh("huge.obj", &LoadOptions::default()).unwrap_err().to_string();
+        assert!(message.starts_with("huge.obj: its coordinates reach beyond"), "{message}");
     }
 
     #[test]

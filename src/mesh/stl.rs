@@ -28,19 +28,15 @@ fn facet_count(bytes: &[u8]) -> Option<usize> {
 /// Reads an STL file's bytes. `path` is for messages.
 pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
     let damaged = |error: std::io::Error| Error::model(path, format!("it is damaged ({error}); export it again"));
-    let mut whole;
-    if is_binary(bytes) {
+    let mut non_finite = Vec::new();
+    let whole = if is_binary(bytes) {
         // Keeps stl_io from taking a binary file whose header begins with "solid " for text.
-        whole = bytes.to_vec();
-        whole[..5].fill(b' ');
+        [b"     ", &bytes[5..]].concat()
     } else if is_text(&bytes[..bytes.len().min(4096)]) {
-        // stl_io wants a blank behind "solid", which nameless files lack.
-        let first_line = bytes.iter().position(|byte| *byte == b'\n').map_or(bytes.len(), |end| end + 1);
-        whole = b"solid x\n".to_vec();
-        whole.extend_from_slice(&bytes[first_line..]);
+        one_solid(&String::from_utf8_lossy(bytes), path, &mut non_finite)?.into_bytes()
     } else {
         return Err(Error::model(path, truncated(bytes)));
-    }
+    };
     let mut cursor = Cursor::new(whole);
     let mut soup = Soup::default();
     for facet in stl_io::create_stl_reader(&mut cursor).map_err(damaged)? {
@@ -49,7 +45,36 @@ pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
             soup.positions.push(DVec3::from_array(vertex.0.map(f64::from)));
         }
     }
+    non_finite.into_iter().for_each(|index: usize| soup.positions[index] = DVec3::NAN);
     Ok(soup)
+}
+
+/// Text STL the way stl_io wants it: one named solid without facet normals, and without numbers that are not finite, whose
+/// vertices are noted instead. stl_io reads the first solid of a file only and stops at the first normal that is not one.
+fn one_solid(text: &str, path: &str, non_finite: &mut Vec<usize>) -> Result<String> {
+    let mut whole = "solid x\n".to_owned();
+    let mut vertex_count = 0;
+    let mut last = "";
+    for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
+        let mut words = line.split_whitespace();
+        last = words.next().unwrap_or_default();
+        match last {
+            "solid" | "endsolid" => continue,
+            "facet" => whole.push_str("facet normal 0 0 0"),
+            "vertex" if words.by_ref().filter_map(|word| word.parse::<f32>().ok()).any(|x| !x.is_finite()) => {
+                non_finite.push(vertex_count);
+                whole.push_str("vertex 0 0 0");
+            }
+            _ => whole.push_str(line),
+        }
+        vertex_count += usize::from(last == "vertex");
+        whole.push('\n');
+    }
+    if last != "endsolid" {
+        return Err(Error::model(path, "it does not end with endsolid; it is damaged or cut off, export it again"));
+    }
+    whole.push_str("endsolid x\n");
+    Ok(whole)
 }
 
 fn truncated(bytes: &[u8]) -> String {
@@ -99,6 +124,19 @@ mod tests {
             let soup = read(text.as_bytes(), "t.stl").unwrap();
             assert_eq!(soup.positions[2], DVec3::new(0.0, 1.0, 0.5));
         }
+    }
+
+    #[test]
+    fn all_solids_of_a_text_file_are_read_whatever_their_normals() {
+        let solid = |x: &str| {
+            format!(
+                "solid a\nfacet normal nan nan nan\nouter loop\nvertex {x} 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"
+            )
+        };
+        let soup = read((solid("2") + &solid("inf")).as_bytes(), "t.stl").unwrap();
+        assert_eq!(soup.positions.len(), 6);
+        assert_eq!(soup.positions[0].x, 2.0);
+        assert!(soup.positions[3].is_nan());
     }
 
     #[test]

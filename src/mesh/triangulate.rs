@@ -14,6 +14,7 @@ pub fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u
         0..=2 => {}
         3 => out.push([0, 1, 2]),
         count => {
+            let corners = &of_size_one(corners);
             let normal = newell_normal(corners);
             if normal == DVec3::ZERO || is_convex(corners, normal) {
                 out.extend((1..count as u32 - 1).map(|i| [0, i, i + 1]));
@@ -25,6 +26,13 @@ pub fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u
             }
         }
     }
+}
+
+/// The corners moved to the first one and scaled, so that products of lengths stay ordinary numbers.
+fn of_size_one(corners: &[DVec3]) -> Vec<DVec3> {
+    let size = corners.iter().map(|corner| (corner - corners[0]).abs().max_element()).fold(0.0, f64::max);
+    let scale = if size > 0.0 { size } else { 1.0 };
+    corners.iter().map(|corner| (corner - corners[0]) / scale).collect()
 }
 
 /// Twice the polygon's area as a vector along its normal.
@@ -90,12 +98,13 @@ mod tests {
         // An L of area 3 in a tilted plane, entered at the corner from which a fan would leave the polygon.
         let flat = [(1.0, 1.0), (1.0, 2.0), (0.0, 2.0), (0.0, 0.0), (2.0, 0.0), (2.0, 1.0)];
         let (u, v) = (DVec3::new(0.6, 0.8, 0.0), DVec3::new(-0.48, 0.36, 0.8));
-        for start in 0..flat.len() {
+        for (start, size) in (0..flat.len()).flat_map(|start| [(start, 1.0), (start, 1e-60)]) {
             let corners: Vec<DVec3> =
-                (0..flat.len()).map(|i| flat[(start + i) % flat.len()]).map(|(x, y)| u * x + v * y).collect();
+                (0..flat.len()).map(|i| flat[(start + i) % flat.len()]).map(|(x, y)| (u * x + v * y) * size).collect();
             let triangles = cut(&corners);
             let (sum, total) = area_vector(&corners, &triangles);
             assert_eq!(triangles.len(), 4);
+            let (sum, total) = (sum / size / size, total / size / size);
             assert!((total - 3.0).abs() < 1e-12, "area {total}");
             assert!(sum.distance(u.cross(v) * 3.0) < 1e-12, "orientation {sum}");
         }

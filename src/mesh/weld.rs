@@ -3,6 +3,7 @@
 //! In: points and a distance. Out: for each point the first point (in the given order) it is welded to.
 //! A sweep along one skew direction: a hash grid would be faster on huge clouds but needs 27 look-ups a point.
 
+use crate::tolerances::SWEEP_ROUNDING;
 use glam::DVec3;
 
 /// A direction no regular grid is aligned with, so that a flat or gridded model does not put all points in one window.
@@ -21,9 +22,8 @@ pub fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
         .collect();
     // Ties go by index, so that the result does not depend on the sort.
     sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    // The direction is no longer than 1.01, and rounding moves a projection by parts in 1e15 of its size.
     let largest = sweep.first().map_or(0.0, |first| first.0.abs()).max(sweep.last().map_or(0.0, |last| last.0.abs()));
-    let reach = distance * SWEEP_DIRECTION.length() + largest * 4.0 * f64::EPSILON;
+    let reach = distance * SWEEP_DIRECTION.length() + largest * SWEEP_ROUNDING;
     let mut window_start = 0;
     for current in 0..sweep.len() {
         let (along, index) = sweep[current];

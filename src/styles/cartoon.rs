@@ -137,23 +137,22 @@ impl Cartoon {
 
     /// Step 1: normals and depth into the framebuffer and, to be read later, into a texture.
     fn map_pass(&self, scene: &Scene, copy: bool) -> Pass {
-        let draw = |geometry| {
-            Step::Draw(Draw {
-                geometry,
-                program: map_program(),
-                uniforms: Vec::new(),
-                textures: Vec::new(),
-                depth: Depth::TestAndWrite,
-                blend: false,
-                cull_back_faces: self.cull_back_faces,
-            })
+        let draw = |geometry| Draw {
+            geometry,
+            program: map_program(),
+            uniforms: Vec::new(),
+            textures: Vec::new(),
+            depth: Depth::TestAndWrite,
+            blend: false,
+            cull_back_faces: self.cull_back_faces,
         };
         let mut steps = vec![Step::Clear { color: EMPTY_MAP }];
         if self.background_square {
             let [red, green, blue, _] = scene.background.clear_color();
-            steps.push(draw(Geometry::BackgroundSquare { color: [red, green, blue, 1.0] }));
+            let square = draw(Geometry::BackgroundSquare { color: [red, green, blue, 1.0] });
+            steps.push(Step::Draw(Draw { depth: Depth::Ignore, ..square }));
         }
-        steps.push(draw(Geometry::Objects));
+        steps.push(Step::Draw(draw(Geometry::Objects)));
         if copy {
             steps.push(Step::CopyFramebuffer);
         }
@@ -186,7 +185,9 @@ impl Cartoon {
         let color = scene.background.clear_color();
         let mut steps = vec![Step::Clear { color }];
         if self.background_square && scene.background != Background::Transparent {
-            steps.push(Step::Draw(Draw { geometry: Geometry::BackgroundSquare { color }, ..draw(true) }));
+            let geometry = Geometry::BackgroundSquare { color };
+            // It follows the clear and is behind everything, so it needs no depth.
+            steps.push(Step::Draw(Draw { geometry, depth: Depth::Ignore, ..draw(true) }));
         }
         steps.push(Step::Draw(draw(false)));
         steps

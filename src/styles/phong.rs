@@ -28,10 +28,10 @@ impl Default for Phong {
 impl Phong {
     /// One pass: clear and draw.
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
-        if !matches!(show, Show::Final | Show::Tones) {
+        if show != Show::Final {
             return Err(Error::setting(
                 "--show",
-                "the style phong has no map and no borders; choose three-pass or two-pass, or show final",
+                "the style phong has no map, tones or borders; choose three-pass or two-pass, or show final",
             ));
         }
         let uniform = |name, value| Uniform { name, value: Value::Float(value) };

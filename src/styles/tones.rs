@@ -1,7 +1,7 @@
 //! The tones of the cartoon styles: which light gets which of one, two or three levels (section 3.2, figure 5).
 
-use super::find;
 use crate::error::{Error, Result};
+use crate::names::find;
 use crate::plan::{Texture, ToneTable, Uniform, Value};
 use serde::Serialize;
 use std::str::FromStr;
@@ -72,16 +72,11 @@ impl Tones {
         if !(1..=3).contains(&self.count) {
             return Err(Error::setting(format!("--tones {}", self.count), "there are 1, 2 or 3 tones"));
         }
-        for (option, value) in [
-            ("--tone-thresholds", self.diffuse_threshold),
-            ("--tone-thresholds", self.specular_threshold),
-            ("--tone-levels", self.levels[0]),
-            ("--tone-levels", self.levels[1]),
-            ("--tone-levels", self.levels[2]),
-        ] {
-            if !value.is_finite() {
-                return Err(Error::setting(format!("{option} {value}"), "its numbers must be finite"));
-            }
+        if [self.diffuse_threshold, self.specular_threshold].iter().any(|threshold| !threshold.is_finite()) {
+            return Err(Error::setting("--tone-thresholds", "its numbers must be finite"));
+        }
+        if self.levels.iter().any(|level| !(0.0..=1.0).contains(level)) {
+            return Err(Error::setting("--tone-levels", "a level is a share of the colour from 0 to 1"));
         }
         Ok(())
     }
@@ -142,7 +137,7 @@ impl Tones {
     /// The table, where one is read.
     pub(super) fn table(&self) -> Option<ToneTable> {
         (self.lookup == ToneLookup::Texture).then(|| {
-            let byte = |level: f32| (level.clamp(0.0, 1.0) * 255.0).round() as u8;
+            let byte = |level: f32| (level * 255.0).round() as u8;
             let [_, specular_threshold] = self.thresholds();
             let texel = |index: usize| {
                 let light = index as f32 / (TABLE_SIZE - 1) as f32;

@@ -16,6 +16,8 @@ type GetProcAddress = unsafe extern "C" fn(*const c_char) -> *const c_void;
 
 /// The functions of the library used here.
 struct Functions {
+    /// The library's file name.
+    library: &'static str,
     create_context: CreateContext,
     destroy_context: DestroyContext,
     make_current: MakeCurrent,
@@ -31,25 +33,31 @@ fn functions() -> Result<&'static Functions, String> {
     FUNCTIONS.get_or_init(load).as_ref().map_err(Clone::clone)
 }
 
+/// For people: OSMesa and the library it is.
+pub fn name() -> String {
+    functions().map_or("OSMesa".to_owned(), |functions| format!("OSMesa {}", functions.library))
+}
+
 fn load() -> Result<Functions, String> {
     let mut reasons = Vec::new();
     for name in LIBRARIES {
         // SAFETY: loading Mesa runs its initialisers, which have no preconditions.
         match unsafe { Library::new(name) } {
             // The library stays for the life of the process.
-            Ok(library) => return find_functions(Box::leak(Box::new(library))),
+            Ok(library) => return find_functions(name, Box::leak(Box::new(library))),
             Err(error) => reasons.push(error.to_string()),
         }
     }
     Err(format!("the library is not there ({})", reasons[0]))
 }
 
-fn find_functions(library: &'static Library) -> Result<Functions, String> {
+fn find_functions(name: &'static str, library: &'static Library) -> Result<Functions, String> {
     let missing = |error: libloading::Error| format!("the library lacks a function ({error})");
     // SAFETY: the symbols are those of Mesa's osmesa.h, of the types given there.
     unsafe {
         let get = |name: &[u8]| library.get::<*const c_void>(name).map(|symbol: Symbol<'_, *const c_void>| *symbol);
         Ok(Functions {
+            library: name,
             create_context: std::mem::transmute::<*const c_void, CreateContext>(
                 get(b"OSMesaCreateContextAttribs\0").map_err(missing)?,
             ),
