@@ -3,7 +3,9 @@
 //! In: [`CameraSettings`] and the scene's points. Out: a [`Camera`] in world space, file units, y up.
 
 use crate::error::{Error, Result};
-use crate::tolerances::{CAMERA_ALIGNMENT, DEPTH_MARGIN, FRAME_FILL, LARGEST_COORDINATE, NEAREST_FRACTION, SAME_POINT};
+use crate::tolerances::{
+    CAMERA_ALIGNMENT, DEPTH_MARGIN, FRAME_FILL, LARGEST_COORDINATE, LARGEST_DISTANCE, NEAREST_FRACTION, SAME_POINT,
+};
 use glam::dcamera::rh::proj::opengl;
 use glam::dcamera::rh::view::look_at_mat4;
 use glam::{DMat4, DVec3};
@@ -211,6 +213,12 @@ impl CameraSettings {
                 needed.fold(0.0, f64::max).max(radius * NEAREST_FRACTION)
             }
         };
+        if self.eye.is_none() && distance.is_nan() | (distance > LARGEST_DISTANCE * radius) {
+            return Err(Error::setting(
+                format!("--fov {}", self.fov_y_degrees),
+                "so small an angle puts the eye too far away for GL's numbers; use --parallel instead",
+            ));
+        }
         let (near, far) = self.depth_range(distance, radius, frame.map(|p| distance - p.z))?;
         let eye = self.eye.unwrap_or(target + back * distance);
         Ok(Camera { eye, target, up, projection, near, far })
@@ -258,8 +266,9 @@ impl CameraSettings {
         // Everything behind the eye: any range will do, the picture is empty.
         let fitted_far = if farthest + margin > 0.0 { farthest + margin } else { distance + radius };
         let far = self.far.unwrap_or(fitted_far.max(self.near.map_or(0.0, |near| near * 2.0)));
-        let fitted_near =
-            if nearest - margin > far * NEAREST_FRACTION { nearest - margin } else { far * NEAREST_FRACTION };
+        // By the fitted far plane: one given far away must not push the near plane into the scene.
+        let least_near = far.min(fitted_far) * NEAREST_FRACTION;
+        let fitted_near = (nearest - margin).max(least_near);
         let near = self.near.unwrap_or(if fitted_near < far { fitted_near } else { far * 0.5 });
         if near >= far {
             return Err(Error::setting(
@@ -342,6 +351,17 @@ mod tests {
         assert!(refused(CameraSettings { eye: Some(DVec3::NAN), ..base() }).contains("--eye"));
         for view in ["sideways", "1", "1,2,3", "0,91", "nan,0"] {
             assert!(view.parse::<View>().is_err(), "{view}");
+        }
+    }
+
+    #[test]
+    fn a_far_plane_given_far_away_cuts_nothing_off() {
+        let points = box_corners(DVec3::ONE, DVec3::ZERO);
+        for far in [1e3, 1e6, 1e9] {
+            let camera = fit(&CameraSettings { far: Some(far), ..CameraSettings::default() }, &points, 1.0).unwrap();
+            let nearest =
+                points.iter().map(|point| -camera.view_from_world().transform_point3(*point).z).fold(far, f64::min);
+            assert!(camera.near < nearest, "near plane {} but the scene begins at {nearest}", camera.near);
         }
     }
 

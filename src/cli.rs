@@ -30,15 +30,34 @@ enum Command {
 
 /// Parses the command line and does what it says.
 pub fn run() -> Result<()> {
-    match Arguments::parse().command {
+    let arguments = Arguments::try_parse().map_err(|error| {
+        use clap::error::ErrorKind::{DisplayHelp, DisplayHelpOnMissingArgumentOrSubcommand, DisplayVersion};
+        if matches!(error.kind(), DisplayHelp | DisplayVersion | DisplayHelpOnMissingArgumentOrSubcommand) {
+            error.exit();
+        }
+        Error::CommandLine { problem: in_one_sentence(&error) }
+    })?;
+    match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
 }
 
+/// clap's message without its usage lines and hints, which `--help` has.
+fn in_one_sentence(error: &clap::Error) -> String {
+    let text = error.to_string();
+    let paragraph = text.split("\n\n").next().unwrap_or_default();
+    let words: Vec<&str> = paragraph.split_whitespace().collect();
+    let sentence = words.join(" ");
+    sentence.strip_prefix("error: ").unwrap_or(&sentence).to_owned()
+}
+
 /// Says a line to the person, on standard error; nobody listening is no error.
 pub fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    // A file's name may hold anything; it must neither break the line nor command the terminal.
+    let plain: String =
+        line.chars().flat_map(|c| if c.is_control() { c.escape_default().collect() } else { vec![c] }).collect();
+    let _ = writeln!(std::io::stderr(), "{plain}");
 }
 
 /// Writes text to standard output; a reader that has heard enough (`| head`) is no error.

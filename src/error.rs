@@ -36,6 +36,12 @@ pub enum Error {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// The command line is not understood.
+    #[error("{problem}; see --help")]
+    CommandLine {
+        /// What is wrong with it.
+        problem: String,
+    },
     /// The output file cannot be written.
     #[error("{path}: {problem}")]
     Output {

@@ -188,6 +188,10 @@ impl Target {
         if file.is_dir() {
             return Err(refuse("this is a directory; name a file in it".to_owned()));
         }
+        // A new file takes the old one's place, which must be a file: not a device, a pipe or a link to nowhere.
+        if file.symlink_metadata().is_ok() && !file.is_file() {
+            return Err(refuse("this is no ordinary file; name another, or - for standard output".to_owned()));
+        }
         temporary_beside(&file).map_err(|error| refuse(cannot_write(&file, &error)))?;
         Ok(Self::File { path: file, format })
     }
@@ -230,6 +234,10 @@ fn write_file(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResu
     encode(&mut bytes).map_err(|error| failed(format!("the picture cannot be encoded ({error}); try .png")))?;
     let written = temporary_beside(path).and_then(|mut file| {
         file.write_all(&bytes)?;
+        // A file that is replaced keeps its permissions.
+        if let Ok(metadata) = path.metadata() {
+            file.as_file().set_permissions(metadata.permissions())?;
+        }
         file.persist(resolved(path)).map_err(|error| error.error)?;
         Ok(())
     });
@@ -311,6 +319,27 @@ mod tests {
         }
         let files = std::fs::read_dir(folder.path()).unwrap().count();
         assert_eq!(files, PictureFormat::EXTENSIONS.len());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_replaced_file_keeps_its_permissions_and_links_stay_links() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::write(at("old.png"), "old").unwrap();
+        std::fs::set_permissions(at("old.png"), std::fs::Permissions::from_mode(0o600)).unwrap();
+        symlink("old.png", at("link.png")).unwrap();
+        Target::check(at("link.png").to_str().unwrap(), false).unwrap().write(&picture()).unwrap();
+        assert_eq!(Picture::read_png(&at("old.png")).unwrap(), picture());
+        assert_eq!(at("old.png").metadata().unwrap().permissions().mode() & 0o777, 0o600);
+        assert!(at("link.png").symlink_metadata().unwrap().is_symlink());
+        symlink("nowhere", at("broken.png")).unwrap();
+        symlink("/dev/null", at("device.png")).unwrap();
+        for name in ["broken.png", "device.png"] {
+            let message = Target::check(at(name).to_str().unwrap(), false).unwrap_err().to_string();
+            assert!(message.contains("no ordinary file"), "{message}");
+        }
     }
 
     #[test]

@@ -127,7 +127,7 @@ fn nonsensical_settings_are_refused_by_name() {
     let render = |options: &[&str], words: &[&str]| {
         let mut arguments = vec!["render", "builtin:open-box", "-o", &out];
         arguments.extend(options);
-        refused(&arguments, words);
+        refused_in_one_line(&arguments, words);
     };
     render(&["--size", "0x10"], &["--size"]);
     render(&["--size", "100000x100000"], &["--size 100000x100000", "the largest picture"]);
@@ -155,6 +155,15 @@ fn nonsensical_settings_are_refused_by_name() {
     render(&["--show", "borders", "--no-borders"], &["--show borders", "--no-borders"]);
     render(&["--no-such-option"], &["--no-such-option"]);
     assert!(!Path::new(&out).exists());
+}
+
+#[test]
+fn command_lines_that_are_not_understood_are_answered_in_one_line() {
+    refused_in_one_line(&["render", "builtin:ant"], &["tinta: ", "--output", "--help"]);
+    refused_in_one_line(&["render", "-o", "a.png"], &["<MODEL>"]);
+    refused_in_one_line(&["paint"], &["paint"]);
+    refused_in_one_line(&["render", "a\nb.obj", "-o", "a.png"], &["a\\nb.obj"]);
+    refused_in_one_line(&["render", "/dev/zero", "-o", "a.png"], &["/dev/zero: this is a device"]);
 }
 
 #[test]

@@ -1,13 +1,18 @@
 //! Memory and GL objects over many frames; in a process of its own, because other tests' memory would count too.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
 
-/// Growth allowed over 1,000 frames, KiB: a frame that leaked one 64 x 64 RGBA picture would need 16,000.
-const ALLOWED_KIB: u64 = 1024;
+/// Growth allowed over 1,000 frames, KiB. The allocator's own level moves by about 1,000 once, after 1,000 frames as after
+/// 6,000; a frame that leaked half a 64 x 64 RGBA picture would need 8,000.
+const ALLOWED_KIB: u64 = 2048;
+
+/// Held by each test here, so that none counts another's memory.
+static ALONE: Mutex<()> = Mutex::new(());
 
 #[test]
 fn a_thousand_frames_leave_memory_and_objects_as_they_were() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let mesh = load("builtin:ant", &LoadOptions::default()).unwrap().mesh;
     let settings = SceneSettings { size: Size { width: 64, height: 64 }, ..SceneSettings::default() };
     let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
@@ -21,16 +26,18 @@ fn a_thousand_frames_leave_memory_and_objects_as_they_were() {
             }
             renderer.live_objects()
         };
-        let (objects, memory) = (frames(100), resident_kib());
+        let (objects, memory) = (frames(334), resident_kib());
         assert!(objects > 0);
         assert_eq!(frames(334), objects);
         let grown = resident_kib().saturating_sub(memory);
+        println!("{backend:?}: grown by {grown} KiB");
         assert!(grown < ALLOWED_KIB, "{backend:?}: 1,002 frames grew the process by {grown} KiB");
     }
 }
 
 #[test]
 fn a_renderer_deletes_every_object_it_made() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let scene_mesh = Arc::new(load("builtin:open-box", &LoadOptions::default()).unwrap().mesh);
     let scene = Scene::new(vec![scene_mesh], &SceneSettings::default()).unwrap();
     for backend in [Backend::Egl, Backend::OsMesa] {

@@ -35,7 +35,7 @@ pub struct Arguments {
     #[arg(long, value_name = "WxH", default_value = "512x512", hide_default_value = true)]
     size: Size,
 
-    /// Colour behind the scene, a CSS name or #rrggbb [default: white]
+    /// Colour behind the scene: a CSS name, #rrggbb or rgb(r,g,b) [default: white]
     #[arg(long, value_name = "COLOUR", default_value = "white", hide_default_value = true)]
     background: Color,
 
@@ -51,7 +51,7 @@ pub struct Arguments {
     #[arg(long, value_name = "COLOUR")]
     color: Option<Color>,
 
-    /// Repeat the models on a square grid, up to 100000 times [default: 1]
+    /// Repeat the models on a square grid, up to 10000 times [default: 1]
     #[arg(long, value_name = "N", default_value = "1", hide_default_value = true)]
     copies: u32,
 
@@ -107,7 +107,7 @@ struct CameraArguments {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Cartoon styles (the defaults are the paper's; phong uses none of these)")]
 struct CartoonArguments {
-    /// Number of tones, 1 to 3 [default: 3]
+    /// Number of tones, 1 to 3; fewer leave out the brightest [default: 3]
     #[arg(long, value_name = "N", default_value = "3", hide_default_value = true)]
     tones: u8,
 
@@ -213,10 +213,15 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
     let settings = arguments.scene_settings();
     let (renderer, loaded, load_ms) = std::thread::scope(|scope| {
-        let loading = scope.spawn(|| {
+        let load = || {
             let loaded = load_models(arguments);
             (loaded, milliseconds_since(started))
-        });
+        };
+        // Where no second thread can be had, one after the other.
+        let Ok(loading) = std::thread::Builder::new().spawn_scoped(scope, load) else {
+            let (loaded, load_ms) = load();
+            return (open_renderer(arguments, &settings, &style, || true), loaded, load_ms);
+        };
         let renderer = open_renderer(arguments, &settings, &style, || loading.is_finished());
         match loading.join() {
             Ok((loaded, load_ms)) => (renderer, loaded, load_ms),
@@ -307,8 +312,12 @@ fn load_models(arguments: &Arguments) -> Result<Vec<Loaded>> {
 fn make_dump_folder(arguments: &Arguments) -> Result<()> {
     let Some(folder) = &arguments.run.dump else { return Ok(()) };
     std::fs::create_dir_all(folder).map_err(|error| Error::Output {
-        path: folder.display().to_string(),
-        problem: format!("the folder cannot be made ({error}); choose another"),
+        path: format!("--dump {}", folder.display()),
+        problem: if folder.is_file() {
+            "this is a file; name a folder".to_owned()
+        } else {
+            format!("the folder cannot be made ({error}); choose another")
+        },
     })
 }
 
@@ -393,7 +402,12 @@ impl Arguments {
 fn after_help() -> String {
     let names: Vec<String> =
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
-    format!("Built-in models:\n{}", names.join("\n"))
+    format!(
+        "Built-in models:\n{}\n\n\
+         As published, borders are black and a pixel or two wide at any size, and edges are not smoothed. Facets that\n\
+         show as thin lines come from the file's normals: try --normals smooth.",
+        names.join("\n")
+    )
 }
 
 fn parse_vector(text: &str) -> std::result::Result<DVec3, String> {

@@ -1,6 +1,6 @@
 //! From a path to a [`Mesh`]: built-in or file, its format found by content first and by name second.
 
-use super::{Mesh, builtin, obj, ply, soup::Soup, stl};
+use super::{Defects, Mesh, builtin, obj, ply, soup::Soup, stl};
 use crate::error::{Error, Result};
 use crate::names::find;
 use crate::tolerances::{LARGEST_WELD, WELD};
@@ -170,8 +170,10 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
         None => read_file(path, &mut remarks)?,
     };
     let mesh = soup.into_mesh(path, options)?;
-    if !mesh.defects.is_empty() {
-        remarks.push(format!("{path}: {}", mesh.defects));
+    // Missing materials have had a remark of their own from the reader, which knows their names.
+    let others = Defects { missing_materials: 0, ..mesh.defects.clone() };
+    if !others.is_empty() {
+        remarks.push(format!("{path}: {others}"));
     }
     Ok(Loaded { mesh, remarks })
 }
@@ -193,6 +195,13 @@ fn check(options: &LoadOptions) -> Result<()> {
 }
 
 fn read_file(path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
+    #[cfg(unix)]
+    if let Ok(metadata) = fs::metadata(path) {
+        use std::os::unix::fs::FileTypeExt;
+        if metadata.file_type().is_char_device() || metadata.file_type().is_block_device() {
+            return Err(Error::model(path, "this is a device; name a model file"));
+        }
+    }
     let bytes = fs::read(path).map_err(|error| Error::model(path, cannot_read(Path::new(path), &error)))?;
     read_bytes(&bytes, path, remarks)
 }
@@ -201,6 +210,9 @@ fn read_bytes(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Sou
     if bytes.is_empty() {
         return Err(Error::model(path, "the file is empty; export the model again"));
     }
+    // Some programs begin UTF-8 files with a byte order mark.
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").filter(|_| !stl::is_binary(bytes));
+    let bytes = text.unwrap_or(bytes);
     let named = Format::by_name(path);
     let found = Format::by_content(bytes);
     let format = found
@@ -250,6 +262,14 @@ mod tests {
             assert_eq!(axis.to_y_up(up), DVec3::Y, "{text}");
             let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|v| axis.to_y_up(v));
             assert_eq!(x.cross(y), z, "{text} keeps handedness");
+        }
+    }
+
+    #[test]
+    fn a_byte_order_mark_does_not_cost_the_first_vertex() {
+        for (name, bytes) in valid_files().into_iter().filter(|(name, _)| !name.starts_with('b')) {
+            let marked = [b"\xef\xbb\xbf".as_slice(), &bytes].concat();
+            assert_eq!(mesh_of(&marked, name).unwrap(), mesh_of(&bytes, name).unwrap(), "{name}");
         }
     }
 

@@ -56,8 +56,7 @@ pub fn looks_like(head: &[u8]) -> bool {
 /// Reads an OBJ file's bytes. `path` is for messages; `remarks` gets a sentence for each missing material file.
 pub fn read(bytes: &[u8], path: &str, materials: &Materials, remarks: &mut Vec<String>) -> Result<Soup> {
     let options = tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..tobj::LoadOptions::default() };
-    // Some programs begin UTF-8 files with a byte order mark.
-    let mut guard = Guard::new(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
+    let mut guard = Guard::new(bytes);
     let missing_files = RefCell::new(Vec::new());
     let load_material = |name: &Path| {
         let text = materials.find(name).unwrap_or_else(|| {
@@ -80,8 +79,13 @@ pub fn read(bytes: &[u8], path: &str, materials: &Materials, remarks: &mut Vec<S
     );
     let unknown = guard.materials.iter().filter(|name| !found.iter().any(|material| material.name == **name)).count();
     let mut soup = into_soup(guard, &models, path)?;
-    // A missing file's materials are its materials: counted once.
+    // A missing file's materials are missing with it: counted once, said once.
     soup.defects.missing_materials = unknown.max(missing_files.len());
+    if unknown > 0 && missing_files.is_empty() {
+        remarks.push(format!(
+            "{path}: {unknown} of the materials it uses are in no material file; their faces get the default colour"
+        ));
+    }
     soup.materials = found.into_iter().map(material).collect();
     Ok(soup)
 }
@@ -97,6 +101,7 @@ fn material(material: tobj::Material) -> Material {
 /// Only the material statements used here, and only where they are complete: tobj panics on `Kd 1`.
 fn sound_material_lines(text: &[u8]) -> Vec<u8> {
     let mut sound = String::new();
+    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     for line in String::from_utf8_lossy(text).lines() {
         let line = line.trim();
         let mut words = line.split_whitespace();

@@ -5,7 +5,7 @@ use super::soup::{Corner, Soup};
 use crate::error::{Error, Result};
 use glam::{DVec3, Vec2, Vec3};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{Header, Property, PropertyAccess, PropertyAccessResult};
 
 /// Reads a PLY file's bytes. `path` is for messages.
 pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
@@ -24,10 +24,7 @@ pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
         problem: format!("it is damaged or cut off ({}); export it again", cause(&error)),
     };
     let header = Parser::<Ignored>::new().read_header(&mut reader).map_err(damaged)?;
-    // An element without properties takes no bytes, so any number of them fits into any file.
-    if header.elements.values().any(|element| element.properties.is_empty() && element.count > 0) {
-        return Err(Error::model(path, "its header has an element without properties; export it again"));
-    }
+    check_header(&header).map_err(|problem| Error::model(path, problem))?;
     let mut soup = Soup::default();
     let mut faces: Vec<Face> = Vec::new();
     for (name, element) in &header.elements {
@@ -60,6 +57,27 @@ pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
     Ok(soup)
 }
 
+/// Refuses what would otherwise be misread or never end.
+fn check_header(header: &Header) -> std::result::Result<(), &'static str> {
+    // An element without properties takes no bytes, so any number of them fits into any file.
+    if header.elements.values().any(|element| element.properties.is_empty() && element.count > 0) {
+        return Err("its header has an element without properties; export it again");
+    }
+    let has = |element: &str, property: &str| {
+        header.elements.get(element).is_some_and(|element| element.properties.contains_key(property))
+    };
+    if !["x", "y", "z"].into_iter().all(|axis| has("vertex", axis)) {
+        return Err("its vertices have no x, y and z; export it again");
+    }
+    if header.elements.contains_key("face") && !has("face", "vertex_indices") && !has("face", "vertex_index") {
+        return Err("its faces have no list of vertex_indices; export it again");
+    }
+    if header.elements.contains_key("tristrips") {
+        return Err("its faces are triangle strips, which are not read; export it with single faces");
+    }
+    Ok(())
+}
+
 fn add_faces(soup: &mut Soup, faces: &[Face]) {
     let count = soup.positions.len() as i64;
     for face in faces {
@@ -86,7 +104,9 @@ fn cause(error: &ParseError) -> String {
         Some((_, message)) => message,
         None => &message,
     };
-    message.lines().next().unwrap_or_default().trim_end_matches([':', '.']).chars().take(120).collect()
+    // Where its grammar fails the crate adds that grammar's own debugging text.
+    let plain = message.lines().next().unwrap_or_default().split("ParseError").next().unwrap_or_default();
+    plain.trim_end_matches([':', '.', ' ', '\t']).chars().take(120).collect()
 }
 
 #[derive(Default)]
@@ -192,8 +212,24 @@ mod tests {
     }
 
     #[test]
+    fn headers_that_cannot_be_a_model_are_refused_with_the_reason() {
+        let refused = |header: &str, reason: &str| {
+            let text = format!("ply\nformat ascii 1.0\n{header}end_header\n");
+            let message = read(text.as_bytes(), "t.ply").unwrap_err().to_string();
+            assert!(message.contains(reason), "{message}");
+            assert!(!message.contains('{'), "{message}");
+        };
+        let xyz = "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+        refused("element vertex 1\nproperty float x\nproperty float y\n", "no x, y and z");
+        refused(&format!("{xyz}element face 1\nproperty int a\n"), "no list of vertex_indices");
+        refused(&format!("{xyz}element tristrips 1\nproperty list int int vertex_indices\n"), "triangle strips");
+        refused("forma", "damaged");
+    }
+
+    #[test]
     fn a_header_that_promises_billions_is_refused_without_the_memory() {
-        let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nend_header\nabc";
+        let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n\
+            property float z\nend_header\nabc";
         assert!(read(text.as_bytes(), "t.ply").is_err());
         let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nend_header\n";
         let message = read(text.as_bytes(), "t.ply").unwrap_err().to_string();

@@ -17,7 +17,7 @@ pub fn is_binary(bytes: &[u8]) -> bool {
 
 /// Whether the beginning of a file reads like text STL.
 pub fn is_text(head: &[u8]) -> bool {
-    head.starts_with(b"solid") && !head.contains(&0) && head.windows(5).any(|word| word == b"facet")
+    head.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !head.contains(&0)
 }
 
 fn facet_count(bytes: &[u8]) -> Option<usize> {
@@ -29,10 +29,13 @@ fn facet_count(bytes: &[u8]) -> Option<usize> {
 pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
     let damaged = |error: std::io::Error| Error::model(path, format!("it is damaged ({error}); export it again"));
     let mut non_finite = Vec::new();
-    let whole = if is_binary(bytes) {
+    // Some programs leave a few bytes behind the last facet.
+    let holds_all = facet_count(bytes).is_some_and(|count| bytes.len() >= HEADER_BYTES + count * FACET_BYTES);
+    let text = is_text(&bytes[..bytes.len().min(4096)]);
+    let whole = if is_binary(bytes) || (holds_all && !text) {
         // Keeps stl_io from taking a binary file whose header begins with "solid " for text.
         [b"     ", &bytes[5..]].concat()
-    } else if is_text(&bytes[..bytes.len().min(4096)]) {
+    } else if text {
         one_solid(&String::from_utf8_lossy(bytes), path, &mut non_finite)?.into_bytes()
     } else {
         return Err(Error::model(path, truncated(bytes)));
@@ -55,7 +58,8 @@ fn one_solid(text: &str, path: &str, non_finite: &mut Vec<usize>) -> Result<Stri
     let mut whole = "solid x\n".to_owned();
     let mut vertex_count = 0;
     let mut last = "";
-    for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
+    let lower = text.to_ascii_lowercase();
+    for line in lower.lines().map(str::trim).filter(|line| !line.is_empty()) {
         let mut words = line.split_whitespace();
         last = words.next().unwrap_or_default();
         match last {
@@ -119,7 +123,7 @@ mod tests {
     fn text_files_are_read_with_and_without_a_name() {
         for name in ["", " a name"] {
             let text = format!(
-                "solid{name}\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid\n"
+                "SOLID{name}\nFacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid\n"
             );
             let soup = read(text.as_bytes(), "t.stl").unwrap();
             assert_eq!(soup.positions[2], DVec3::new(0.0, 1.0, 0.5));

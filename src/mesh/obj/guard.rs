@@ -62,16 +62,21 @@ impl<'a> Guard<'a> {
 
     /// The next line with those that continue it joined; what is not UTF-8 is replaced, as only names can hold it.
     fn next_logical_line(&mut self) -> Option<Cow<'a, str>> {
-        let mut line = String::from_utf8_lossy(self.next_physical_line()?);
-        while let Some(start) = continuation(&line) {
-            let line = line.to_mut();
-            line.replace_range(start.., " ");
-            match self.next_physical_line() {
-                Some(next) => line.push_str(&String::from_utf8_lossy(next)),
-                None => break,
+        let mut piece = String::from_utf8_lossy(self.next_physical_line()?);
+        let Some(mut text) = continued(&piece) else { return Some(piece) };
+        let mut joined = String::new();
+        loop {
+            joined.push_str(text);
+            joined.push(' ');
+            piece = String::from_utf8_lossy(self.next_physical_line().unwrap_or_default());
+            match continued(&piece) {
+                Some(more) => text = more,
+                None => {
+                    joined.push_str(&piece);
+                    return Some(Cow::Owned(joined));
+                }
             }
         }
-        Some(line)
     }
 
     fn next_physical_line(&mut self) -> Option<&'a [u8]> {
@@ -168,10 +173,9 @@ fn without_comment(line: &str) -> &str {
     line.split('#').next().unwrap_or_default()
 }
 
-/// Where a line that goes on in the next one has its backslash.
-fn continuation(line: &str) -> Option<usize> {
-    let text = line.trim_end();
-    (text.ends_with('\\') && !text.contains('#')).then(|| text.len() - 1)
+/// A line that goes on in the next one, without its backslash.
+fn continued(line: &str) -> Option<&str> {
+    line.trim_end().strip_suffix('\\').filter(|text| !text.contains('#'))
 }
 
 fn ended(line: Cow<'_, str>) -> Cow<'_, str> {
