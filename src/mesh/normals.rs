@@ -2,38 +2,55 @@
 //!
 //! In: welded triangles and a smoothing angle. Out: one unit normal per group of faces around a vertex, and each
 //! corner's index. A group is what can be reached around the vertex over shared edges whose faces differ by no more
-//! than the angle; faces weigh in with their angle at the vertex (Thuermer and Wuethrich 1998), which, unlike their
-//! area, does not change when a face is cut in two.
+//! than the angle. Faces weigh in with the sine of their angle at the vertex over the lengths of the sides there (Max 1999:
+//! exact on a sphere), which needs no arc cosine and, on a square, does not depend on how it is cut.
 
-use super::{NONE, triangle_normal};
+use super::NONE;
 use glam::{DVec3, Vec3};
 
 /// Computes a normal for every corner whose entry in `triangle_normals` is [`NONE`] and appends it to `normals`.
 ///
-/// `cos_smooth` is the cosine of the largest angle between neighbouring faces that still share a normal; above 1 none do.
+/// `face_normals` holds each triangle's unit normal; `cos_smooth` is the cosine of the largest angle between neighbouring
+/// faces that still share a normal; above 1 none do.
 pub fn fill_missing(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
+    face_normals: &[DVec3],
     cos_smooth: f64,
     normals: &mut Vec<Vec3>,
     triangle_normals: &mut [[u32; 3]],
 ) {
-    let corners = |triangle: &[u32; 3]| triangle.map(|index| positions[index as usize]);
-    // Readers leave triangles without area out; where one comes all the same, it has no say.
-    let face_normals: Vec<DVec3> =
-        triangles.iter().map(|triangle| triangle_normal(corners(triangle)).unwrap_or(DVec3::ZERO)).collect();
+    if !triangle_normals.as_flattened().contains(&NONE) {
+        return;
+    }
     let incidence = Incidence::new(positions.len(), triangles);
+    let cos_half = ((1.0 + cos_smooth) * 0.5).max(0.0).sqrt();
     let mut fan = Fan::default();
     for vertex in 0..positions.len() {
         let corners = incidence.corners(vertex);
-        let is_missing = |corner: &&u32| triangle_normals[(**corner / 3) as usize][(**corner % 3) as usize] == NONE;
-        if corners.iter().filter(is_missing).count() == 0 {
+        let slot = |corner: u32| triangle_normals[corner as usize / 3][corner as usize % 3];
+        if corners.iter().all(|corner| slot(*corner) != NONE) {
             continue;
         }
-        fan.gather(positions, triangles, &face_normals, corners);
-        fan.group(cos_smooth);
-        fan.write(corners, normals, triangle_normals);
+        let face_normal = |corner: &u32| face_normals[*corner as usize / 3];
+        // Most fans are smooth throughout; then any two faces are within the angle and no edge needs to be looked at.
+        // Fans that only touch in the vertex are joined too when they agree so well; that does no harm.
+        let mean = corners.iter().map(face_normal).sum::<DVec3>().normalize_or_zero();
+        if corners.iter().all(|corner| face_normal(corner).dot(mean) >= cos_half) {
+            fan.join_all(corners.len());
+        } else {
+            fan.group(triangles, face_normals, corners, cos_smooth);
+        }
+        fan.write(positions, triangles, face_normals, corners, normals, triangle_normals);
     }
+}
+
+/// A face's normal with its weight at one of its corners (Max 1999).
+fn weighted_normal(positions: &[DVec3], triangles: &[[u32; 3]], corner: u32) -> DVec3 {
+    let triangle = triangles[corner as usize / 3];
+    let [at, next, previous] = [0, 1, 2].map(|step| positions[triangle[(corner as usize % 3 + step) % 3] as usize]);
+    let (to_next, to_previous) = (next - at, previous - at);
+    to_next.cross(to_previous) / (to_next.length_squared() * to_previous.length_squared())
 }
 
 /// For every position the triangle corners that meet there, as `3 * triangle + corner`.
@@ -69,10 +86,6 @@ impl Incidence {
 /// The faces around one vertex; kept between vertices for its memory.
 #[derive(Default)]
 struct Fan {
-    /// Each face's unit normal.
-    face_normals: Vec<DVec3>,
-    /// Each face's angle at the vertex, radians.
-    angles: Vec<f64>,
     /// (far end of an edge at the vertex, face in the fan), two a face.
     spokes: Vec<(u32, u32)>,
     /// Union-find over the faces.
@@ -83,40 +96,27 @@ struct Fan {
 }
 
 impl Fan {
-    fn gather(&mut self, positions: &[DVec3], triangles: &[[u32; 3]], all_normals: &[DVec3], corners: &[u32]) {
-        self.face_normals.clear();
-        self.angles.clear();
-        self.spokes.clear();
-        for (face, &corner) in corners.iter().enumerate() {
-            let triangle = triangles[corner as usize / 3];
-            let [at, next, previous] = [0, 1, 2].map(|step| triangle[(corner as usize % 3 + step) % 3]);
-            let to_next = positions[next as usize] - positions[at as usize];
-            let to_previous = positions[previous as usize] - positions[at as usize];
-            self.face_normals.push(all_normals[corner as usize / 3]);
-            self.angles.push(to_next.angle_between(to_previous));
-            self.spokes.push((next, face as u32));
-            self.spokes.push((previous, face as u32));
-        }
+    /// All faces are one group.
+    fn join_all(&mut self, count: usize) {
+        self.parents.clear();
+        self.parents.resize(count, 0);
     }
 
     /// Joins faces that share an edge at this vertex and differ by no more than the angle.
-    fn group(&mut self, cos_smooth: f64) {
-        let count = self.face_normals.len() as u32;
+    fn group(&mut self, triangles: &[[u32; 3]], face_normals: &[DVec3], corners: &[u32], cos_smooth: f64) {
+        self.spokes.clear();
         self.parents.clear();
-        // Most fans are smooth throughout; then any two faces are within the angle and no edge needs to be looked at.
-        // Fans that only touch in the vertex are joined too when they agree so well; that does no harm.
-        let mean = self.face_normals.iter().sum::<DVec3>().normalize_or_zero();
-        let cos_half = ((1.0 + cos_smooth) * 0.5).max(0.0).sqrt();
-        if self.face_normals.iter().all(|normal| normal.dot(mean) >= cos_half) {
-            self.parents.resize(count as usize, 0);
-            return;
+        self.parents.extend(0..corners.len() as u32);
+        for (face, &corner) in corners.iter().enumerate() {
+            let triangle = triangles[corner as usize / 3];
+            let far = [1, 2].map(|step| triangle[(corner as usize % 3 + step) % 3]);
+            self.spokes.extend(far.map(|far| (far, face as u32)));
         }
-        self.parents.extend(0..count);
         self.spokes.sort_unstable();
+        let face_normal = |face: u32| face_normals[corners[face as usize] as usize / 3];
         for pair in 0..self.spokes.len() - 1 {
             let ((far, face), (other_far, other_face)) = (self.spokes[pair], self.spokes[pair + 1]);
-            let smooth = self.face_normals[face as usize].dot(self.face_normals[other_face as usize]) >= cos_smooth;
-            if far == other_far && smooth {
+            if far == other_far && face_normal(face).dot(face_normal(other_face)) >= cos_smooth {
                 let (root, other_root) = (self.root(face), self.root(other_face));
                 self.parents[root.max(other_root) as usize] = root.min(other_root);
             }
@@ -132,14 +132,22 @@ impl Fan {
         face
     }
 
-    fn write(&mut self, corners: &[u32], normals: &mut Vec<Vec3>, triangle_normals: &mut [[u32; 3]]) {
+    fn write(
+        &mut self,
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        face_normals: &[DVec3],
+        corners: &[u32],
+        normals: &mut Vec<Vec3>,
+        triangle_normals: &mut [[u32; 3]],
+    ) {
         self.sums.clear();
         self.sums.resize(corners.len(), DVec3::ZERO);
         self.indices.clear();
         self.indices.resize(corners.len(), NONE);
-        for face in 0..corners.len() {
+        for (face, &corner) in corners.iter().enumerate() {
             let root = self.root(face as u32) as usize;
-            self.sums[root] += self.face_normals[face] * self.angles[face];
+            self.sums[root] += weighted_normal(positions, triangles, corner);
         }
         for (face, &corner) in corners.iter().enumerate() {
             let slot = &mut triangle_normals[corner as usize / 3][corner as usize % 3];
@@ -148,9 +156,10 @@ impl Fan {
             }
             let root = self.root(face as u32) as usize;
             // Faces that cancel each other out leave no direction: then the face's own normal is the best there is.
-            let smooth = self.sums[root].try_normalize();
+            let sum = self.sums[root];
+            let smooth = (sum / sum.abs().max_element()).try_normalize();
             if smooth.is_none() || self.indices[root] == NONE {
-                normals.push(smooth.unwrap_or(self.face_normals[face]).as_vec3());
+                normals.push(smooth.unwrap_or(face_normals[corner as usize / 3]).as_vec3());
                 self.indices[root] = normals.len() as u32 - 1;
             }
             *slot = self.indices[root];
@@ -161,10 +170,13 @@ impl Fan {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::triangle_normal;
 
     fn computed(positions: &[DVec3], triangles: &[[u32; 3]], angle: f64) -> (Vec<Vec3>, Vec<[u32; 3]>) {
         let (mut normals, mut indices) = (Vec::new(), vec![[NONE; 3]; triangles.len()]);
-        fill_missing(positions, triangles, angle.to_radians().cos(), &mut normals, &mut indices);
+        let corners = |triangle: &[u32; 3]| triangle.map(|index| positions[index as usize]);
+        let face_normals: Vec<DVec3> = triangles.iter().map(|t| triangle_normal(corners(t)).unwrap()).collect();
+        fill_missing(positions, triangles, &face_normals, angle.to_radians().cos(), &mut normals, &mut indices);
         (normals, indices)
     }
 

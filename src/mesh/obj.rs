@@ -56,7 +56,9 @@ pub fn looks_like(head: &[u8]) -> bool {
 /// Reads an OBJ file's bytes. `path` is for messages; `remarks` gets a sentence for each missing material file.
 pub fn read(bytes: &[u8], path: &str, materials: &Materials, remarks: &mut Vec<String>) -> Result<Soup> {
     let options = tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..tobj::LoadOptions::default() };
-    let mut guard = Guard::new(bytes);
+    // What is not UTF-8 can only be in names.
+    let text = String::from_utf8_lossy(bytes);
+    let mut guard = Guard::new(&text);
     let missing_files = RefCell::new(Vec::new());
     let load_material = |name: &Path| {
         let text = materials.find(name).unwrap_or_else(|| {

@@ -99,7 +99,7 @@ impl Soup {
         if mesh.triangle_materials.iter().all(|index| *index == NONE) {
             mesh.triangle_materials.clear();
         }
-        mesh.take_normals(&self.normals, options);
+        mesh.take_normals(&self.normals, &pieces.face_normals, options);
         if options.strict && !mesh.defects.is_empty() {
             return Err(Error::Strict { path: name.to_owned(), defects: mesh.defects.to_string() });
         }
@@ -138,8 +138,9 @@ impl Soup {
             for triangle in &cut {
                 let corners = triangle.map(|index| corners[index as usize]);
                 let positions = corners.map(|corner| welded[corner.position as usize]);
-                if self.has_area(positions) {
+                if let Some(face_normal) = self.face_normal(positions) {
                     pieces.triangles.push(positions);
+                    pieces.face_normals.push(face_normal);
                     pieces.normals.push(corners.map(|corner| corner.normal));
                     pieces.texture_coordinates.push(corners.map(|corner| corner.texture));
                     pieces.materials.push(material);
@@ -151,11 +152,9 @@ impl Soup {
         pieces
     }
 
-    fn has_area(&self, [a, b, c]: [u32; 3]) -> bool {
-        if a == b || b == c || c == a {
-            return false;
-        }
-        triangle_normal([a, b, c].map(|index| self.positions[index as usize])).is_some()
+    /// The unit normal of a triangle; `None` without area.
+    fn face_normal(&self, triangle: [u32; 3]) -> Option<DVec3> {
+        triangle_normal(triangle.map(|index| self.positions[index as usize]))
     }
 
     /// Which vertices are finite and named by a polygon.
@@ -172,6 +171,7 @@ impl Soup {
 #[derive(Default)]
 struct Pieces {
     triangles: Vec<[u32; 3]>,
+    face_normals: Vec<DVec3>,
     normals: Vec<[u32; 3]>,
     texture_coordinates: Vec<[u32; 3]>,
     materials: Vec<u32>,
@@ -202,6 +202,7 @@ impl Pieces {
         let keep: Vec<bool> =
             (0..self.triangles.len() as u32).map(|index| repeated.binary_search(&index).is_err()).collect();
         retain(&mut self.triangles, &keep);
+        retain(&mut self.face_normals, &keep);
         retain(&mut self.normals, &keep);
         retain(&mut self.texture_coordinates, &keep);
         retain(&mut self.materials, &keep);
@@ -233,7 +234,7 @@ fn compact(all: &[DVec3], triangles: &mut [[u32; 3]]) -> (Vec<DVec3>, Vec<u32>) 
 
 impl Mesh {
     /// Takes over the file's normals as far as asked for and usable, and computes the rest.
-    fn take_normals(&mut self, file_normals: &[Vec3], options: &LoadOptions) {
+    fn take_normals(&mut self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) {
         let mut number = vec![NONE; file_normals.len()];
         for slot in self.triangle_normals.as_flattened_mut() {
             let normal = match options.normals {
@@ -256,7 +257,7 @@ impl Mesh {
             Normals::File | Normals::Smooth => options.smooth_angle_degrees.to_radians().cos(),
         };
         let (normals, triangle_normals) = (&mut self.normals, &mut self.triangle_normals);
-        normals::fill_missing(&self.positions, &self.triangles, cos_smooth, normals, triangle_normals);
+        normals::fill_missing(&self.positions, &self.triangles, face_normals, cos_smooth, normals, triangle_normals);
     }
 }
 

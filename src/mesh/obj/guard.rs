@@ -6,9 +6,9 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::io::{self, BufRead, Read};
 
-/// A reader over a file's bytes.
+/// A reader over a file's text.
 pub struct Guard<'a> {
-    rest: &'a [u8],
+    rest: &'a str,
     line: Cow<'a, str>,
     /// How much of `line` was handed on.
     taken: usize,
@@ -31,9 +31,9 @@ pub struct Guard<'a> {
 }
 
 impl<'a> Guard<'a> {
-    pub fn new(bytes: &'a [u8]) -> Self {
+    pub fn new(text: &'a str) -> Self {
         Self {
-            rest: bytes,
+            rest: text,
             line: Cow::Borrowed(""),
             taken: 0,
             line_number: 0,
@@ -60,31 +60,31 @@ impl<'a> Guard<'a> {
         self.line = Cow::Borrowed("");
     }
 
-    /// The next line with those that continue it joined; what is not UTF-8 is replaced, as only names can hold it.
+    /// The next line with those that continue it joined.
     fn next_logical_line(&mut self) -> Option<Cow<'a, str>> {
-        let mut piece = String::from_utf8_lossy(self.next_physical_line()?);
-        let Some(mut text) = continued(&piece) else { return Some(piece) };
+        let mut piece = self.next_physical_line()?;
+        let Some(mut text) = continued(piece) else { return Some(Cow::Borrowed(piece)) };
         let mut joined = String::new();
         loop {
             joined.push_str(text);
             joined.push(' ');
-            piece = String::from_utf8_lossy(self.next_physical_line().unwrap_or_default());
-            match continued(&piece) {
+            piece = self.next_physical_line().unwrap_or_default();
+            match continued(piece) {
                 Some(more) => text = more,
                 None => {
-                    joined.push_str(&piece);
+                    joined.push_str(piece);
                     return Some(Cow::Owned(joined));
                 }
             }
         }
     }
 
-    fn next_physical_line(&mut self) -> Option<&'a [u8]> {
+    fn next_physical_line(&mut self) -> Option<&'a str> {
         if self.rest.is_empty() {
             return None;
         }
         self.line_number += 1;
-        let end = self.rest.iter().position(|byte| *byte == b'\n').map_or(self.rest.len(), |end| end + 1);
+        let end = self.rest.bytes().position(|byte| byte == b'\n').map_or(self.rest.len(), |end| end + 1);
         let (line, rest) = self.rest.split_at(end);
         self.rest = rest;
         Some(line)
@@ -92,37 +92,41 @@ impl<'a> Guard<'a> {
 
     /// Notes what a line declares; returns what tobj shall see of it, ending in a newline.
     fn accept(&mut self, line: Cow<'a, str>) -> Option<Cow<'a, str>> {
-        // tobj splits at the same, Unicode's, white space.
-        let mut words = line.split_whitespace();
+        let keyword = line.split_whitespace().next()?;
+        match keyword {
+            "v" | "vt" | "vn" | "f" => self.accept_numbers(plain(line)),
+            "o" | "g" => Some(ended(line)),
+            "usemtl" | "mtllib" => {
+                // Names may hold '#' and blanks; tobj wants exactly one blank before them.
+                let name = line.trim_start()[keyword.len()..].trim();
+                if keyword == "usemtl" {
+                    self.materials.insert(name.to_owned());
+                }
+                (!name.is_empty()).then(|| Cow::Owned(format!("{keyword} {name}\n")))
+            }
+            _ => None,
+        }
+    }
+
+    /// A line of numbers without its comment, its words separated by ASCII blanks.
+    fn accept_numbers(&mut self, line: Cow<'a, str>) -> Option<Cow<'a, str>> {
+        let mut words = line.split_ascii_whitespace();
         match words.next()? {
             "v" => {
                 self.position_count += 1;
                 // Beyond three numbers a fourth is a weight, more are colours, which tobj wants on every vertex or none.
-                if without_comment(&line).split_whitespace().count() > 5 {
-                    let numbers: Vec<&str> = words.take(3).collect();
-                    return Some(Cow::Owned(format!("v {}\n", numbers.join(" "))));
+                let mut numbers = words.clone();
+                if numbers.by_ref().take(4).count() == 4 && numbers.next().is_some() {
+                    return Some(Cow::Owned(format!("v {}\n", words.take(3).collect::<Vec<_>>().join(" "))));
                 }
             }
             "vt" => self.texture_count += 1,
             "vn" => self.normal_count += 1,
-            "f" => {
-                if !self.accept_face(without_comment(&line).split_whitespace().skip(1)) {
+            _ => {
+                if !self.accept_face(words) {
                     return None;
                 }
             }
-            "o" | "g" => return Some(ended(line)),
-            word @ ("usemtl" | "mtllib") => {
-                // Names may hold '#' and blanks; tobj wants exactly one blank before them.
-                let name = line.trim_start()[word.len()..].trim();
-                if word == "usemtl" {
-                    self.materials.insert(name.to_owned());
-                }
-                return (!name.is_empty()).then(|| Cow::Owned(format!("{word} {name}\n")));
-            }
-            _ => return None,
-        }
-        if line.contains('#') {
-            return Some(Cow::Owned(format!("{}\n", without_comment(&line))));
         }
         Some(ended(line))
     }
@@ -133,17 +137,10 @@ impl<'a> Guard<'a> {
         let start = self.corners.len();
         let mut in_range = true;
         for word in words {
-            let mut fields = word.split('/');
-            let index = |field: Option<&str>, count: u32| match field {
-                None | Some("") => Ok(NONE),
-                Some(text) => text.parse::<i64>().map(|number| resolve(number, count)),
-            };
-            let (Ok(position), Ok(texture), Ok(normal), None) = (
-                index(fields.next(), self.position_count),
-                index(fields.next(), self.texture_count),
-                index(fields.next(), self.normal_count),
-                fields.next(),
-            ) else {
+            let mut fields = word.as_bytes().split(|byte| *byte == b'/');
+            let mut index = |count: u32| fields.next().map_or(Some(NONE), |field| resolve(field, count));
+            let corner = (index(self.position_count), index(self.texture_count), index(self.normal_count));
+            let ((Some(position), Some(texture), Some(normal)), None) = (corner, fields.next()) else {
                 self.corners.truncate(start);
                 return true;
             };
@@ -163,14 +160,32 @@ impl<'a> Guard<'a> {
     }
 }
 
-/// A 1-based or negative, relative index as a 0-based one; [`NONE`] - 1 for what can never be in range.
-fn resolve(number: i64, count: u32) -> u32 {
-    let index = if number < 0 { i64::from(count).saturating_add(number) } else { number - 1 };
-    u32::try_from(index).unwrap_or(NONE - 1).min(NONE - 1)
+/// A 1-based or negative, relative index as a 0-based one: [`NONE`] for an empty field, [`NONE`] - 1 for what can never be
+/// in range, `None` for what is no whole number.
+fn resolve(field: &[u8], count: u32) -> Option<u32> {
+    let (negative, digits) = match field {
+        [] => return Some(NONE),
+        [b'-', digits @ ..] => (true, digits),
+        [b'+', digits @ ..] => (false, digits),
+        digits => (false, digits),
+    };
+    if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
+        return None;
+    }
+    let number =
+        digits.iter().fold(0i64, |number, digit| number.saturating_mul(10).saturating_add(i64::from(digit - b'0')));
+    let index = if negative { i64::from(count) - number } else { number - 1 };
+    Some(u32::try_from(index).unwrap_or(NONE - 1).min(NONE - 1))
 }
 
-fn without_comment(line: &str) -> &str {
-    line.split('#').next().unwrap_or_default()
+/// A line without its comment. Other white space than ASCII's, at which tobj splits too, becomes a blank.
+fn plain(line: Cow<'_, str>) -> Cow<'_, str> {
+    const VERTICAL_TAB: u8 = 0x0b;
+    if line.is_ascii() && !line.bytes().any(|byte| byte == b'#' || byte == VERTICAL_TAB) {
+        return line;
+    }
+    let text = line.split('#').next().unwrap_or_default();
+    Cow::Owned(text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
 /// A line that goes on in the next one, without its backslash.
