@@ -87,12 +87,13 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
         write_with_normals(mesh, &with_normals);
         series.push(Series { name: "Panda3D cartoon ink".to_owned(), times: Vec::new() });
     }
-    let mut scenes: Vec<Scene> = (0..settings.frames).map(|frame| turned(mesh, size, frame)).collect();
+    let base = Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() }).expect("a scene");
+    let scenes: Vec<Scene> = (0..settings.frames).map(|frame| turned(&base, frame)).collect();
     for _ in 0..settings.rounds {
         for ((_, style), series) in styles.iter().zip(&mut series) {
             let plan = style.plan(&scenes[0], Show::Final).expect("a plan");
             renderer.time_frames(&scenes[0], &plan, 3, 1).expect("frames");
-            for scene in &mut scenes {
+            for scene in &scenes {
                 series.times.extend(renderer.time_frames(scene, &plan, 0, 1).expect("a frame"));
             }
         }
@@ -104,16 +105,15 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
 }
 
 /// The scene with the camera where benches/peers/panda3d_ink.py puts it, turned to this frame's angle.
-fn turned(mesh: &Arc<Mesh>, size: Size, frame: usize) -> Scene {
-    let mut scene =
-        Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() }).expect("a scene");
+fn turned(base: &Scene, frame: usize) -> Scene {
+    let mut scene = base.clone();
     let angle = (frame as f64 * 3.0).to_radians();
     let offset = glam::DVec3::new(3.2 * angle.sin(), 0.5, 3.2 * angle.cos()) * scene.radius;
     scene.camera.eye = scene.centre + offset;
     scene.camera.target = scene.centre;
     // 40 degrees across, as Panda's lens has by default, at this aspect.
     let half_width = 20f64.to_radians().tan();
-    let fov_y_degrees = (half_width / size.aspect()).atan().to_degrees() * 2.0;
+    let fov_y_degrees = (half_width / scene.size.aspect()).atan().to_degrees() * 2.0;
     scene.camera.projection = tinta::camera::Projection::Perspective { fov_y_degrees };
     (scene.camera.near, scene.camera.far) = (scene.radius * 0.5, scene.radius * 8.0);
     scene

@@ -6,13 +6,13 @@
 
 use crate::camera::{Camera, CameraSettings};
 use crate::error::{Error, Result};
-use crate::mesh::{Mesh, NONE, bounds};
+use crate::mesh::{Mesh, NONE, VertexArrays, bounds};
 use crate::tolerances::{LARGEST_DISTANCE, SCENE_RADIUS};
 use glam::{DMat4, DVec3, Mat4};
 use serde::Serialize;
 use std::fmt;
 use std::str::FromStr;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A mesh at a place.
 #[derive(Debug, Clone)]
@@ -21,6 +21,8 @@ pub struct Object {
     pub mesh: Arc<Mesh>,
     /// Where its own origin goes, world space.
     pub offset: DVec3,
+    /// What GL draws of the mesh, made when first asked for, shared between copies.
+    arrays: Arc<OnceLock<VertexArrays>>,
 }
 
 /// All that a style needs to know to plan a picture, and `gl` to draw it.
@@ -152,6 +154,18 @@ impl Scene {
         Ok(())
     }
 
+    /// What GL draws of an object of this scene: in scene radii, around the mesh's own centre.
+    pub fn arrays<'a>(&self, object: &'a Object) -> &'a VertexArrays {
+        object.arrays.get_or_init(|| VertexArrays::new(&object.mesh, self.radius))
+    }
+
+    /// Makes every object's arrays now, on the thread that has the time.
+    pub fn make_arrays(&self) {
+        self.objects.iter().for_each(|object| {
+            self.arrays(object);
+        });
+    }
+
     /// The matrix from a mesh's arrays (recentred on `mesh_centre`, in scene radii) to eye space, rigid.
     pub fn view_from_object(&self, object: &Object, mesh_centre: DVec3) -> Mat4 {
         let view = self.camera.view_from_world();
@@ -204,10 +218,16 @@ fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
     // Models that are flat along an axis would otherwise stand in one another.
     let step = (high - low) + (high - low).max_element() * COPY_GAP;
     let columns = f64::from(copies).sqrt().ceil() as u32;
+    let arrays: Vec<Arc<OnceLock<VertexArrays>>> = meshes.iter().map(|_| Arc::default()).collect();
     (0..copies)
         .flat_map(|copy| {
             let offset = DVec3::new(f64::from(copy % columns) * step.x, 0.0, -f64::from(copy / columns) * step.z);
-            meshes.iter().map(move |mesh| Object { mesh: mesh.clone(), offset })
+            let object = move |(mesh, arrays): (&Arc<Mesh>, &Arc<OnceLock<VertexArrays>>)| Object {
+                mesh: mesh.clone(),
+                offset,
+                arrays: arrays.clone(),
+            };
+            meshes.iter().zip(&arrays).map(object)
         })
         .collect()
 }

@@ -4,7 +4,6 @@ use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
-use tinta::mesh::load::Loaded;
 use tinta::mesh::{BUILTINS, Normals, UpAxis, load};
 use tinta::picture::write_rgba_png;
 use tinta::record::{CameraRecord, ModelRecord, Record, Summary};
@@ -209,29 +208,22 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     }
     make_dump_folder(arguments)?;
     let style = arguments.style();
-    let started = Instant::now();
     // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
     let settings = arguments.scene_settings();
-    let (renderer, loaded, load_ms) = std::thread::scope(|scope| {
-        let load = || {
-            let loaded = load_models(arguments);
-            (loaded, milliseconds_since(started))
-        };
+    let (renderer, loaded) = std::thread::scope(|scope| {
+        let load = || load_scene(arguments, &settings);
         // Where no second thread can be had, one after the other.
         let Ok(loading) = std::thread::Builder::new().spawn_scoped(scope, load) else {
-            let (loaded, load_ms) = load();
-            return (open_renderer(arguments, &settings, &style, || true), loaded, load_ms);
+            let loaded = load();
+            return (open_renderer(arguments, &settings, &style, || true), loaded);
         };
         let renderer = open_renderer(arguments, &settings, &style, || loading.is_finished());
         match loading.join() {
-            Ok((loaded, load_ms)) => (renderer, loaded, load_ms),
+            Ok(loaded) => (renderer, loaded),
             Err(panic) => std::panic::resume_unwind(panic),
         }
     });
-    let loaded = loaded?;
-    loaded.iter().flat_map(|loaded| &loaded.remarks).for_each(|remark| super::say(&format!("tinta: {remark}")));
-    let meshes = loaded.into_iter().map(|loaded| Arc::new(loaded.mesh)).collect();
-    let scene = Scene::new(meshes, &settings)?;
+    let Loaded { scene, load_ms } = loaded?;
     let plan = style.plan(&scene, arguments.cartoon.show)?;
     let Opened { mut renderer, context_ms, warm_up_ms } = renderer?;
 
@@ -304,9 +296,26 @@ fn open_renderer(
     Ok(Opened { renderer, context_ms, warm_up_ms })
 }
 
-fn load_models(arguments: &Arguments) -> Result<Vec<Loaded>> {
+/// A scene ready to be drawn and how long its models took.
+struct Loaded {
+    scene: Scene,
+    load_ms: f64,
+}
+
+/// Reads the models, says what is to be said of them, and puts the scene together.
+fn load_scene(arguments: &Arguments, settings: &SceneSettings) -> Result<Loaded> {
+    let start = Instant::now();
     let options = arguments.load_options();
-    arguments.models.iter().map(|path| load(path, &options)).collect()
+    let mut meshes = Vec::new();
+    for path in &arguments.models {
+        let loaded = load(path, &options)?;
+        loaded.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
+        meshes.push(Arc::new(loaded.mesh));
+    }
+    let load_ms = milliseconds_since(start);
+    let scene = Scene::new(meshes, settings)?;
+    scene.make_arrays();
+    Ok(Loaded { scene, load_ms })
 }
 
 fn make_dump_folder(arguments: &Arguments) -> Result<()> {

@@ -102,7 +102,7 @@ impl Resources {
         self.meshes.retain(is_used);
         for object in &scene.objects {
             if self.find_mesh(&object.mesh).is_none() {
-                self.meshes.push(MeshBuffers::new(&self.gl, &object.mesh, scene.radius)?);
+                self.meshes.push(MeshBuffers::new(&self.gl, &object.mesh, scene.radius, scene.arrays(object))?);
             }
         }
         Ok(())
@@ -329,15 +329,14 @@ impl Resources {
 }
 
 impl MeshBuffers {
-    fn new(gl: &Rc<Gl>, mesh: &Arc<Mesh>, unit: f64) -> Result<Self> {
-        let arrays = VertexArrays::new(mesh, unit);
+    fn new(gl: &Rc<Gl>, mesh: &Arc<Mesh>, unit: f64, arrays: &VertexArrays) -> Result<Self> {
         Ok(Self {
             mesh: mesh.clone(),
             unit,
             centre: arrays.centre,
             vertices: Buffer::new(gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&arrays.vertices))?,
             indices: Buffer::new(gl, glow::ELEMENT_ARRAY_BUFFER, bytemuck::cast_slice(&arrays.indices))?,
-            parts: arrays.parts,
+            parts: arrays.parts.clone(),
         })
     }
 }

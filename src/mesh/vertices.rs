@@ -88,23 +88,37 @@ fn drawing_order(mesh: &Mesh) -> Vec<u32> {
         .map(|(index, triangle)| {
             let material = mesh.triangle_materials.get(index).copied().unwrap_or(NONE);
             let middle = triangle.iter().map(|position| mesh.positions[*position as usize] - low).sum::<DVec3>() / 3.0;
-            (material, morton_code(middle * scale), index as u32)
+            (material, hilbert_code(middle * scale), index as u32)
         })
         .collect();
     keys.sort_unstable();
     keys.into_iter().map(|(_, _, index)| index).collect()
 }
 
-/// The place of a point with coordinates in [0, 1023] on Morton's space-filling curve.
-fn morton_code(point: DVec3) -> u32 {
-    let spread = |coordinate: f64| {
-        let bits = (coordinate as u32).min(1023);
-        let bits = (bits | bits << 16) & 0x0300_00ff;
-        let bits = (bits | bits << 8) & 0x0300_f00f;
-        let bits = (bits | bits << 4) & 0x030c_30c3;
-        (bits | bits << 2) & 0x0924_9249
-    };
-    spread(point.x) | spread(point.y) << 1 | spread(point.z) << 2
+/// The place of a point with coordinates in [0, 1023] on Hilbert's space-filling curve (Skilling 2004), which, unlike
+/// Morton's, never jumps.
+fn hilbert_code(point: DVec3) -> u32 {
+    const BITS: u32 = 10;
+    let mut axes = point.to_array().map(|coordinate| (coordinate as u32).min((1 << BITS) - 1));
+    for bit in (1..BITS).rev() {
+        let (mask, low) = (1 << bit, (1 << bit) - 1);
+        for axis in 0..3 {
+            if axes[axis] & mask != 0 {
+                axes[0] ^= low;
+            } else {
+                let exchange = (axes[0] ^ axes[axis]) & low;
+                axes[0] ^= exchange;
+                axes[axis] ^= exchange;
+            }
+        }
+    }
+    axes[1] ^= axes[0];
+    axes[2] ^= axes[1];
+    let flip =
+        (1..BITS).rev().fold(0, |flip, bit| if axes[2] & (1 << bit) != 0 { flip ^ ((1 << bit) - 1) } else { flip });
+    let axes = axes.map(|axis| axis ^ flip);
+    // The bits of the three axes in turn, highest first.
+    (0..BITS).rev().fold(0, |code, bit| axes.iter().fold(code, |code, axis| code << 1 | (axis >> bit & 1)))
 }
 
 fn parts(mesh: &Mesh, order: &[u32]) -> Vec<Part> {
@@ -142,6 +156,21 @@ mod tests {
         drawn.sort_unstable();
         expected.sort_unstable();
         assert_eq!(drawn, expected);
+    }
+
+    #[test]
+    fn the_curve_visits_every_cell_once_and_never_jumps() {
+        // The first 8 x 8 x 8 cells of the curve are a cube; in the order of their codes neighbours differ by one step.
+        let mut cells: Vec<(u32, [i32; 3])> = (0..512)
+            .map(|i| [i & 7, i >> 3 & 7, i >> 6])
+            .map(|cell| (super::hilbert_code(glam::IVec3::from_array(cell).as_dvec3()), cell))
+            .collect();
+        cells.sort_unstable();
+        for pair in cells.windows(2) {
+            assert_eq!(pair[1].0, pair[0].0 + 1, "codes are consecutive");
+            let step: i32 = (0..3).map(|axis| (pair[0].1[axis] - pair[1].1[axis]).abs()).sum();
+            assert_eq!(step, 1, "{pair:?}");
+        }
     }
 
     #[test]
