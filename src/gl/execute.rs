@@ -14,11 +14,6 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Indices after which the driver is told to begin: Mesa's software renderer collects triangles on one core until then
-/// and fills pixels on the others after it. 12,000 triangles take 15 % off the bunny's frame; a tenth of that costs more in
-/// flushes than it gains, and ten times as many leave the other cores idle.
-const BATCH_INDICES: usize = 12_000 * 3;
-
 /// The GL objects of a renderer, kept between pictures. Its methods need the context current.
 pub struct Resources {
     gl: Rc<Gl>,
@@ -234,23 +229,11 @@ impl Resources {
                 let Color([red, green, blue]) = scene.material_color(&object.mesh, part.material);
                 // SAFETY: the context is current.
                 unsafe { legacy.color([red, green, blue, 1.0]) };
-                self.draw_part(part);
-            }
-        }
-    }
-
-    /// Draws a run of the bound indices in batches, telling the driver to begin after each.
-    fn draw_part(&self, part: &Part) {
-        let end = part.first + part.count;
-        for first in (part.first..end).step_by(BATCH_INDICES) {
-            let count = (end - first).min(BATCH_INDICES as u32);
-            // SAFETY: the context is current; the part lies within the bound index buffer, whose indices lie within the
-            // bound vertex buffer, both by construction of `VertexArrays`.
-            unsafe {
-                let first_byte = first as i32 * size_of::<u32>() as i32;
-                self.gl.glow.draw_elements(glow::TRIANGLES, count as i32, glow::UNSIGNED_INT, first_byte);
-                if count as usize == BATCH_INDICES {
-                    self.gl.glow.flush();
+                // SAFETY: the context is current; the part lies within the bound index buffer, whose indices lie within the
+                // bound vertex buffer, both by construction of `VertexArrays`.
+                unsafe {
+                    let first_byte = part.first as i32 * size_of::<u32>() as i32;
+                    self.gl.glow.draw_elements(glow::TRIANGLES, part.count as i32, glow::UNSIGNED_INT, first_byte);
                 }
             }
         }
