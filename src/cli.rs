@@ -1,6 +1,7 @@
 //! The commands, one file each. clap is known here and below, and nowhere else.
 
 mod info;
+mod options;
 mod render;
 
 use clap::{Parser, Subcommand};

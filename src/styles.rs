@@ -122,3 +122,108 @@ impl FromStr for Show {
         find(&Self::ALL, text)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::plan::Step;
+    use crate::scene::{Background, Color, SceneSettings};
+    use std::sync::Arc;
+
+    fn scene(background: Background) -> Scene {
+        let settings = SceneSettings { background, ..SceneSettings::default() };
+        Scene::new(vec![Arc::new(Mesh::triangle())], &settings).unwrap()
+    }
+
+    fn plan(style: &Style, show: Show) -> Plan {
+        style.plan(&scene(Background::Color(Color([1.0; 3]))), show).unwrap()
+    }
+
+    fn shaders(plan: &Plan) -> Vec<String> {
+        let draws = plan.steps().filter_map(|(_, step)| if let Step::Draw(draw) = step { Some(draw) } else { None });
+        draws.map(|draw| draw.program.fragments.join("+").replace("evangelista/", "")).collect()
+    }
+
+    #[test]
+    fn three_passes_are_the_papers_diagram() {
+        let text = plan(&Style::named(StyleName::ThreePass), Show::Final).to_string();
+        let expected = "\
+pass 1: map
+  clear to (0, 0, 0, 1), depth to 1
+  draw the background square in (1, 1, 1, 1) with evangelista/map.vert + evangelista/map.frag, no depth test
+  draw the objects with evangelista/map.vert + evangelista/map.frag
+  copy the framebuffer into the texture BorderMap
+pass 2: tones
+  clear to (1, 1, 1, 1), depth to 1
+  draw the background square in (1, 1, 1, 1) with evangelista/toon.vert + evangelista/toon.frag, no depth test
+  draw the objects with evangelista/toon.vert + evangelista/toon.frag
+pass 3: border
+  draw the screen square with evangelista/border.vert + evangelista/border.frag, textureUnit = (0.001953125, \
+0.001953125), borderMap = BorderMap, no depth test, blended
+picture: the framebuffer
+";
+        assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn two_passes_have_no_third_and_no_blending() {
+        let plan = plan(&Style::named(StyleName::TwoPass), Show::Final);
+        assert_eq!(plan.passes.iter().map(|pass| pass.name).collect::<Vec<_>>(), ["map", "tones-and-border"]);
+        assert!(plan.steps().all(|(_, step)| !matches!(step, Step::Draw(draw) if draw.blend)));
+    }
+
+    #[test]
+    fn any_setting_but_the_papers_runs_the_twin_with_uniforms() {
+        let published = ["map.frag", "map.frag", "toon.frag", "toon.frag", "border.frag"];
+        assert_eq!(shaders(&plan(&Style::named(StyleName::ThreePass), Show::Final)), published);
+        let mut cartoon = Cartoon::default();
+        cartoon.tones.count = 2;
+        let toned = shaders(&plan(&Style::ThreePass(cartoon.clone()), Show::Final));
+        assert_eq!(toned[3..], ["toon-settings.frag+tone-steps.frag", "border.frag"]);
+        cartoon.border = Some(Border { filter: Filter::Sobel, ..Border::default() });
+        let both = shaders(&plan(&Style::TwoPass(cartoon), Show::Final));
+        assert_eq!(both[3], "two-pass-settings.frag+tone-steps.frag+filter-sobel.frag");
+    }
+
+    #[test]
+    fn a_plan_has_only_the_passes_its_picture_needs() {
+        let passes = |style: &Style, show| plan(style, show).passes.iter().map(|pass| pass.name).collect::<Vec<_>>();
+        let three = Style::named(StyleName::ThreePass);
+        assert_eq!(passes(&three, Show::Tones), ["tones"]);
+        assert_eq!(passes(&three, Show::Borders), ["map", "border"]);
+        for show in [Show::Map, Show::Normals, Show::Depth] {
+            assert_eq!(passes(&three, show), ["map"]);
+            assert!(
+                plan(&three, show).steps().all(|(_, step)| *step != Step::CopyFramebuffer),
+                "nobody reads the copy"
+            );
+        }
+        let without = Style::ThreePass(Cartoon { border: None, ..Cartoon::default() });
+        assert_eq!(passes(&without, Show::Final), ["tones"]);
+    }
+
+    #[test]
+    fn the_tone_table_travels_only_with_plans_that_read_it() {
+        let mut cartoon = Cartoon::default();
+        cartoon.tones.lookup = ToneLookup::Texture;
+        let style = Style::ThreePass(cartoon);
+        assert!(plan(&style, Show::Final).tone_table.is_some());
+        assert!(plan(&style, Show::Borders).tone_table.is_none());
+    }
+
+    #[test]
+    fn nonsense_is_refused_by_the_options_name() {
+        let refused = |change: &dyn Fn(&mut Cartoon)| {
+            let mut cartoon = Cartoon::default();
+            change(&mut cartoon);
+            let scene = scene(Background::Transparent);
+            Style::ThreePass(cartoon).plan(&scene, Show::Final).unwrap_err().to_string()
+        };
+        assert!(refused(&|cartoon| cartoon.tones.count = 4).starts_with("--tones 4"));
+        assert!(refused(&|cartoon| cartoon.tones.levels[1] = 1.5).starts_with("--tone-levels"));
+        assert!(refused(&|cartoon| cartoon.tones.diffuse_threshold = f32::NAN).starts_with("--tone-thresholds"));
+        let infinite = Some(Border { detection_factor: f32::INFINITY, ..Border::default() });
+        assert!(refused(&|cartoon| cartoon.border = infinite).starts_with("--detection-factor"));
+    }
+}

@@ -1,17 +1,16 @@
 //! `tinta render`: models to a picture.
 
-use glam::DVec3;
+use super::options::{CameraArguments, CartoonArguments, ModelArguments, parse_cull};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
-use tinta::mesh::{BUILTINS, Normals, UpAxis, load};
+use tinta::mesh::{BUILTINS, load};
 use tinta::picture::write_rgba_png;
 use tinta::record::{CameraRecord, ModelRecord, Record, Summary};
 use tinta::renderer::{PassTime, milliseconds_since};
-use tinta::styles::{Border, Filter, ToneLookup};
+use tinta::styles::Phong;
 use tinta::{
-    Backend, Background, CameraSettings, Color, Error, LoadOptions, Renderer, Result, Scene, SceneSettings, Show, Size,
-    Style, StyleName, Target, View,
+    Backend, Background, Color, Error, Renderer, Result, Scene, SceneSettings, Size, Style, StyleName, Target,
 };
 
 /// Draw models into a picture file
@@ -65,106 +64,6 @@ pub struct Arguments {
 
     #[command(flatten)]
     run: RunArguments,
-}
-
-#[derive(clap::Args)]
-#[command(next_help_heading = "Camera")]
-struct CameraArguments {
-    /// View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees [default: 30,15]
-    #[arg(long, value_name = "VIEW", default_value = "30,15", hide_default_value = true, allow_hyphen_values = true)]
-    view: View,
-
-    /// Vertical field of view in degrees [default: 30]
-    #[arg(long, value_name = "DEGREES", default_value = "30", hide_default_value = true, allow_hyphen_values = true)]
-    fov: f64,
-
-    /// Parallel projection instead of perspective [default: off]
-    #[arg(long)]
-    parallel: bool,
-
-    /// Position of the eye, model units [default: where --view shows the whole scene]
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true, conflicts_with = "view")]
-    eye: Option<DVec3>,
-
-    /// Point in the middle of the picture [default: the scene's centre]
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
-    target: Option<DVec3>,
-
-    /// Direction that is up in the picture [default: 0,1,0]
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
-    up: Option<DVec3>,
-
-    /// Distance of the near plane from the eye, model units [default: fitted]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    near: Option<f64>,
-
-    /// Distance of the far plane from the eye, model units [default: fitted]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    far: Option<f64>,
-}
-
-#[derive(clap::Args)]
-#[command(next_help_heading = "Cartoon styles (the defaults are the paper's; phong uses none of these)")]
-struct CartoonArguments {
-    /// Number of tones, 1 to 3; fewer leave out the brightest [default: 3]
-    #[arg(long, value_name = "N", default_value = "3", hide_default_value = true)]
-    tones: u8,
-
-    /// Diffuse and specular light from which the second and third tone hold [default: 0.8,0.65]
-    #[arg(long, value_name = "D,S", value_parser = parse_pair, default_value = "0.8,0.65", hide_default_value = true, allow_hyphen_values = true)]
-    tone_thresholds: [f32; 2],
-
-    /// What the tones multiply the colour by [default: 0.65,0.95,1]
-    #[arg(long, value_name = "A,B,C", value_parser = parse_triple, default_value = "0.65,0.95,1", hide_default_value = true, allow_hyphen_values = true)]
-    tone_levels: [f32; 3],
-
-    /// Find tones by comparing (steps) or in a 1-D texture (texture) [default: steps]
-    #[arg(long, value_name = "HOW", default_value = "steps", hide_default_value = true)]
-    tone_lookup: ToneLookup,
-
-    /// No borders, tones alone [default: off]
-    #[arg(long)]
-    no_borders: bool,
-
-    /// Edge filter: laplacian4, laplacian8, mitchell, sobel, roberts [default: laplacian4]
-    #[arg(long, value_name = "FILTER", default_value = "laplacian4", hide_default_value = true)]
-    filter: Filter,
-
-    /// What the edge filter's response is multiplied by; more darkens faint edges [default: 0.2]
-    #[arg(long, value_name = "FACTOR", default_value = "0.2", hide_default_value = true, allow_hyphen_values = true)]
-    detection_factor: f32,
-
-    /// Draw a square behind the scene, on or off; off loses outer borders [default: on]
-    #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
-    background_quad: bool,
-
-    /// Which picture: final, normals, depth, map, borders, tones [default: final]
-    #[arg(long, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
-    show: Show,
-}
-
-#[derive(clap::Args)]
-#[command(next_help_heading = "Models")]
-struct ModelArguments {
-    /// Axis that points up in the file: x, y, z, -x, -y, -z [default: y]
-    #[arg(long, value_name = "AXIS", default_value = "y", hide_default_value = true, allow_hyphen_values = true)]
-    up_axis: UpAxis,
-
-    /// Join vertices nearer than this share of the model's size [default: 1e-7]
-    #[arg(long, value_name = "SHARE", default_value = "1e-7", hide_default_value = true, allow_hyphen_values = true)]
-    weld: f64,
-
-    /// Normals: file (computed where it has none), smooth, flat [default: file]
-    #[arg(long, value_name = "WHERE", default_value = "file", hide_default_value = true)]
-    normals: Normals,
-
-    /// Largest angle between faces that computed normals round off, degrees [default: 60]
-    #[arg(long, value_name = "DEGREES", default_value = "60", hide_default_value = true, allow_hyphen_values = true)]
-    smooth_angle: f64,
-
-    /// Refuse models with defects [default: off, defects are counted and left out]
-    #[arg(long)]
-    strict: bool,
 }
 
 #[derive(clap::Args)]
@@ -249,7 +148,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     super::print_json(&Record {
         version: env!("CARGO_PKG_VERSION"),
         models: model_records(&scene, arguments.models.len()),
-        load: arguments.load_options(),
+        load: arguments.model.options(),
         copies: arguments.copies,
         triangles: scene.triangle_count(),
         style,
@@ -305,7 +204,7 @@ struct Loaded {
 /// Reads the models, says what is to be said of them, and puts the scene together.
 fn load_scene(arguments: &Arguments, settings: &SceneSettings) -> Result<Loaded> {
     let start = Instant::now();
-    let options = arguments.load_options();
+    let options = arguments.model.options();
     let mut meshes = Vec::new();
     for path in &arguments.models {
         let loaded = load(path, &options)?;
@@ -355,29 +254,10 @@ fn explanation(plan: &tinta::plan::Plan, passes: &[PassTime], times: &Summary, f
 }
 
 impl Arguments {
-    fn load_options(&self) -> LoadOptions {
-        LoadOptions {
-            weld: self.model.weld,
-            normals: self.model.normals,
-            smooth_angle_degrees: self.model.smooth_angle,
-            up_axis: self.model.up_axis,
-            strict: self.model.strict,
-        }
-    }
-
     fn scene_settings(&self) -> SceneSettings {
         SceneSettings {
             copies: self.copies,
-            camera: CameraSettings {
-                view: self.camera.view,
-                eye: self.camera.eye,
-                target: self.camera.target,
-                up: self.camera.up,
-                fov_y_degrees: self.camera.fov,
-                parallel: self.camera.parallel,
-                near: self.camera.near,
-                far: self.camera.far,
-            },
+            camera: self.camera.settings(),
             size: self.size,
             background: if self.transparent { Background::Transparent } else { Background::Color(self.background) },
             color: self.color,
@@ -385,26 +265,11 @@ impl Arguments {
     }
 
     fn style(&self) -> Style {
-        let mut style = Style::named(self.style);
-        let cartoon = match &mut style {
-            Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => Some(cartoon),
-            Style::Phong(phong) => {
-                phong.cull_back_faces = self.cull;
-                None
-            }
-        };
-        if let Some(cartoon) = cartoon {
-            let options = &self.cartoon;
-            cartoon.cull_back_faces = self.cull;
-            cartoon.tones.count = options.tones;
-            [cartoon.tones.diffuse_threshold, cartoon.tones.specular_threshold] = options.tone_thresholds;
-            cartoon.tones.levels = options.tone_levels;
-            cartoon.tones.lookup = options.tone_lookup;
-            cartoon.border = (!options.no_borders)
-                .then_some(Border { filter: options.filter, detection_factor: options.detection_factor });
-            cartoon.background_square = options.background_quad;
+        match self.style {
+            StyleName::Phong => Style::Phong(Phong { cull_back_faces: self.cull, ..Phong::default() }),
+            StyleName::ThreePass => Style::ThreePass(self.cartoon.settings(self.cull)),
+            StyleName::TwoPass => Style::TwoPass(self.cartoon.settings(self.cull)),
         }
-        style
     }
 }
 
@@ -419,48 +284,11 @@ fn after_help() -> String {
     )
 }
 
-fn parse_vector(text: &str) -> std::result::Result<DVec3, String> {
-    parse_numbers::<f64, 3>(text).map(DVec3::from_array)
-}
-
-fn parse_pair(text: &str) -> std::result::Result<[f32; 2], String> {
-    parse_numbers(text)
-}
-
-fn parse_triple(text: &str) -> std::result::Result<[f32; 3], String> {
-    parse_numbers(text)
-}
-
-fn parse_numbers<T: std::str::FromStr, const N: usize>(text: &str) -> std::result::Result<[T; N], String> {
-    let numbers: Vec<T> = text.split(',').map_while(|number| number.trim().parse().ok()).collect();
-    let whole = numbers.len() == text.split(',').count();
-    numbers
-        .try_into()
-        .ok()
-        .filter(|_| whole)
-        .ok_or_else(|| format!("give {N} numbers with commas between them and no blanks"))
-}
-
-fn parse_cull(text: &str) -> std::result::Result<bool, String> {
-    match text {
-        "none" => Ok(false),
-        "back" => Ok(true),
-        _ => Err("choose none or back".to_owned()),
-    }
-}
-
-fn parse_switch(text: &str) -> std::result::Result<bool, String> {
-    match text {
-        "on" => Ok(true),
-        "off" => Ok(false),
-        _ => Err("choose on or off".to_owned()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use clap::Parser;
+    use tinta::{LoadOptions, Show};
 
     #[derive(Parser)]
     struct Line {
@@ -472,7 +300,7 @@ mod tests {
     fn without_options_the_command_line_means_the_librarys_defaults() {
         let arguments = Line::try_parse_from(["tinta", "a.obj", "-o", "a.png"]).unwrap().arguments;
         assert_eq!(arguments.style(), Style::named(StyleName::ThreePass));
-        assert_eq!(arguments.load_options(), LoadOptions::default());
+        assert_eq!(arguments.model.options(), LoadOptions::default());
         let (asked, default) = (arguments.scene_settings(), SceneSettings::default());
         assert_eq!(asked.camera, default.camera);
         assert_eq!((asked.copies, asked.size), (default.copies, default.size));
