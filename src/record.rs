@@ -13,7 +13,9 @@ use serde::Serialize;
 pub struct Record {
     /// tinta's version.
     pub version: &'static str,
-    /// The models in the order given, copies not repeated.
+    /// All models together, copies not repeated; their paths with commas between them.
+    pub model: ModelRecord,
+    /// Each model in the order given.
     pub models: Vec<ModelRecord>,
     /// How they were read.
     pub load: LoadOptions,
@@ -63,6 +65,19 @@ pub struct ModelRecord {
     pub triangles: usize,
     /// What was wrong with the file.
     pub defects: Defects,
+}
+
+impl ModelRecord {
+    /// Several models as one.
+    pub fn together(models: &[Self]) -> Self {
+        let paths: Vec<&str> = models.iter().map(|model| model.path.as_str()).collect();
+        Self {
+            path: paths.join(", "),
+            vertices: models.iter().map(|model| model.vertices).sum(),
+            triangles: models.iter().map(|model| model.triangles).sum(),
+            defects: models.iter().map(|model| &model.defects).sum(),
+        }
+    }
 }
 
 /// A camera in numbers; lengths in file units, matrices as 16 numbers column by column.

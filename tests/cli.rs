@@ -194,6 +194,7 @@ fn the_record_says_what_was_drawn_and_how_long_it_took() {
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(record["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(record["model"], record["models"][0]);
     assert_eq!(record["models"][0]["path"], "builtin:open-box");
     assert_eq!(record["models"][0]["triangles"], 10);
     assert_eq!(record["models"][0]["vertices"], 8);

@@ -145,9 +145,11 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     if arguments.run.explain {
         return super::print(&explanation(&plan, &passes, &times, frames));
     }
+    let models = model_records(&scene, arguments.models.len());
     super::print_json(&Record {
         version: env!("CARGO_PKG_VERSION"),
-        models: model_records(&scene, arguments.models.len()),
+        model: ModelRecord::together(&models),
+        models,
         load: arguments.model.options(),
         copies: arguments.copies,
         triangles: scene.triangle_count(),

@@ -29,6 +29,19 @@ impl Defects {
     }
 }
 
+impl<'a> std::iter::Sum<&'a Self> for Defects {
+    fn sum<I: Iterator<Item = &'a Self>>(all: I) -> Self {
+        all.fold(Self::default(), |sum, one| Self {
+            degenerate_triangles: sum.degenerate_triangles + one.degenerate_triangles,
+            duplicate_triangles: sum.duplicate_triangles + one.duplicate_triangles,
+            non_finite_vertices: sum.non_finite_vertices + one.non_finite_vertices,
+            out_of_range_faces: sum.out_of_range_faces + one.out_of_range_faces,
+            unused_vertices: sum.unused_vertices + one.unused_vertices,
+            missing_materials: sum.missing_materials + one.missing_materials,
+        })
+    }
+}
+
 impl fmt::Display for Defects {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let kinds = [
