@@ -50,23 +50,39 @@ struct Series {
 }
 
 fn main() {
-    let Some(settings) = Settings::from_arguments() else {
+    let Some(mut settings) = Settings::from_arguments() else {
         println!("{USAGE}");
         return;
     };
-    let mesh = Arc::new(load(&settings.model, &LoadOptions::default()).expect("the model can be read").mesh);
+    let mesh = match load(&settings.model, &LoadOptions::default()) {
+        Ok(loaded) => Arc::new(loaded.mesh),
+        Err(error) => {
+            eprintln!("{error}");
+            std::process::exit(2);
+        }
+    };
+    settings.python = settings.python.filter(|python| has_panda(python));
+    if settings.python.is_none() {
+        println!("SKIPPED Panda3D: needs --python PYTHON with Panda3D in it, and the package xvfb");
+    }
     let folder = tempfile::tempdir().expect("a temporary folder");
     let frames: Vec<Value> =
         [(512, 512), (1920, 1080)].into_iter().map(|size| frame_table(&settings, &mesh, size, folder.path())).collect();
     let cold = cold_table(&settings, folder.path());
     let memory = peak_memory_mib(&settings.model, folder.path());
-    println!("\npeak memory of one picture, 512 x 512: {memory:.0} MiB");
+    println!("\npeak memory of one process over 200 frames, 512 x 512: {memory:.0} MiB");
 
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench/cartoon.json");
     std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
     let all = json!({ "model": settings.model, "frames": frames, "cold": cold, "peak_memory_mib": memory });
     std::fs::write(&path, serde_json::to_string_pretty(&all).expect("JSON")).expect("the record can be written");
     println!("raw values: {}", path.display());
+}
+
+/// Whether this Python has Panda3D and there is a virtual display for it.
+fn has_panda(python: &str) -> bool {
+    let import = Command::new(python).args(["-c", "import panda3d"]).stderr(Stdio::null()).status();
+    import.is_ok_and(|status| status.success()) && runs("xvfb-run", "--help")
 }
 
 /// Frame times, read-back included, the model turning 3 degrees a frame at the peer's distance and field of view.

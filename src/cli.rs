@@ -8,7 +8,7 @@ use clap::{Parser, Subcommand};
 use std::io::Write;
 use tinta::{Error, Result};
 
-/// Cartoon, ink and charcoal drawings of 3D models, drawn the way the papers of 2001-2007 drew them.
+/// Cartoon drawings of 3D models, drawn the way a paper of 2005 drew them.
 #[derive(Parser)]
 #[command(name = "tinta", version, arg_required_else_help = true, max_term_width = 100)]
 #[command(after_help = "\

@@ -1,4 +1,5 @@
-//! tinta: the cartoon, ink and charcoal pipelines of 2001-2007 as their authors published them, on OpenGL 2.1.
+//! tinta: historical non-photorealistic pipelines as their authors published them, on OpenGL 2.1; so far the cartoon of
+//! Evangelista et al. 2005.
 //!
 //! Data flows one way, and every arrow is a plain value:
 //!

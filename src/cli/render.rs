@@ -245,7 +245,7 @@ fn model_records(scene: &Scene, models: usize) -> Vec<ModelRecord> {
 
 fn explanation(plan: &tinta::plan::Plan, passes: &[PassTime], times: &Summary, frames: usize) -> String {
     let mut text = plan.to_string();
-    text.push_str(&format!("\n{:<20}{:>10}{:>10}\n", "pass", "clock ms", "device ms"));
+    text.push_str(&format!("\n{:<20}{:>10}{:>10}\n", "pass", "cpu ms", "gpu ms"));
     for pass in passes {
         let device = pass.gpu_ms.map_or("-".to_owned(), |ms| format!("{ms:.3}"));
         text.push_str(&format!("{:<20}{:>10.3}{:>10}\n", pass.name, pass.cpu_ms, device));
@@ -280,8 +280,8 @@ fn after_help() -> String {
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
     format!(
         "Built-in models:\n{}\n\n\
-         As published, borders are black and a pixel or two wide at any size, and edges are not smoothed. Facets that\n\
-         show as thin lines come from the file's normals: try --normals smooth.",
+         As published, borders are black and a pixel or two wide at any size, and edges are not smoothed.\n\n\
+         Facets that show as thin lines come from the file's normals: try --normals smooth.",
         names.join("\n")
     )
 }
