@@ -4,14 +4,15 @@
 //! lies and however large it is, and so that the papers' light, given in eye space without a unit, always stands at the
 //! same place relative to what it lights (errata E11). Scene space only moves and scales world space; nothing turns.
 
+mod values;
+
+pub use values::{Background, Color, Size};
+
 use crate::camera::{Camera, CameraSettings};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, NONE, VertexArrays, bounds};
 use crate::tolerances::{LARGEST_DISTANCE, SCENE_RADIUS};
 use glam::{DMat4, DVec3, Mat4};
-use serde::Serialize;
-use std::fmt;
-use std::str::FromStr;
 use std::sync::{Arc, OnceLock};
 
 /// A mesh at a place.
@@ -232,84 +233,6 @@ fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
         .collect()
 }
 
-/// A picture's size in pixels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Size {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-}
-
-impl Size {
-    /// Width over height.
-    pub fn aspect(self) -> f64 {
-        f64::from(self.width) / f64::from(self.height)
-    }
-
-    /// Number of pixels.
-    pub fn pixel_count(self) -> usize {
-        self.width as usize * self.height as usize
-    }
-}
-
-impl fmt::Display for Size {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}x{}", self.width, self.height)
-    }
-}
-
-impl FromStr for Size {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        let (width, height) = text.split_once(['x', 'X']).unwrap_or((text, text));
-        match (width.parse(), height.parse()) {
-            (Ok(width), Ok(height)) if width > 0 && height > 0 => Ok(Self { width, height }),
-            _ => Err("a size is WIDTHxHEIGHT in pixels, each at least 1, or one number for both".to_owned()),
-        }
-    }
-}
-
-/// Red, green, blue in [0, 1], as GL gets them.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Color(pub [f32; 3]);
-
-impl FromStr for Color {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        let [red, green, blue, alpha] = csscolorparser::parse(text)
-            .map(|color| color.to_array())
-            .map_err(|_| "a colour is a CSS name or #rrggbb, for example tan or #d2b48c".to_owned())?;
-        if alpha != 1.0 {
-            return Err("this colour is see-through; give an opaque one, or --transparent for no background".to_owned());
-        }
-        Ok(Self([red, green, blue]))
-    }
-}
-
-/// What is behind the objects.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Background {
-    /// A colour.
-    Color(Color),
-    /// Nothing: alpha 0.
-    Transparent,
-}
-
-impl Background {
-    /// The colour the framebuffer is cleared to: red, green, blue, alpha. Transparent is black without alpha, so that
-    /// ink blended over it is black with the ink's alpha.
-    pub fn clear_color(self) -> [f32; 4] {
-        match self {
-            Self::Color(Color([red, green, blue])) => [red, green, blue, 1.0],
-            Self::Transparent => [0.0; 4],
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -386,18 +309,5 @@ mod tests {
         }
         assert!(refused(CameraSettings { fov_y_degrees: 1e-6, ..base() }).contains("--parallel"));
         assert!(refused(CameraSettings { eye: Some(DVec3::Z * 1e30), ..base() }).contains("--eye"));
-    }
-
-    #[test]
-    fn sizes_and_colours_are_read() {
-        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
-        assert_eq!("64".parse(), Ok(Size { width: 64, height: 64 }));
-        for bad in ["0x5", "5x", "x", "-1x5", "1x2x3", ""] {
-            assert!(bad.parse::<Size>().is_err(), "{bad}");
-        }
-        assert_eq!("#ff0000".parse(), Ok(Color([1.0, 0.0, 0.0])));
-        assert_eq!("white".parse(), Ok(Color([1.0; 3])));
-        assert!("#ff000080".parse::<Color>().is_err());
-        assert!("no-colour".parse::<Color>().is_err());
     }
 }

@@ -285,4 +285,22 @@ mod tests {
             assert_eq!(gl.live_objects.get(), 0);
         }
     }
+
+    #[test]
+    fn a_gl_error_is_reported_once_with_its_name_and_place() {
+        for backend in [Backend::Egl, Backend::OsMesa] {
+            let context = Context::open(backend).unwrap_or_else(|error| panic!("{error}"));
+            let _current = context.enter().unwrap();
+            let gl = context.gl();
+            gl.check("before").unwrap();
+            // SAFETY: the context is current; names GL does not know leave an error and change nothing.
+            unsafe {
+                gl.glow.enable(0xFFFF);
+                gl.glow.enable(0xFFFF);
+            }
+            let message = gl.check("a test").unwrap_err().to_string();
+            assert!(message.contains("a test") && message.contains("GL_INVALID_ENUM"), "{message}");
+            gl.check("after").unwrap();
+        }
+    }
 }

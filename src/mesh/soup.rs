@@ -9,7 +9,8 @@ use crate::tolerances::LARGEST_COORDINATE;
 use earcut::Earcut;
 use glam::{DVec3, Vec2, Vec3};
 
-/// A file's contents, unchecked but for one thing: every index is [`NONE`] or within its array.
+/// A file's contents, unchecked but for two things: every index is [`NONE`] or within its array, and every polygon has at
+/// least three corners.
 #[derive(Debug, Default)]
 pub struct Soup {
     /// All vertices in the file's order and units.
@@ -134,7 +135,7 @@ impl Soup {
             points.extend(corners.iter().map(|corner| self.positions[corner.position as usize]));
             triangulate::triangulate(&points, &mut earcut, &mut cut);
             // A polygon whose area earcut cannot find loses triangles there: they are as good as degenerate.
-            defects.degenerate_triangles += corners.len().saturating_sub(2) - cut.len().min(corners.len() - 2);
+            defects.degenerate_triangles += (corners.len() - 2).saturating_sub(cut.len());
             for triangle in &cut {
                 let corners = triangle.map(|index| corners[index as usize]);
                 let positions = corners.map(|corner| welded[corner.position as usize]);
