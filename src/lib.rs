@@ -24,6 +24,7 @@
 //! ```
 
 pub mod camera;
+pub mod edges;
 pub mod error;
 pub mod gl;
 pub mod glsl;
@@ -39,6 +40,7 @@ pub mod tolerances;
 mod names;
 
 pub use camera::{Camera, CameraSettings, View};
+pub use edges::EdgeList;
 pub use error::{Error, Result};
 pub use gl::Backend;
 pub use mesh::{LoadOptions, Mesh, load};

@@ -6,6 +6,7 @@
 
 pub mod builtin;
 pub mod defects;
+mod hilbert;
 pub mod load;
 mod normals;
 mod obj;
@@ -22,6 +23,7 @@ use std::path::PathBuf;
 
 pub use builtin::BUILTINS;
 pub use defects::Defects;
+pub(crate) use hilbert::hilbert_code;
 pub use load::{LoadOptions, Normals, UpAxis, load};
 pub use vertices::{Part, VertexArrays};
 

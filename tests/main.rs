@@ -2,6 +2,7 @@
 
 mod cli;
 mod docs;
+mod edges;
 mod goldens;
 mod licences;
 mod pipeline;

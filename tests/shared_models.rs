@@ -2,8 +2,7 @@
 //!
 //! `TINTA_MODELS` names their folder, by default `../shared/models`.
 
-use crate::support::{BACKENDS, renderer, root, skip, styles};
-use std::path::PathBuf;
+use crate::support::{BACKENDS, public_models, renderer, skip, styles};
 use std::sync::Arc;
 use tinta::{LoadOptions, Scene, SceneSettings, Size, load};
 
@@ -19,18 +18,9 @@ const MODELS: [(&str, usize); 8] = [
     ("teapot.obj", 6_320),
 ];
 
-fn folder() -> Option<PathBuf> {
-    let folder = std::env::var_os("TINTA_MODELS").map_or_else(|| root().join("../shared/models"), PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    skip(&format!("public models: none in {}; set TINTA_MODELS to a folder that has them", folder.display()));
-    None
-}
-
 #[test]
 fn public_models_have_the_triangles_their_authors_say_and_are_drawn_in_every_style() {
-    let Some(folder) = folder() else { return };
+    let Some(folder) = public_models() else { return };
     let mut renderer = renderer(BACKENDS[0]);
     for (file, triangles) in MODELS {
         let path = folder.join(file);

@@ -18,6 +18,16 @@ pub fn skip(what: &str) {
     let _ = writeln!(std::io::stderr(), "SKIPPED {what}");
 }
 
+/// The folder of public models that tests try where they have it: `TINTA_MODELS`, by default `../shared/models`.
+pub fn public_models() -> Option<PathBuf> {
+    let folder = std::env::var_os("TINTA_MODELS").map_or_else(|| root().join("../shared/models"), PathBuf::from);
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    skip(&format!("public models: none in {}; set TINTA_MODELS to a folder that has them", folder.display()));
+    None
+}
+
 /// A renderer; without one the test fails with the program's own sentence.
 pub fn renderer(backend: Backend) -> Renderer {
     Renderer::new(backend).unwrap_or_else(|error| panic!("{backend:?}: {error}"))
