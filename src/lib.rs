@@ -36,6 +36,7 @@ pub mod scene;
 pub mod styles;
 pub mod tolerances;
 
+mod bytes;
 mod names;
 
 pub use camera::{Camera, CameraSettings, View};
