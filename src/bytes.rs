@@ -25,6 +25,10 @@ impl<'a> Bytes<'a> {
         Some(*taken)
     }
 
+    pub fn u8(&mut self) -> Option<u8> {
+        self.array().map(u8::from_le_bytes)
+    }
+
     pub fn u16(&mut self) -> Option<u16> {
         self.array().map(u16::from_le_bytes)
     }
@@ -72,10 +76,10 @@ mod tests {
     #[test]
     fn numbers_and_names_follow_each_other_and_end_with_the_bytes() {
         let mut bytes = Bytes(b"\x01\x02\x03\xff\xffskin\0\x00\x00\x80\x3f\x07");
-        assert_eq!((bytes.take(1), bytes.u16(), bytes.i16()), (Some([1].as_slice()), Some(0x0302), Some(-1)));
+        assert_eq!((bytes.u8(), bytes.u16(), bytes.i16()), (Some(1), Some(0x0302), Some(-1)));
         assert_eq!(bytes.text().as_deref(), Some("skin"));
         assert_eq!(bytes.floats::<1>(), Some([1.0]));
-        assert_eq!((bytes.u16(), bytes.take(1), bytes.take(1)), (None, Some([7].as_slice()), None));
+        assert_eq!((bytes.u16(), bytes.u8(), bytes.u8()), (None, Some(7), None));
         assert!(bytes.text().is_none() && bytes.records(usize::MAX, 2).is_none());
     }
 }

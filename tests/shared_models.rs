@@ -7,7 +7,7 @@ use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tinta::mesh::ModelFrame;
-use tinta::{LoadOptions, Mesh, Scene, SceneSettings, Size, load};
+use tinta::{LoadOptions, Mesh, Picture, Scene, SceneSettings, Size, load};
 
 /// File and triangles in it.
 const MODELS: [(&str, usize); 9] = [
@@ -85,6 +85,7 @@ fn the_faerie_has_her_frames_and_her_skin_and_is_not_inside_out() {
     assert!(loaded.mesh.texture_coordinates.iter().all(|at| at.min_element() >= 0.0 && at.max_element() <= 1.0));
     let skin = loaded.mesh.materials[0].texture.clone().unwrap();
     assert_eq!(skin, Path::new(&path).with_file_name("faerie.bmp"));
+    assert_eq!(Picture::read(&skin).unwrap().size, Size { width: 220, height: 193 });
     for number in 0..loaded.frames.len() {
         let mesh = at_frame(&path, ModelFrame::Number(number as f64));
         assert!(volume(&mesh) > 0.0, "frame {number}");
