@@ -20,6 +20,14 @@ pub enum Error {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// A picture file, such as a model's skin, could not be read.
+    #[error("{path}: {problem}")]
+    Picture {
+        /// The file as the user or a model named it.
+        path: String,
+        /// What is wrong and what to do.
+        problem: String,
+    },
     /// A model has defects and `--strict` was asked for.
     #[error("{path}: {defects}; mend the model, or leave out --strict to draw it without them")]
     Strict {
@@ -97,6 +105,11 @@ impl Error {
     /// A model error without a line.
     pub(crate) fn model(path: &str, problem: impl Into<String>) -> Self {
         Self::Model { path: path.to_owned(), line: None, problem: problem.into() }
+    }
+
+    /// A picture error.
+    pub(crate) fn picture(path: &std::path::Path, problem: impl Into<String>) -> Self {
+        Self::Picture { path: path.display().to_string(), problem: problem.into() }
     }
 
     /// A setting error.

@@ -37,6 +37,7 @@ pub mod scene;
 pub mod styles;
 pub mod tolerances;
 
+mod bytes;
 mod names;
 
 pub use camera::{Camera, CameraSettings, View};

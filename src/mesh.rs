@@ -6,13 +6,18 @@
 
 pub mod builtin;
 pub mod defects;
+mod format;
+mod frame;
 mod hilbert;
 pub mod load;
+mod md2;
 mod normals;
 mod obj;
 mod ply;
+mod skin;
 mod soup;
 mod stl;
+mod three_ds;
 mod triangulate;
 mod vertices;
 mod weld;
@@ -23,6 +28,7 @@ use std::path::PathBuf;
 
 pub use builtin::BUILTINS;
 pub use defects::Defects;
+pub use frame::ModelFrame;
 pub(crate) use hilbert::hilbert_code;
 pub use load::{LoadOptions, Normals, UpAxis, load};
 pub use vertices::{Part, VertexArrays};
@@ -64,7 +70,7 @@ pub struct Material {
     pub name: String,
     /// Diffuse colour, red, green, blue in [0, 1] (MTL `Kd`); `None` where the file gives none.
     pub color: Option<[f32; 3]>,
-    /// The colour texture's file (MTL `map_Kd`), beside the model; not opened until a style needs it.
+    /// The colour texture's file (MTL `map_Kd`, an MD2 model's skin) where it was found; not opened until a style needs it.
     pub texture: Option<PathBuf>,
 }
 

@@ -1,4 +1,7 @@
-//! A finished picture: RGBA8 and its size; written to files and read back. The one file that knows the image crate.
+//! A picture: RGBA8 and its size; written to files and read from them. The image crate is known here and in [`read`] only.
+
+mod pcx;
+mod read;
 
 use crate::error::{Error, Result};
 use crate::scene::Size;

@@ -304,3 +304,37 @@ fn help_states_every_default() {
     assert_eq!(tinta(&["--help"]).status.code(), Some(0));
     assert_eq!(tinta(&[]).status.code(), Some(2));
 }
+
+#[test]
+fn frames_and_skins_are_refused_where_a_model_has_none_and_recorded_where_it_has() {
+    let folder = Folder::new();
+    let out = folder.path("out.png");
+    let skin = folder.file("skin.pcx", b"");
+    refused_in_one_line(
+        &["render", "builtin:ant", "-o", &out, "--model-frame", "3"],
+        &["--model-frame 3: builtin:ant has no frames"],
+    );
+    refused_in_one_line(&["render", "builtin:ant", "-o", &out, "--model-frame", "-1"], &["counted from 0"]);
+    refused_in_one_line(
+        &["render", "builtin:ant", "-o", &out, "--skin", "no-such.pcx"],
+        &["no-such.pcx: there is no such file"],
+    );
+    refused_in_one_line(&["render", "builtin:ant", "-o", &out, "--skin", &skin], &["has no texture coordinates"]);
+    let model =
+        folder.file("card.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nmtllib a.mtl\n");
+    folder.file("a.mtl", b"newmtl a\nmap_Kd -s 1 1 1 ART\\my skin.png\n");
+    let render = |options: &[&str]| {
+        let mut arguments = vec!["render", &model, "-o", &out, "--size", "32", "--json"];
+        arguments.extend(options);
+        let output = tinta(&arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        (record["load"].clone(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (load, said) = render(&[]);
+    assert!(load["skin"].is_null() && load["model_frame"] == 0.0 && load["up_axis"] == "auto", "{load}");
+    assert!(said.contains("the picture ART\\my skin.png is not beside it"), "{said}");
+    folder.file("My Skin.png", b"");
+    assert_eq!(render(&[]).1, "");
+    assert_eq!(render(&["--skin", &skin]).0["skin"], skin);
+}

@@ -3,14 +3,18 @@
 //! `TINTA_MODELS` names their folder, by default `../shared/models`.
 
 use crate::support::{BACKENDS, public_models, renderer, skip, styles};
+use glam::DVec3;
+use std::path::Path;
 use std::sync::Arc;
-use tinta::{LoadOptions, Scene, SceneSettings, Size, load};
+use tinta::mesh::ModelFrame;
+use tinta::{LoadOptions, Mesh, Picture, Scene, SceneSettings, Size, load};
 
 /// File and triangles in it.
-const MODELS: [(&str, usize); 8] = [
+const MODELS: [(&str, usize); 9] = [
     ("ant.ply", 912),
     ("beethoven.obj", 20_884),
     ("cow.obj", 5_804),
+    ("faerie.md2", 654),
     ("fandisk.obj", 12_946),
     ("spot/spot_triangulated.obj", 5_856),
     ("stanford-bunny.obj", 69_451),
@@ -38,5 +42,83 @@ fn public_models_have_the_triangles_their_authors_say_and_are_drawn_in_every_sty
             let drawn = picture.pixels.chunks_exact(4).filter(|pixel| pixel[..3] != [255; 3]).count();
             assert!(drawn > 500, "{file} {name}: {drawn} pixels are not background");
         }
+    }
+}
+
+/// A model of the public folder.
+fn model(file: &str) -> Option<String> {
+    let path = public_models()?.join(file);
+    if !path.is_file() {
+        skip(&format!("{file}: not in {}", path.parent().unwrap().display()));
+        return None;
+    }
+    path.to_str().map(str::to_owned)
+}
+
+/// The volume that a mesh encloses, negative if it is inside out, in cubic file units.
+fn volume(mesh: &Mesh) -> f64 {
+    let middle = mesh.positions.iter().sum::<DVec3>() / mesh.positions.len() as f64;
+    let from_middle = |index: u32| mesh.positions[index as usize] - middle;
+    mesh.triangles.iter().map(|corners| corners.map(from_middle)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
+}
+
+fn at_frame(path: &str, model_frame: ModelFrame) -> Mesh {
+    load(path, &LoadOptions { model_frame, ..LoadOptions::default() }).unwrap().mesh
+}
+
+#[test]
+fn the_faerie_has_her_frames_and_her_skin_and_is_not_inside_out() {
+    let Some(path) = model("faerie.md2") else { return };
+    let loaded = load(&path, &LoadOptions::default()).unwrap();
+    assert_eq!(loaded.frames.len(), 198);
+    assert_eq!((loaded.frames[0].as_str(), loaded.frames[197].as_str()), ("stand01", "death308"));
+    assert!(loaded.mesh.triangle_texture_coordinates.len() == loaded.mesh.triangles.len());
+    assert!(loaded.mesh.texture_coordinates.iter().all(|at| at.min_element() >= 0.0 && at.max_element() <= 1.0));
+    let skin = loaded.mesh.materials[0].texture.clone().unwrap();
+    assert_eq!(skin, Path::new(&path).with_file_name("faerie.bmp"));
+    assert_eq!(Picture::read(&skin).unwrap().size, Size { width: 220, height: 193 });
+    for number in 0..loaded.frames.len() {
+        let mesh = at_frame(&path, ModelFrame::Number(number as f64));
+        assert!(volume(&mesh) > 0.0, "frame {number}");
+    }
+    let (low, high) = loaded.mesh.bounds();
+    let extent = high - low;
+    assert!(extent.y > extent.x && extent.y > extent.z, "she stands: {extent}");
+}
+
+#[test]
+fn between_two_frames_the_faerie_is_between_them() {
+    let Some(path) = model("faerie.md2") else { return };
+    let by_name = at_frame(&path, ModelFrame::Name("run1".to_owned()));
+    let number = load(&path, &LoadOptions::default()).unwrap().frames.iter().position(|name| name == "run1").unwrap();
+    let frame = |share: f64| at_frame(&path, ModelFrame::Number(number as f64 + share));
+    assert_eq!(by_name, frame(0.0));
+    let place = |mesh: &Mesh, vertex: u32| {
+        let index = mesh.file_vertices.iter().position(|file_vertex| *file_vertex == vertex)?;
+        Some(mesh.positions[index])
+    };
+    let (first, middle, second) = (frame(0.0), frame(0.5), frame(1.0));
+    let mut compared = 0;
+    for vertex in 0..366 {
+        if let (Some(a), Some(b), Some(c)) = (place(&first, vertex), place(&middle, vertex), place(&second, vertex)) {
+            assert!(b.distance((a + c) / 2.0) < 1e-4, "vertex {vertex}: {a} {b} {c}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 300, "{compared}");
+}
+
+#[test]
+fn a_faerie_cut_off_anywhere_is_refused_in_a_sentence() {
+    let Some(path) = model("faerie.md2") else { return };
+    let whole = std::fs::read(&path).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let cut = folder.path().join("cut.md2");
+    for part in 0..500 {
+        // From one byte to one too few, with every length of the header on the way.
+        let length = if part < 100 { part } else { (whole.len() - 1) * (part - 99) / 400 };
+        std::fs::write(&cut, &whole[..length]).unwrap();
+        let message = load(cut.to_str().unwrap(), &LoadOptions::default()).unwrap_err().to_string();
+        assert!(message.contains("cut.md2: ") && message.lines().count() == 1, "{length}: {message}");
     }
 }

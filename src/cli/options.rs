@@ -1,7 +1,8 @@
 //! Options that more than one command takes, in groups: camera, cartoon settings, models.
 
 use glam::DVec3;
-use tinta::mesh::{Normals, UpAxis};
+use std::path::PathBuf;
+use tinta::mesh::{ModelFrame, Normals, UpAxis};
 use tinta::styles::{Border, Cartoon, Filter, ToneLookup, Tones};
 use tinta::{CameraSettings, LoadOptions, Show, View};
 
@@ -84,8 +85,8 @@ pub struct CartoonArguments {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Models")]
 pub struct ModelArguments {
-    /// Axis that points up in the file: x, y, z, -x, -y, -z [default: y]
-    #[arg(long, value_name = "AXIS", default_value = "y", hide_default_value = true, allow_hyphen_values = true)]
+    /// Axis that points up in the file: auto (z in MD2 and 3DS, else y), x, y, z, -x, -y, -z [default: auto]
+    #[arg(long, value_name = "AXIS", default_value = "auto", hide_default_value = true, allow_hyphen_values = true)]
     up_axis: UpAxis,
 
     /// Join vertices nearer than this share of the model's size [default: 1e-7]
@@ -103,6 +104,14 @@ pub struct ModelArguments {
     /// Refuse models with defects [default: off, defects are counted and left out]
     #[arg(long)]
     strict: bool,
+
+    /// Picture for all surfaces (PCX, PNG, TGA, BMP, JPEG, PPM) [default: what the model names, found beside it]
+    #[arg(long, value_name = "FILE")]
+    skin: Option<PathBuf>,
+
+    /// Frame of an animated model (MD2), from 0; 1.5 lies between two [default: 0]
+    #[arg(long, value_name = "N|NAME", default_value = "0", hide_default_value = true, allow_hyphen_values = true)]
+    model_frame: ModelFrame,
 }
 
 impl CameraArguments {
@@ -147,6 +156,8 @@ impl ModelArguments {
             smooth_angle_degrees: self.smooth_angle,
             up_axis: self.up_axis,
             strict: self.strict,
+            model_frame: self.model_frame.clone(),
+            skin: self.skin.clone(),
         }
     }
 }

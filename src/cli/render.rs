@@ -17,7 +17,7 @@ use tinta::{
 #[derive(clap::Args)]
 #[command(after_help = after_help())]
 pub struct Arguments {
-    /// Model files (OBJ, PLY, STL) or built-in models; several make one scene, each at its own coordinates
+    /// Model files (OBJ, PLY, STL, MD2, 3DS) or built-in models; several make one scene, each at its own coordinates
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 

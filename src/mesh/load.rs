@@ -1,12 +1,14 @@
 //! From a path to a [`Mesh`]: built-in or file, its format found by content first and by name second.
 
-use super::{Defects, Mesh, builtin, obj, ply, soup::Soup, stl};
+use super::format::Format;
+use super::{Defects, Mesh, ModelFrame, builtin, md2, obj, ply, skin, soup::Soup, stl, three_ds};
 use crate::error::{Error, Result};
 use crate::names::find;
 use crate::tolerances::{LARGEST_WELD, WELD};
 use glam::DVec3;
-use serde::Serialize;
-use std::{fs, path::Path, str::FromStr};
+use serde::{Serialize, Serializer};
+use std::path::{Path, PathBuf};
+use std::{fs, str::FromStr};
 
 /// How a model is read.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -19,16 +21,35 @@ pub struct LoadOptions {
     /// Neighbouring faces that differ by more than this angle do not share a computed normal. Default 60 degrees;
     /// more rounds edges off, less makes facets.
     pub smooth_angle_degrees: f64,
-    /// The axis that points up in the file. Default y.
+    /// The axis that points up in the file. Default: its format's, z for MD2 and 3DS, y for the others.
     pub up_axis: UpAxis,
     /// Whether a defect is an error. Default: no, it is counted.
     pub strict: bool,
+    /// The frame of an animated model (MD2). Default 0, the first; a fraction lies between two.
+    pub model_frame: ModelFrame,
+    /// A picture for all of the model's surfaces. Default: those the file names, found beside it; for MD2 also one that
+    /// has the model's own name.
+    #[serde(serialize_with = "as_text")]
+    pub skin: Option<PathBuf>,
 }
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self { weld: WELD, normals: Normals::File, smooth_angle_degrees: 60.0, up_axis: UpAxis::Y, strict: false }
+        Self {
+            weld: WELD,
+            normals: Normals::File,
+            smooth_angle_degrees: 60.0,
+            up_axis: UpAxis::Auto,
+            strict: false,
+            model_frame: ModelFrame::default(),
+            skin: None,
+        }
     }
+}
+
+/// A path may hold bytes that are no text, of which a record keeps what it can.
+fn as_text<S: Serializer>(path: &Option<PathBuf>, to: S) -> std::result::Result<S::Ok, S::Error> {
+    path.as_ref().map(|path| path.to_string_lossy()).serialize(to)
 }
 
 /// Where a mesh's normals come from.
@@ -60,6 +81,8 @@ impl FromStr for Normals {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum UpAxis {
+    /// As the file's format has it: z up in MD2 (where x is the front) and 3DS (where -y is), y in the others.
+    Auto,
     /// +x is up.
     X,
     /// +y is up, as here.
@@ -79,7 +102,8 @@ pub enum UpAxis {
 
 impl UpAxis {
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 6] = [
+    pub const ALL: [(&'static str, Self); 7] = [
+        ("auto", Self::Auto),
         ("x", Self::X),
         ("y", Self::Y),
         ("z", Self::Z),
@@ -88,11 +112,12 @@ impl UpAxis {
         ("-z", Self::MinusZ),
     ];
 
-    /// Rotates a vector so that this axis becomes +y; exact, components only change places and signs.
+    /// Rotates a vector so that this axis becomes +y; exact, components only change places and signs. For `Auto` the
+    /// vector stays: the formats' readers have turned it.
     pub fn to_y_up(self, v: DVec3) -> DVec3 {
         match self {
             Self::X => DVec3::new(-v.y, v.x, v.z),
-            Self::Y => v,
+            Self::Auto | Self::Y => v,
             Self::Z => DVec3::new(v.x, v.z, -v.y),
             Self::MinusX => DVec3::new(v.y, -v.x, v.z),
             Self::MinusY => DVec3::new(-v.x, -v.y, v.z),
@@ -109,73 +134,45 @@ impl FromStr for UpAxis {
     }
 }
 
-/// The formats read here.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Format {
-    Obj,
-    Ply,
-    Stl,
-}
-
-impl Format {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Obj => "OBJ",
-            Self::Ply => "PLY",
-            Self::Stl => "STL",
-        }
-    }
-
-    fn by_name(path: &str) -> Option<Self> {
-        match Path::new(path).extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "obj" => Some(Self::Obj),
-            "ply" => Some(Self::Ply),
-            "stl" => Some(Self::Stl),
-            _ => None,
-        }
-    }
-
-    fn by_content(bytes: &[u8]) -> Option<Self> {
-        let head = &bytes[..bytes.len().min(4096)];
-        if head.starts_with(b"ply\n") || head.starts_with(b"ply\r") {
-            return Some(Self::Ply);
-        }
-        if stl::is_binary(bytes) || stl::is_text(head) {
-            return Some(Self::Stl);
-        }
-        obj::looks_like(head).then_some(Self::Obj)
-    }
-}
-
 /// What [`load`] read and what it noticed on the way, to be said once.
 #[derive(Debug)]
 pub struct Loaded {
     /// The model.
     pub mesh: Mesh,
-    /// Sentences about the file, each naming it: a format other than the name says, defects, missing materials.
+    /// The names of the file's frames in order, as `LoadOptions::model_frame` takes them; empty where it has none.
+    pub frames: Vec<String>,
+    /// Sentences about the file, each naming it: a format other than the name says, defects, missing materials, skins.
     pub remarks: Vec<String>,
 }
 
-/// Reads a model: `builtin:NAME`, or an OBJ, PLY or STL file.
+/// Reads a model: `builtin:NAME`, or an OBJ, PLY, STL, MD2 or 3DS file.
 ///
 /// # Errors
 ///
 /// [`Error::Model`] when the file is missing, unreadable, empty, damaged, of no known format or holds nothing to draw;
-/// [`Error::Strict`] when it has defects and `options.strict`; [`Error::Setting`] when an option is nonsense.
+/// [`Error::Strict`] when it has defects and `options.strict`; [`Error::Setting`] when an option is nonsense or not for
+/// this model; [`Error::Picture`] when `options.skin` is no file.
 pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
     check(options)?;
     let mut remarks = Vec::new();
-    let soup = match builtin::find(path) {
+    let mut soup = match builtin::find(path) {
         Some(model) => builtin::read(&model?, path, &mut remarks)?,
-        None => read_file(path, &mut remarks)?,
+        None => read_file(path, options, &mut remarks)?,
     };
+    if soup.frames.is_empty() {
+        options.model_frame.check_still(path)?;
+    }
+    if let Some(skin) = &options.skin {
+        skin::put_on(&mut soup, skin, path)?;
+    }
+    let frames = std::mem::take(&mut soup.frames);
     let mesh = soup.into_mesh(path, options)?;
     // Missing materials have had a remark of their own from the reader, which knows their names.
     let others = Defects { missing_materials: 0, ..mesh.defects.clone() };
     if !others.is_empty() {
         remarks.push(format!("{path}: {others}"));
     }
-    Ok(Loaded { mesh, remarks })
+    Ok(Loaded { mesh, frames, remarks })
 }
 
 fn check(options: &LoadOptions) -> Result<()> {
@@ -191,10 +188,10 @@ fn check(options: &LoadOptions) -> Result<()> {
             "the angle is between 0 and 180 degrees",
         ));
     }
-    Ok(())
+    options.skin.as_deref().map_or(Ok(()), skin::check)
 }
 
-fn read_file(path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
+fn read_file(path: &str, options: &LoadOptions, remarks: &mut Vec<String>) -> Result<Soup> {
     #[cfg(unix)]
     if let Ok(metadata) = fs::metadata(path) {
         use std::os::unix::fs::FileTypeExt;
@@ -203,10 +200,10 @@ fn read_file(path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
         }
     }
     let bytes = fs::read(path).map_err(|error| Error::model(path, cannot_read(Path::new(path), &error)))?;
-    read_bytes(&bytes, path, remarks)
+    read_bytes(&bytes, path, options, remarks)
 }
 
-fn read_bytes(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
+fn read_bytes(bytes: &[u8], path: &str, options: &LoadOptions, remarks: &mut Vec<String>) -> Result<Soup> {
     if bytes.is_empty() {
         return Err(Error::model(path, "the file is empty; export the model again"));
     }
@@ -215,9 +212,9 @@ fn read_bytes(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Sou
     let bytes = text.unwrap_or(bytes);
     let named = Format::by_name(path);
     let found = Format::by_content(bytes);
-    let format = found
-        .or(named)
-        .ok_or_else(|| Error::model(path, "this is not a model in a format known here; use an OBJ, PLY or STL file"))?;
+    let format = found.or(named).ok_or_else(|| {
+        Error::model(path, format!("this is not a model in a format known here; use an {} file", Format::NAMES))
+    })?;
     if let (Some(named), Some(found)) = (named, found)
         && named != found
     {
@@ -226,10 +223,16 @@ fn read_bytes(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Sou
     match format {
         Format::Obj => {
             let folder = Path::new(path).parent().unwrap_or(Path::new("")).to_path_buf();
-            obj::read(bytes, path, &obj::Materials::Beside(folder), remarks)
+            let mut soup = obj::read(bytes, path, &obj::Materials::Beside(folder.clone()), remarks)?;
+            if options.skin.is_none() {
+                skin::find_all(&mut soup, &folder, path, remarks);
+            }
+            Ok(soup)
         }
         Format::Ply => ply::read(bytes, path),
         Format::Stl => stl::read(bytes, path),
+        Format::Md2 => md2::read(bytes, path, options, remarks),
+        Format::ThreeDs => three_ds::read(bytes, path, options, remarks),
     }
 }
 
@@ -273,19 +276,8 @@ mod tests {
         }
     }
 
-    #[test]
-    fn formats_are_told_apart_by_content() {
-        assert_eq!(Format::by_content(b"ply\nformat ascii 1.0\n"), Some(Format::Ply));
-        assert_eq!(Format::by_content(b"solid x\n facet normal 0 0 1\n"), Some(Format::Stl));
-        assert_eq!(Format::by_content(b"# made by\nv 1 2 3\n"), Some(Format::Obj));
-        assert_eq!(Format::by_content(&[0, 159, 146, 150, 7]), None);
-        let mut binary = vec![0u8; 84 + 50];
-        binary[80] = 1;
-        assert_eq!(Format::by_content(&binary), Some(Format::Stl));
-    }
-
     /// Small valid files of every format, each with all that its reader knows.
-    fn valid_files() -> [(&'static str, Vec<u8>); 5] {
+    fn valid_files() -> [(&'static str, Vec<u8>); 7] {
         let obj =
             "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -4//-1 -2 -1\n";
         let header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
@@ -308,11 +300,14 @@ mod tests {
             ("b.ply", binary_ply),
             ("t.stl", text_stl.into()),
             ("b.stl", binary_stl),
+            ("b.md2", md2::tests::pyramid()),
+            ("b.3ds", three_ds::tests::square()),
         ]
     }
 
     fn mesh_of(bytes: &[u8], name: &str) -> Result<Mesh> {
-        read_bytes(bytes, name, &mut Vec::new())?.into_mesh(name, &LoadOptions::default())
+        let options = LoadOptions::default();
+        read_bytes(bytes, name, &options, &mut Vec::new())?.into_mesh(name, &options)
     }
 
     #[test]
@@ -324,15 +319,15 @@ mod tests {
     }
 
     proptest::proptest! {
-        #![proptest_config(proptest::prelude::ProptestConfig::with_cases(4000))]
+        #![proptest_config(proptest::prelude::ProptestConfig::with_cases(6000))]
 
         /// Changed bytes, inserted numbers, cut ends: a mesh of finite numbers or an error that names the file.
         #[test]
         fn damaged_files_give_a_sound_mesh_or_an_error_and_never_a_panic(
-            file in 0usize..5,
-            changes in proptest::collection::vec((0usize..400, proptest::num::u8::ANY), 0..6),
-            insertion in (0usize..400, proptest::sample::select(vec!["", "nan", "-1", "1e999", "4294967296", "\\\n", "\n", "/", "#"])),
-            keep in 0usize..400,
+            file in 0usize..7,
+            changes in proptest::collection::vec((0usize..600, proptest::num::u8::ANY), 0..6),
+            insertion in (0usize..600, proptest::sample::select(vec!["", "nan", "-1", "1e999", "4294967296", "\\\n", "\n", "/", "#"])),
+            keep in 0usize..600,
         ) {
             let (name, mut bytes) = valid_files()[file].clone();
             for (place, byte) in changes {

@@ -115,11 +115,36 @@ fn sound_material_lines(text: &[u8]) -> Vec<u8> {
             _ => false,
         };
         if let (true, Some((_, rest))) = (keep, rest) {
+            let rest = if keyword == "map_Kd" { texture_name(rest) } else { rest.trim() };
             // tobj cuts names at fixed columns, so exactly one blank goes before them.
-            sound.push_str(&format!("{keyword} {}\n", rest.trim()));
+            sound.push_str(&format!("{keyword} {rest}\n"));
         }
     }
     sound.into_bytes()
+}
+
+/// The file's name, which may hold blanks, behind a texture statement's options and between its quotes, if it has any.
+fn texture_name(statement: &str) -> &str {
+    let mut rest = statement.trim();
+    while let Some((option, mut after)) = rest.split_once(char::is_whitespace) {
+        let (least, most) = match option.to_ascii_lowercase().as_str() {
+            "-o" | "-s" | "-t" => (1, 3),
+            "-mm" => (2, 2),
+            "-blendu" | "-blendv" | "-boost" | "-bm" | "-cc" | "-clamp" | "-imfchan" | "-texres" | "-type" => (1, 1),
+            _ => break,
+        };
+        // One to three numbers may follow; the last word is the name in any case.
+        for place in 0..most {
+            let Some((word, next)) = after.trim_start().split_once(char::is_whitespace) else { break };
+            if place >= least && word.parse::<f64>().is_err() {
+                break;
+            }
+            after = next;
+        }
+        rest = after.trim_start();
+    }
+    let quoted = rest.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).map(str::trim);
+    quoted.filter(|name| !name.is_empty()).unwrap_or(rest)
 }
 
 fn in_words(error: &tobj::LoadError) -> String {
@@ -240,6 +265,30 @@ mod tests {
         assert_eq!(soup.polygon_materials, [0, NONE]);
         assert_eq!(soup.materials[0].color, Some([1.0, 0.5, 0.0]));
         assert_eq!(soup.materials[0].texture, Some(PathBuf::from("skin.png")));
+    }
+
+    #[test]
+    fn texture_names_stand_behind_options_and_may_hold_blanks_and_backslashes() {
+        let names = [
+            ("skin.png", "skin.png"),
+            ("-s 1 1 1 skin.png", "skin.png"),
+            ("-s 2 skin.png", "skin.png"),
+            ("-o 0.5 0 my skin.png", "my skin.png"),
+            ("-blendu on -mm 0 1  -clamp off art\\my skin.png ", "art\\my skin.png"),
+            ("-t 1 2 3 4.png", "4.png"),
+            ("-s 1 1 1 2 faces.png", "2 faces.png"),
+            ("\"my skin.png\"", "my skin.png"),
+            ("-s 1 1 1", "1"),
+            ("-clamp", "-clamp"),
+        ];
+        for (statement, name) in names {
+            assert_eq!(texture_name(statement), name, "{statement}");
+            let text = format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1 2 3\n");
+            let mtl = sound_material_lines(format!("newmtl a\nmap_Kd\t{statement}\r\n").as_bytes());
+            let mtl: &'static [u8] = mtl.leak();
+            let soup = read(text.as_bytes(), "t.obj", &Materials::Text(mtl), &mut Vec::new()).unwrap();
+            assert_eq!(soup.materials[0].texture, Some(PathBuf::from(name)));
+        }
     }
 
     #[test]

@@ -27,6 +27,8 @@ pub struct Soup {
     pub polygon_materials: Vec<u32>,
     /// The materials.
     pub materials: Vec<Material>,
+    /// The names of the file's frames, of which this is one or lies between two; empty where the format has none.
+    pub frames: Vec<String>,
     /// What the reader already found.
     pub defects: Defects,
 }
@@ -50,11 +52,15 @@ impl Corner {
 }
 
 impl Soup {
+    /// How many polygons there are.
+    pub fn polygon_count(&self) -> usize {
+        if self.polygon_sizes.is_empty() { self.corners.len() / 3 } else { self.polygon_sizes.len() }
+    }
+
     /// Polygon by polygon: its corners and its material.
     fn polygons(&self) -> impl Iterator<Item = (&[Corner], u32)> {
-        let count = if self.polygon_sizes.is_empty() { self.corners.len() / 3 } else { self.polygon_sizes.len() };
         let mut start = 0;
-        (0..count).map(move |polygon| {
+        (0..self.polygon_count()).map(move |polygon| {
             let size = self.polygon_sizes.get(polygon).map_or(3, |size| *size as usize);
             let corners = &self.corners[start..start + size];
             start += size;

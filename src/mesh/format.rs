@@ -1,0 +1,76 @@
+//! Which format a model file is in: by its content first, by its name second.
+
+use super::{md2, obj, stl, three_ds};
+use std::path::Path;
+
+/// The formats read here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    Obj,
+    Ply,
+    Stl,
+    Md2,
+    ThreeDs,
+}
+
+impl Format {
+    /// All of them, for messages.
+    pub const NAMES: &'static str = "OBJ, PLY, STL, MD2 or 3DS";
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::Stl => "STL",
+            Self::Md2 => "MD2",
+            Self::ThreeDs => "3DS",
+        }
+    }
+
+    pub fn by_name(path: &str) -> Option<Self> {
+        match Path::new(path).extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            "stl" => Some(Self::Stl),
+            "md2" => Some(Self::Md2),
+            "3ds" => Some(Self::ThreeDs),
+            _ => None,
+        }
+    }
+
+    pub fn by_content(bytes: &[u8]) -> Option<Self> {
+        let head = &bytes[..bytes.len().min(4096)];
+        if head.starts_with(b"ply\n") || head.starts_with(b"ply\r") {
+            return Some(Self::Ply);
+        }
+        if head.starts_with(md2::MAGIC) {
+            return Some(Self::Md2);
+        }
+        if three_ds::looks_like(head) {
+            return Some(Self::ThreeDs);
+        }
+        if stl::is_binary(bytes) || stl::is_text(head) {
+            return Some(Self::Stl);
+        }
+        obj::looks_like(head).then_some(Self::Obj)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_are_told_apart_by_content() {
+        assert_eq!(Format::by_content(b"ply\nformat ascii 1.0\n"), Some(Format::Ply));
+        assert_eq!(Format::by_content(b"solid x\n facet normal 0 0 1\n"), Some(Format::Stl));
+        assert_eq!(Format::by_content(b"# made by\nv 1 2 3\n"), Some(Format::Obj));
+        assert_eq!(Format::by_content(&[0, 159, 146, 150, 7]), None);
+        let mut binary = vec![0u8; 84 + 50];
+        binary[80] = 1;
+        assert_eq!(Format::by_content(&binary), Some(Format::Stl));
+        assert_eq!(Format::by_content(b"IDP2\x08\0\0\0"), Some(Format::Md2));
+        assert_eq!(Format::by_content(b"MM\x10\0\0\0\x02\0\x0a\0\0\0\x03\0\0\0"), Some(Format::ThreeDs));
+        assert_eq!(Format::by_content(b"MM\0*\0\0\0\x08"), None, "a TIFF picture");
+    }
+}
