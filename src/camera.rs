@@ -51,6 +51,11 @@ impl Camera {
         look_at_mat4(self.eye, self.target, self.up)
     }
 
+    /// Unit vector from the target towards the eye, world space: eye space's z axis, the text's view vector.
+    pub fn backward(&self) -> DVec3 {
+        self.view_from_world().row(2).truncate()
+    }
+
     /// The projection for a picture of this width over height, GL's clip space, depth in [-1, 1].
     pub fn clip_from_view(&self, aspect: f64) -> DMat4 {
         match self.projection {

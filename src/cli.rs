@@ -1,6 +1,9 @@
 //! The commands, one file each. clap is known here and below, and nowhere else.
 
+mod compare;
+mod edges;
 mod info;
+mod models;
 mod options;
 mod render;
 
@@ -15,6 +18,8 @@ use tinta::{Error, Result};
 Examples:
   tinta render builtin:bust -o bust.png          a drawing without any file of your own
   tinta render cow.obj -o cow.png --style two-pass --tones 2
+  tinta compare builtin:gear -o both.png         two styles' lines, what both drew and what only one
+  tinta edges cow.obj                            its edges, counted by class
   tinta info                                     which OpenGL is there
 
 Exit codes: 0 done, 2 could not be done; the reason is one sentence on standard error.")]
@@ -26,6 +31,8 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Render(Box<render::Arguments>),
+    Compare(Box<compare::Arguments>),
+    Edges(Box<edges::Arguments>),
     Info(info::Arguments),
 }
 
@@ -40,6 +47,8 @@ pub fn run() -> Result<()> {
     })?;
     match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Edges(arguments) => edges::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
 }

@@ -7,11 +7,13 @@
 mod build;
 mod classes;
 mod cones;
+mod mesh_edges;
 mod orientation;
 mod silhouette;
 
 pub use classes::{Class, ClassCounts, ClassSet, Classes, CreaseAngle};
 pub use cones::NormalCones;
+pub use mesh_edges::MeshEdges;
 pub use orientation::{Eye, Side, side_of_face};
 pub use silhouette::{SilhouetteRule, Silhouettes};
 

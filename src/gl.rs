@@ -7,9 +7,12 @@
 #![expect(unsafe_code, reason = "OpenGL is a C interface; this module wraps all of it")]
 
 pub mod context;
+mod edges;
 pub(crate) mod execute;
 mod legacy;
 mod objects;
+mod quads;
+mod textures;
 
 pub use context::{Attempt, Backend, ContextInfo};
 
@@ -18,10 +21,11 @@ use glow::HasContext;
 use legacy::Legacy;
 use std::cell::Cell;
 
-/// The loaded GL functions of one context, and how many of its objects are alive.
+/// The loaded GL functions of one context, what it says about itself, and how many of its objects are alive.
 pub(crate) struct Gl {
     glow: glow::Context,
     legacy: Legacy,
+    info: ContextInfo,
     live_objects: Cell<usize>,
 }
 

@@ -12,6 +12,9 @@ macro_rules! sources {
 
 // A macro because include_str! takes literals only: a function would need every path twice.
 sources![
+    "dachsbacher/ramp.vert",
+    "dietrich/dietrich.frag",
+    "dietrich/dietrich.vert",
     "evangelista/border-settings.frag",
     "evangelista/border.frag",
     "evangelista/border.vert",

@@ -24,6 +24,7 @@
 //! ```
 
 pub mod camera;
+pub mod compare;
 pub mod edges;
 pub mod error;
 pub mod gl;
@@ -34,6 +35,7 @@ pub mod plan;
 pub mod record;
 pub mod renderer;
 pub mod scene;
+pub mod sheet;
 pub mod styles;
 pub mod tolerances;
 

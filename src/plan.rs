@@ -2,7 +2,12 @@
 //!
 //! A style makes it from a scene, `gl` carries it out, and anybody can print, compare or check it without a GPU.
 
+use crate::names::find;
+use crate::picture::Picture;
+use serde::Serialize;
 use std::fmt;
+use std::str::FromStr;
+use std::sync::Arc;
 
 /// The steps of one picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,6 +16,8 @@ pub struct Plan {
     pub passes: Vec<Pass>,
     /// The table of tones that [`Texture::ToneTable`] stands for, if a step reads it.
     pub tone_table: Option<ToneTable>,
+    /// The pictures that [`Texture::Picture`] numbers.
+    pub pictures: Vec<PlanPicture>,
     /// What of the framebuffer is the picture.
     pub output: Output,
 }
@@ -43,11 +50,12 @@ pub enum Step {
 pub struct Draw {
     /// What is drawn.
     pub geometry: Geometry,
-    /// With which shaders.
-    pub program: Program,
+    /// With which shaders; `None` for the fixed-function pipeline, without lighting.
+    pub program: Option<Program>,
     /// The uniforms of that program.
     pub uniforms: Vec<Uniform>,
-    /// The textures it reads, by the name of their sampler; each gets a texture unit of its own.
+    /// The textures it reads, by the name of their sampler; each gets a texture unit of its own, in this order. Without a
+    /// fragment shader the units' colours are multiplied with each other and with the geometry's.
     pub textures: Vec<(&'static str, Texture)>,
     /// How it meets the depth buffer.
     pub depth: Depth,
@@ -55,13 +63,44 @@ pub struct Draw {
     pub blend: bool,
     /// Whether faces turned away from the eye (clockwise in the picture) are left out.
     pub cull_back_faces: bool,
+    /// glPolygonOffset's factor and units: how far faces are pushed back, by their slope and in steps of depth.
+    pub polygon_offset: Option<[f32; 2]>,
+}
+
+impl Draw {
+    /// A draw that tests and writes depth and does nothing else besides.
+    pub fn new(geometry: Geometry, program: Option<Program>) -> Self {
+        Self {
+            geometry,
+            program,
+            uniforms: Vec::new(),
+            textures: Vec::new(),
+            depth: Depth::TestAndWrite,
+            blend: false,
+            cull_back_faces: false,
+            polygon_offset: None,
+        }
+    }
 }
 
 /// What can be drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Geometry {
-    /// All objects of the scene, each material in its colour.
-    Objects,
+    /// All objects of the scene.
+    Objects(Paint),
+    /// Edges of the objects.
+    Edges {
+        /// Which, in runs of one object and colour.
+        runs: Arc<Vec<EdgeRun>>,
+        /// Lines, or points at their ends.
+        mark: Mark,
+        /// Width of the lines, or size of the points, pixels.
+        width_px: f32,
+        /// Whether GL smooths them.
+        is_smooth: bool,
+        /// How lines get their width.
+        line_drawing: LineDrawing,
+    },
     /// A square behind everything, facing the eye, in parallel projection, of this colour.
     BackgroundSquare {
         /// Red, green, blue, alpha.
@@ -71,12 +110,70 @@ pub enum Geometry {
     ScreenSquare,
 }
 
+/// The colour of the objects' vertices.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Paint {
+    /// Each material in its colour.
+    Materials,
+    /// One for all: red, green, blue, alpha.
+    Uniform([f32; 4]),
+    /// White, and for the first texture unit a coordinate for each vertex: one list an object, in the order of the scene's
+    /// objects, one entry for each of [`crate::mesh::VertexArrays::vertices`].
+    Coordinates(Arc<Vec<Arc<Vec<[f32; 2]>>>>),
+}
+
+/// Edges of one object in one colour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EdgeRun {
+    /// The object's number in the scene.
+    pub object: usize,
+    /// What they are: a class of edges.
+    pub name: &'static str,
+    /// Red, green, blue, alpha.
+    pub color: [f32; 4],
+    /// Both ends of each, as indices into the object's [`crate::mesh::VertexArrays::vertices`].
+    pub ends: Vec<[u32; 2]>,
+}
+
+/// What of an edge is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// GL_LINES
+    Lines,
+    /// GL_POINTS at both ends.
+    Points,
+}
+
+/// How lines get their width.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LineDrawing {
+    /// As GL draws lines and points; as quads where the width is beyond the driver's range.
+    #[default]
+    Gl,
+    /// As quads facing the eye, computed here; not smoothed.
+    Quads,
+}
+
+impl LineDrawing {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("gl", Self::Gl), ("quads", Self::Quads)];
+}
+
+impl FromStr for LineDrawing {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
 /// A vertex shader and the fragment shaders linked with it, by their paths below `glsl/`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Program {
     /// The vertex shader.
     pub vertex: &'static str,
-    /// The fragment shaders: one with `main`, the others with the functions it declares.
+    /// The fragment shaders: one with `main`, the others with the functions it declares; none for fixed-function fragments.
     pub fragments: Vec<&'static str>,
 }
 
@@ -107,6 +204,30 @@ pub enum Texture {
     BorderMap,
     /// The plan's [`ToneTable`], one-dimensional; NEAREST, CLAMP_TO_EDGE.
     ToneTable,
+    /// The plan's picture of this number.
+    Picture(usize),
+    /// The texture of each material, by the model's own texture coordinates, LINEAR, GL_REPEAT; white where it has none.
+    Material,
+}
+
+/// A picture as a texture, its lowest row at coordinate 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanPicture {
+    /// What it is, for those who read the plan.
+    pub name: &'static str,
+    /// The picture.
+    pub picture: Arc<Picture>,
+    /// How it is read.
+    pub sampling: Sampling,
+}
+
+/// How a texture is read between and beyond its texels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sampling {
+    /// NEAREST, CLAMP_TO_EDGE.
+    NearestClamped,
+    /// LINEAR, GL_REPEAT.
+    LinearRepeated,
 }
 
 /// How a draw meets the depth buffer.
@@ -150,7 +271,9 @@ impl Step {
             Self::Clear { .. } => "clear",
             Self::CopyFramebuffer => "copy",
             Self::Draw(draw) => match draw.geometry {
-                Geometry::Objects => "objects",
+                Geometry::Objects(_) => "objects",
+                Geometry::Edges { mark: Mark::Lines, .. } => "lines",
+                Geometry::Edges { mark: Mark::Points, .. } => "points",
                 Geometry::BackgroundSquare { .. } => "background",
                 Geometry::ScreenSquare => "square",
             },
@@ -187,14 +310,27 @@ impl fmt::Display for Step {
 
 impl fmt::Display for Draw {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.geometry {
-            Geometry::Objects => write!(out, "draw the objects")?,
+        match &self.geometry {
+            Geometry::Objects(Paint::Materials) => write!(out, "draw the objects")?,
+            Geometry::Objects(Paint::Uniform([r, g, b, a])) => write!(out, "draw the objects in ({r}, {g}, {b}, {a})")?,
+            Geometry::Objects(Paint::Coordinates(_)) => write!(out, "draw the objects by texture coordinates")?,
+            Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
+                let mark = if *mark == Mark::Lines { "lines" } else { "points" };
+                let smooth = if *is_smooth { "smooth " } else { "" };
+                let quads = if *line_drawing == LineDrawing::Quads { " as quads" } else { "" };
+                write!(out, "draw {smooth}{mark} of {width_px} px{quads} at")?;
+                write_runs(out, runs)?;
+            }
             Geometry::BackgroundSquare { color: [r, g, b, a] } => {
                 write!(out, "draw the background square in ({r}, {g}, {b}, {a})")?;
             }
             Geometry::ScreenSquare => write!(out, "draw the screen square")?,
         }
-        write!(out, " with {} + {}", self.program.vertex, self.program.fragments.join(" + "))?;
+        match &self.program {
+            None => write!(out, " without shaders")?,
+            Some(Program { vertex, fragments }) if fragments.is_empty() => write!(out, " with {vertex}")?,
+            Some(Program { vertex, fragments }) => write!(out, " with {vertex} + {}", fragments.join(" + "))?,
+        }
         for uniform in &self.uniforms {
             match uniform.value {
                 Value::Float(x) => write!(out, ", {} = {x}", uniform.name)?,
@@ -211,9 +347,31 @@ impl fmt::Display for Draw {
         if self.cull_back_faces {
             write!(out, ", back faces left out")?;
         }
+        if let Some([factor, units]) = self.polygon_offset {
+            write!(out, ", pushed back by ({factor}, {units})")?;
+        }
         if self.blend {
             write!(out, ", blended")?;
         }
         Ok(())
     }
+}
+
+/// How many edges of each name and colour.
+fn write_runs(out: &mut fmt::Formatter<'_>, runs: &[EdgeRun]) -> fmt::Result {
+    let mut sums: Vec<(&str, [f32; 4], usize)> = Vec::new();
+    for run in runs {
+        match sums.iter_mut().find(|(name, color, _)| *name == run.name && *color == run.color) {
+            Some((.., count)) => *count += run.ends.len(),
+            None => sums.push((run.name, run.color, run.ends.len())),
+        }
+    }
+    if sums.is_empty() {
+        write!(out, " no edges")?;
+    }
+    for (index, (name, [r, g, b, a], count)) in sums.iter().enumerate() {
+        let comma = if index > 0 { "," } else { "" };
+        write!(out, "{comma} {count} {name} edges in ({r}, {g}, {b}, {a})")?;
+    }
+    Ok(())
 }

@@ -1,8 +1,10 @@
 //! What one rendering was and took, as one JSON object.
 
 use crate::camera::Projection;
+use crate::compare::AgreementNumbers;
+use crate::edges::{ClassCounts, SilhouetteRule};
 use crate::gl::ContextInfo;
-use crate::mesh::{Defects, LoadOptions};
+use crate::mesh::{Defects, LoadOptions, Mesh};
 use crate::renderer::{PassTime, median};
 use crate::scene::{Background, Color, Scene, Size};
 use crate::styles::{Show, Style};
@@ -41,8 +43,12 @@ pub struct Record {
     pub gl: ContextInfo,
     /// Each pass's median times.
     pub passes: Vec<PassTime>,
+    /// What the renderer had to say of the plan: lines drawn otherwise than asked for.
+    pub remarks: Vec<String>,
     /// Reading the models and making meshes of them.
     pub load_ms: f64,
+    /// Making the plan: for the style inking that is edge list, classes, silhouettes and light.
+    pub plan_ms: f64,
     /// Opening the context; on its own thread beside the loading.
     pub context_ms: f64,
     /// Drawing one triangle while the models were still being read, so that the driver compiles its shaders meanwhile;
@@ -68,6 +74,16 @@ pub struct ModelRecord {
 }
 
 impl ModelRecord {
+    /// A mesh's.
+    pub fn new(mesh: &Mesh) -> Self {
+        Self {
+            path: mesh.name.clone(),
+            vertices: mesh.positions.len(),
+            triangles: mesh.triangles.len(),
+            defects: mesh.defects.clone(),
+        }
+    }
+
     /// Several models as one.
     pub fn together(models: &[Self]) -> Self {
         let paths: Vec<&str> = models.iter().map(|model| model.path.as_str()).collect();
@@ -78,6 +94,77 @@ impl ModelRecord {
             defects: models.iter().map(|model| &model.defects).sum(),
         }
     }
+}
+
+/// A model's edges and the time it took to find them, milliseconds.
+#[derive(Debug, Clone, Serialize)]
+pub struct EdgeRecord {
+    /// tinta's version.
+    pub version: &'static str,
+    /// The model, with its defects.
+    pub model: ModelRecord,
+    /// How it was read.
+    pub load: LoadOptions,
+    /// Edges, each once.
+    pub edges: usize,
+    /// How many are of each class; an edge of several counts in each.
+    pub classes: ClassCounts,
+    /// Inner edges whose faces are wound against each other.
+    pub reversed_edges: usize,
+    /// From which angle between faces an edge is a crease.
+    pub crease_angle_degrees: f64,
+    /// Its cosine.
+    pub crease_cosine: f64,
+    /// How silhouettes were found.
+    pub silhouette_rule: SilhouetteRule,
+    /// The camera, world space.
+    pub camera: CameraRecord,
+    /// Reading the model.
+    pub load_ms: f64,
+    /// The edge list.
+    pub build_ms: Summary,
+    /// The classes that do not depend on the view.
+    pub classify_ms: Summary,
+    /// The faces' planes, once a mesh.
+    pub planes_ms: Summary,
+    /// The silhouette, looking at every edge.
+    pub silhouette_ms: Summary,
+    /// The hierarchy of normal cones, once a mesh.
+    pub hierarchy_ms: Summary,
+    /// The silhouette by the hierarchy.
+    pub silhouette_by_hierarchy_ms: Summary,
+}
+
+/// One of two drawings of a comparison.
+#[derive(Debug, Clone, Serialize)]
+pub struct DrawingRecord {
+    /// The style with every setting.
+    pub style: Style,
+    /// Making the plan.
+    pub plan_ms: f64,
+    /// The frames after warm-up, read-back included, milliseconds.
+    pub frame_ms: Summary,
+}
+
+/// Two drawings of one scene and how far their lines agree.
+#[derive(Debug, Clone, Serialize)]
+pub struct ComparisonRecord {
+    /// tinta's version.
+    pub version: &'static str,
+    /// All models together.
+    pub model: ModelRecord,
+    /// The picture's size.
+    pub size: Size,
+    /// The camera, world space.
+    pub camera: CameraRecord,
+    /// The context.
+    pub gl: ContextInfo,
+    /// The left drawing.
+    pub left: DrawingRecord,
+    /// The right drawing.
+    pub right: DrawingRecord,
+    /// Pixels of ink, and how many both have.
+    pub agreement: AgreementNumbers,
 }
 
 /// A camera in numbers; lengths in file units, matrices as 16 numbers column by column.

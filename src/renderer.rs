@@ -7,7 +7,7 @@ use crate::gl::execute::Resources;
 use crate::gl::{Backend, ContextInfo};
 use crate::mesh::Mesh;
 use crate::picture::Picture;
-use crate::plan::{Output, Plan, Step};
+use crate::plan::{Draw, Geometry, LineDrawing, Mark, Output, Plan, Step};
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use serde::Serialize;
@@ -61,6 +61,22 @@ impl Renderer {
         self.context.info()
     }
 
+    /// What of a plan this context draws otherwise than it says, a sentence each.
+    pub fn remarks(&self, plan: &Plan) -> Vec<String> {
+        let info = self.context.info();
+        let remark = |step: &Step| match step {
+            Step::Draw(Draw {
+                geometry: Geometry::Edges { mark, width_px, is_smooth, line_drawing: LineDrawing::Gl, .. },
+                ..
+            }) if !info.draws_width(*mark, *width_px, *is_smooth) => {
+                let what = if *mark == Mark::Lines { "lines" } else { "the points at their ends" };
+                Some(format!("{what} of {width_px} px are drawn as quads: GL's are not that wide on {}", info.renderer))
+            }
+            _ => None,
+        };
+        plan.steps().filter_map(|(_, step)| remark(step)).collect()
+    }
+
     /// Draws one triangle the way `style` will draw at this size, so that the driver compiles its shaders now: worth it while
     /// a large model is still being read on another thread.
     ///
@@ -71,7 +87,8 @@ impl Renderer {
         let camera = CameraSettings::default();
         let scene =
             Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings { copies: 1, camera, ..settings.clone() })?;
-        self.draw(&scene, &style.plan(&scene, show)?).map(drop)
+        // What a triangle cannot be drawn with, a texture say, the models may have.
+        style.plan(&scene, show).map_or(Ok(()), |plan| self.draw(&scene, &plan).map(drop))
     }
 
     /// Draws a scene in a style.

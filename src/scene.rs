@@ -8,9 +8,11 @@ mod values;
 
 pub use values::{Background, Color, Size};
 
-use crate::camera::{Camera, CameraSettings};
+use crate::camera::{Camera, CameraSettings, Projection};
+use crate::edges::{Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
-use crate::mesh::{Mesh, NONE, VertexArrays, bounds};
+use crate::mesh::{Material, Mesh, NONE, VertexArrays, bounds};
+use crate::picture::Picture;
 use crate::tolerances::{LARGEST_DISTANCE, SCENE_RADIUS};
 use glam::{DMat4, DVec3, Mat4};
 use std::sync::{Arc, OnceLock};
@@ -24,6 +26,10 @@ pub struct Object {
     pub offset: DVec3,
     /// What GL draws of the mesh, made when first asked for, shared between copies.
     arrays: Arc<OnceLock<VertexArrays>>,
+    /// Its edges, likewise.
+    edges: Arc<OnceLock<MeshEdges>>,
+    /// Its materials' pictures, likewise.
+    pictures: Arc<OnceLock<Vec<Option<Arc<Picture>>>>>,
 }
 
 /// All that a style needs to know to plan a picture, and `gl` to draw it.
@@ -167,6 +173,40 @@ impl Scene {
         });
     }
 
+    /// The edges of an object's mesh.
+    pub fn edges<'a>(&self, object: &'a Object) -> &'a MeshEdges {
+        object.edges.get_or_init(|| MeshEdges::new(object.mesh.clone()))
+    }
+
+    /// Prepares every object's edges for an animation; see [`MeshEdges::prepare_for_many_views`].
+    pub fn prepare_for_many_views(&self) {
+        self.objects.iter().for_each(|object| self.edges(object).prepare_for_many_views());
+    }
+
+    /// The pictures on an object's materials, read when first asked for; `None` for a material without one.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Picture`] when one cannot be read.
+    pub fn material_pictures<'a>(&self, object: &'a Object) -> Result<&'a [Option<Arc<Picture>>]> {
+        if object.pictures.get().is_none() {
+            let read = |material: &Material| material.texture.as_deref().map(|path| Picture::read(path).map(Arc::new));
+            let pictures: Result<Vec<_>> =
+                object.mesh.materials.iter().map(|material| read(material).transpose()).collect();
+            // Whoever came first has read the same files.
+            let _ = object.pictures.set(pictures?);
+        }
+        Ok(object.pictures.get().map_or(&[], |pictures| pictures))
+    }
+
+    /// Where an object is seen from, in its mesh's own coordinates; for the listing's rule always the camera's axis.
+    pub fn eye(&self, object: &Object, rule: SilhouetteRule) -> Eye {
+        match (rule, self.camera.projection) {
+            (SilhouetteRule::Exact, Projection::Perspective { .. }) => Eye::Point(self.camera.eye - object.offset),
+            _ => Eye::Direction(self.camera.backward()),
+        }
+    }
+
     /// The matrix from a mesh's arrays (recentred on `mesh_centre`, in scene radii) to eye space, rigid.
     pub fn view_from_object(&self, object: &Object, mesh_centre: DVec3) -> Mat4 {
         let view = self.camera.view_from_world();
@@ -182,7 +222,7 @@ impl Scene {
         let mut camera = self.camera;
         camera.near /= self.radius;
         camera.far /= self.radius;
-        if let crate::camera::Projection::Parallel { height } = &mut camera.projection {
+        if let Projection::Parallel { height } = &mut camera.projection {
             *height /= self.radius;
         }
         camera.clip_from_view(self.size.aspect()).as_mat4()
@@ -219,16 +259,18 @@ fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
     // Models that are flat along an axis would otherwise stand in one another.
     let step = (high - low) + (high - low).max_element() * COPY_GAP;
     let columns = f64::from(copies).sqrt().ceil() as u32;
-    let arrays: Vec<Arc<OnceLock<VertexArrays>>> = meshes.iter().map(|_| Arc::default()).collect();
+    let at_home = |mesh: &Arc<Mesh>| Object {
+        mesh: mesh.clone(),
+        offset: DVec3::ZERO,
+        arrays: Arc::default(),
+        edges: Arc::default(),
+        pictures: Arc::default(),
+    };
+    let originals: Vec<Object> = meshes.iter().map(at_home).collect();
     (0..copies)
         .flat_map(|copy| {
             let offset = DVec3::new(f64::from(copy % columns) * step.x, 0.0, -f64::from(copy / columns) * step.z);
-            let object = move |(mesh, arrays): (&Arc<Mesh>, &Arc<OnceLock<VertexArrays>>)| Object {
-                mesh: mesh.clone(),
-                offset,
-                arrays: arrays.clone(),
-            };
-            meshes.iter().zip(&arrays).map(object)
+            originals.iter().map(move |object| Object { offset, ..object.clone() })
         })
         .collect()
 }

@@ -1,10 +1,15 @@
-//! Options that more than one command takes, in groups: camera, cartoon settings, models.
+//! Options that more than one command takes, in groups: camera, styles, models.
+
+mod scene;
+mod style;
+
+pub use scene::SceneArguments;
+pub use style::{CreaseArguments, StyleArguments};
 
 use glam::DVec3;
 use std::path::PathBuf;
 use tinta::mesh::{ModelFrame, Normals, UpAxis};
-use tinta::styles::{Border, Cartoon, Filter, ToneLookup, Tones};
-use tinta::{CameraSettings, LoadOptions, Show, View};
+use tinta::{CameraSettings, LoadOptions, View};
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "Camera")]
@@ -40,46 +45,6 @@ pub struct CameraArguments {
     /// Distance of the far plane from the eye, model units [default: fitted]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     far: Option<f64>,
-}
-
-#[derive(clap::Args)]
-#[command(next_help_heading = "Cartoon styles (the defaults are the paper's; phong uses none of these)")]
-pub struct CartoonArguments {
-    /// Number of tones, 1 to 3; fewer leave out the brightest [default: 3]
-    #[arg(long, value_name = "N", default_value = "3", hide_default_value = true)]
-    tones: u8,
-
-    /// Diffuse and specular light from which the second and third tone hold [default: 0.8,0.65]
-    #[arg(long, value_name = "D,S", value_parser = parse_pair, default_value = "0.8,0.65", hide_default_value = true, allow_hyphen_values = true)]
-    tone_thresholds: [f32; 2],
-
-    /// What the tones multiply the colour by [default: 0.65,0.95,1]
-    #[arg(long, value_name = "A,B,C", value_parser = parse_triple, default_value = "0.65,0.95,1", hide_default_value = true, allow_hyphen_values = true)]
-    tone_levels: [f32; 3],
-
-    /// Find tones by comparing (steps) or in a 1-D texture (texture) [default: steps]
-    #[arg(long, value_name = "HOW", default_value = "steps", hide_default_value = true)]
-    tone_lookup: ToneLookup,
-
-    /// No borders, tones alone [default: off]
-    #[arg(long)]
-    no_borders: bool,
-
-    /// Edge filter: laplacian4, laplacian8, mitchell, sobel, roberts [default: laplacian4]
-    #[arg(long, value_name = "FILTER", default_value = "laplacian4", hide_default_value = true)]
-    filter: Filter,
-
-    /// What the edge filter's response is multiplied by; more darkens faint edges [default: 0.2]
-    #[arg(long, value_name = "FACTOR", default_value = "0.2", hide_default_value = true, allow_hyphen_values = true)]
-    detection_factor: f32,
-
-    /// Draw a square behind the scene, on or off; off loses outer borders [default: on]
-    #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
-    background_quad: bool,
-
-    /// Which picture: final, normals, depth, map, borders, tones [default: final]
-    #[arg(long, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
-    pub show: Show,
 }
 
 #[derive(clap::Args)]
@@ -129,25 +94,6 @@ impl CameraArguments {
     }
 }
 
-impl CartoonArguments {
-    pub fn settings(&self, cull_back_faces: bool) -> Cartoon {
-        let [diffuse_threshold, specular_threshold] = self.tone_thresholds;
-        let border = Border { filter: self.filter, detection_factor: self.detection_factor };
-        Cartoon {
-            tones: Tones {
-                count: self.tones,
-                diffuse_threshold,
-                specular_threshold,
-                levels: self.tone_levels,
-                lookup: self.tone_lookup,
-            },
-            border: (!self.no_borders).then_some(border),
-            background_square: self.background_quad,
-            cull_back_faces,
-        }
-    }
-}
-
 impl ModelArguments {
     pub fn options(&self) -> LoadOptions {
         LoadOptions {
@@ -182,14 +128,6 @@ fn parse_numbers<T: std::str::FromStr, const N: usize>(text: &str) -> std::resul
         .ok()
         .filter(|_| whole)
         .ok_or_else(|| format!("give {N} numbers with commas between them and no blanks"))
-}
-
-pub fn parse_cull(text: &str) -> std::result::Result<bool, String> {
-    match text {
-        "none" => Ok(false),
-        "back" => Ok(true),
-        _ => Err("choose none or back".to_owned()),
-    }
 }
 
 fn parse_switch(text: &str) -> std::result::Result<bool, String> {

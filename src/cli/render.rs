@@ -1,17 +1,15 @@
 //! `tinta render`: models to a picture.
 
-use super::options::{CameraArguments, CartoonArguments, ModelArguments, parse_cull};
+use super::models::load_meshes;
+use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Instant;
-use tinta::mesh::{BUILTINS, load};
+use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
+use tinta::plan::Plan;
 use tinta::record::{CameraRecord, ModelRecord, Record, Summary};
 use tinta::renderer::{PassTime, milliseconds_since};
-use tinta::styles::Phong;
-use tinta::{
-    Backend, Background, Color, Error, Renderer, Result, Scene, SceneSettings, Size, Style, StyleName, Target,
-};
+use tinta::{Backend, Error, Renderer, Result, Scene, SceneSettings, Style, StyleName, Target};
 
 /// Draw models into a picture file
 #[derive(clap::Args)]
@@ -25,39 +23,18 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: String,
 
-    /// Style: phong, three-pass, two-pass [default: three-pass]
+    /// Style: phong, three-pass, two-pass, inking, dietrich [default: three-pass]
     #[arg(long, value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
     style: StyleName,
 
-    /// Size in pixels, or one number for a square [default: 512x512]
-    #[arg(long, value_name = "WxH", default_value = "512x512", hide_default_value = true)]
-    size: Size,
-
-    /// Colour behind the scene: a CSS name, #rrggbb or rgb(r,g,b) [default: white]
-    #[arg(long, value_name = "COLOUR", default_value = "white", hide_default_value = true)]
-    background: Color,
-
-    /// No background: alpha 0 where nothing is drawn [default: off]
-    #[arg(long, conflicts_with = "background")]
-    transparent: bool,
-
-    /// Leave out faces turned away: none, back; faster, and the same picture of closed models [default: none]
-    #[arg(long, value_name = "FACES", action = clap::ArgAction::Set, value_parser = parse_cull, default_value = "none", hide_default_value = true)]
-    cull: bool,
-
-    /// One colour for all surfaces [default: the model's own, #edbd85 where it has none]
-    #[arg(long, value_name = "COLOUR")]
-    color: Option<Color>,
-
-    /// Repeat the models on a square grid, up to 10000 times [default: 1]
-    #[arg(long, value_name = "N", default_value = "1", hide_default_value = true)]
-    copies: u32,
+    #[command(flatten)]
+    scene: SceneArguments,
 
     #[command(flatten)]
     camera: CameraArguments,
 
     #[command(flatten)]
-    cartoon: CartoonArguments,
+    styles: StyleArguments,
 
     #[command(flatten)]
     model: ModelArguments,
@@ -98,7 +75,7 @@ const PASS_FRAMES: usize = 21;
 
 /// Draws what the arguments say.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let target = Target::check(&arguments.output, arguments.transparent)?;
+    let target = Target::check(&arguments.output, arguments.scene.transparent)?;
     if target == Target::Stdout && (arguments.run.json || arguments.run.explain) {
         return Err(Error::Setting {
             setting: "-o -".to_owned(),
@@ -106,11 +83,11 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         });
     }
     make_dump_folder(arguments)?;
-    let style = arguments.style();
+    let style = arguments.styles.style(arguments.style)?;
     // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
-    let settings = arguments.scene_settings();
+    let settings = arguments.scene.settings(arguments.camera.settings());
     let (renderer, loaded) = std::thread::scope(|scope| {
-        let load = || load_scene(arguments, &settings);
+        let load = || load_scene(arguments, &settings, &style);
         // Where no second thread can be had, one after the other.
         let Ok(loading) = std::thread::Builder::new().spawn_scoped(scope, load) else {
             let loaded = load();
@@ -122,9 +99,10 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             Err(panic) => std::panic::resume_unwind(panic),
         }
     });
-    let Loaded { scene, load_ms } = loaded?;
-    let plan = style.plan(&scene, arguments.cartoon.show)?;
+    let Loaded { scene, plan, load_ms, plan_ms } = loaded?;
     let Opened { mut renderer, context_ms, warm_up_ms } = renderer?;
+    let remarks = renderer.remarks(&plan);
+    remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
 
     let first_frame = Instant::now();
     let picture = renderer.draw(&scene, &plan)?;
@@ -151,10 +129,10 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         model: ModelRecord::together(&models),
         models,
         load: arguments.model.options(),
-        copies: arguments.copies,
+        copies: arguments.scene.copies,
         triangles: scene.triangle_count(),
         style,
-        show: arguments.cartoon.show,
+        show: arguments.styles.show,
         size: scene.size,
         background: scene.background,
         color: scene.color,
@@ -162,7 +140,9 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         camera: CameraRecord::new(&scene),
         gl: renderer.context().clone(),
         passes,
+        remarks,
         load_ms,
+        plan_ms,
         context_ms,
         warm_up_ms,
         first_frame_ms,
@@ -191,32 +171,30 @@ fn open_renderer(
         None
     } else {
         let start = Instant::now();
-        renderer.warm_up(settings, style, arguments.cartoon.show)?;
+        renderer.warm_up(settings, style, arguments.styles.show)?;
         Some(milliseconds_since(start))
     };
     Ok(Opened { renderer, context_ms, warm_up_ms })
 }
 
-/// A scene ready to be drawn and how long its models took.
+/// A scene ready to be drawn, what is to be done for it, and how long both took.
 struct Loaded {
     scene: Scene,
+    plan: Plan,
     load_ms: f64,
+    plan_ms: f64,
 }
 
-/// Reads the models, says what is to be said of them, and puts the scene together.
-fn load_scene(arguments: &Arguments, settings: &SceneSettings) -> Result<Loaded> {
+/// Reads the models, puts the scene together and plans it, which finds its edges where the style draws them.
+fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style) -> Result<Loaded> {
     let start = Instant::now();
-    let options = arguments.model.options();
-    let mut meshes = Vec::new();
-    for path in &arguments.models {
-        let loaded = load(path, &options)?;
-        loaded.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
-        meshes.push(Arc::new(loaded.mesh));
-    }
+    let meshes = load_meshes(&arguments.models, &arguments.model.options())?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, settings)?;
     scene.make_arrays();
-    Ok(Loaded { scene, load_ms })
+    let start = Instant::now();
+    let plan = style.plan(&scene, arguments.styles.show)?;
+    Ok(Loaded { scene, plan, load_ms, plan_ms: milliseconds_since(start) })
 }
 
 fn make_dump_folder(arguments: &Arguments) -> Result<()> {
@@ -232,18 +210,10 @@ fn make_dump_folder(arguments: &Arguments) -> Result<()> {
 }
 
 fn model_records(scene: &Scene, models: usize) -> Vec<ModelRecord> {
-    scene.objects[..models]
-        .iter()
-        .map(|object| ModelRecord {
-            path: object.mesh.name.clone(),
-            vertices: object.mesh.positions.len(),
-            triangles: object.mesh.triangles.len(),
-            defects: object.mesh.defects.clone(),
-        })
-        .collect()
+    scene.objects[..models].iter().map(|object| ModelRecord::new(&object.mesh)).collect()
 }
 
-fn explanation(plan: &tinta::plan::Plan, passes: &[PassTime], times: &Summary, frames: usize) -> String {
+fn explanation(plan: &Plan, passes: &[PassTime], times: &Summary, frames: usize) -> String {
     let mut text = plan.to_string();
     text.push_str(&format!("\n{:<20}{:>10}{:>10}\n", "pass", "cpu ms", "gpu ms"));
     for pass in passes {
@@ -253,26 +223,6 @@ fn explanation(plan: &tinta::plan::Plan, passes: &[PassTime], times: &Summary, f
     let count = if frames == 1 { "1 frame".to_owned() } else { format!("the median of {frames} frames") };
     text.push_str(&format!("{:<20}{:>10.3}            with read-back, {count}\n", "whole picture", times.median));
     text
-}
-
-impl Arguments {
-    fn scene_settings(&self) -> SceneSettings {
-        SceneSettings {
-            copies: self.copies,
-            camera: self.camera.settings(),
-            size: self.size,
-            background: if self.transparent { Background::Transparent } else { Background::Color(self.background) },
-            color: self.color,
-        }
-    }
-
-    fn style(&self) -> Style {
-        match self.style {
-            StyleName::Phong => Style::Phong(Phong { cull_back_faces: self.cull, ..Phong::default() }),
-            StyleName::ThreePass => Style::ThreePass(self.cartoon.settings(self.cull)),
-            StyleName::TwoPass => Style::TwoPass(self.cartoon.settings(self.cull)),
-        }
-    }
 }
 
 fn after_help() -> String {
@@ -301,13 +251,16 @@ mod tests {
     #[test]
     fn without_options_the_command_line_means_the_librarys_defaults() {
         let arguments = Line::try_parse_from(["tinta", "a.obj", "-o", "a.png"]).unwrap().arguments;
-        assert_eq!(arguments.style(), Style::named(StyleName::ThreePass));
+        for (name, style) in StyleName::ALL {
+            assert_eq!(arguments.styles.style(style).unwrap(), Style::named(style), "{name}");
+        }
+        assert_eq!(arguments.style, StyleName::ThreePass);
         assert_eq!(arguments.model.options(), LoadOptions::default());
-        let (asked, default) = (arguments.scene_settings(), SceneSettings::default());
+        let (asked, default) = (arguments.scene.settings(arguments.camera.settings()), SceneSettings::default());
         assert_eq!(asked.camera, default.camera);
         assert_eq!((asked.copies, asked.size), (default.copies, default.size));
         assert_eq!((asked.background, asked.color), (default.background, default.color));
         assert_eq!(arguments.run.backend, Backend::default());
-        assert_eq!(arguments.cartoon.show, Show::default());
+        assert_eq!(arguments.styles.show, Show::default());
     }
 }

@@ -129,15 +129,12 @@ impl NormalCones {
         eye: Eye,
         rule: SilhouetteRule,
     ) -> Vec<u32> {
-        let local = silhouettes.frame.eye(eye);
+        let local = silhouettes.local_eye(eye, rule);
         let exactly = |face: u32| silhouettes.is_front_exactly(mesh, face as usize, eye);
         let mut found = match rule {
             SilhouetteRule::Exact => self.search::<true>(&local, local.error, exactly),
-            SilhouetteRule::Paper => {
-                // The listing looks along one vector for every edge, and its bound is to be cleared beside the error.
-                let local = LocalEye { homogeneous: local.homogeneous.xyz().extend(0.0), ..local };
-                self.search::<false>(&local, local.error + PAPER_CLEAR, exactly)
-            }
+            // The listing's bound is to be cleared beside the error.
+            SilhouetteRule::Paper => self.search::<false>(&local, local.error + PAPER_CLEAR, exactly),
         };
         silhouettes.add_reversed(mesh, edges, eye, rule, &mut found);
         found

@@ -105,6 +105,18 @@ impl Silhouettes {
         Self { frame, planes: parts.concat(), reversed }
     }
 
+    /// An eye for a rule: the listing's looks along one vector for every edge, for a point that from the mesh's middle.
+    pub(super) fn local_eye(&self, eye: Eye, rule: SilhouetteRule) -> LocalEye {
+        let local = self.frame.eye(eye);
+        match rule {
+            SilhouetteRule::Exact => local,
+            SilhouetteRule::Paper => {
+                let axis = local.homogeneous.truncate().normalize_or_zero();
+                LocalEye { homogeneous: axis.extend(0.0), error: PLANE_ERROR * axis.abs().element_sum() }
+            }
+        }
+    }
+
     /// The silhouette edges, ascending, looking at every face and every edge on as many threads as that is worth.
     /// `mesh` and `edges` are those this was made from.
     pub fn find(&self, mesh: &Mesh, edges: &EdgeList, eye: Eye, rule: SilhouetteRule) -> Vec<u32> {
@@ -120,7 +132,7 @@ impl Silhouettes {
         rule: SilhouetteRule,
         threads: usize,
     ) -> Vec<u32> {
-        let local = self.frame.eye(eye);
+        let local = self.local_eye(eye, rule);
         let faces = &edges.faces;
         // Every face once, then every edge: a face is shared by three.
         let parts = match rule {
@@ -165,7 +177,7 @@ impl Silhouettes {
         rule: SilhouetteRule,
         found: &mut Vec<u32>,
     ) {
-        let local = self.frame.eye(eye);
+        let local = self.local_eye(eye, rule);
         let along_view = |face: u32| along_view(self.planes[face as usize], &local);
         let side = |face: u32| {
             let corners = corners(mesh, &mesh.triangles[face as usize]);

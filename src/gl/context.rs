@@ -7,6 +7,7 @@ use super::Gl;
 use super::legacy::{self, Legacy};
 use crate::error::{Error, Result};
 use crate::names::find;
+use crate::plan::Mark;
 use crate::scene::Size;
 use glow::HasContext;
 use serde::Serialize;
@@ -67,10 +68,29 @@ pub struct ContextInfo {
     pub aliased_line_width: [f32; 2],
     /// Narrowest and widest smoothed line, pixels.
     pub smooth_line_width: [f32; 2],
+    /// Smallest and largest point without smoothing, pixels.
+    pub aliased_point_size: [f32; 2],
+    /// Smallest and largest smoothed point, pixels.
+    pub smooth_point_size: [f32; 2],
+    /// Largest width and height of a texture, pixels.
+    pub largest_texture: u32,
     /// Largest picture, pixels: the smallest of viewport, texture and surface limits.
     pub largest_picture: Size,
     /// Whether passes can be timed on the device.
     pub timer_queries: bool,
+}
+
+impl ContextInfo {
+    /// Whether GL draws lines and points this wide; what is narrower or wider it draws at the nearest width it can.
+    pub fn draws_width(&self, mark: Mark, width_px: f32, is_smooth: bool) -> bool {
+        let [narrowest, widest] = match (mark, is_smooth) {
+            (Mark::Lines, false) => self.aliased_line_width,
+            (Mark::Lines, true) => self.smooth_line_width,
+            (Mark::Points, false) => self.aliased_point_size,
+            (Mark::Points, true) => self.smooth_point_size,
+        };
+        (narrowest..=widest).contains(&width_px)
+    }
 }
 
 /// One way that was tried.
@@ -97,7 +117,6 @@ pub enum Outcome {
 pub(crate) struct Context {
     platform: Platform,
     gl: Rc<Gl>,
-    info: ContextInfo,
 }
 
 /// The platforms' contexts.
@@ -159,7 +178,7 @@ pub fn attempts(backend: Backend) -> Vec<Attempt> {
         .map(|candidate| {
             let device = candidate.name();
             let outcome = match candidate.open() {
-                Ok(context) => Outcome::Context(Box::new(context.info.clone())),
+                Ok(context) => Outcome::Context(Box::new(context.info().clone())),
                 Err(reason) => Outcome::Error(reason),
             };
             Attempt { device, outcome }
@@ -185,12 +204,11 @@ impl Context {
         platform.make_current()?;
         let loaded = load_functions(&platform, backend, device);
         platform.release();
-        let (gl, info) = loaded?;
-        Ok(Self { platform, gl: Rc::new(gl), info })
+        Ok(Self { platform, gl: Rc::new(loaded?) })
     }
 
     pub fn info(&self) -> &ContextInfo {
-        &self.info
+        &self.gl.info
     }
 
     pub fn gl(&self) -> &Rc<Gl> {
@@ -199,14 +217,14 @@ impl Context {
 
     /// Makes the surface this large; refuses what the context cannot draw.
     pub fn resize(&mut self, size: Size) -> Result<()> {
-        let limit = self.info.largest_picture;
+        let limit = self.info().largest_picture;
         if size.width > limit.width || size.height > limit.height {
             return Err(Error::PictureTooLarge {
                 width: size.width,
                 height: size.height,
                 limit_width: limit.width,
                 limit_height: limit.height,
-                renderer: self.info.renderer.clone(),
+                renderer: self.info().renderer.clone(),
             });
         }
         let resized = match &mut self.platform {
@@ -266,11 +284,7 @@ impl Platform {
 }
 
 /// Loads GL for the current context and asks it about itself; an error is why it cannot serve.
-fn load_functions(
-    platform: &Platform,
-    backend: &'static str,
-    device: String,
-) -> std::result::Result<(Gl, ContextInfo), String> {
+fn load_functions(platform: &Platform, backend: &'static str, device: String) -> std::result::Result<Gl, String> {
     // SAFETY: the platform's context is current, and its loader returns GL functions of that context.
     let legacy = unsafe { Legacy::load(|name| platform.proc_address(name)) }?;
     // SAFETY: as above.
@@ -311,20 +325,23 @@ fn load_functions(
         depth_bits: integer(legacy::DEPTH_BITS),
         aliased_line_width: range(legacy::ALIASED_LINE_WIDTH_RANGE),
         smooth_line_width: range(legacy::SMOOTH_LINE_WIDTH_RANGE),
+        aliased_point_size: range(legacy::ALIASED_POINT_SIZE_RANGE),
+        smooth_point_size: range(legacy::SMOOTH_POINT_SIZE_RANGE),
+        largest_texture: texture.max(0) as u32,
         largest_picture: Size { width: limit(viewport[0], surface.width), height: limit(viewport[1], surface.height) },
         timer_queries,
     };
-    let gl = Gl { glow, legacy, live_objects: Cell::new(0) };
+    let gl = Gl { glow, legacy, info, live_objects: Cell::new(0) };
     // A core profile answers the questions about alpha and lines with an error: it lacks what the papers use.
     gl.check("asking the context about itself").map_err(|_| "it is not a compatibility context".to_owned())?;
     if version < (2, 1) {
-        return Err(format!("it is OpenGL {}, older than 2.1", info.version));
+        return Err(format!("it is OpenGL {}, older than 2.1", gl.info.version));
     }
-    if info.alpha_bits < 8 || info.depth_bits < DEPTH_BITS {
+    if gl.info.alpha_bits < 8 || gl.info.depth_bits < DEPTH_BITS {
         return Err(format!(
             "its framebuffer has {} alpha and {} depth bits, fewer than 8 and {DEPTH_BITS}",
-            info.alpha_bits, info.depth_bits
+            gl.info.alpha_bits, gl.info.depth_bits
         ));
     }
-    Ok((gl, info))
+    Ok(gl)
 }

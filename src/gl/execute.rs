@@ -1,11 +1,13 @@
 //! Plans carried out, step by step; every draw sets all the state it needs.
 
 use super::Gl;
+use super::edges::EdgeIndices;
 use super::legacy::{self, MODELVIEW, PROJECTION};
 use super::objects::{Buffer, Program, Shader, Texture, TimerQuery};
+use super::textures::Textures;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Part, VertexArrays};
-use crate::plan::{self, Depth, Draw, Geometry, Plan, Step};
+use crate::plan::{self, Depth, Draw, Geometry, LineDrawing, Paint, Plan, Sampling, Step};
 use crate::scene::{Color, Scene, Size};
 use crate::tolerances::BACKGROUND_DISTANCE;
 use glam::{DVec3, Mat4, Vec3, Vec4};
@@ -16,20 +18,24 @@ use std::sync::Arc;
 
 /// The GL objects of a renderer, kept between pictures. Its methods need the context current.
 pub struct Resources {
-    gl: Rc<Gl>,
+    pub(super) gl: Rc<Gl>,
     programs: HashMap<plan::Program, Program>,
     meshes: Vec<MeshBuffers>,
     squares: Option<Buffer>,
     border_map: Option<Texture>,
-    tone_table: Option<(plan::ToneTable, Texture)>,
+    textures: Textures,
+    /// The edges last drawn, as indices on the device.
+    pub(super) edges: Option<EdgeIndices>,
 }
 
 /// A mesh on the device.
-struct MeshBuffers {
+pub(super) struct MeshBuffers {
     mesh: Arc<Mesh>,
     unit: f64,
-    centre: DVec3,
+    pub(super) centre: DVec3,
+    pub(super) vertex_count: usize,
     vertices: Buffer,
+    texture_coordinates: Option<Buffer>,
     indices: Buffer,
     parts: Vec<Part>,
 }
@@ -54,7 +60,8 @@ impl Resources {
             meshes: Vec::new(),
             squares: None,
             border_map: None,
-            tone_table: None,
+            textures: Textures::default(),
+            edges: None,
         }
     }
 
@@ -75,16 +82,12 @@ impl Resources {
         if self.squares.is_none() {
             self.squares = Some(Buffer::new(&gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&SQUARES))?);
         }
-        if let Some(table) = &plan.tone_table
-            && self.tone_table.as_ref().is_none_or(|(present, _)| present != table)
-        {
-            self.tone_table = Some((table.clone(), upload_tone_table(&gl, table)?));
-        }
+        self.textures.prepare(&gl, scene, plan)?;
         for (_, step) in plan.steps() {
-            if let Step::Draw(draw) = step
-                && !self.programs.contains_key(&draw.program)
+            if let Step::Draw(Draw { program: Some(program), .. }) = step
+                && !self.programs.contains_key(program)
             {
-                self.programs.insert(draw.program.clone(), Program::new(&gl, &draw.program)?);
+                self.programs.insert(program.clone(), Program::new(&gl, program)?);
             }
         }
         gl.check("setting up")
@@ -103,7 +106,7 @@ impl Resources {
         Ok(())
     }
 
-    fn find_mesh(&self, mesh: &Arc<Mesh>) -> Option<&MeshBuffers> {
+    pub(super) fn find_mesh(&self, mesh: &Arc<Mesh>) -> Option<&MeshBuffers> {
         self.meshes.iter().find(|buffers| Arc::ptr_eq(&buffers.mesh, mesh))
     }
 
@@ -127,7 +130,7 @@ impl Resources {
 
     fn copy_framebuffer(&mut self, size: Size) -> Result<()> {
         if self.border_map.is_none() {
-            self.border_map = Some(Texture::new(&self.gl, glow::TEXTURE_2D)?);
+            self.border_map = Some(Texture::new(&self.gl, glow::TEXTURE_2D, Sampling::NearestClamped)?);
         }
         if let Some(texture) = &self.border_map {
             texture.bind(0);
@@ -140,16 +143,68 @@ impl Resources {
 
     fn draw(&mut self, scene: &Scene, draw: &Draw) -> Result<()> {
         self.set_state(draw);
+        self.bind_textures(draw)?;
+        self.bind_program(draw)?;
+        match &draw.geometry {
+            Geometry::Objects(paint) => {
+                let material_unit = draw.textures.iter().position(|(_, texture)| *texture == plan::Texture::Material);
+                self.draw_objects(scene, paint, material_unit.map(|unit| unit as u32))?;
+            }
+            Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
+                let as_quads =
+                    *line_drawing == LineDrawing::Quads || !self.gl.info.draws_width(*mark, *width_px, *is_smooth);
+                if as_quads {
+                    self.draw_edge_quads(scene, runs, *mark, *width_px)?;
+                } else {
+                    self.draw_edges(scene, runs, *mark, *width_px, *is_smooth)?;
+                }
+            }
+            Geometry::BackgroundSquare { color } => {
+                let far_away = Mat4::from_translation(Vec3::new(0.0, 0.0, -BACKGROUND_DISTANCE));
+                // x and y as they are, depth that of the far plane: a parallel projection that fills the picture.
+                let flat = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::ZERO, Vec4::new(0.0, 0.0, 1.0, 1.0));
+                self.draw_square(0, *color, &far_away, &flat);
+            }
+            Geometry::ScreenSquare => self.draw_square(4, [1.0; 4], &Mat4::IDENTITY, &Mat4::IDENTITY),
+        }
+        Ok(())
+    }
+
+    fn bind_textures(&self, draw: &Draw) -> Result<()> {
         for (unit, (_, texture)) in draw.textures.iter().enumerate() {
             let texture = match texture {
                 plan::Texture::BorderMap => self.border_map.as_ref(),
-                plan::Texture::ToneTable => self.tone_table.as_ref().map(|(_, texture)| texture),
+                plan::Texture::ToneTable => self.textures.tone_table(),
+                plan::Texture::Picture(number) => self.textures.picture(*number),
+                plan::Texture::Material => self.textures.white(),
             };
             texture.ok_or_else(|| Error::gl("drawing", "a plan reads a texture before it is made"))?.bind(unit as u32);
         }
+        let is_fixed = draw.program.as_ref().is_none_or(|program| program.fragments.is_empty());
+        for unit in 0..legacy::FIXED_UNITS {
+            // SAFETY: the context is current; the names are of GL 2.1, whose drivers have two units.
+            unsafe {
+                self.gl.glow.active_texture(glow::TEXTURE0 + unit);
+                if is_fixed && draw.textures.len() > unit as usize {
+                    self.gl.glow.enable(glow::TEXTURE_2D);
+                    self.gl.legacy.modulate();
+                } else {
+                    self.gl.glow.disable(glow::TEXTURE_2D);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn bind_program(&mut self, draw: &Draw) -> Result<()> {
+        let Some(program) = &draw.program else {
+            // SAFETY: the context is current; no program is the fixed-function pipeline.
+            unsafe { self.gl.glow.use_program(None) };
+            return Ok(());
+        };
         let program = self
             .programs
-            .get_mut(&draw.program)
+            .get_mut(program)
             .ok_or_else(|| Error::gl("drawing", "a plan was carried out without being prepared"))?;
         program.bind();
         for uniform in &draw.uniforms {
@@ -157,16 +212,6 @@ impl Resources {
         }
         for (unit, (sampler, _)) in draw.textures.iter().enumerate() {
             program.set_sampler(sampler, unit as u32);
-        }
-        match draw.geometry {
-            Geometry::Objects => self.draw_objects(scene),
-            Geometry::BackgroundSquare { color } => {
-                let far_away = Mat4::from_translation(Vec3::new(0.0, 0.0, -BACKGROUND_DISTANCE));
-                // x and y as they are, depth that of the far plane: a parallel projection that fills the picture.
-                let flat = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::ZERO, Vec4::new(0.0, 0.0, 1.0, 1.0));
-                self.draw_square(0, color, &far_away, &flat);
-            }
-            Geometry::ScreenSquare => self.draw_square(4, [1.0; 4], &Mat4::IDENTITY, &Mat4::IDENTITY),
         }
         Ok(())
     }
@@ -193,6 +238,13 @@ impl Resources {
             } else {
                 gl.disable(glow::CULL_FACE);
             }
+            match draw.polygon_offset {
+                Some([factor, units]) => {
+                    gl.enable(glow::POLYGON_OFFSET_FILL);
+                    gl.polygon_offset(factor, units);
+                }
+                None => gl.disable(glow::POLYGON_OFFSET_FILL),
+            }
             if draw.blend {
                 gl.enable(glow::BLEND);
                 // Colour as the paper blends; alpha adds up to the picture's coverage, which plain blending would square.
@@ -208,35 +260,50 @@ impl Resources {
         }
     }
 
-    fn draw_objects(&self, scene: &Scene) {
-        let legacy = &self.gl.legacy;
-        let clip_from_view = scene.clip_from_view();
+    fn draw_objects(&mut self, scene: &Scene, paint: &Paint, material_unit: Option<u32>) -> Result<()> {
         // SAFETY: the context is current.
-        unsafe { legacy.load_matrix(PROJECTION, &clip_from_view) };
+        unsafe { self.gl.legacy.load_matrix(PROJECTION, &scene.clip_from_view()) };
         let mut bound: Option<*const Mesh> = None;
-        for object in &scene.objects {
+        let mut streamed = None;
+        for (number, object) in scene.objects.iter().enumerate() {
             let Some(buffers) = self.find_mesh(&object.mesh) else { continue };
-            if bound != Some(Arc::as_ptr(&object.mesh)) {
-                buffers.vertices.bind();
-                buffers.indices.bind();
-                // SAFETY: the context is current and the bound buffer holds interleaved positions and normals.
-                unsafe { legacy.position_and_normal_arrays() };
+            if bound != Some(Arc::as_ptr(&object.mesh)) || matches!(paint, Paint::Coordinates(_)) {
+                buffers.bind(&self.gl, material_unit);
                 bound = Some(Arc::as_ptr(&object.mesh));
             }
+            if let Paint::Coordinates(lists) = paint {
+                let list = lists.get(number).filter(|list| list.len() == buffers.vertex_count);
+                let list = list.ok_or_else(|| Error::gl("drawing", "a plan was made for another scene"))?;
+                // Deleted only after the draw that reads it.
+                streamed = Some(Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(list))?);
+                // SAFETY: the context is current; the buffer just bound has coordinates for every vertex.
+                unsafe { self.gl.legacy.texture_coordinate_array(0) };
+            }
             // SAFETY: the context is current.
-            unsafe { legacy.load_matrix(MODELVIEW, &scene.view_from_object(object, buffers.centre)) };
+            unsafe { self.gl.legacy.load_matrix(MODELVIEW, &scene.view_from_object(object, buffers.centre)) };
             for part in &buffers.parts {
-                let Color([red, green, blue]) = scene.material_color(&object.mesh, part.material);
-                // SAFETY: the context is current.
-                unsafe { legacy.color([red, green, blue, 1.0]) };
+                let color = match paint {
+                    Paint::Materials => {
+                        let Color([red, green, blue]) = scene.material_color(&object.mesh, part.material);
+                        [red, green, blue, 1.0]
+                    }
+                    Paint::Uniform(color) => *color,
+                    Paint::Coordinates(_) => [1.0; 4],
+                };
+                if let Some(unit) = material_unit {
+                    self.textures.bind_material(scene, object, part.material, unit)?;
+                }
                 // SAFETY: the context is current; the part lies within the bound index buffer, whose indices lie within the
-                // bound vertex buffer, both by construction of `VertexArrays`.
+                // bound vertex buffers, both by construction of `VertexArrays`.
                 unsafe {
+                    self.gl.legacy.color(color);
                     let first_byte = part.first as i32 * size_of::<u32>() as i32;
                     self.gl.glow.draw_elements(glow::TRIANGLES, part.count as i32, glow::UNSIGNED_INT, first_byte);
                 }
             }
         }
+        drop(streamed);
+        Ok(())
     }
 
     fn draw_square(&self, first: i32, color: [f32; 4], view_from_square: &Mat4, clip_from_view: &Mat4) {
@@ -312,33 +379,32 @@ impl Resources {
 }
 
 impl MeshBuffers {
+    /// Makes the mesh's arrays those that are drawn; its own texture coordinates go to this unit.
+    pub(super) fn bind(&self, gl: &Gl, material_unit: Option<u32>) {
+        self.vertices.bind();
+        // SAFETY: the context is current and the bound buffer holds interleaved positions and normals.
+        unsafe { gl.legacy.position_and_normal_arrays() };
+        if let (Some(unit), Some(coordinates)) = (material_unit, &self.texture_coordinates) {
+            coordinates.bind();
+            // SAFETY: the context is current and the bound buffer has coordinates for every vertex.
+            unsafe { gl.legacy.texture_coordinate_array(unit) };
+        }
+        self.indices.bind();
+    }
+
     fn new(gl: &Rc<Gl>, mesh: &Arc<Mesh>, unit: f64, arrays: &VertexArrays) -> Result<Self> {
         Ok(Self {
             mesh: mesh.clone(),
             unit,
             centre: arrays.centre,
+            vertex_count: arrays.vertices.len(),
             vertices: Buffer::new(gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&arrays.vertices))?,
+            texture_coordinates: match arrays.texture_coordinates.as_slice() {
+                [] => None,
+                coordinates => Some(Buffer::new(gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(coordinates))?),
+            },
             indices: Buffer::new(gl, glow::ELEMENT_ARRAY_BUFFER, bytemuck::cast_slice(&arrays.indices))?,
             parts: arrays.parts.clone(),
         })
     }
-}
-
-fn upload_tone_table(gl: &Rc<Gl>, table: &plan::ToneTable) -> Result<Texture> {
-    let texture = Texture::new(gl, glow::TEXTURE_1D)?;
-    let texels = glow::PixelUnpackData::Slice(Some(table.texels.as_flattened()));
-    // SAFETY: the context is current, the texture bound, and the texels are two bytes each, packed.
-    unsafe {
-        gl.glow.tex_image_1d(
-            glow::TEXTURE_1D,
-            0,
-            legacy::LUMINANCE8_ALPHA8 as i32,
-            table.texels.len() as i32,
-            0,
-            legacy::LUMINANCE_ALPHA,
-            glow::UNSIGNED_BYTE,
-            texels,
-        );
-    }
-    Ok(texture)
 }

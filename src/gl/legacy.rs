@@ -10,6 +10,16 @@ pub const PROJECTION: u32 = 0x1701;
 pub const VERTEX_ARRAY: u32 = 0x8074;
 /// `GL_NORMAL_ARRAY`
 pub const NORMAL_ARRAY: u32 = 0x8075;
+/// `GL_TEXTURE_COORD_ARRAY`
+pub const TEXTURE_COORD_ARRAY: u32 = 0x8078;
+/// `GL_TEXTURE_ENV`
+const TEXTURE_ENV: u32 = 0x2300;
+/// `GL_TEXTURE_ENV_MODE`
+const TEXTURE_ENV_MODE: u32 = 0x2200;
+/// `GL_MODULATE`
+const MODULATE: i32 = 0x2100;
+/// `GL_POINT_SMOOTH`
+pub const POINT_SMOOTH: u32 = 0x0B10;
 /// `GL_LUMINANCE_ALPHA`
 pub const LUMINANCE_ALPHA: u32 = 0x190A;
 /// `GL_LUMINANCE8_ALPHA8`
@@ -26,12 +36,18 @@ pub const DEPTH_BITS: u32 = 0x0D56;
 pub const SMOOTH_LINE_WIDTH_RANGE: u32 = 0x0B22;
 /// `GL_ALIASED_LINE_WIDTH_RANGE`
 pub const ALIASED_LINE_WIDTH_RANGE: u32 = 0x846E;
+/// `GL_SMOOTH_POINT_SIZE_RANGE`
+pub const SMOOTH_POINT_SIZE_RANGE: u32 = 0x0B12;
+/// `GL_ALIASED_POINT_SIZE_RANGE`
+pub const ALIASED_POINT_SIZE_RANGE: u32 = 0x846D;
 
 type Enumerated = unsafe extern "system" fn(u32);
 type LoadMatrix = unsafe extern "system" fn(*const f32);
 type Color = unsafe extern "system" fn(f32, f32, f32, f32);
 type VertexPointer = unsafe extern "system" fn(i32, u32, i32, *const c_void);
 type NormalPointer = unsafe extern "system" fn(u32, i32, *const c_void);
+type TextureEnvironment = unsafe extern "system" fn(u32, u32, i32);
+type PointSize = unsafe extern "system" fn(f32);
 
 /// The functions, each of the type the specification gives it.
 pub struct Legacy {
@@ -39,8 +55,13 @@ pub struct Legacy {
     load_matrix: LoadMatrix,
     color: Color,
     enable_client_state: Enumerated,
+    disable_client_state: Enumerated,
+    client_active_texture: Enumerated,
     vertex_pointer: VertexPointer,
     normal_pointer: NormalPointer,
+    texture_coordinate_pointer: VertexPointer,
+    texture_environment: TextureEnvironment,
+    point_size: PointSize,
 }
 
 impl Legacy {
@@ -64,8 +85,17 @@ impl Legacy {
                 load_matrix: std::mem::transmute::<*const c_void, LoadMatrix>(find(c"glLoadMatrixf")?),
                 color: std::mem::transmute::<*const c_void, Color>(find(c"glColor4f")?),
                 enable_client_state: std::mem::transmute::<*const c_void, Enumerated>(find(c"glEnableClientState")?),
+                disable_client_state: std::mem::transmute::<*const c_void, Enumerated>(find(c"glDisableClientState")?),
+                client_active_texture: std::mem::transmute::<*const c_void, Enumerated>(find(
+                    c"glClientActiveTexture",
+                )?),
                 vertex_pointer: std::mem::transmute::<*const c_void, VertexPointer>(find(c"glVertexPointer")?),
                 normal_pointer: std::mem::transmute::<*const c_void, NormalPointer>(find(c"glNormalPointer")?),
+                texture_coordinate_pointer: std::mem::transmute::<*const c_void, VertexPointer>(find(
+                    c"glTexCoordPointer",
+                )?),
+                texture_environment: std::mem::transmute::<*const c_void, TextureEnvironment>(find(c"glTexEnvi")?),
+                point_size: std::mem::transmute::<*const c_void, PointSize>(find(c"glPointSize")?),
             })
         }
     }
@@ -93,7 +123,8 @@ impl Legacy {
         unsafe { (self.color)(red, green, blue, alpha) }
     }
 
-    /// Positions and normals interleaved, three floats each, from the start of the bound array buffer.
+    /// Positions and normals interleaved, three floats each, from the start of the bound array buffer; no texture
+    /// coordinates.
     ///
     /// # Safety
     ///
@@ -102,10 +133,73 @@ impl Legacy {
         const STRIDE: i32 = 24;
         // SAFETY: the caller's promise; with a buffer bound the pointers are offsets into it.
         unsafe {
+            self.no_texture_coordinates();
             (self.enable_client_state)(VERTEX_ARRAY);
             (self.enable_client_state)(NORMAL_ARRAY);
             (self.vertex_pointer)(3, glow::FLOAT, STRIDE, std::ptr::null());
             (self.normal_pointer)(glow::FLOAT, STRIDE, std::ptr::without_provenance(12));
         }
     }
+
+    /// Positions in clip space, four floats each, from the start of the bound array buffer, and nothing else.
+    ///
+    /// # Safety
+    ///
+    /// As [`Legacy::position_and_normal_arrays`].
+    pub unsafe fn clip_position_array(&self) {
+        // SAFETY: as above.
+        unsafe {
+            self.no_texture_coordinates();
+            (self.enable_client_state)(VERTEX_ARRAY);
+            (self.disable_client_state)(NORMAL_ARRAY);
+            (self.vertex_pointer)(4, glow::FLOAT, 0, std::ptr::null());
+        }
+    }
+
+    /// Texture coordinates of a unit, two floats a vertex, from the start of the bound array buffer.
+    ///
+    /// # Safety
+    ///
+    /// The context is current and the bound buffer holds them for as many vertices as will be drawn.
+    pub unsafe fn texture_coordinate_array(&self, unit: u32) {
+        // SAFETY: as above.
+        unsafe {
+            (self.client_active_texture)(glow::TEXTURE0 + unit);
+            (self.enable_client_state)(TEXTURE_COORD_ARRAY);
+            (self.texture_coordinate_pointer)(2, glow::FLOAT, 0, std::ptr::null());
+        }
+    }
+
+    unsafe fn no_texture_coordinates(&self) {
+        for unit in 0..FIXED_UNITS {
+            // SAFETY: the caller's promise.
+            unsafe {
+                (self.client_active_texture)(glow::TEXTURE0 + unit);
+                (self.disable_client_state)(TEXTURE_COORD_ARRAY);
+            }
+        }
+    }
+
+    /// Multiplies the active texture unit's colour with what came before it, where no fragment shader runs.
+    ///
+    /// # Safety
+    ///
+    /// The context is current.
+    pub unsafe fn modulate(&self) {
+        // SAFETY: the caller's promise.
+        unsafe { (self.texture_environment)(TEXTURE_ENV, TEXTURE_ENV_MODE, MODULATE) }
+    }
+
+    /// glPointSize.
+    ///
+    /// # Safety
+    ///
+    /// The context is current; the size is above 0.
+    pub unsafe fn point_size(&self, size_px: f32) {
+        // SAFETY: the caller's promise.
+        unsafe { (self.point_size)(size_px) }
+    }
 }
+
+/// Texture units that plans use without a fragment shader; every driver of OpenGL 2.1 has two.
+pub const FIXED_UNITS: u32 = 2;

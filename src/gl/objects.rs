@@ -2,7 +2,7 @@
 
 use super::Gl;
 use crate::error::{Error, Result};
-use crate::plan;
+use crate::plan::{self, Sampling};
 use glow::HasContext;
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -61,7 +61,7 @@ impl Drop for Buffer {
     }
 }
 
-/// A texture, NEAREST and clamped to its edge.
+/// A texture.
 pub struct Texture {
     live: Live,
     id: glow::Texture,
@@ -70,17 +70,21 @@ pub struct Texture {
 
 impl Texture {
     /// An empty texture; `target` is GL_TEXTURE_1D or GL_TEXTURE_2D.
-    pub fn new(gl: &Rc<Gl>, target: u32) -> Result<Self> {
+    pub fn new(gl: &Rc<Gl>, target: u32, sampling: Sampling) -> Result<Self> {
+        let (filter, wrap) = match sampling {
+            Sampling::NearestClamped => (glow::NEAREST, glow::CLAMP_TO_EDGE),
+            Sampling::LinearRepeated => (glow::LINEAR, glow::REPEAT),
+        };
         // SAFETY: the context is current; the parameters are those of every texture of GL 2.1.
         unsafe {
             let id = gl.glow.create_texture().map_err(out_of_names)?;
             let texture = Self { live: Live::new(gl), id, target };
             gl.glow.bind_texture(target, Some(id));
             for (name, value) in [
-                (glow::TEXTURE_MIN_FILTER, glow::NEAREST),
-                (glow::TEXTURE_MAG_FILTER, glow::NEAREST),
-                (glow::TEXTURE_WRAP_S, glow::CLAMP_TO_EDGE),
-                (glow::TEXTURE_WRAP_T, glow::CLAMP_TO_EDGE),
+                (glow::TEXTURE_MIN_FILTER, filter),
+                (glow::TEXTURE_MAG_FILTER, filter),
+                (glow::TEXTURE_WRAP_S, wrap),
+                (glow::TEXTURE_WRAP_T, wrap),
             ] {
                 gl.glow.tex_parameter_i32(target, name, value as i32);
             }
@@ -266,7 +270,7 @@ mod tests {
             let _current = context.enter().unwrap();
             let gl = context.gl();
             let buffer = Buffer::new(gl, glow::ARRAY_BUFFER, &[0; 24]).unwrap();
-            let texture = Texture::new(gl, glow::TEXTURE_2D).unwrap();
+            let texture = Texture::new(gl, glow::TEXTURE_2D, Sampling::NearestClamped).unwrap();
             let shaders = plan::Program { vertex: "evangelista/map.vert", fragments: vec!["evangelista/map.frag"] };
             let program = Program::new(gl, &shaders).unwrap();
             let query = TimerQuery::new(gl).unwrap();

@@ -10,8 +10,12 @@ use glam::DVec3;
 pub struct VertexArrays {
     /// Position (x, y, z, in scene radii from `centre`) and unit normal of each vertex.
     pub vertices: Vec<[f32; 6]>,
+    /// Texture coordinates of each vertex, origin at the lower left; empty where the mesh has no texture to read by them.
+    pub texture_coordinates: Vec<[f32; 2]>,
     /// Three indices a triangle.
     pub indices: Vec<u32>,
+    /// For each of the mesh's positions one vertex that lies there.
+    pub position_vertices: Vec<u32>,
     /// The runs of triangles that share a material, in drawing order.
     pub parts: Vec<Part>,
     /// The mesh's own centre, world space, subtracted in f64 before anything becomes f32.
@@ -35,27 +39,34 @@ impl VertexArrays {
         let (low, high) = mesh.bounds();
         let centre = low * 0.5 + high * 0.5;
         let incidence = Incidence::new(mesh.positions.len(), &mesh.triangles);
-        let corner_normals = mesh.triangle_normals.as_flattened();
+        let keys = CornerKeys::new(mesh);
         let mut vertices: Vec<[f32; 6]> = Vec::with_capacity(mesh.positions.len());
-        let mut corner_vertices = vec![NONE; corner_normals.len()];
+        let mut texture_coordinates = Vec::new();
+        let mut corner_vertices = vec![NONE; mesh.triangles.len() * 3];
+        let mut position_vertices = Vec::with_capacity(mesh.positions.len());
         let mut corners = Vec::new();
         for (position, point) in mesh.positions.iter().enumerate() {
             let [x, y, z] = ((point - centre) / unit).as_vec3().to_array();
+            position_vertices.push(vertices.len() as u32);
             corners.clear();
-            corners
-                .extend(incidence.corners(position).iter().map(|corner| (corner_normals[*corner as usize], *corner)));
+            corners.extend(incidence.corners(position).iter().map(|corner| (keys.of(*corner as usize), *corner)));
             corners.sort_unstable();
             for group in corners.chunk_by(|a, b| a.0 == b.0) {
-                let [nx, ny, nz] = mesh.normals[group[0].0 as usize].to_array();
+                let [normal, texture, _] = group[0].0;
+                let [nx, ny, nz] = mesh.normals[normal as usize].to_array();
                 group.iter().for_each(|(_, corner)| corner_vertices[*corner as usize] = vertices.len() as u32);
                 vertices.push([x, y, z, nx, ny, nz]);
+                if keys.has_textures {
+                    let coordinate = mesh.texture_coordinates.get(texture as usize).copied().unwrap_or_default();
+                    texture_coordinates.push(coordinate.to_array());
+                }
             }
         }
         let order = drawing_order(mesh);
         let indices =
             order.iter().flat_map(|&triangle| &corner_vertices[triangle as usize * 3..][..3]).copied().collect();
         let parts = parts(mesh, &order);
-        let mut arrays = Self { vertices, indices, parts, centre };
+        let mut arrays = Self { vertices, texture_coordinates, indices, position_vertices, parts, centre };
         arrays.number_by_first_use();
         arrays
     }
@@ -63,16 +74,53 @@ impl VertexArrays {
     /// Renumbers the vertices so that drawing walks through them from first to last.
     fn number_by_first_use(&mut self) {
         let mut number = vec![NONE; self.vertices.len()];
-        let mut vertices = Vec::with_capacity(self.vertices.len());
+        let mut order = Vec::with_capacity(self.vertices.len());
         for index in &mut self.indices {
             let slot = &mut number[*index as usize];
             if *slot == NONE {
-                *slot = vertices.len() as u32;
-                vertices.push(self.vertices[*index as usize]);
+                *slot = order.len() as u32;
+                order.push(*index);
             }
             *index = *slot;
         }
-        self.vertices = vertices;
+        self.vertices = order.iter().map(|old| self.vertices[*old as usize]).collect();
+        if !self.texture_coordinates.is_empty() {
+            self.texture_coordinates = order.iter().map(|old| self.texture_coordinates[*old as usize]).collect();
+        }
+        self.position_vertices.iter_mut().for_each(|vertex| *vertex = number[*vertex as usize]);
+    }
+}
+
+/// What tells the vertices at one position apart: normal, texture coordinate where the mesh has textures, material where
+/// it has several.
+struct CornerKeys<'a> {
+    mesh: &'a Mesh,
+    has_textures: bool,
+    has_materials: bool,
+}
+
+impl<'a> CornerKeys<'a> {
+    fn new(mesh: &'a Mesh) -> Self {
+        let has_coordinates = !mesh.triangle_texture_coordinates.is_empty();
+        Self {
+            mesh,
+            has_textures: has_coordinates && mesh.materials.iter().any(|material| material.texture.is_some()),
+            has_materials: mesh.materials.len() > 1,
+        }
+    }
+
+    fn of(&self, corner: usize) -> [u32; 3] {
+        let (triangle, corner) = (corner / 3, corner % 3);
+        let normal = self.mesh.triangle_normals[triangle][corner];
+        let texture = match self.has_textures {
+            true => self.mesh.triangle_texture_coordinates[triangle][corner],
+            false => NONE,
+        };
+        let material = match self.has_materials {
+            true => self.mesh.triangle_materials.get(triangle).copied().unwrap_or(NONE),
+            false => NONE,
+        };
+        [normal, texture, material]
     }
 }
 
@@ -131,6 +179,32 @@ mod tests {
         drawn.sort_unstable();
         expected.sort_unstable();
         assert_eq!(drawn, expected);
+    }
+
+    #[test]
+    fn every_position_has_a_vertex_that_lies_there() {
+        for model in ["builtin:ant", "builtin:bust"] {
+            let mesh = load(model, &LoadOptions::default()).unwrap().mesh;
+            let arrays = VertexArrays::new(&mesh, 3.0);
+            assert_eq!(arrays.position_vertices.len(), mesh.positions.len());
+            for (point, vertex) in mesh.positions.iter().zip(&arrays.position_vertices) {
+                let expected = ((point - arrays.centre) / 3.0).as_vec3().to_array();
+                assert_eq!(arrays.vertices[*vertex as usize][..3], expected, "{model}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_vertex_has_one_material() {
+        let mesh = load("builtin:ant", &LoadOptions::default()).unwrap().mesh;
+        let arrays = VertexArrays::new(&mesh, 1.0);
+        let mut materials = vec![None; arrays.vertices.len()];
+        for part in &arrays.parts {
+            for index in &arrays.indices[part.first as usize..][..part.count as usize] {
+                let seen = materials[*index as usize].replace(part.material);
+                assert!(seen.is_none_or(|seen| seen == part.material));
+            }
+        }
     }
 
     #[test]

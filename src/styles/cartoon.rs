@@ -5,7 +5,7 @@
 
 use super::{Border, Show, Tones};
 use crate::error::{Error, Result};
-use crate::plan::{Depth, Draw, Geometry, Output, Pass, Plan, Program, Step};
+use crate::plan::{Depth, Draw, Geometry, Output, Paint, Pass, Plan, Program, Step};
 use crate::scene::{Background, Scene};
 use serde::Serialize;
 
@@ -90,15 +90,8 @@ impl Cartoon {
                 uniforms.extend(self.tones.uniforms(background));
                 textures.extend(self.tones.textures());
             }
-            Draw {
-                geometry: Geometry::Objects,
-                program: Program { vertex: "evangelista/two-pass.vert", fragments },
-                uniforms,
-                textures,
-                depth: Depth::TestAndWrite,
-                blend: false,
-                cull_back_faces: self.cull_back_faces,
-            }
+            let program = Program { vertex: "evangelista/two-pass.vert", fragments };
+            Draw { uniforms, textures, ..self.draw(Geometry::Objects(Paint::Materials), program) }
         });
         let pass = Pass { name: "tones-and-border", steps };
         Ok(self.finish(vec![self.map_pass(scene, true), pass], show))
@@ -132,27 +125,19 @@ impl Cartoon {
             .iter()
             .flat_map(|pass| &pass.steps)
             .any(|step| matches!(step, Step::Draw(draw) if draw.textures.iter().any(|(name, _)| *name == "toneTable")));
-        Plan { passes, tone_table: self.tones.table().filter(|_| reads_table), output }
+        Plan { passes, tone_table: self.tones.table().filter(|_| reads_table), pictures: Vec::new(), output }
     }
 
     /// Step 1: normals and depth into the framebuffer and, to be read later, into a texture.
     fn map_pass(&self, scene: &Scene, copy: bool) -> Pass {
-        let draw = |geometry| Draw {
-            geometry,
-            program: map_program(),
-            uniforms: Vec::new(),
-            textures: Vec::new(),
-            depth: Depth::TestAndWrite,
-            blend: false,
-            cull_back_faces: self.cull_back_faces,
-        };
+        let draw = |geometry| self.draw(geometry, map_program());
         let mut steps = vec![Step::Clear { color: EMPTY_MAP }];
         if self.background_square {
             let [red, green, blue, _] = scene.background.clear_color();
             let square = draw(Geometry::BackgroundSquare { color: [red, green, blue, 1.0] });
             steps.push(Step::Draw(Draw { depth: Depth::Ignore, ..square }));
         }
-        steps.push(Step::Draw(draw(Geometry::Objects)));
+        steps.push(Step::Draw(draw(Geometry::Objects(Paint::Materials))));
         if copy {
             steps.push(Step::CopyFramebuffer);
         }
@@ -162,22 +147,23 @@ impl Cartoon {
     /// Step 2: uniform shading.
     fn tone_pass(&self, scene: &Scene) -> Pass {
         let published = self.tones.are_published();
-        let steps = self.scene_steps(scene, |background| Draw {
-            geometry: Geometry::Objects,
-            program: Program {
-                vertex: "evangelista/toon.vert",
-                fragments: match published {
-                    true => vec!["evangelista/toon.frag"],
-                    false => vec!["evangelista/toon-settings.frag", self.tones.shader()],
-                },
-            },
-            uniforms: if published { Vec::new() } else { self.tones.uniforms(background) },
-            textures: if published { Vec::new() } else { self.tones.textures() },
-            depth: Depth::TestAndWrite,
-            blend: false,
-            cull_back_faces: self.cull_back_faces,
+        let steps = self.scene_steps(scene, |background| {
+            let fragments = match published {
+                true => vec!["evangelista/toon.frag"],
+                false => vec!["evangelista/toon-settings.frag", self.tones.shader()],
+            };
+            let program = Program { vertex: "evangelista/toon.vert", fragments };
+            Draw {
+                uniforms: if published { Vec::new() } else { self.tones.uniforms(background) },
+                textures: if published { Vec::new() } else { self.tones.textures() },
+                ..self.draw(Geometry::Objects(Paint::Materials), program)
+            }
         });
         Pass { name: "tones", steps }
+    }
+
+    fn draw(&self, geometry: Geometry, program: Program) -> Draw {
+        Draw { cull_back_faces: self.cull_back_faces, ..Draw::new(geometry, Some(program)) }
     }
 
     /// Clear, background square, objects; `draw` makes the draw for the background (true) or the objects (false).
@@ -197,20 +183,17 @@ impl Cartoon {
 /// Step 3: the filter over the whole picture, blended; `alone` on a white ground.
 fn border_pass(border: &Border, scene: &Scene, alone: bool) -> Pass {
     let published = border.is_published();
+    let fragments = match published {
+        true => vec!["evangelista/border.frag"],
+        false => vec!["evangelista/border-settings.frag", border.shader()],
+    };
+    let program = Program { vertex: "evangelista/border.vert", fragments };
     let square = Draw {
-        geometry: Geometry::ScreenSquare,
-        program: Program {
-            vertex: "evangelista/border.vert",
-            fragments: match published {
-                true => vec!["evangelista/border.frag"],
-                false => vec!["evangelista/border-settings.frag", border.shader()],
-            },
-        },
         uniforms: if published { Border::published_uniforms(scene.size) } else { border.uniforms(scene.size) },
         textures: Border::textures(),
         depth: Depth::Ignore,
         blend: true,
-        cull_back_faces: false,
+        ..Draw::new(Geometry::ScreenSquare, Some(program))
     };
     let mut steps = Vec::new();
     if alone {

@@ -2,7 +2,7 @@
 
 use super::Show;
 use crate::error::{Error, Result};
-use crate::plan::{Depth, Draw, Geometry, Output, Pass, Plan, Program, Step, Uniform, Value};
+use crate::plan::{Draw, Geometry, Output, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::Scene;
 use serde::Serialize;
 
@@ -35,20 +35,22 @@ impl Phong {
             ));
         }
         let uniform = |name, value| Uniform { name, value: Value::Float(value) };
+        let program = Program { vertex: "phong/phong.vert", fragments: vec!["phong/phong.frag"] };
         let draw = Draw {
-            geometry: Geometry::Objects,
-            program: Program { vertex: "phong/phong.vert", fragments: vec!["phong/phong.frag"] },
             uniforms: vec![
                 uniform("ambient", self.ambient),
                 uniform("specular", self.specular),
                 uniform("shininess", self.shininess),
             ],
-            textures: Vec::new(),
-            depth: Depth::TestAndWrite,
-            blend: false,
             cull_back_faces: self.cull_back_faces,
+            ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
         let steps = vec![Step::Clear { color: scene.background.clear_color() }, Step::Draw(draw)];
-        Ok(Plan { passes: vec![Pass { name: "phong", steps }], tone_table: None, output: Output::Rgba })
+        Ok(Plan {
+            passes: vec![Pass { name: "phong", steps }],
+            tone_table: None,
+            pictures: Vec::new(),
+            output: Output::Rgba,
+        })
     }
 }

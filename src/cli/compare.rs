@@ -1,0 +1,185 @@
+//! `tinta compare`: one scene in two styles, and their lines laid over each other.
+
+use super::models::load_meshes;
+use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use tinta::compare::{Agreement, AgreementNumbers, BOTH_COLOR, InkMask, LEFT_COLOR, RIGHT_COLOR};
+use tinta::record::{CameraRecord, ComparisonRecord, DrawingRecord, ModelRecord, Summary};
+use tinta::renderer::milliseconds_since;
+use tinta::sheet::{Caption, Panel, sheet};
+use tinta::{Backend, Error, Picture, Renderer, Result, Scene, Show, StyleName, Target};
+
+/// Draw one scene in two styles side by side, and show which lines both drew
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Model files (OBJ, PLY, STL, MD2, 3DS) or built-in models; several make one scene
+    #[arg(required = true, value_name = "MODEL")]
+    models: Vec<String>,
+
+    /// Sheet to write (.png .jpg .bmp .tga .ppm), or a folder for it and its three pictures
+    #[arg(short, long, value_name = "FILE|DIR")]
+    output: String,
+
+    /// Style on the left: three-pass, two-pass, inking, dietrich [default: three-pass]
+    #[arg(long, value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
+    left: StyleName,
+
+    /// Style on the right [default: inking]
+    #[arg(long, value_name = "STYLE", default_value = "inking", hide_default_value = true)]
+    right: StyleName,
+
+    /// Distance within which two styles' ink is the same, pixels, up to 64 [default: 2]
+    #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, value_parser = clap::value_parser!(u32).range(0..=64))]
+    tolerance: u32,
+
+    /// OpenGL from: egl, osmesa, auto (the first that works) [default: auto]
+    #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
+    backend: Backend,
+
+    /// Frames of each style to draw and time after warm-up [default: 11]
+    #[arg(long, value_name = "N", default_value = "11", hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    frames: u32,
+
+    /// Print one JSON record [default: off]
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    scene: SceneArguments,
+
+    #[command(flatten)]
+    camera: CameraArguments,
+
+    #[command(flatten)]
+    styles: StyleArguments,
+
+    #[command(flatten)]
+    model: ModelArguments,
+}
+
+/// Frames drawn before measuring.
+const WARM_UP: usize = 2;
+
+/// One style's part.
+struct Drawing {
+    picture: Picture,
+    ink: InkMask,
+    record: DrawingRecord,
+}
+
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let output = Output::check(&arguments.output)?;
+    if arguments.styles.show != Show::Final {
+        return Err(Error::Setting {
+            setting: "--show".to_owned(),
+            problem: "a comparison shows finished pictures; leave it out".to_owned(),
+        });
+    }
+    let styles = [arguments.left, arguments.right].map(|name| arguments.styles.style(name));
+    let [left_style, right_style] = styles;
+    let styles = [left_style?, right_style?];
+    let meshes = load_meshes(&arguments.models, &arguments.model.options())?;
+    let count = meshes.len();
+    let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()))?;
+    let mut renderer = Renderer::new(arguments.backend)?;
+    let mut draw = |style: &tinta::Style| -> Result<Drawing> {
+        let lines = style.plan(&scene, Show::Borders)?;
+        let start = Instant::now();
+        let plan = style.plan(&scene, Show::Final)?;
+        let plan_ms = milliseconds_since(start);
+        renderer.remarks(&plan).iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
+        let ink = InkMask::of(&renderer.draw(&scene, &lines)?);
+        let picture = renderer.draw(&scene, &plan)?;
+        let frame_ms = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, arguments.frames as usize)?);
+        Ok(Drawing { picture, ink, record: DrawingRecord { style: style.clone(), plan_ms, frame_ms } })
+    };
+    let [left, right] = [draw(&styles[0])?, draw(&styles[1])?];
+    let agreement = Agreement::of(&left.ink, &right.ink, arguments.tolerance).ok_or_else(|| Error::Setting {
+        setting: "--size".to_owned(),
+        problem: "the two pictures came out in different sizes; try another".to_owned(),
+    })?;
+    let map = agreement.picture(scene.size);
+    let models: Vec<ModelRecord> = scene.objects[..count].iter().map(|object| ModelRecord::new(&object.mesh)).collect();
+    let record = ComparisonRecord {
+        version: env!("CARGO_PKG_VERSION"),
+        model: ModelRecord::together(&models),
+        size: scene.size,
+        camera: CameraRecord::new(&scene),
+        gl: renderer.context().clone(),
+        left: left.record,
+        right: right.record,
+        agreement: agreement.numbers,
+    };
+    let names = [arguments.left, arguments.right].map(StyleName::name);
+    let panels = [
+        panel(names[0], &record.left, left.picture),
+        panel(names[1], &record.right, right.picture),
+        Panel { title: "their lines".to_owned(), subtitle: String::new(), picture: map },
+    ];
+    let whole = sheet(&panels, &captions(&record, names));
+    output.write(&whole, panels)?;
+    if arguments.json { super::print_json(&record) } else { Ok(()) }
+}
+
+fn panel(name: &str, record: &DrawingRecord, picture: Picture) -> Panel {
+    Panel { title: name.to_owned(), subtitle: format!("{:.1} ms a frame", record.frame_ms.median), picture }
+}
+
+fn captions(record: &ComparisonRecord, [left, right]: [&str; 2]) -> Vec<Caption> {
+    let AgreementNumbers { tolerance_px, left_px, right_px, only_left_px, only_right_px, .. } = record.agreement;
+    let percent = |share: Option<f64>| share.map_or("no ink".to_owned(), |share| format!("{:.1} %", share * 100.0));
+    let (left_shared, right_shared) = (percent(record.agreement.left_shared), percent(record.agreement.right_shared));
+    let line = |swatch: Option<[u8; 3]>, text: String| Caption { swatch, text };
+    let file = Path::new(&record.model.path)
+        .file_name()
+        .map_or(record.model.path.as_str().into(), |name| name.to_string_lossy());
+    vec![
+        line(Some(BOTH_COLOR), format!("both: {left_shared} of {left}'s ink, {right_shared} of {right}'s")),
+        line(Some(LEFT_COLOR), format!("only {left}: {only_left_px} of its {left_px} px")),
+        line(Some(RIGHT_COLOR), format!("only {right}: {only_right_px} of its {right_px} px")),
+        line(
+            None,
+            format!(
+                "{file}, {} triangles, {} px, ink within {tolerance_px} px counts as the same, {}",
+                record.model.triangles, record.size, record.gl.renderer
+            ),
+        ),
+    ]
+}
+
+/// One file, or a folder of four.
+enum Output {
+    File(Target),
+    Folder([Target; 4]),
+}
+
+const NAMES: [&str; 4] = ["sheet.png", "left.png", "right.png", "lines.png"];
+
+impl Output {
+    fn check(path: &str) -> Result<Self> {
+        let is_folder = path.ends_with(['/', std::path::MAIN_SEPARATOR]) || Path::new(path).is_dir();
+        if !is_folder {
+            return Target::check(path, false).map(Self::File);
+        }
+        std::fs::create_dir_all(path).map_err(|error| Error::Output {
+            path: path.to_owned(),
+            problem: format!("the folder cannot be made ({error}); choose another"),
+        })?;
+        let file = |name: &str| {
+            let file: PathBuf = Path::new(path).join(name);
+            Target::check(&file.to_string_lossy(), false)
+        };
+        Ok(Self::Folder([file(NAMES[0])?, file(NAMES[1])?, file(NAMES[2])?, file(NAMES[3])?]))
+    }
+
+    fn write(&self, sheet: &Picture, panels: [Panel; 3]) -> Result<()> {
+        match self {
+            Self::File(target) => target.write(sheet),
+            Self::Folder(targets) => {
+                let pictures = [sheet].into_iter().chain(panels.iter().map(|panel| &panel.picture));
+                targets.iter().zip(pictures).try_for_each(|(target, picture)| target.write(picture))
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! `tinta edges`: a model's edges by class, and how long it takes to find them.
+
+use super::models::load_meshes;
+use super::options::{CameraArguments, CreaseArguments, ModelArguments};
+use std::time::Instant;
+use tinta::edges::{Class, ClassSet, Classes, NormalCones, Silhouettes};
+use tinta::record::{CameraRecord, EdgeRecord, ModelRecord, Summary};
+use tinta::renderer::milliseconds_since;
+use tinta::{EdgeList, Error, Result, Scene, SceneSettings};
+
+/// Count a model's edges by class, and time how they are found
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Model file (OBJ, PLY, STL, MD2, 3DS) or built-in model
+    #[arg(value_name = "MODEL")]
+    model: String,
+
+    /// How often to do everything, for the times [default: 1]
+    #[arg(long, value_name = "N", default_value = "1", hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    frames: u32,
+
+    /// Print one JSON record [default: off]
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    crease: CreaseArguments,
+
+    #[command(flatten)]
+    camera: CameraArguments,
+
+    #[command(flatten)]
+    options: ModelArguments,
+}
+
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let crease_angle = arguments.crease.crease_angle()?;
+    let rule = arguments.crease.silhouette;
+    let start = Instant::now();
+    let mut meshes = load_meshes(std::slice::from_ref(&arguments.model), &arguments.options.options())?;
+    let load_ms = milliseconds_since(start);
+    let settings = SceneSettings { camera: arguments.camera.settings(), ..SceneSettings::default() };
+    let scene = Scene::new(meshes.clone(), &settings)?;
+    let Some(mesh) = meshes.pop() else { return Err(Error::CommandLine { problem: "no model was named".to_owned() }) };
+    let eye = scene.eye(&scene.objects[0], rule);
+
+    // Timed like frames: every round does all of it anew.
+    let mut times: [Vec<f64>; 6] = Default::default();
+    let mut last = None;
+    for _ in 0..arguments.frames {
+        let mut clock = Instant::now();
+        let mut lap = || milliseconds_since(std::mem::replace(&mut clock, Instant::now()));
+        let edges = EdgeList::new(&mesh);
+        let build = lap();
+        let classes = Classes::new(&mesh, &edges, crease_angle, ClassSet::ALL);
+        let classify = lap();
+        let silhouettes = Silhouettes::new(&mesh, &edges);
+        let planes = lap();
+        let silhouette = silhouettes.find(&mesh, &edges, eye, rule);
+        let search = lap();
+        let cones = NormalCones::new(&mesh, &edges, &silhouettes);
+        let hierarchy = lap();
+        let again = cones.find(&mesh, &edges, &silhouettes, eye, rule);
+        let search_hierarchy = lap();
+        for (times, time) in times.iter_mut().zip([build, classify, planes, search, hierarchy, search_hierarchy]) {
+            times.push(time);
+        }
+        debug_assert_eq!(silhouette, again);
+        last = Some((edges, classes, silhouette));
+    }
+    let Some((edges, classes, silhouette)) = last else { return Ok(()) };
+    let mut counts = classes.counts();
+    counts.silhouette = silhouette.len();
+    let [build_ms, classify_ms, planes_ms, silhouette_ms, hierarchy_ms, silhouette_by_hierarchy_ms] =
+        times.map(Summary::new);
+    let record = EdgeRecord {
+        version: env!("CARGO_PKG_VERSION"),
+        model: ModelRecord::new(&mesh),
+        load: arguments.options.options(),
+        edges: edges.len(),
+        classes: counts,
+        reversed_edges: edges.reversed_edges(),
+        crease_angle_degrees: crease_angle.degrees(),
+        crease_cosine: crease_angle.cosine,
+        silhouette_rule: rule,
+        camera: CameraRecord::new(&scene),
+        load_ms,
+        build_ms,
+        classify_ms,
+        planes_ms,
+        silhouette_ms,
+        hierarchy_ms,
+        silhouette_by_hierarchy_ms,
+    };
+    if arguments.json { super::print_json(&record) } else { super::print(&in_words(&record)) }
+}
+
+fn in_words(record: &EdgeRecord) -> String {
+    let mut counts = record.classes;
+    let mut text = format!("{:<16}{:>10}\n", "edges", record.edges);
+    for (name, class) in Class::ALL {
+        let what = match class {
+            Class::Boundary => "one face",
+            Class::NonManifold => "three faces or more",
+            Class::Silhouette => "between a face seen from the front and one that is not",
+            Class::Crease => "sharper than the crease angle",
+            Class::Material => "between two materials",
+            Class::Texture => "between different texture coordinates",
+            Class::Normal => "between different vertex normals",
+        };
+        text.push_str(&format!("  {name:<14}{:>10}  {what}\n", counts.of(class)));
+    }
+    if record.reversed_edges > 0 {
+        text.push_str(&format!("  {:<14}{:>10}  faces wound against each other\n", "reversed", record.reversed_edges));
+    }
+    text.push_str(&format!("\n{:<16}{:>10}{:>10}{:>10}\n", "milliseconds", "median", "min", "max"));
+    for (name, times) in [
+        ("build", &record.build_ms),
+        ("classify", &record.classify_ms),
+        ("planes", &record.planes_ms),
+        ("silhouette", &record.silhouette_ms),
+        ("hierarchy", &record.hierarchy_ms),
+        ("  silhouette", &record.silhouette_by_hierarchy_ms),
+    ] {
+        text.push_str(&format!("{name:<16}{:>10.3}{:>10.3}{:>10.3}\n", times.median, times.min, times.max));
+    }
+    text
+}

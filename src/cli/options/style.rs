@@ -1,0 +1,219 @@
+//! The styles' settings, in one group for every command that draws.
+
+use super::{parse_pair, parse_switch, parse_triple};
+use std::path::PathBuf;
+use tinta::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
+use tinta::plan::LineDrawing;
+use tinta::styles::{
+    Border, Cartoon, ClassColors, Dietrich, Filter, Inking, LightOn, PaintMode, Phong, Ramp, RampRow, ToneLookup, Tones,
+};
+use tinta::{Result, Show, Style, StyleName};
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "All styles")]
+pub struct StyleArguments {
+    /// Which picture: final, borders, tones; three-pass and two-pass also normals, depth, map [default: final]
+    #[arg(long, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
+    pub show: Show,
+
+    /// No lines, tones or paint alone [default: off]
+    #[arg(long)]
+    no_borders: bool,
+
+    /// Leave out faces turned away: none, back; faster, and the same picture of closed models [default: none]
+    #[arg(long, value_name = "FACES", action = clap::ArgAction::Set, value_parser = parse_cull, default_value = "none", hide_default_value = true)]
+    cull: bool,
+
+    #[command(flatten)]
+    cartoon: CartoonArguments,
+
+    #[command(flatten)]
+    crease: CreaseArguments,
+
+    #[command(flatten)]
+    inking: InkingArguments,
+
+    #[command(flatten)]
+    dietrich: DietrichArguments,
+}
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "Styles three-pass and two-pass (the defaults are the paper's)")]
+struct CartoonArguments {
+    /// Number of tones, 1 to 3; fewer leave out the brightest [default: 3]
+    #[arg(long, value_name = "N", default_value = "3", hide_default_value = true)]
+    tones: u8,
+
+    /// Diffuse and specular light from which the second and third tone hold [default: 0.8,0.65]
+    #[arg(long, value_name = "D,S", value_parser = parse_pair, default_value = "0.8,0.65", hide_default_value = true, allow_hyphen_values = true)]
+    tone_thresholds: [f32; 2],
+
+    /// What the tones multiply the colour by [default: 0.65,0.95,1]
+    #[arg(long, value_name = "A,B,C", value_parser = parse_triple, default_value = "0.65,0.95,1", hide_default_value = true, allow_hyphen_values = true)]
+    tone_levels: [f32; 3],
+
+    /// Find tones by comparing (steps) or in a 1-D texture (texture) [default: steps]
+    #[arg(long, value_name = "HOW", default_value = "steps", hide_default_value = true)]
+    tone_lookup: ToneLookup,
+
+    /// Edge filter: laplacian4, laplacian8, mitchell, sobel, roberts [default: laplacian4]
+    #[arg(long, value_name = "FILTER", default_value = "laplacian4", hide_default_value = true)]
+    filter: Filter,
+
+    /// What the edge filter's response is multiplied by; more darkens faint edges [default: 0.2]
+    #[arg(long, value_name = "FACTOR", default_value = "0.2", hide_default_value = true, allow_hyphen_values = true)]
+    detection_factor: f32,
+
+    /// Draw a square behind the scene, on or off; off loses outer borders [default: on]
+    #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
+    background_quad: bool,
+}
+
+/// What the edge list is asked.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Style inking: lines from the model's edges (the defaults are the text's)")]
+pub struct CreaseArguments {
+    /// Least angle between faces that makes their edge a crease, degrees [default: 66.4, a cosine of 0.4]
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
+    crease_angle: Option<f64>,
+
+    /// Find silhouettes with one view vector for all edges (paper) or exactly (exact) [default: paper]
+    #[arg(long, value_name = "RULE", default_value = "paper", hide_default_value = true)]
+    pub silhouette: SilhouetteRule,
+}
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "Style inking: lines from the model's edges (the defaults are the text's)")]
+struct InkingArguments {
+    /// Edges to draw: boundary, non-manifold, silhouette, crease, material, texture, normal with commas between, or all [default: boundary,silhouette,crease]
+    #[arg(long, value_name = "CLASSES", value_parser = parse_classes, default_value = "boundary,silhouette,crease", hide_default_value = true)]
+    classes: ClassSet,
+
+    /// Colours of the lines: CLASS=COLOUR with commas between, or figure-6 (outer red, inner blue) [default: black]
+    #[arg(long, value_name = "COLOURS")]
+    class_colors: Option<ClassColors>,
+
+    /// Width of the lines, pixels [default: 2]
+    #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, allow_hyphen_values = true)]
+    line_width: f32,
+
+    /// Smooth and blend the lines, on or off [default: on]
+    #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
+    smooth: bool,
+
+    /// Draw lines as GL lines (gl) or as quads of exactly their width (quads) [default: gl]
+    #[arg(long, value_name = "HOW", default_value = "gl", hide_default_value = true)]
+    line_drawing: LineDrawing,
+
+    /// How far faces are pushed behind the lines: glPolygonOffset's factor and units [default: 1,5]
+    #[arg(long, value_name = "F,U", value_parser = parse_pair, default_value = "1,5", hide_default_value = true, allow_hyphen_values = true)]
+    polygon_offset: [f32; 2],
+
+    /// Paint faces in the background's colour (none), their own (flat), or by light and ramp (ramp) [default: ramp]
+    #[arg(long, value_name = "HOW", default_value = "ramp", hide_default_value = true)]
+    paint: PaintMode,
+
+    /// Picture of four gradients, one above the other, dark at the left [default: built in]
+    #[arg(long, value_name = "FILE")]
+    ramp: Option<PathBuf>,
+
+    /// Which gradient: material (the nearest to its colour), object (one after the other), or 0 to 3 [default: material]
+    #[arg(long, value_name = "ROW", default_value = "material", hide_default_value = true)]
+    ramp_row: RampRow,
+
+    /// Compute the light on the cpu or in a vertex-shader [default: cpu]
+    #[arg(long, value_name = "WHERE", default_value = "cpu", hide_default_value = true)]
+    light: LightOn,
+
+    /// Multiply the model's own picture in, on or off [default: off]
+    #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "off", hide_default_value = true)]
+    texture: bool,
+}
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "Style dietrich")]
+struct DietrichArguments {
+    /// Cosine between normal and view below which a pixel is ink, 0 to 1; more makes wider lines [default: 0.25]
+    #[arg(long, value_name = "COSINE", default_value = "0.25", hide_default_value = true, allow_hyphen_values = true)]
+    ink_threshold: f32,
+}
+
+impl StyleArguments {
+    /// The style of this name with these settings; what belongs to other styles is left alone.
+    pub fn style(&self, name: StyleName) -> Result<Style> {
+        Ok(match name {
+            StyleName::Phong => Style::Phong(Phong { cull_back_faces: self.cull, ..Phong::default() }),
+            StyleName::ThreePass => Style::ThreePass(self.cartoon.settings(self)),
+            StyleName::TwoPass => Style::TwoPass(self.cartoon.settings(self)),
+            StyleName::Inking => Style::Inking(self.inking.settings(self)?),
+            StyleName::Dietrich => Style::Dietrich(Dietrich {
+                threshold: if self.no_borders { 0.0 } else { self.dietrich.ink_threshold },
+                cull_back_faces: self.cull,
+                ..Dietrich::default()
+            }),
+        })
+    }
+}
+
+impl CartoonArguments {
+    fn settings(&self, common: &StyleArguments) -> Cartoon {
+        let [diffuse_threshold, specular_threshold] = self.tone_thresholds;
+        let border = Border { filter: self.filter, detection_factor: self.detection_factor };
+        Cartoon {
+            tones: Tones {
+                count: self.tones,
+                diffuse_threshold,
+                specular_threshold,
+                levels: self.tone_levels,
+                lookup: self.tone_lookup,
+            },
+            border: (!common.no_borders).then_some(border),
+            background_square: self.background_quad,
+            cull_back_faces: common.cull,
+        }
+    }
+}
+
+impl CreaseArguments {
+    pub fn crease_angle(&self) -> Result<CreaseAngle> {
+        self.crease_angle.map_or(Ok(CreaseAngle::default()), CreaseAngle::from_degrees)
+    }
+}
+
+impl InkingArguments {
+    fn settings(&self, common: &StyleArguments) -> Result<Inking> {
+        Ok(Inking {
+            is_inked: !common.no_borders,
+            classes: self.classes,
+            crease_angle: common.crease.crease_angle()?,
+            silhouette: common.crease.silhouette,
+            line_width_px: self.line_width,
+            is_smooth: self.smooth,
+            line_drawing: self.line_drawing,
+            colors: self.class_colors.unwrap_or_default(),
+            polygon_offset: self.polygon_offset,
+            paint: self.paint,
+            ramp: self.ramp.as_deref().map_or_else(|| Ok(Ramp::default()), Ramp::read)?,
+            ramp_row: self.ramp_row,
+            light: self.light,
+            has_texture: self.texture,
+            cull_back_faces: common.cull,
+        })
+    }
+}
+
+fn parse_classes(text: &str) -> std::result::Result<ClassSet, String> {
+    if text == "all" {
+        return Ok(ClassSet::ALL);
+    }
+    let classes: std::result::Result<Vec<Class>, String> = text.split(',').map(|name| name.trim().parse()).collect();
+    classes.map(|classes| ClassSet::of(&classes))
+}
+
+fn parse_cull(text: &str) -> std::result::Result<bool, String> {
+    match text {
+        "none" => Ok(false),
+        "back" => Ok(true),
+        _ => Err("choose none or back".to_owned()),
+    }
+}

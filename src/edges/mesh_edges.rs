@@ -1,0 +1,88 @@
+//! A mesh's edges with what is kept between views: the list, its classes, the faces' planes, the hierarchy.
+
+use super::{Class, ClassSet, Classes, CreaseAngle, EdgeList, Eye, NormalCones, SilhouetteRule, Silhouettes};
+use crate::mesh::Mesh;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// The edges of a mesh, ready to be asked which to draw.
+#[derive(Debug)]
+pub struct MeshEdges {
+    mesh: Arc<Mesh>,
+    list: EdgeList,
+    silhouettes: OnceLock<Silhouettes>,
+    cones: OnceLock<NormalCones>,
+    /// For the settings last asked for.
+    classes: Mutex<Option<(ClassSet, Arc<Classes>)>>,
+}
+
+impl MeshEdges {
+    /// Builds the list; everything else is made when first asked for.
+    pub fn new(mesh: Arc<Mesh>) -> Self {
+        let list = EdgeList::new(&mesh);
+        Self { mesh, list, silhouettes: OnceLock::new(), cones: OnceLock::new(), classes: Mutex::new(None) }
+    }
+
+    /// The list.
+    pub fn list(&self) -> &EdgeList {
+        &self.list
+    }
+
+    /// The static classes in `wanted`, found once for one setting after the other.
+    pub fn classes(&self, crease_angle: CreaseAngle, wanted: ClassSet) -> Arc<Classes> {
+        let mut kept = self.classes.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*kept {
+            Some((set, classes)) if *set == wanted && classes.crease_angle == crease_angle => classes.clone(),
+            _ => {
+                let classes = Arc::new(Classes::new(&self.mesh, &self.list, crease_angle, wanted));
+                *kept = Some((wanted, classes.clone()));
+                classes
+            }
+        }
+    }
+
+    /// The silhouette edges for an eye in the mesh's own coordinates, ascending.
+    pub fn silhouette(&self, eye: Eye, rule: SilhouetteRule) -> Vec<u32> {
+        let silhouettes = self.planes();
+        match self.cones.get() {
+            Some(cones) => cones.find(&self.mesh, &self.list, silhouettes, eye, rule),
+            None => silhouettes.find(&self.mesh, &self.list, eye, rule),
+        }
+    }
+
+    /// Builds the hierarchy, so that every silhouette from now on takes time by its own length: worth it for an animation
+    /// or a window, not for one picture.
+    pub fn prepare_for_many_views(&self) {
+        self.cones.get_or_init(|| NormalCones::new(&self.mesh, &self.list, self.planes()));
+    }
+
+    /// The edges to draw and the class each belongs to: of those it has in `wanted`, the first in the order of
+    /// [`Class::ALL`]. Ascending within a class.
+    pub fn chosen(
+        &self,
+        wanted: ClassSet,
+        crease_angle: CreaseAngle,
+        eye: Eye,
+        rule: SilhouetteRule,
+    ) -> Vec<(Class, Vec<u32>)> {
+        let classes = self.classes(crease_angle, wanted);
+        let silhouette = if wanted.contains(Class::Silhouette) { self.silhouette(eye, rule) } else { Vec::new() };
+        let mut lists: Vec<(Class, Vec<u32>)> = Class::ALL.into_iter().map(|(_, class)| (class, Vec::new())).collect();
+        for edge in &silhouette {
+            // A silhouette edge has two faces, so it is neither boundary nor non-manifold, which come before.
+            lists[Class::Silhouette as usize].1.push(*edge);
+        }
+        for edge in &classes.marked {
+            let class = classes.of_edges[*edge as usize].first();
+            let is_silhouette = || silhouette.binary_search(edge).is_ok();
+            if let Some(class) = class.filter(|class| *class < Class::Silhouette || !is_silhouette()) {
+                lists[class as usize].1.push(*edge);
+            }
+        }
+        lists.retain(|(_, edges)| !edges.is_empty());
+        lists
+    }
+
+    fn planes(&self) -> &Silhouettes {
+        self.silhouettes.get_or_init(|| Silhouettes::new(&self.mesh, &self.list))
+    }
+}

@@ -1,0 +1,104 @@
+//! Edges drawn by GL: indices into the objects' own vertices, so that a line lies where the faces beside it do.
+
+use super::execute::Resources;
+use super::legacy::{self, MODELVIEW, PROJECTION};
+use super::objects::Buffer;
+use super::quads::{line_quads, point_quads};
+use crate::error::Result;
+use crate::plan::{EdgeRun, Mark};
+use crate::scene::Scene;
+use glam::{Mat4, Vec3};
+use glow::HasContext;
+use std::sync::Arc;
+
+/// The ends of some edges on the device, one run after the other.
+pub struct EdgeIndices {
+    runs: Arc<Vec<EdgeRun>>,
+    buffer: Buffer,
+}
+
+impl Resources {
+    /// GL_LINES or GL_POINTS.
+    pub(super) fn draw_edges(
+        &mut self,
+        scene: &Scene,
+        runs: &Arc<Vec<EdgeRun>>,
+        mark: Mark,
+        width_px: f32,
+        is_smooth: bool,
+    ) -> Result<()> {
+        if self.edges.as_ref().is_none_or(|edges| !Arc::ptr_eq(&edges.runs, runs)) {
+            let ends: Vec<[u32; 2]> = runs.iter().flat_map(|run| &run.ends).copied().collect();
+            let buffer = Buffer::new(&self.gl, glow::ELEMENT_ARRAY_BUFFER, bytemuck::cast_slice(&ends))?;
+            self.edges = Some(EdgeIndices { runs: runs.clone(), buffer });
+        }
+        let (mode, smooth) = match mark {
+            Mark::Lines => (glow::LINES, glow::LINE_SMOOTH),
+            Mark::Points => (glow::POINTS, legacy::POINT_SMOOTH),
+        };
+        // SAFETY: the context is current; widths are finite and above 0, which the style has checked.
+        unsafe {
+            match is_smooth {
+                true => self.gl.glow.enable(smooth),
+                false => self.gl.glow.disable(smooth),
+            }
+            self.gl.glow.line_width(width_px);
+            self.gl.legacy.point_size(width_px);
+            self.gl.legacy.load_matrix(PROJECTION, &scene.clip_from_view());
+        }
+        let mut first = 0;
+        for run in runs.iter() {
+            let count = run.ends.len() * 2;
+            if let Some(object) = scene.objects.get(run.object)
+                && let Some(buffers) = self.find_mesh(&object.mesh)
+                && run.ends.as_flattened().iter().all(|end| (*end as usize) < buffers.vertex_count)
+            {
+                buffers.bind(&self.gl, None);
+                if let Some(edges) = &self.edges {
+                    edges.buffer.bind();
+                }
+                // SAFETY: the context is current; the run lies within the bound index buffer and its indices, asked above,
+                // within the bound vertex buffer.
+                unsafe {
+                    self.gl.legacy.load_matrix(MODELVIEW, &scene.view_from_object(object, buffers.centre));
+                    self.gl.legacy.color(run.color);
+                    let first_byte = (first * size_of::<u32>()) as i32;
+                    self.gl.glow.draw_elements(mode, count as i32, glow::UNSIGNED_INT, first_byte);
+                }
+            }
+            first += count;
+        }
+        // SAFETY: the context is current.
+        unsafe { self.gl.glow.disable(smooth) };
+        Ok(())
+    }
+
+    /// Quads of the width asked for, for drivers whose lines or points are narrower.
+    pub(super) fn draw_edge_quads(&mut self, scene: &Scene, runs: &[EdgeRun], mark: Mark, width_px: f32) -> Result<()> {
+        for run in runs {
+            let Some(object) = scene.objects.get(run.object) else { continue };
+            let arrays = scene.arrays(object);
+            let clip_from_object = scene.clip_from_view() * scene.view_from_object(object, arrays.centre);
+            let in_clip_space = |vertex: &u32| {
+                let [x, y, z, ..] = *arrays.vertices.get(*vertex as usize)?;
+                Some(clip_from_object * Vec3::new(x, y, z).extend(1.0))
+            };
+            let ends = run.ends.iter().filter_map(|[a, b]| Some([in_clip_space(a)?, in_clip_space(b)?]));
+            let quads = match mark {
+                Mark::Lines => line_quads(ends, scene.size, width_px),
+                Mark::Points => point_quads(ends, scene.size, width_px),
+            };
+            let buffer = Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&quads))?;
+            buffer.bind();
+            // SAFETY: the context is current and the bound buffer holds four numbers for each vertex drawn.
+            unsafe {
+                self.gl.legacy.clip_position_array();
+                self.gl.legacy.load_matrix(PROJECTION, &Mat4::IDENTITY);
+                self.gl.legacy.load_matrix(MODELVIEW, &Mat4::IDENTITY);
+                self.gl.legacy.color(run.color);
+                self.gl.glow.draw_arrays(legacy::QUADS, 0, quads.len() as i32);
+            }
+        }
+        Ok(())
+    }
+}

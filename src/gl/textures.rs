@@ -1,0 +1,147 @@
+//! The textures of plans and materials on the device, kept while they are wanted.
+
+use super::Gl;
+use super::legacy;
+use super::objects::Texture;
+use crate::error::{Error, Result};
+use crate::mesh::NONE;
+use crate::picture::Picture;
+use crate::plan::{self, Draw, Plan, Sampling, Step, ToneTable};
+use crate::scene::{Object, Scene, Size};
+use glow::HasContext;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// The textures there are.
+#[derive(Default)]
+pub struct Textures {
+    tone_table: Option<(ToneTable, Texture)>,
+    pictures: Vec<(Arc<Picture>, Sampling, Texture)>,
+    /// Which of `pictures` each of the plan's is.
+    plan_pictures: Vec<usize>,
+    white: Option<Texture>,
+}
+
+impl Textures {
+    /// Uploads what this plan reads and is not there yet, and lets go of what it does not read.
+    pub fn prepare(&mut self, gl: &Rc<Gl>, scene: &Scene, plan: &Plan) -> Result<()> {
+        if let Some(table) = &plan.tone_table
+            && self.tone_table.as_ref().is_none_or(|(present, _)| present != table)
+        {
+            self.tone_table = Some((table.clone(), upload_tone_table(gl, table)?));
+        }
+        let mut wanted: Vec<(Arc<Picture>, Sampling)> =
+            plan.pictures.iter().map(|picture| (picture.picture.clone(), picture.sampling)).collect();
+        let reads_materials = plan.steps().any(|(_, step)| {
+            matches!(step, Step::Draw(Draw { textures, .. }) if textures.iter().any(|(_, t)| *t == plan::Texture::Material))
+        });
+        if reads_materials {
+            if self.white.is_none() {
+                let size = Size { width: 1, height: 1 };
+                self.white = Some(upload(gl, &Picture { size, pixels: vec![u8::MAX; 4] }, Sampling::NearestClamped)?);
+            }
+            for object in &scene.objects {
+                let pictures = scene.material_pictures(object)?.iter().flatten();
+                wanted.extend(pictures.map(|picture| (picture.clone(), Sampling::LinearRepeated)));
+            }
+        }
+        let is_same = |a: &(Arc<Picture>, Sampling), b: &Arc<Picture>, sampling: Sampling| {
+            Arc::ptr_eq(&a.0, b) && a.1 == sampling
+        };
+        self.pictures.retain(|(picture, sampling, _)| wanted.iter().any(|want| is_same(want, picture, *sampling)));
+        for want in &wanted {
+            if !self.pictures.iter().any(|(picture, sampling, _)| is_same(want, picture, *sampling)) {
+                let texture = upload(gl, &want.0, want.1)?;
+                self.pictures.push((want.0.clone(), want.1, texture));
+            }
+        }
+        let place = |want: &(Arc<Picture>, Sampling)| {
+            self.pictures
+                .iter()
+                .position(|(picture, sampling, _)| is_same(want, picture, *sampling))
+                .unwrap_or_default()
+        };
+        self.plan_pictures = wanted[..plan.pictures.len()].iter().map(place).collect();
+        Ok(())
+    }
+
+    /// The tones of the plan.
+    pub fn tone_table(&self) -> Option<&Texture> {
+        self.tone_table.as_ref().map(|(_, texture)| texture)
+    }
+
+    /// The plan's picture of this number.
+    pub fn picture(&self, number: usize) -> Option<&Texture> {
+        self.pictures.get(*self.plan_pictures.get(number)?).map(|(.., texture)| texture)
+    }
+
+    /// One white texel.
+    pub fn white(&self) -> Option<&Texture> {
+        self.white.as_ref()
+    }
+
+    /// Binds the picture on a material, white where there is none.
+    pub fn bind_material(&self, scene: &Scene, object: &Object, material: u32, unit: u32) -> Result<()> {
+        let pictures = scene.material_pictures(object)?;
+        let picture = if material == NONE { None } else { pictures.get(material as usize).and_then(Option::as_ref) };
+        let texture = picture.and_then(|picture| {
+            let found = self
+                .pictures
+                .iter()
+                .find(|(known, sampling, _)| Arc::ptr_eq(known, picture) && *sampling == Sampling::LinearRepeated);
+            found.map(|(.., texture)| texture)
+        });
+        if let Some(texture) = texture.or(self.white()) {
+            texture.bind(unit);
+        }
+        Ok(())
+    }
+}
+
+/// A picture as a texture, its lowest row first, as GL counts.
+fn upload(gl: &Rc<Gl>, picture: &Picture, sampling: Sampling) -> Result<Texture> {
+    let Size { width, height } = picture.size;
+    let largest = gl.info.largest_texture;
+    if width.max(height) > largest {
+        let what = format!("a texture of {} pixels; this driver takes {largest} at most", picture.size);
+        return Err(Error::gl("uploading a picture", what));
+    }
+    let texture = Texture::new(gl, glow::TEXTURE_2D, sampling)?;
+    let rows: Vec<u8> = picture.pixels.chunks_exact(width as usize * 4).rev().flatten().copied().collect();
+    let texels = glow::PixelUnpackData::Slice(Some(&rows));
+    // SAFETY: the context is current, the texture bound, rows are packed without gaps and of the size given.
+    unsafe {
+        gl.glow.tex_image_2d(
+            glow::TEXTURE_2D,
+            0,
+            glow::RGBA8 as i32,
+            width as i32,
+            height as i32,
+            0,
+            glow::RGBA,
+            glow::UNSIGNED_BYTE,
+            texels,
+        );
+    }
+    gl.check("uploading a picture")?;
+    Ok(texture)
+}
+
+fn upload_tone_table(gl: &Rc<Gl>, table: &ToneTable) -> Result<Texture> {
+    let texture = Texture::new(gl, glow::TEXTURE_1D, Sampling::NearestClamped)?;
+    let texels = glow::PixelUnpackData::Slice(Some(table.texels.as_flattened()));
+    // SAFETY: the context is current, the texture bound, and the texels are two bytes each, packed.
+    unsafe {
+        gl.glow.tex_image_1d(
+            glow::TEXTURE_1D,
+            0,
+            legacy::LUMINANCE8_ALPHA8 as i32,
+            table.texels.len() as i32,
+            0,
+            legacy::LUMINANCE_ALPHA,
+            glow::UNSIGNED_BYTE,
+            texels,
+        );
+    }
+    Ok(texture)
+}

@@ -1,0 +1,188 @@
+//! Sheets: pictures side by side with titles above and lines of text with colour swatches below. The one file that knows
+//! the font, Noto Sans Mono as bitmaps, which needs no rasteriser and no file.
+
+use crate::picture::Picture;
+use crate::scene::Size;
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
+
+/// A picture with its title.
+#[derive(Debug, Clone)]
+pub struct Panel {
+    /// Above it, bold.
+    pub title: String,
+    /// Below the title, plain; may be empty.
+    pub subtitle: String,
+    /// As it is, not scaled.
+    pub picture: Picture,
+}
+
+/// A line below the panels.
+#[derive(Debug, Clone)]
+pub struct Caption {
+    /// A square of this colour before the text.
+    pub swatch: Option<[u8; 3]>,
+    /// The text; what is not in the font becomes a question mark.
+    pub text: String,
+}
+
+/// Pixels around and between things.
+const MARGIN: u32 = 16;
+
+const PAPER: [u8; 4] = [255; 4];
+const FRAME: [u8; 4] = [200, 200, 200, 255];
+const TEXT: [u8; 3] = [30, 30, 30];
+
+/// Puts panels next to each other, each as wide as its picture or its titles, and captions below.
+pub fn sheet(panels: &[Panel], captions: &[Caption]) -> Picture {
+    let font = Font::for_width(panels.iter().map(|panel| panel.picture.size.width).max().unwrap_or_default());
+    let column = |panel: &Panel| {
+        let titles = font.title.width(&panel.title).max(font.text.width(&panel.subtitle));
+        (panel.picture.size.width + 2).max(titles)
+    };
+    let caption_width = |caption: &Caption| {
+        font.text.width(&caption.text) + if caption.swatch.is_some() { font.text.height() * 3 / 2 } else { 0 }
+    };
+    let panels_width = panels.iter().map(|panel| column(panel) + MARGIN).sum::<u32>();
+    let captions_width = captions.iter().map(caption_width).max().unwrap_or_default() + MARGIN;
+    let titles_height = font.title.height() + font.text.height();
+    let picture_height = panels.iter().map(|panel| panel.picture.size.height + 2).max().unwrap_or_default();
+    let line_height = font.text.height() * 5 / 4;
+    let captions_top = MARGIN + titles_height + MARGIN / 2 + picture_height + MARGIN;
+    let size = Size {
+        width: panels_width.max(captions_width) + MARGIN,
+        height: captions_top + line_height * captions.len() as u32 + MARGIN,
+    };
+    let mut canvas = Canvas { picture: Picture { size, pixels: PAPER.repeat(size.pixel_count()) } };
+    let mut left = MARGIN;
+    for panel in panels {
+        canvas.write(left, MARGIN, &panel.title, &font.title);
+        canvas.write(left, MARGIN + font.title.height(), &panel.subtitle, &font.text);
+        let top = MARGIN + titles_height + MARGIN / 2;
+        let Size { width, height } = panel.picture.size;
+        canvas.fill(left, top, Size { width: width + 2, height: height + 2 }, FRAME);
+        canvas.paste(left + 1, top + 1, &panel.picture);
+        left += column(panel) + MARGIN;
+    }
+    for (line, caption) in captions.iter().enumerate() {
+        let top = captions_top + line_height * line as u32;
+        let mut left = MARGIN;
+        if let Some([red, green, blue]) = caption.swatch {
+            let side = font.text.height() * 2 / 3;
+            let size = Size { width: side, height: side };
+            canvas.fill(left, top + (font.text.height() - side) * 2 / 3, size, [red, green, blue, u8::MAX]);
+            left += font.text.height() * 3 / 2;
+        }
+        canvas.write(left, top, &caption.text, &font.text);
+    }
+    canvas.picture
+}
+
+/// The sizes of a sheet's text.
+struct Font {
+    title: Face,
+    text: Face,
+}
+
+impl Font {
+    /// Large pictures are looked at from further away.
+    fn for_width(width_px: u32) -> Self {
+        let (title, text) = match width_px {
+            0..400 => (RasterHeight::Size20, RasterHeight::Size16),
+            400..900 => (RasterHeight::Size24, RasterHeight::Size20),
+            _ => (RasterHeight::Size24, RasterHeight::Size24),
+        };
+        Self {
+            title: Face { weight: FontWeight::Bold, size: title },
+            text: Face { weight: FontWeight::Regular, size: text },
+        }
+    }
+}
+
+/// One size and weight.
+struct Face {
+    weight: FontWeight,
+    size: RasterHeight,
+}
+
+impl Face {
+    fn height(&self) -> u32 {
+        self.size.val() as u32
+    }
+
+    fn width(&self, text: &str) -> u32 {
+        (get_raster_width(self.weight, self.size) * text.chars().count()) as u32
+    }
+}
+
+struct Canvas {
+    picture: Picture,
+}
+
+impl Canvas {
+    fn set(&mut self, x: u32, y: u32, pixel: [u8; 4]) {
+        let Size { width, height } = self.picture.size;
+        if x < width && y < height {
+            let start = (y as usize * width as usize + x as usize) * 4;
+            self.picture.pixels[start..start + 4].copy_from_slice(&pixel);
+        }
+    }
+
+    fn fill(&mut self, left: u32, top: u32, size: Size, pixel: [u8; 4]) {
+        for y in top..top + size.height {
+            (left..left + size.width).for_each(|x| self.set(x, y, pixel));
+        }
+    }
+
+    /// A transparent picture shows the sheet's paper.
+    fn paste(&mut self, left: u32, top: u32, picture: &Picture) {
+        for y in 0..picture.size.height {
+            for x in 0..picture.size.width {
+                let [red, green, blue, alpha] = picture.pixel(x.into(), y.into());
+                let over = |channel: u8| (255 - (255 - u32::from(channel)) * u32::from(alpha) / 255) as u8;
+                self.set(left + x, top + y, [over(red), over(green), over(blue), u8::MAX]);
+            }
+        }
+    }
+
+    fn write(&mut self, left: u32, top: u32, text: &str, face: &Face) {
+        let width = get_raster_width(face.weight, face.size) as u32;
+        for (place, character) in text.chars().enumerate() {
+            let raster = get_raster(character, face.weight, face.size);
+            let Some(raster) = raster.or_else(|| get_raster('?', face.weight, face.size)) else { continue };
+            for (y, row) in raster.rows().enumerate() {
+                for (x, coverage) in row.iter().enumerate().filter(|(_, coverage)| **coverage > 0) {
+                    let blend = |ink: u8| {
+                        let coverage = u32::from(*coverage);
+                        ((u32::from(ink) * coverage + 255 * (255 - coverage)) / 255) as u8
+                    };
+                    let [red, green, blue] = TEXT.map(blend);
+                    self.set(left + place as u32 * width + x as u32, top + y as u32, [red, green, blue, u8::MAX]);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sheet_holds_its_pictures_unscaled_and_its_text_in_full() {
+        let size = Size { width: 40, height: 30 };
+        let color = |color: [u8; 4]| Picture { size, pixels: color.repeat(size.pixel_count()) };
+        let panel = |title: &str, picture| Panel { title: title.to_owned(), subtitle: String::new(), picture };
+        let long = "a title far wider than its picture, with an accent: é";
+        let panels = [panel(long, color([255, 0, 0, 255])), panel("b", color([0, 0, 255, 0]))];
+        let caption = Caption { swatch: Some([0, 114, 178]), text: "blue".to_owned() };
+        let sheet = sheet(&panels, &[caption]);
+        let count = |wanted: [u8; 4]| sheet.pixels.chunks_exact(4).filter(|pixel| **pixel == wanted).count();
+        assert_eq!(count([255, 0, 0, 255]), size.pixel_count());
+        assert_eq!(count([0, 0, 255, 255]), 0, "what is transparent shows the paper");
+        assert_eq!(count([0, 114, 178, 255]), 10 * 10);
+        let rightmost = (0..sheet.size.width)
+            .rev()
+            .find(|x| (0..sheet.size.height).any(|y| sheet.pixel((*x).into(), y.into()) != PAPER));
+        assert!(rightmost.is_some_and(|x| x + 4 < sheet.size.width), "nothing reaches the rim: {rightmost:?}");
+    }
+}

@@ -1,0 +1,64 @@
+//! `dietrich`: the hardware's alternative to the edge list, as the text's section "Alternative Techniken" describes it:
+//! per pixel the normal against the view, ink below a threshold. Fast, and its lines are as wide as the surface is round.
+
+use super::Show;
+use crate::error::{Error, Result};
+use crate::plan::{Draw, Geometry, Output, Paint, Pass, Plan, Program, Step, Uniform, Value};
+use crate::scene::{Background, Color, Scene};
+use serde::Serialize;
+
+/// Settings of `dietrich`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Dietrich {
+    /// Cosine of the angle between normal and view below which a pixel is ink, 0 to 1. Default 0.25; more makes lines
+    /// wider, on flat surfaces first.
+    pub threshold: f32,
+    /// The ink's colour. Default black.
+    pub ink: Color,
+    /// Whether faces turned away from the eye are left out. Default no.
+    pub cull_back_faces: bool,
+}
+
+impl Default for Dietrich {
+    fn default() -> Self {
+        Self { threshold: 0.25, ink: Color([0.0; 3]), cull_back_faces: false }
+    }
+}
+
+impl Dietrich {
+    /// One pass: clear and draw.
+    pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
+        if !(0.0..=1.0).contains(&self.threshold) {
+            return Err(Error::setting(
+                format!("--ink-threshold {}", self.threshold),
+                "the threshold is the cosine of an angle, from 0 to 1",
+            ));
+        }
+        let transparent = scene.background == Background::Transparent;
+        let (paint, ground, threshold) = match show {
+            Show::Final => (Paint::Materials, scene.background.clear_color(), self.threshold),
+            Show::Tones => (Paint::Materials, scene.background.clear_color(), 0.0),
+            Show::Borders if transparent => (Paint::Uniform([0.0; 4]), [0.0; 4], self.threshold),
+            Show::Borders => (Paint::Uniform([1.0; 4]), [1.0; 4], self.threshold),
+            Show::Normals | Show::Depth | Show::Map => {
+                return Err(Error::setting("--show", "the style dietrich has no map; show final, borders or tones"));
+            }
+        };
+        let program = Program { vertex: "dietrich/dietrich.vert", fragments: vec!["dietrich/dietrich.frag"] };
+        let draw = Draw {
+            uniforms: vec![
+                Uniform { name: "threshold", value: Value::Float(threshold) },
+                Uniform { name: "inkColor", value: Value::Vec3(self.ink.0) },
+            ],
+            cull_back_faces: self.cull_back_faces,
+            ..Draw::new(Geometry::Objects(paint), Some(program))
+        };
+        let steps = vec![Step::Clear { color: ground }, Step::Draw(draw)];
+        Ok(Plan {
+            passes: vec![Pass { name: "dietrich", steps }],
+            tone_table: None,
+            pictures: Vec::new(),
+            output: Output::Rgba,
+        })
+    }
+}

@@ -1,0 +1,273 @@
+//! `inking`: lines from an edge list over painted faces. C. Dachsbacher, *Beethoven aus Bits und Bytes*.
+//!
+//! Faces first, pushed back by polygon offset; then the edges worth drawing as GL lines, and GL points at their ends so
+//! that lines of some width join. All of it in the fixed-function pipeline, as in the text, but for the variant whose
+//! vertex shader computes the light.
+
+use super::{Ramp, RampRow, Show, ramp};
+use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
+use crate::error::{Error, Result};
+use crate::names::find;
+use crate::plan::{
+    Draw, EdgeRun, Geometry, LineDrawing, Mark, Output, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
+    Texture,
+};
+use crate::scene::{Background, Color, Scene};
+use serde::Serialize;
+use std::str::FromStr;
+use std::sync::Arc;
+
+/// Settings of `inking`; the defaults are the text's.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Inking {
+    /// Whether lines are drawn. Default yes.
+    pub is_inked: bool,
+    /// Which classes of edges are drawn. Default boundary, silhouette and crease; the text names the others but its
+    /// listing leaves them out.
+    pub classes: ClassSet,
+    /// From which angle between faces an edge is a crease. Default a cosine of 0.4; more degrees draw fewer lines.
+    pub crease_angle: CreaseAngle,
+    /// How silhouettes are found. Default the listing's rule.
+    pub silhouette: SilhouetteRule,
+    /// Width of the lines and of the points at their ends, pixels. Default 2.
+    pub line_width_px: f32,
+    /// Whether lines are smoothed and blended, the text's optional part. Default yes.
+    pub is_smooth: bool,
+    /// How lines get their width. Default as GL draws them.
+    pub line_drawing: LineDrawing,
+    /// The lines' colours. Default black.
+    pub colors: ClassColors,
+    /// glPolygonOffset's factor and units. Default 1 and 5; more frees lines from their own faces and lets hidden ones
+    /// through.
+    pub polygon_offset: [f32; 2],
+    /// How faces are painted. Default by the ramp.
+    pub paint: PaintMode,
+    /// The ramp. Default four gradients of three tones.
+    pub ramp: Ramp,
+    /// Which of its gradients a surface gets. Default by material.
+    pub ramp_row: RampRow,
+    /// Where the light is computed. Default here, as in the listing.
+    pub light: LightOn,
+    /// Whether the model's own texture is multiplied in, by the second texture stage. Default no.
+    pub has_texture: bool,
+    /// Whether faces turned away from the eye are left out: faster, and the same picture of closed models. Default no.
+    pub cull_back_faces: bool,
+}
+
+impl Default for Inking {
+    fn default() -> Self {
+        Self {
+            is_inked: true,
+            classes: ClassSet::of(&[Class::Boundary, Class::Silhouette, Class::Crease]),
+            crease_angle: CreaseAngle::default(),
+            silhouette: SilhouetteRule::Paper,
+            line_width_px: 2.0,
+            is_smooth: true,
+            line_drawing: LineDrawing::Gl,
+            colors: ClassColors::default(),
+            polygon_offset: [1.0, 5.0],
+            paint: PaintMode::Ramp,
+            ramp: Ramp::default(),
+            ramp_row: RampRow::Material,
+            light: LightOn::Cpu,
+            has_texture: false,
+            cull_back_faces: false,
+        }
+    }
+}
+
+/// How faces are painted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PaintMode {
+    /// In the background's colour: they only hide lines.
+    None,
+    /// Each material in its colour.
+    Flat,
+    /// By the light, looked up in the ramp.
+    Ramp,
+}
+
+impl PaintMode {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 3] = [("none", Self::None), ("flat", Self::Flat), ("ramp", Self::Ramp)];
+}
+
+impl FromStr for PaintMode {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+/// Where the light that the ramp is looked up by is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LightOn {
+    /// On the CPU at every vertex, as in the listing.
+    Cpu,
+    /// In a vertex shader, as the text's last section proposes.
+    VertexShader,
+}
+
+impl LightOn {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("cpu", Self::Cpu), ("vertex-shader", Self::VertexShader)];
+}
+
+impl FromStr for LightOn {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+/// A colour for each class of edges, in the order of [`Class::ALL`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ClassColors(pub [Color; Class::ALL.len()]);
+
+impl Default for ClassColors {
+    fn default() -> Self {
+        Self([Color([0.0; 3]); Class::ALL.len()])
+    }
+}
+
+impl ClassColors {
+    /// Outer lines red, inner ones blue: figure 6 of Evangelista et al. 2005.
+    pub fn figure_6() -> Self {
+        let is_outer = |class| matches!(class, Class::Boundary | Class::NonManifold | Class::Silhouette);
+        let color = |class| if is_outer(class) { Color([0.9, 0.05, 0.05]) } else { Color([0.1, 0.2, 0.9]) };
+        Self(Class::ALL.map(|(_, class)| color(class)))
+    }
+}
+
+impl FromStr for ClassColors {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        if text == "figure-6" {
+            return Ok(Self::figure_6());
+        }
+        let mut colors = Self::default();
+        for setting in text.split(',') {
+            let usage = || "write figure-6, or CLASS=COLOUR with commas between: silhouette=red,crease=blue".to_owned();
+            let (class, color) = setting.split_once('=').ok_or_else(usage)?;
+            colors.0[class.trim().parse::<Class>()? as usize] = color.trim().parse()?;
+        }
+        Ok(colors)
+    }
+}
+
+/// Widest line, pixels: as wide as the largest picture of most drivers.
+const WIDEST_LINE: f32 = 16_384.0;
+
+impl Inking {
+    /// Paint, then ink.
+    pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
+        self.check(scene, show)?;
+        let (fill, pictures) = self.fill(scene, show);
+        let ground = if show == Show::Borders { blank(scene) } else { scene.background.clear_color() };
+        let paint = Pass { name: "paint", steps: vec![Step::Clear { color: ground }, Step::Draw(fill)] };
+        let mut passes = vec![paint];
+        if self.is_inked && show != Show::Tones {
+            let runs = Arc::new(self.runs(scene));
+            let mark = |mark| {
+                let geometry = Geometry::Edges {
+                    runs: runs.clone(),
+                    mark,
+                    width_px: self.line_width_px,
+                    is_smooth: self.is_smooth && self.line_drawing == LineDrawing::Gl,
+                    line_drawing: self.line_drawing,
+                };
+                Step::Draw(Draw { blend: self.is_smooth, ..Draw::new(geometry, None) })
+            };
+            passes.push(Pass { name: "ink", steps: vec![mark(Mark::Lines), mark(Mark::Points)] });
+        }
+        Ok(Plan { passes, tone_table: None, pictures, output: Output::Rgba })
+    }
+
+    fn check(&self, scene: &Scene, show: Show) -> Result<()> {
+        if !(self.line_width_px > 0.0 && self.line_width_px <= WIDEST_LINE) {
+            return Err(Error::setting(
+                format!("--line-width {}", self.line_width_px),
+                format!("a line's width is a number of pixels above 0 and at most {WIDEST_LINE}"),
+            ));
+        }
+        if self.polygon_offset.iter().any(|number| !number.is_finite()) {
+            return Err(Error::setting("--polygon-offset", "its two numbers must be finite"));
+        }
+        if matches!(show, Show::Normals | Show::Depth | Show::Map) {
+            return Err(Error::setting("--show", "the style inking has no map; show final, borders or tones"));
+        }
+        if show == Show::Borders && !self.is_inked {
+            return Err(Error::setting("--show borders", "there are none with --no-borders; leave out one of the two"));
+        }
+        let has_picture = |material: &crate::mesh::Material| material.texture.is_some();
+        if self.has_texture && !scene.objects.iter().any(|object| object.mesh.materials.iter().any(has_picture)) {
+            return Err(Error::setting(
+                "--texture on",
+                "no model of this scene has a picture on it; name one with --skin, or leave out --texture",
+            ));
+        }
+        Ok(())
+    }
+
+    /// The faces, painted or blank, and the pictures they read.
+    fn fill(&self, scene: &Scene, show: Show) -> (Draw, Vec<PlanPicture>) {
+        let paint_mode = if show == Show::Borders { None } else { Some(self.paint) };
+        let (mut textures, mut pictures, mut program) = (Vec::new(), Vec::new(), None);
+        let paint = match paint_mode {
+            None => Paint::Uniform(blank(scene)),
+            Some(PaintMode::None) => Paint::Uniform(scene.background.clear_color()),
+            Some(PaintMode::Flat) => Paint::Materials,
+            Some(PaintMode::Ramp) => {
+                let picture = self.ramp.picture.clone();
+                pictures.push(PlanPicture { name: "ramp", picture, sampling: Sampling::NearestClamped });
+                textures.push(("ramp", Texture::Picture(0)));
+                if self.light == LightOn::VertexShader {
+                    program = Some(Program { vertex: "dachsbacher/ramp.vert", fragments: Vec::new() });
+                }
+                Paint::Coordinates(ramp::coordinates(scene, &self.ramp, self.ramp_row, self.light == LightOn::Cpu))
+            }
+        };
+        if self.has_texture && matches!(paint_mode, Some(PaintMode::Flat | PaintMode::Ramp)) {
+            textures.push(("own", Texture::Material));
+        }
+        let draw = Draw {
+            textures,
+            cull_back_faces: self.cull_back_faces,
+            polygon_offset: Some(self.polygon_offset),
+            ..Draw::new(Geometry::Objects(paint), program)
+        };
+        (draw, pictures)
+    }
+
+    /// The edges to draw, object by object and class by class.
+    fn runs(&self, scene: &Scene) -> Vec<EdgeRun> {
+        let mut runs = Vec::new();
+        for (number, object) in scene.objects.iter().enumerate() {
+            let edges = scene.edges(object);
+            let vertices = &scene.arrays(object).position_vertices;
+            let eye = scene.eye(object, self.silhouette);
+            for (class, chosen) in edges.chosen(self.classes, self.crease_angle, eye, self.silhouette) {
+                let Color([red, green, blue]) = self.colors.0[class as usize];
+                let positions = edges.list().positions();
+                let ends = |edge: &u32| positions[*edge as usize].map(|position| vertices[position as usize]);
+                runs.push(EdgeRun {
+                    object: number,
+                    name: class.name(),
+                    color: [red, green, blue, 1.0],
+                    ends: chosen.iter().map(ends).collect(),
+                });
+            }
+        }
+        runs
+    }
+}
+
+/// The ground for lines alone: white, or nothing.
+fn blank(scene: &Scene) -> [f32; 4] {
+    if scene.background == Background::Transparent { [0.0; 4] } else { [1.0; 4] }
+}
