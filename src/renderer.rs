@@ -7,7 +7,7 @@ use crate::gl::execute::Resources;
 use crate::gl::{Backend, ContextInfo};
 use crate::mesh::Mesh;
 use crate::picture::Picture;
-use crate::plan::{Draw, Geometry, LineDrawing, Mark, Output, Plan, Step};
+use crate::plan::{Draw, Geometry, LineDrawing, Output, Plan, Step};
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use serde::Serialize;
@@ -64,17 +64,22 @@ impl Renderer {
     /// What of a plan this context draws otherwise than it says, a sentence each.
     pub fn remarks(&self, plan: &Plan) -> Vec<String> {
         let info = self.context.info();
-        let remark = |step: &Step| match step {
-            Step::Draw(Draw {
-                geometry: Geometry::Edges { mark, width_px, is_smooth, line_drawing: LineDrawing::Gl, .. },
-                ..
-            }) if !info.draws_width(*mark, *width_px, *is_smooth) => {
-                let what = if *mark == Mark::Lines { "lines" } else { "the points at their ends" };
-                Some(format!("{what} of {width_px} px are drawn as quads: GL's are not that wide on {}", info.renderer))
+        let mut remarks: Vec<String> = Vec::new();
+        for (_, step) in plan.steps() {
+            let Step::Draw(Draw { geometry: Geometry::Edges { mark, width_px, is_smooth, line_drawing, .. }, .. }) =
+                step
+            else {
+                continue;
+            };
+            if *line_drawing == LineDrawing::Gl && !info.draws_width(*mark, *width_px, *is_smooth) {
+                let remark =
+                    format!("lines of {width_px} px are drawn as quads: GL's are not that wide on {}", info.renderer);
+                if !remarks.contains(&remark) {
+                    remarks.push(remark);
+                }
             }
-            _ => None,
-        };
-        plan.steps().filter_map(|(_, step)| remark(step)).collect()
+        }
+        remarks
     }
 
     /// Draws one triangle the way `style` will draw at this size, so that the driver compiles its shaders now: worth it while

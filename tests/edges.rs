@@ -24,7 +24,7 @@ fn counts(mesh: &Mesh) -> (EdgeList, ClassCounts) {
 }
 
 /// A box, two triangles a side, wound outwards.
-fn cuboid(low: DVec3, high: DVec3) -> Mesh {
+pub fn cuboid(low: DVec3, high: DVec3) -> Mesh {
     let corner = |i: u32| {
         let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 1 { high } else { low };
         DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
@@ -51,7 +51,7 @@ fn joined(meshes: &[Mesh]) -> Mesh {
 }
 
 /// A sphere from an icosahedron, each triangle cut into four `levels` times.
-fn icosphere(levels: u32) -> Mesh {
+pub fn icosphere(levels: u32) -> Mesh {
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
     let (g, o, z) = (golden, 1.0, 0.0);
     let corners = [

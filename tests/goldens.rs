@@ -3,8 +3,9 @@
 //! `TINTA_UPDATE_GOLDENS=1 cargo test goldens` writes them anew and then fails, so that nobody does so unnoticed.
 
 use crate::support::{BACKENDS, failure_folder, renderer, root, scene_with, side_by_side};
+use tinta::edges::SilhouetteRule;
 use tinta::picture::write_rgba_png;
-use tinta::styles::{Border, Cartoon, Filter, Tones};
+use tinta::styles::{Border, Cartoon, ClassColors, Filter, Inking, PaintMode, Tones};
 use tinta::{Picture, SceneSettings, Show, Size, Style, StyleName};
 
 /// A pixel counts as different beyond this, in 1/255: what another version of Mesa may round differently.
@@ -25,6 +26,10 @@ fn cases() -> Vec<Case> {
     let paper = Cartoon::default;
     let tones = |count| three(Cartoon { tones: Tones { count, ..Tones::default() }, border: None, ..paper() });
     let filter = |filter| three(Cartoon { border: Some(Border { filter, ..Border::default() }), ..paper() });
+    let exact_flat =
+        Inking { silhouette: SilhouetteRule::Exact, paint: PaintMode::Flat, is_smooth: false, ..Inking::default() };
+    let class_colors =
+        Inking { colors: ClassColors::figure_6(), paint: PaintMode::None, line_width_px: 3.0, ..Inking::default() };
     let case = |name, model, style, show| Case { name, model, style, show };
     let (bust, gear, ant, open_box) = ("builtin:bust", "builtin:gear", "builtin:ant", "builtin:open-box");
     vec![
@@ -43,6 +48,12 @@ fn cases() -> Vec<Case> {
         case("gear-mitchell", gear, filter(Filter::Mitchell), Show::Final),
         case("ant-three-pass", ant, three(paper()), Show::Final),
         case("open-box-three-pass", open_box, three(paper()), Show::Final),
+        case("bust-inking", bust, Style::named(StyleName::Inking), Show::Final),
+        case("bust-inking-ink", bust, Style::named(StyleName::Inking), Show::Borders),
+        case("bust-inking-paint", bust, Style::named(StyleName::Inking), Show::Tones),
+        case("ant-inking-exact-flat", ant, Style::Inking(exact_flat), Show::Final),
+        case("open-box-class-colors", open_box, Style::Inking(class_colors), Show::Final),
+        case("bust-dietrich", bust, Style::named(StyleName::Dietrich), Show::Final),
     ]
 }
 

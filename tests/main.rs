@@ -4,6 +4,7 @@ mod cli;
 mod docs;
 mod edges;
 mod goldens;
+mod inking;
 mod licences;
 mod pipeline;
 mod shared_models;

@@ -32,10 +32,7 @@ impl Resources {
             let buffer = Buffer::new(&self.gl, glow::ELEMENT_ARRAY_BUFFER, bytemuck::cast_slice(&ends))?;
             self.edges = Some(EdgeIndices { runs: runs.clone(), buffer });
         }
-        let (mode, smooth) = match mark {
-            Mark::Lines => (glow::LINES, glow::LINE_SMOOTH),
-            Mark::Points => (glow::POINTS, legacy::POINT_SMOOTH),
-        };
+        let (mode, smooth) = smoothed(mark);
         // SAFETY: the context is current; widths are finite and above 0, which the style has checked.
         unsafe {
             match is_smooth {
@@ -70,7 +67,27 @@ impl Resources {
         }
         // SAFETY: the context is current.
         unsafe { self.gl.glow.disable(smooth) };
+        if is_smooth {
+            self.draw_unseen();
+        }
         Ok(())
+    }
+
+    /// A draw that leaves no trace. Mesa 22's llvmpipe keeps the state of smoothed lines and points for whatever is drawn
+    /// next, which so loses its polygon offset and culling; this takes that upon itself.
+    fn draw_unseen(&self) {
+        self.bind_squares();
+        // SAFETY: the context is current and the bound buffer holds four vertices; the depth mask is set again before
+        // anything else is drawn or cleared.
+        unsafe {
+            self.gl.glow.color_mask(false, false, false, false);
+            self.gl.glow.depth_mask(false);
+            self.gl.legacy.position_and_normal_arrays();
+            self.gl.legacy.load_matrix(PROJECTION, &Mat4::IDENTITY);
+            self.gl.legacy.load_matrix(MODELVIEW, &Mat4::from_scale(Vec3::splat(0.5)));
+            self.gl.glow.draw_arrays(glow::LINES, 0, 2);
+            self.gl.glow.color_mask(true, true, true, true);
+        }
     }
 
     /// Quads of the width asked for, for drivers whose lines or points are narrower.
@@ -100,5 +117,13 @@ impl Resources {
             }
         }
         Ok(())
+    }
+}
+
+/// What a mark is drawn as, and the capability that smooths it.
+fn smoothed(mark: Mark) -> (u32, u32) {
+    match mark {
+        Mark::Lines => (glow::LINES, glow::LINE_SMOOTH),
+        Mark::Points => (glow::POINTS, legacy::POINT_SMOOTH),
     }
 }

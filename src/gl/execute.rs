@@ -306,10 +306,14 @@ impl Resources {
         Ok(())
     }
 
-    fn draw_square(&self, first: i32, color: [f32; 4], view_from_square: &Mat4, clip_from_view: &Mat4) {
+    pub(super) fn bind_squares(&self) {
         if let Some(squares) = &self.squares {
             squares.bind();
         }
+    }
+
+    fn draw_square(&self, first: i32, color: [f32; 4], view_from_square: &Mat4, clip_from_view: &Mat4) {
+        self.bind_squares();
         // SAFETY: the context is current and the bound buffer holds both squares, four vertices each.
         unsafe {
             self.gl.legacy.position_and_normal_arrays();

@@ -31,7 +31,7 @@ impl Phong {
         if show != Show::Final {
             return Err(Error::setting(
                 "--show",
-                "the style phong has no map, tones or borders; choose three-pass or two-pass, or show final",
+                "the style phong has no lines, tones or map; choose another style, or show final",
             ));
         }
         let uniform = |name, value| Uniform { name, value: Value::Float(value) };
