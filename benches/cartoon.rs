@@ -3,13 +3,15 @@
 //! Rounds are interleaved: in each, every contestant runs once, so that a busy moment of the machine hits all of them.
 //! Reported are medians over all rounds and their ratios; all raw values go to `target/bench/cartoon.json`.
 
+mod report;
+
+use report::{Series, print_ratio, print_table, write_record};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::time::Instant;
 use tinta::mesh::Mesh;
-use tinta::renderer::median;
 use tinta::styles::Cartoon;
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, load};
 
@@ -43,12 +45,6 @@ impl Settings {
     }
 }
 
-/// A contestant's times, milliseconds, over all rounds.
-struct Series {
-    name: String,
-    times: Vec<f64>,
-}
-
 fn main() {
     let Some(mut settings) = Settings::from_arguments() else {
         println!("{USAGE}");
@@ -72,11 +68,8 @@ fn main() {
     let memory = peak_memory_mib(&settings.model, folder.path());
     println!("\npeak memory of one process over 200 frames, 512 x 512: {memory:.0} MiB");
 
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench/cartoon.json");
-    std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
     let all = json!({ "model": settings.model, "frames": frames, "cold": cold, "peak_memory_mib": memory });
-    std::fs::write(&path, serde_json::to_string_pretty(&all).expect("JSON")).expect("the record can be written");
-    println!("raw values: {}", path.display());
+    write_record("cartoon", &all);
 }
 
 /// Whether this Python has Panda3D and there is a virtual display for it.
@@ -97,11 +90,11 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
         ("two-pass, back faces culled", Style::TwoPass(Cartoon { cull_back_faces: true, ..Cartoon::default() })),
     ];
     let mut series: Vec<Series> =
-        styles.iter().map(|(name, _)| Series { name: (*name).to_owned(), times: Vec::new() }).collect();
+        styles.iter().map(|(name, _)| Series::new(name)).collect();
     let with_normals = folder.join("with-normals.obj");
     if settings.python.is_some() {
         write_with_normals(mesh, &with_normals);
-        series.push(Series { name: "Panda3D cartoon ink".to_owned(), times: Vec::new() });
+        series.push(Series::new("Panda3D cartoon ink"));
     }
     let base = Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() }).expect("a scene");
     let scenes: Vec<Scene> = (0..settings.frames).map(|frame| turned(&base, frame)).collect();
@@ -176,7 +169,7 @@ fn cold_table(settings: &Settings, folder: &Path) -> Value {
         None => println!("  SKIPPED the empty EGL program: needs cc and the packages libegl-dev and libgl-dev"),
     }
     let mut series: Vec<Series> =
-        contestants.iter().map(|(name, _)| Series { name: name.clone(), times: Vec::new() }).collect();
+        contestants.iter().map(|(name, _)| Series::new(name)).collect();
     // Once unmeasured, so that files and drivers' caches are warm for everybody.
     for round in 0..settings.rounds * 2 + 1 {
         for ((name, command), series) in contestants.iter_mut().zip(&mut series) {
@@ -273,31 +266,4 @@ fn write_with_normals(mesh: &Mesh, path: &Path) {
         text.push_str(&format!("f {} {} {}\n", corner(0), corner(1), corner(2)));
     }
     std::fs::write(path, text).expect("the temporary folder can be written");
-}
-
-fn print_table(series: &[Series], against: &str) -> Value {
-    println!("  {:<34}{:>10}{:>10}{:>10}", "", "median ms", "quartiles", "");
-    for one in series {
-        let [low, middle, high] = quartiles(&one.times);
-        println!("  {:<34}{middle:>10.2}{low:>10.2}{high:>10.2}", one.name);
-    }
-    if series.iter().any(|one| one.name == against) {
-        print_ratio(series, against);
-    }
-    let rows: Vec<Value> = series.iter().map(|one| json!({ "name": one.name, "ms": one.times })).collect();
-    Value::Array(rows)
-}
-
-fn print_ratio(series: &[Series], against: &str) {
-    let middle = |one: &Series| median(one.times.clone()).unwrap_or(f64::NAN);
-    let base = series.iter().find(|one| one.name == against).map_or(f64::NAN, middle);
-    for one in series.iter().filter(|one| one.name != against) {
-        println!("  {:<34}{:>10.2} x {against}", one.name, middle(one) / base);
-    }
-}
-
-fn quartiles(times: &[f64]) -> [f64; 3] {
-    let mut sorted = times.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    [1, 2, 3].map(|quarter| sorted.get(sorted.len() * quarter / 4).copied().unwrap_or(f64::NAN))
 }

@@ -1,69 +1,277 @@
-//! Edge benchmarks.
+//! Edge lists, silhouettes and inked frames beside VTK, numpy and PyVista. docs/measuring.md has the command.
+//!
+//! Two meshes: the model, and the model with every triangle cut into sixteen. Rounds are interleaved: in each, every
+//! contestant runs once. All raw values go to `target/bench/edges.json`.
+
+mod report;
+
+use glam::DVec3;
+use report::{Series, print_table, write_record};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Arc;
 use std::time::Instant;
-use tinta::edges::*;
-use tinta::{LoadOptions, load};
-fn main() {
-    for path in std::env::args().skip(1).filter(|a| !a.starts_with("--")) {
-        let mesh = load(&path, &LoadOptions::default()).unwrap().mesh;
-        let n = mesh.triangles.len() as f64;
-        let med = |mut v: Vec<f64>| {
-            v.sort_by(f64::total_cmp);
-            v[v.len() / 2]
-        };
-        let wanted = ClassSet::of(&[Class::Boundary, Class::Crease, Class::NonManifold]);
-        for t in [1, 2] {
-            let mut a = vec![];
-            let mut b = vec![];
-            for _ in 0..15 {
-                let s = Instant::now();
-                let e = EdgeList::with_threads(&mesh, t);
-                a.push(s.elapsed().as_secs_f64() * 1e3);
-                let s = Instant::now();
-                let c = Classes::with_threads(&mesh, &e, CreaseAngle::default(), wanted, t);
-                b.push(s.elapsed().as_secs_f64() * 1e3);
-                std::hint::black_box(c);
-            }
-            let (a, b) = (med(a), med(b));
-            println!("{path} threads {t}: build {a:.2} classify {b:.2}  {:.1} Mtri/s", n / (a + b) / 1e3);
-        }
-        let e = EdgeList::new(&mesh);
-        println!("edges {} reversed {} degenerate {}", e.len(), e.reversed_edges(), e.degenerate_faces());
-        let c = Classes::new(&mesh, &e, CreaseAngle::default(), ClassSet::ALL);
-        println!("{:?}", c.counts());
-        let s = Instant::now();
-        let sil = Silhouettes::new(&mesh, &e);
-        println!("planes {:.2}", s.elapsed().as_secs_f64() * 1e3);
-        let s = Instant::now();
-        let cones = NormalCones::new(&mesh, &e, &sil);
-        println!("cones {:.2}", s.elapsed().as_secs_f64() * 1e3);
-        let (lo, hi) = mesh.bounds();
-        let ctr = (lo + hi) * 0.5;
-        let r = (hi - lo).length();
-        let eye = |i: usize| {
-            let t = 0.1 * i as f64;
-            Eye::Point(ctr + glam::DVec3::new(1.5 * t.sin(), 0.3, 1.5 * t.cos()) * r)
-        };
-        for rule in [SilhouetteRule::Exact, SilhouetteRule::Paper] {
-            for (name, f) in [("plain1", 0), ("plain2", 1), ("cones", 2)] {
-                let mut a = vec![];
-                let mut k = 0;
-                for i in 0..(if f == 2 { 400 } else { 41 }) {
-                    let s = Instant::now();
-                    let f = match f {
-                        0 => sil.find_with_threads(&mesh, &e, eye(i), rule, 1),
-                        1 => sil.find_with_threads(&mesh, &e, eye(i), rule, 2),
-                        _ => cones.find(&mesh, &e, &sil, eye(i), rule),
-                    };
-                    a.push(s.elapsed().as_secs_f64() * 1e3);
-                    k = f.len();
-                }
-                println!("{rule:?} {name} {:.3} ms, {k} edges", med(a));
-            }
-        }
-        for i in 0..40 {
-            for rule in [SilhouetteRule::Exact, SilhouetteRule::Paper] {
-                assert_eq!(sil.find(&mesh, &e, eye(i), rule), cones.find(&mesh, &e, &sil, eye(i), rule));
-            }
+use tinta::edges::{Class, ClassSet, Classes, CreaseAngle, Eye, NormalCones, SilhouetteRule, Silhouettes};
+use tinta::renderer::{median, milliseconds_since};
+use tinta::styles::Inking;
+use tinta::{Backend, EdgeList, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, load};
+
+const USAGE: &str = "cargo bench --bench edges -- MODEL [--python PYTHON] [--rounds N]
+  MODEL            a model file, for example the Stanford bunny
+  --python PYTHON  a Python with VTK, numpy and PyVista (pip install pyvista); for its frames also xvfb-run
+  --rounds N       interleaved rounds (default 7)";
+
+/// Repeats within a round, for a small and for a large mesh.
+const REPEATS: [usize; 2] = [9, 3];
+
+/// Frames within a round.
+const FRAMES: usize = 21;
+
+struct Settings {
+    model: String,
+    python: Option<String>,
+    rounds: usize,
+}
+
+fn settings() -> Option<Settings> {
+    let mut settings = Settings { model: String::new(), python: None, rounds: 7 };
+    let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--python" => settings.python = arguments.next(),
+            "--rounds" => settings.rounds = arguments.next()?.parse().ok()?,
+            _ if settings.model.is_empty() => settings.model = argument,
+            _ => return None,
         }
     }
+    (!settings.model.is_empty()).then_some(settings)
+}
+
+fn main() {
+    let Some(settings) = settings() else {
+        println!("{USAGE}");
+        return;
+    };
+    let mesh = match load(&settings.model, &LoadOptions::default()) {
+        Ok(loaded) => Arc::new(loaded.mesh),
+        Err(error) => {
+            eprintln!("{error}");
+            std::process::exit(2);
+        }
+    };
+    if settings.python.is_none() {
+        println!("SKIPPED VTK, numpy and PyVista: need --python PYTHON with pyvista in it");
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let fine = Arc::new(cut_in_sixteen(&mesh));
+    let tables: Vec<Value> = [(&mesh, REPEATS[0]), (&fine, REPEATS[1])]
+        .into_iter()
+        .map(|(mesh, repeats)| edge_tables(&settings, mesh, repeats, folder.path()))
+        .collect();
+    let frames = frame_table(&settings, &mesh, folder.path());
+    write_record("edges", &json!({ "model": settings.model, "edges": tables, "frames": frames }));
+}
+
+/// Every triangle cut into four at its sides' middles, twice.
+fn cut_in_sixteen(mesh: &Mesh) -> Mesh {
+    let mut positions = mesh.positions.clone();
+    let mut triangles = mesh.triangles.clone();
+    for _ in 0..2 {
+        let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
+        let mut finer = Vec::with_capacity(triangles.len() * 4);
+        for [a, b, c] in triangles {
+            let mut middle = |a: u32, b: u32| {
+                *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                    positions.push((positions[a as usize] + positions[b as usize]) * 0.5);
+                    positions.len() as u32 - 1
+                })
+            };
+            let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+            finer.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
+        }
+        triangles = finer;
+    }
+    Mesh { positions, triangles, ..Mesh::triangle() }
+}
+
+/// The mesh as the peers read it.
+fn write_arrays(mesh: &Mesh, folder: &Path) -> [PathBuf; 2] {
+    let [points, triangles] = ["points", "triangles"].map(|name| folder.join(name));
+    let coordinates: Vec<u8> =
+        mesh.positions.iter().flat_map(|point| point.to_array()).flat_map(f64::to_le_bytes).collect();
+    let indices: Vec<u8> = mesh.triangles.iter().flatten().flat_map(|index| i64::from(*index).to_le_bytes()).collect();
+    std::fs::write(&points, coordinates).expect("the temporary folder can be written");
+    std::fs::write(&triangles, indices).expect("the temporary folder can be written");
+    [points, triangles]
+}
+
+fn peer(mut command: Command, script: &str, arrays: &[PathBuf; 2], arguments: &[String]) -> Value {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers").join(script);
+    let output = command.arg(script).args(arrays).args(arguments).output().expect("the peer can be started");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let line = text.lines().rfind(|line| line.starts_with('{'));
+    let line = line.unwrap_or_else(|| panic!("no times from the peer: {}", String::from_utf8_lossy(&output.stderr)));
+    serde_json::from_str(line).expect("JSON from the peer")
+}
+
+fn times(record: &Value, name: &str) -> Vec<f64> {
+    record[name].as_array().expect("times").iter().filter_map(Value::as_f64).collect()
+}
+
+/// The eye at a step around the mesh, 1.5 diagonals of its bounding box away.
+fn eye(mesh: &Mesh, step: usize) -> Eye {
+    let (low, high) = mesh.bounds();
+    let angle = 0.1 * step as f64;
+    let away = DVec3::new(1.5 * angle.sin(), 0.3, 1.5 * angle.cos()) * (high - low).length();
+    Eye::Point((low + high) * 0.5 + away)
+}
+
+fn edge_tables(settings: &Settings, mesh: &Mesh, repeats: usize, folder: &Path) -> Value {
+    let wanted = ClassSet::of(&[Class::Boundary, Class::Crease, Class::NonManifold]);
+    let edges = EdgeList::new(mesh);
+    let faces = mesh.triangles.len() as f64;
+    println!("\n{faces} triangles, {} edges", edges.len());
+    let arrays = write_arrays(mesh, folder);
+    let names = [
+        "edges + classes, one thread",
+        "edges + classes, all threads",
+        "vtkFeatureEdges",
+        "numpy",
+        "silhouette, one thread",
+        "silhouette, all threads",
+        "silhouette by normal cones",
+        "vtkPolyDataSilhouette",
+        "numpy silhouette",
+        "planes for silhouettes, once",
+        "normal cones, once",
+    ];
+    let mut series: Vec<Series> = names.iter().map(|name| Series::new(name)).collect();
+    let all_threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let silhouettes = Silhouettes::new(mesh, &edges);
+    let cones = NormalCones::new(mesh, &edges, &silhouettes);
+    let mut found = Value::Null;
+    for round in 0..settings.rounds {
+        for _ in 0..repeats {
+            for (slot, threads) in [(0, 1), (1, all_threads)] {
+                let start = Instant::now();
+                let edges = EdgeList::with_threads(mesh, threads);
+                let classes = Classes::with_threads(mesh, &edges, CreaseAngle::default(), wanted, threads);
+                series[slot].times.push(milliseconds_since(start));
+                black_box((edges, classes));
+            }
+        }
+        for step in 0..repeats * 5 {
+            let eye = eye(mesh, round * repeats * 5 + step);
+            let rule = SilhouetteRule::Exact;
+            let mut one = |slot: usize, find: &dyn Fn() -> Vec<u32>| {
+                let start = Instant::now();
+                let found = find();
+                series[slot].times.push(milliseconds_since(start));
+                found
+            };
+            let plain = one(4, &|| silhouettes.find_with_threads(mesh, &edges, eye, rule, 1));
+            one(5, &|| silhouettes.find_with_threads(mesh, &edges, eye, rule, all_threads));
+            let by_cones = one(6, &|| cones.find(mesh, &edges, &silhouettes, eye, rule));
+            assert_eq!(plain, by_cones);
+        }
+        let start = Instant::now();
+        black_box(Silhouettes::new(mesh, &edges));
+        series[9].times.push(milliseconds_since(start));
+        let start = Instant::now();
+        black_box(NormalCones::new(mesh, &edges, &silhouettes));
+        series[10].times.push(milliseconds_since(start));
+        if let Some(python) = &settings.python {
+            let record = peer(Command::new(python), "vtk_edges.py", &arrays, &[repeats.to_string()]);
+            for (slot, name) in
+                [(2, "feature_edges_ms"), (3, "numpy_edges_ms"), (7, "silhouette_ms"), (8, "numpy_silhouette_ms")]
+            {
+                series[slot].times.extend(times(&record, name));
+            }
+            found = record;
+        }
+    }
+    let classes = Classes::new(mesh, &edges, CreaseAngle::default(), wanted);
+    println!(
+        "  found: {} feature edges; the peers: {} and {}",
+        classes.marked.len(),
+        found["feature_edges"],
+        found["numpy_edges"]
+    );
+    series.retain(|one| !one.times.is_empty());
+    let raw = print_table(&series, "vtkFeatureEdges");
+    for one in &series[..series.len().min(4)] {
+        println!("  {:<34}{:>10.2} million triangles a second", one.name, faces / one.median() / 1e3);
+    }
+    json!({ "triangles": faces, "edges": edges.len(), "raw": raw })
+}
+
+/// Inked frames of a turning model at 512 x 512, plan and read-back included.
+fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, folder: &Path) -> Value {
+    println!("\ninked frame, 512 x 512, plan and read-back included");
+    let size = Size { width: 512, height: 512 };
+    let scene_of =
+        || Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() }).expect("a scene");
+    let (prepared, plain) = (scene_of(), scene_of());
+    prepared.prepare_for_many_views();
+    let mut renderer = Renderer::new(Backend::Auto).expect("a context");
+    let style = |cull_back_faces, is_smooth| {
+        Style::Inking(Inking { silhouette: SilhouetteRule::Exact, cull_back_faces, is_smooth, ..Inking::default() })
+    };
+    let contestants = [
+        ("inking", style(false, true)),
+        ("inking, --cull back", style(true, true)),
+        ("inking, --smooth off", style(false, false)),
+    ];
+    let mut series: Vec<Series> = contestants.iter().map(|(name, _)| Series::new(name)).collect();
+    series.push(Series::new("PyVista silhouette + feature edges"));
+    let draw = |renderer: &mut Renderer, scene: &Scene, style: &Style| -> Picture {
+        let plan = style.plan(scene, Show::Final).expect("a plan");
+        renderer.draw(scene, &plan).expect("a frame")
+    };
+    let arrays = write_arrays(mesh, folder);
+    for round in 0..settings.rounds {
+        for ((_, style), series) in contestants.iter().zip(&mut series) {
+            draw(&mut renderer, &turned(&prepared, 0), style);
+            for frame in 0..FRAMES {
+                let scene = turned(&prepared, frame);
+                let start = Instant::now();
+                let picture = draw(&mut renderer, &scene, style);
+                series.times.push(milliseconds_since(start));
+                if round == 0 {
+                    let plain = draw(&mut renderer, &turned(&plain, frame), style);
+                    assert_eq!(picture, plain, "the hierarchy draws the same pixels as the plain way");
+                }
+            }
+        }
+        if let Some(python) = &settings.python {
+            let mut command = Command::new("xvfb-run");
+            command.args(["-a", python]);
+            let record = peer(command, "pyvista_ink.py", &arrays, &["512".to_owned(), FRAMES.to_string()]);
+            series[3].times.extend(times(&record, "frame_ms"));
+        }
+    }
+    series.retain(|one| !one.times.is_empty());
+    let plans: Vec<f64> = (0..FRAMES)
+        .map(|frame| {
+            let scene = turned(&prepared, frame);
+            let start = Instant::now();
+            black_box(contestants[0].1.plan(&scene, Show::Final).expect("a plan"));
+            milliseconds_since(start)
+        })
+        .collect();
+    println!("  of which the plan: {:.2} ms", median(plans).unwrap_or_default());
+    print_table(&series, "PyVista silhouette + feature edges")
+}
+
+/// The scene with its camera turned about the up axis.
+fn turned(base: &Scene, frame: usize) -> Scene {
+    let mut scene = base.clone();
+    let (sin, cos) = (frame as f64 * 3.0).to_radians().sin_cos();
+    let away = base.camera.eye - base.camera.target;
+    scene.camera.eye =
+        base.camera.target + DVec3::new(away.x * cos + away.z * sin, away.y, away.z * cos - away.x * sin);
+    scene
 }
