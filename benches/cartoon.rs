@@ -89,8 +89,7 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
         ("two-pass", Style::TwoPass(Cartoon::default())),
         ("two-pass, back faces culled", Style::TwoPass(Cartoon { cull_back_faces: true, ..Cartoon::default() })),
     ];
-    let mut series: Vec<Series> =
-        styles.iter().map(|(name, _)| Series::new(name)).collect();
+    let mut series: Vec<Series> = styles.iter().map(|(name, _)| Series::new(name)).collect();
     let with_normals = folder.join("with-normals.obj");
     if settings.python.is_some() {
         write_with_normals(mesh, &with_normals);
@@ -168,8 +167,7 @@ fn cold_table(settings: &Settings, folder: &Path) -> Value {
         Some(program) => contestants.push(("empty EGL program".to_owned(), Command::new(program))),
         None => println!("  SKIPPED the empty EGL program: needs cc and the packages libegl-dev and libgl-dev"),
     }
-    let mut series: Vec<Series> =
-        contestants.iter().map(|(name, _)| Series::new(name)).collect();
+    let mut series: Vec<Series> = contestants.iter().map(|(name, _)| Series::new(name)).collect();
     // Once unmeasured, so that files and drivers' caches are warm for everybody.
     for round in 0..settings.rounds * 2 + 1 {
         for ((name, command), series) in contestants.iter_mut().zip(&mut series) {

@@ -163,20 +163,23 @@ fn edge_tables(settings: &Settings, mesh: &Mesh, repeats: usize, folder: &Path) 
                 black_box((edges, classes));
             }
         }
-        for step in 0..repeats * 5 {
-            let eye = eye(mesh, round * repeats * 5 + step);
-            let rule = SilhouetteRule::Exact;
-            let mut one = |slot: usize, find: &dyn Fn() -> Vec<u32>| {
+        let eyes: Vec<Eye> = (0..repeats * 5).map(|step| eye(mesh, round * repeats * 5 + step)).collect();
+        let rule = SilhouetteRule::Exact;
+        // One way after the other, each with its data at hand, as in a window that turns the model.
+        let mut all = |slot: usize, find: &dyn Fn(Eye) -> Vec<u32>| -> Vec<Vec<u32>> {
+            let one = |eye: &Eye| {
                 let start = Instant::now();
-                let found = find();
-                series[slot].times.push(milliseconds_since(start));
-                found
+                let found = find(*eye);
+                (milliseconds_since(start), found)
             };
-            let plain = one(4, &|| silhouettes.find_with_threads(mesh, &edges, eye, rule, 1));
-            one(5, &|| silhouettes.find_with_threads(mesh, &edges, eye, rule, all_threads));
-            let by_cones = one(6, &|| cones.find(mesh, &edges, &silhouettes, eye, rule));
-            assert_eq!(plain, by_cones);
-        }
+            let (times, found): (Vec<f64>, Vec<Vec<u32>>) = eyes.iter().map(one).unzip();
+            series[slot].times.extend(times);
+            found
+        };
+        let plain = all(4, &|eye| silhouettes.find_with_threads(mesh, &edges, eye, rule, 1));
+        all(5, &|eye| silhouettes.find_with_threads(mesh, &edges, eye, rule, all_threads));
+        let by_cones = all(6, &|eye| cones.find(mesh, &edges, &silhouettes, eye, rule));
+        assert_eq!(plain, by_cones);
         let start = Instant::now();
         black_box(Silhouettes::new(mesh, &edges));
         series[9].times.push(milliseconds_since(start));

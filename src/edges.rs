@@ -107,7 +107,7 @@ impl EdgeList {
 }
 
 /// Faces below which a second thread costs more than it brings.
-const FACES_WORTH_A_THREAD: usize = 20_000;
+const FACES_WORTH_A_THREAD: usize = 100_000;
 
 /// How many threads work on so many faces is worth.
 fn threads_for(faces: usize) -> usize {
@@ -119,6 +119,31 @@ fn threads_for(faces: usize) -> usize {
 fn ranges(count: usize, pieces: usize) -> Vec<std::ops::Range<usize>> {
     let length = count.div_ceil(pieces.max(1)).max(1);
     (0..count).step_by(length).map(|start| start..(start + length).min(count)).collect()
+}
+
+/// Puts `value` of each number into a list, each thread its own piece of it in place.
+///
+/// `blank` is what zeroed memory means: the system then hands out the list's pages where they are first written.
+fn filled<T: Copy + Send>(count: usize, threads: usize, blank: T, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let mut list = vec![blank; count];
+    let length = count.div_ceil(threads.max(1)).max(1);
+    let fill = |(piece, places): (usize, &mut [T])| {
+        places.iter_mut().enumerate().for_each(|(index, place)| *place = value(piece * length + index));
+    };
+    if threads <= 1 {
+        fill((0, &mut list));
+        return list;
+    }
+    std::thread::scope(|scope| {
+        let fill = &fill;
+        let mut pieces = list.chunks_mut(length).enumerate();
+        let first = pieces.next();
+        for piece in pieces {
+            scope.spawn(move || fill(piece));
+        }
+        first.into_iter().for_each(fill);
+    });
+    list
 }
 
 /// Does `work` for each piece of `0..count`, one thread each, and returns the results in order.

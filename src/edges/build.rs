@@ -6,12 +6,9 @@
 
 use super::{EdgeList, Incidence, in_parallel};
 
-/// One side of a triangle as found: its higher position, and its face times two plus 1 if it runs from high to low.
-#[derive(Clone, Copy, Default)]
-struct HalfEdge {
-    high: u32,
-    face_and_direction: u32,
-}
+/// One side of a triangle as found: its higher position, and its face times two plus 1 if it runs from high to low. An array
+/// and no struct, so that fresh memory need not be cleared by hand.
+type HalfEdge = [u32; 2];
 
 /// The edges of a range of lower positions.
 #[derive(Default)]
@@ -29,14 +26,42 @@ const NO_EDGE: u32 = u32::MAX;
 
 pub(super) fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) -> EdgeList {
     let is_degenerate = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a || *a.max(b).max(c) >= positions;
-    let degenerate_faces = triangles.iter().filter(|triangle| is_degenerate(triangle)).count();
     // Faces are numbered in 31 bits beside the direction; a mesh of more has 50 GB of edges.
     let triangles = &triangles[..triangles.len().min(1 << 31)];
-    let parts = in_parallel(positions as usize, threads, |low| {
-        let range = low.start as u32..low.end as u32;
-        if degenerate_faces == 0 { part(triangles, &range, |_| false) } else { part(triangles, &range, is_degenerate) }
+    let degenerate_faces: usize = in_parallel(triangles.len(), threads, |faces| {
+        triangles[faces].iter().filter(|triangle| is_degenerate(triangle)).count()
+    })
+    .into_iter()
+    .sum();
+    // Each thread sorts the half-edges of its share of the faces, then matches those of its share of the positions.
+    let sorted = in_parallel(triangles.len(), threads, |faces| match degenerate_faces {
+        0 => Sorted::new(triangles, faces, positions as usize, |_| false),
+        _ => Sorted::new(triangles, faces, positions as usize, is_degenerate),
     });
+    let shares = shares(&sorted, positions, threads);
+    let parts = in_parallel(shares.len(), shares.len(), |share| part(&sorted, &shares[share.start]));
     join(parts, degenerate_faces)
+}
+
+/// Ranges of positions with about the same number of half-edges each, one a thread.
+fn shares(sorted: &[Sorted], positions: u32, threads: usize) -> Vec<std::ops::Range<u32>> {
+    let before = |position: u32| match position {
+        0 => 0,
+        position => sorted.iter().map(|sorted| sorted.ends[position as usize - 1] as usize).sum::<usize>(),
+    };
+    let total = before(positions);
+    let first_of = |share: usize| {
+        let wanted = total * share / threads;
+        let (mut low, mut high) = (0, positions);
+        while low < high {
+            let middle = low + (high - low) / 2;
+            if before(middle) < wanted { low = middle + 1 } else { high = middle }
+        }
+        low
+    };
+    (0..threads)
+        .map(|share| first_of(share)..if share + 1 == threads { positions } else { first_of(share + 1) })
+        .collect()
 }
 
 fn join(parts: Vec<Part>, degenerate_faces: usize) -> EdgeList {
@@ -60,41 +85,71 @@ fn sides(&[a, b, c]: &[u32; 3]) -> [(u32, u32, u32); 3] {
     [side(a, b), side(c, a), side(b, c)]
 }
 
-fn part(triangles: &[[u32; 3]], low: &std::ops::Range<u32>, is_left_out: impl Fn(&[u32; 3]) -> bool) -> Part {
-    let count = (low.end - low.start) as usize;
-    // `ends[v]` is first the number of half-edges of v, then where they begin, and after the sorting where they end.
-    let mut ends = vec![0u32; count];
-    for triangle in triangles.iter().filter(|triangle| !is_left_out(triangle)) {
-        for (side_low, ..) in sides(triangle) {
-            if let Some(end) = ends.get_mut(side_low.wrapping_sub(low.start) as usize) {
+/// The half-edges of some faces, sorted by their lower position and, within one, in the faces' order.
+struct Sorted {
+    /// Where each position's half-edges end; they begin where those of the one before end.
+    ends: Vec<u32>,
+    half_edges: Vec<HalfEdge>,
+}
+
+impl Sorted {
+    fn new(
+        triangles: &[[u32; 3]],
+        faces: std::ops::Range<usize>,
+        positions: usize,
+        is_left_out: impl Fn(&[u32; 3]) -> bool,
+    ) -> Self {
+        // First the number of half-edges of each position, then where they begin, and after the sorting where they end.
+        let mut ends = vec![0u32; positions];
+        for triangle in triangles[faces.clone()].iter().filter(|triangle| !is_left_out(triangle)) {
+            for (low, ..) in sides(triangle) {
+                ends[low as usize] += 1;
+            }
+        }
+        let mut total = 0;
+        for end in &mut ends {
+            total += std::mem::replace(end, total);
+        }
+        let mut half_edges = vec![[0u32; 2]; total as usize];
+        for (face, triangle) in faces.clone().zip(&triangles[faces]).filter(|(_, triangle)| !is_left_out(triangle)) {
+            for (low, high, downwards) in sides(triangle) {
+                let end = &mut ends[low as usize];
+                half_edges[*end as usize] = [high, (face as u32) << 1 | downwards];
                 *end += 1;
             }
         }
+        Self { ends, half_edges }
     }
-    let mut total = 0;
-    for end in &mut ends {
-        total += std::mem::replace(end, total);
-    }
-    let mut half_edges = vec![HalfEdge::default(); total as usize];
-    for (face, triangle) in triangles.iter().enumerate().filter(|(_, triangle)| !is_left_out(triangle)) {
-        for (side_low, high, downwards) in sides(triangle) {
-            if let Some(end) = ends.get_mut(side_low.wrapping_sub(low.start) as usize) {
-                half_edges[*end as usize] = HalfEdge { high, face_and_direction: (face as u32) << 1 | downwards };
-                *end += 1;
-            }
-        }
-    }
+}
+
+/// The edges whose lower positions are in a range.
+fn part(sorted: &[Sorted], low: &std::ops::Range<u32>) -> Part {
     let mut part = Part::default();
-    // A closed mesh has half as many edges as half-edges.
-    let expected = total as usize / 2 + total as usize / 16;
+    let begin_of = |sorted: &Sorted| match low.start {
+        0 => 0,
+        start => sorted.ends[start as usize - 1] as usize,
+    };
+    let mut begins: Vec<usize> = sorted.iter().map(begin_of).collect();
+    let of_all: usize = sorted.iter().map(|sorted| sorted.half_edges.len()).sum();
+    let of_range: usize = match low.end {
+        0 => 0,
+        end => sorted.iter().zip(&begins).map(|(sorted, begin)| sorted.ends[end as usize - 1] as usize - begin).sum(),
+    };
+    // A closed mesh has half as many edges as half-edges; the first part takes in the others, and room unused costs nothing.
+    let expected = if low.start == 0 { of_all / 2 } else { of_range / 2 };
+    let expected = expected + expected / 8;
     part.positions.reserve(expected);
     part.faces.reserve(expected);
     part.incidence.reserve(expected);
     let mut table = Table::default();
-    let mut begin = 0;
-    for (vertex, end) in (low.start..).zip(ends) {
-        part.match_half_edges(vertex, &half_edges[begin..end as usize], &mut table);
-        begin = end as usize;
+    for position in low.clone() {
+        let first = part.positions.len();
+        for (sorted, begin) in sorted.iter().zip(&mut begins) {
+            let end = sorted.ends[position as usize] as usize;
+            part.match_half_edges(position, first, &sorted.half_edges[*begin..end], &mut table);
+            *begin = end;
+        }
+        part.finish(first);
     }
     part
 }
@@ -119,20 +174,25 @@ impl Table {
 }
 
 impl Part {
+    /// Adds half-edges of one position, whose edges begin at `first`.
     #[inline(always)]
-    fn match_half_edges(&mut self, low: u32, half_edges: &[HalfEdge], table: &mut Table) {
-        let first = self.positions.len();
+    fn match_half_edges(&mut self, low: u32, first: usize, half_edges: &[HalfEdge], table: &mut Table) {
         for half_edge in half_edges {
             let known = &self.positions[first..];
             if known.len() > SEARCHED {
                 self.match_in_table(low, first, *half_edge, table);
                 continue;
             }
-            match known.iter().position(|[_, high]| *high == half_edge.high) {
+            match known.iter().position(|[_, high]| *high == half_edge[0]) {
                 Some(index) => self.add_face(first + index, *half_edge),
                 None => self.add_edge(low, *half_edge),
             }
         }
+    }
+
+    /// Puts in order the edges of one position, all of whose half-edges are added.
+    #[inline(always)]
+    fn finish(&mut self, first: usize) {
         for (faces, incidence) in self.faces[first..].iter_mut().zip(&self.incidence[first..]) {
             if *incidence == Incidence::Boundary {
                 faces[1] = faces[0];
@@ -152,9 +212,9 @@ impl Part {
                 *table.edge(low, self.positions[index][1]) = index as u32;
             }
         }
-        match *table.edge(low, half_edge.high) {
+        match *table.edge(low, half_edge[0]) {
             NO_EDGE => {
-                *table.edge(low, half_edge.high) = self.positions.len() as u32;
+                *table.edge(low, half_edge[0]) = self.positions.len() as u32;
                 self.add_edge(low, half_edge);
             }
             edge => self.add_face(edge as usize, half_edge),
@@ -162,21 +222,21 @@ impl Part {
     }
 
     #[inline(always)]
-    fn add_edge(&mut self, low: u32, half_edge: HalfEdge) {
-        self.positions.push([low, half_edge.high]);
+    fn add_edge(&mut self, low: u32, [high, face_and_direction]: HalfEdge) {
+        self.positions.push([low, high]);
         // Until a second face comes, its place keeps the first one's direction.
-        self.faces.push([half_edge.face_and_direction >> 1, half_edge.face_and_direction & 1]);
+        self.faces.push([face_and_direction >> 1, face_and_direction & 1]);
         self.incidence.push(Incidence::Boundary);
     }
 
     #[inline(always)]
-    fn add_face(&mut self, edge: usize, half_edge: HalfEdge) {
-        let face = half_edge.face_and_direction >> 1;
+    fn add_face(&mut self, edge: usize, [_, face_and_direction]: HalfEdge) {
+        let face = face_and_direction >> 1;
         let [first, second] = self.faces[edge];
         match self.incidence[edge] {
             Incidence::Boundary => {
                 self.faces[edge] = [first, face];
-                let is_reversed = second == half_edge.face_and_direction & 1;
+                let is_reversed = second == face_and_direction & 1;
                 self.incidence[edge] = if is_reversed { Incidence::InnerReversed } else { Incidence::Inner };
             }
             Incidence::Inner | Incidence::InnerReversed => {

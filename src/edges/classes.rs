@@ -1,6 +1,6 @@
 //! The classes of an edge that do not depend on the view.
 
-use super::{EdgeList, Incidence, in_parallel, threads_for};
+use super::{EdgeList, Incidence, filled, in_parallel, threads_for};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::names::find;
@@ -242,7 +242,7 @@ impl Classes {
 }
 
 /// Unit normals of all faces; NaN for one without area, which makes every comparison with it fail.
-fn face_normals(mesh: &Mesh, threads: usize) -> Vec<DVec3> {
+fn face_normals(mesh: &Mesh, threads: usize) -> Vec<[f64; 3]> {
     let normal = |triangle: &[u32; 3]| {
         let Some([a, b, c]) = corners(mesh, triangle) else { return DVec3::NAN };
         let product = (b - a).cross(c - a);
@@ -254,13 +254,7 @@ fn face_normals(mesh: &Mesh, threads: usize) -> Vec<DVec3> {
             triangle_normal([a, b, c]).unwrap_or(DVec3::NAN)
         }
     };
-    let parts = in_parallel(mesh.triangles.len(), threads, |range| {
-        mesh.triangles[range].iter().map(normal).collect::<Vec<DVec3>>()
-    });
-    let mut parts = parts.into_iter();
-    let mut all = parts.next().unwrap_or_default();
-    parts.for_each(|part| all.extend(part));
-    all
+    filled(mesh.triangles.len(), threads, [0.0; 3], |face| normal(&mesh.triangles[face]).to_array())
 }
 
 /// A triangle's corners; `None` where one does not exist.
@@ -273,7 +267,7 @@ pub(super) fn corners(mesh: &Mesh, triangle: &[u32; 3]) -> Option<[DVec3; 3]> {
 struct Judge<'a> {
     mesh: &'a Mesh,
     edges: &'a EdgeList,
-    normals: &'a [DVec3],
+    normals: &'a [[f64; 3]],
     cosine: f64,
     seams: Seams,
 }
@@ -310,7 +304,8 @@ impl Judge<'_> {
                 let faces = self.edges.faces[edge].map(|face| face as usize);
                 let mut classes = ClassSet::default();
                 if !self.normals.is_empty() {
-                    let cosine = self.normals[faces[0]].dot(self.normals[faces[1]]);
+                    let [first, second] = faces.map(|face| DVec3::from_array(self.normals[face]));
+                    let cosine = first.dot(second);
                     let cosine = if incidence == Incidence::Inner { cosine } else { -cosine };
                     if cosine < self.cosine {
                         classes = ClassSet::of(&[Class::Crease]);

@@ -23,24 +23,19 @@ const BRANCH: usize = 8;
 const TOP: usize = 64;
 
 /// Searching so many edges here costs about what looking at one face costs elsewhere: it decides about threads.
-const EDGES_WORTH_A_FACE: usize = 16;
+const EDGES_WORTH_A_FACE: usize = 4;
 
 /// The hierarchy over the edges of a mesh.
 #[derive(Debug, Clone)]
 pub struct NormalCones {
     /// The edges that can be silhouette, in the hierarchy's order.
-    edges: Vec<LeafEdge>,
+    edges: Vec<u32>,
+    /// The places of each one's two faces among its group's; apart from the numbers, which only silhouettes are asked for.
+    edge_faces: Vec<[u8; 2]>,
     /// The faces of each lowest group, each face once a group: asked together, they lie together.
     faces: LeafFaces,
     /// From the lowest level up.
     levels: Vec<Vec<Cone>>,
-}
-
-/// An edge and the places of its two faces among its group's.
-#[derive(Debug, Clone, Copy)]
-struct LeafEdge {
-    edge: u32,
-    faces: [u8; 2],
 }
 
 /// The lowest groups' faces, group by group.
@@ -112,7 +107,12 @@ impl NormalCones {
             }
             size *= BRANCH;
         }
-        let mut cones = Self { edges: Vec::with_capacity(sorted.len()), faces: LeafFaces::default(), levels };
+        let mut cones = Self {
+            edges: Vec::with_capacity(sorted.len()),
+            edge_faces: Vec::with_capacity(sorted.len()),
+            faces: LeafFaces::default(),
+            levels,
+        };
         cones.faces.planes.reserve(sorted.len() * 4);
         sorted.chunks(LEAF).for_each(|group| cones.add_leaf(&silhouettes.planes, group));
         cones.faces.starts.push(cones.faces.numbers.len() as u32);
@@ -166,14 +166,16 @@ impl NormalCones {
                     None => self.search_leaf::<IS_EXACT>(group as usize, eye, &is_front_exactly, &mut found),
                 }
             }
+            found.sort_unstable();
             found
         });
         let mut found = parts.concat();
-        found.sort_unstable();
+        // Stable sorting merges the sorted parts.
+        found.sort();
         found
     }
 
-    fn add_leaf(&mut self, planes: &[Vec4], group: &[(u32, [u32; 2])]) {
+    fn add_leaf(&mut self, planes: &[[f32; 4]], group: &[(u32, [u32; 2])]) {
         let first = self.faces.numbers.len();
         self.faces.starts.push(first as u32);
         for (edge, faces) in group {
@@ -184,7 +186,8 @@ impl NormalCones {
                     self.faces.numbers.len() - 1 - first
                 }) as u8
             });
-            self.edges.push(LeafEdge { edge: *edge, faces });
+            self.edges.push(*edge);
+            self.edge_faces.push(faces);
         }
         for coordinate in 0..4 {
             let planes = self.faces.numbers[first..].iter().map(|face| planes[*face as usize][coordinate]);
@@ -225,25 +228,26 @@ impl NormalCones {
                 }
             }
         }
-        let end = ((group + 1) * LEAF).min(self.edges.len());
-        // Without a branch: every edge is put down, and the next overwrites it unless it counts.
-        let mut block = [0u32; LEAF];
-        let mut kept = 0;
-        for LeafEdge { edge, faces } in &self.edges[group * LEAF..end] {
+        let first_edge = group * LEAF;
+        let end = (first_edge + LEAF).min(self.edges.len());
+        let mut hits = 0u64;
+        for (place, faces) in self.edge_faces[first_edge..end].iter().enumerate() {
             let [first, second] = faces.map(|face| distances[face as usize % LEAF_FACES]);
-            block[kept % LEAF] = *edge;
             let is_silhouette =
                 if IS_EXACT { (first > 0.0) ^ (second > 0.0) } else { is_silhouette_in_the_paper(first, second) };
-            kept += usize::from(is_silhouette);
+            hits |= u64::from(is_silhouette) << place;
         }
-        found.extend_from_slice(&block[..kept]);
+        while hits != 0 {
+            found.push(self.edges[first_edge + hits.trailing_zeros() as usize]);
+            hits &= hits - 1;
+        }
     }
 }
 
 impl Cone {
     /// The cone of the faces of some edges.
-    fn around(planes: &[Vec4], edges: &[(u32, [u32; 2])]) -> Self {
-        let group = || edges.iter().flat_map(|(_, faces)| faces).map(|face| planes[*face as usize]);
+    fn around(planes: &[[f32; 4]], edges: &[(u32, [u32; 2])]) -> Self {
+        let group = || edges.iter().flat_map(|(_, faces)| faces).map(|face| Vec4::from_array(planes[*face as usize]));
         let unknown = Self {
             axis: Vec3::ZERO,
             cosine: -1.0,

@@ -4,7 +4,7 @@
 //! told so, exactly. The text's rule multiplies two products with one view vector (errata D3, D4).
 
 use super::classes::corners;
-use super::{EdgeList, Eye, Incidence, Side, in_parallel, ranges, side_of_face, threads_for};
+use super::{EdgeList, Eye, Incidence, Side, filled, in_parallel, ranges, side_of_face, threads_for};
 use crate::mesh::{Mesh, triangle_normal};
 use crate::names::find;
 use glam::{DVec3, Vec3, Vec4};
@@ -52,7 +52,7 @@ pub struct Silhouettes {
     pub(super) frame: Frame,
     /// Each face's unit normal and, in the fourth place, minus its plane's distance from the origin, NaN where f32 cannot be
     /// trusted.
-    pub(super) planes: Vec<Vec4>,
+    pub(super) planes: Vec<[f32; 4]>,
     /// The edges whose faces are wound against each other, ascending.
     reversed: Vec<u32>,
 }
@@ -96,13 +96,13 @@ impl Silhouettes {
     /// Computes the planes.
     pub fn new(mesh: &Mesh, edges: &EdgeList) -> Self {
         let frame = Frame::of(mesh);
-        let plane = |triangle: &[u32; 3]| corners(mesh, triangle).map_or(Vec4::NAN, |corners| plane(&frame, corners));
-        let parts = in_parallel(mesh.triangles.len(), threads_for(mesh.triangles.len()), |range| {
-            mesh.triangles[range].iter().map(plane).collect::<Vec<Vec4>>()
-        });
+        let plane = |face: usize| {
+            corners(mesh, &mesh.triangles[face]).map_or(Vec4::NAN, |corners| plane(&frame, corners)).to_array()
+        };
+        let count = mesh.triangles.len();
         let is_reversed = |edge: &u32| edges.incidence[*edge as usize] == Incidence::InnerReversed;
         let reversed = (0..edges.len() as u32).filter(is_reversed).collect();
-        Self { frame, planes: parts.concat(), reversed }
+        Self { frame, planes: filled(count, threads_for(count), [0.0; 4], plane), reversed }
     }
 
     /// An eye for a rule: the listing's looks along one vector for every edge, for a point that from the mesh's middle.
@@ -137,9 +137,9 @@ impl Silhouettes {
         // Every face once, then every edge: a face is shared by three.
         let parts = match rule {
             SilhouetteRule::Exact => {
-                let fronts = self.of_faces(threads, |face| {
+                let fronts = filled(self.planes.len(), threads, 0u8, |face| {
                     let exactly = || self.is_front_exactly(mesh, face, eye);
-                    is_front(self.planes[face], &local).unwrap_or_else(exactly)
+                    u8::from(is_front(self.planes[face], &local).unwrap_or_else(exactly))
                 });
                 in_parallel(faces.len(), threads, |range| {
                     select(range, |edge| {
@@ -149,7 +149,7 @@ impl Silhouettes {
                 })
             }
             SilhouetteRule::Paper => {
-                let along_view = self.of_faces(threads, |face| along_view(self.planes[face], &local));
+                let along_view = filled(self.planes.len(), threads, 0f32, |face| along_view(self.planes[face], &local));
                 in_parallel(faces.len(), threads, |range| {
                     select(range, |edge| {
                         let [first, second] = faces[edge];
@@ -197,11 +197,6 @@ impl Silhouettes {
         }
     }
 
-    fn of_faces<T: Copy + Send>(&self, threads: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
-        let mut parts = in_parallel(self.planes.len(), threads, |range| range.map(&value).collect::<Vec<T>>());
-        if parts.len() == 1 { parts.remove(0) } else { parts.concat() }
-    }
-
     /// Whether the eye sees a face's front, by exact arithmetic; `mesh` is the one the planes were made from.
     #[cold]
     pub(super) fn is_front_exactly(&self, mesh: &Mesh, face: usize, eye: Eye) -> bool {
@@ -212,8 +207,9 @@ impl Silhouettes {
 
 /// Whether the eye is clearly on the front of a plane, or clearly not; `None` where f32 cannot tell.
 #[inline(always)]
-pub(super) fn is_front(plane: Vec4, eye: &LocalEye) -> Option<bool> {
-    let distance = plane.dot(eye.homogeneous);
+pub(super) fn is_front([x, y, z, w]: [f32; 4], eye: &LocalEye) -> Option<bool> {
+    let [eye_x, eye_y, eye_z, eye_w] = eye.homogeneous.to_array();
+    let distance = x * eye_x + y * eye_y + z * eye_z + w * eye_w;
     // A NaN is neither.
     let is_clear = distance > eye.error || distance < -eye.error;
     is_clear.then_some(distance > 0.0)
@@ -221,8 +217,7 @@ pub(super) fn is_front(plane: Vec4, eye: &LocalEye) -> Option<bool> {
 
 /// A normal's component along the view.
 #[inline(always)]
-fn along_view(plane: Vec4, eye: &LocalEye) -> f32 {
-    let [x, y, z, _] = plane.to_array();
+fn along_view([x, y, z, _]: [f32; 4], eye: &LocalEye) -> f32 {
     x * eye.homogeneous.x + y * eye.homogeneous.y + z * eye.homogeneous.z
 }
 
