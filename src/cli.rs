@@ -3,6 +3,7 @@
 mod info;
 mod options;
 mod render;
+mod textures;
 
 use clap::{Parser, Subcommand};
 use std::io::Write;
@@ -15,6 +16,7 @@ use tinta::{Error, Result};
 Examples:
   tinta render builtin:bust -o bust.png          a drawing without any file of your own
   tinta render cow.obj -o cow.png --style two-pass --tones 2
+  tinta textures -o textures                     a charcoal drawing's grain, noise and paper
   tinta info                                     which OpenGL is there
 
 Exit codes: 0 done, 2 could not be done; the reason is one sentence on standard error.")]
@@ -26,6 +28,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Render(Box<render::Arguments>),
+    Textures(textures::Arguments),
     Info(info::Arguments),
 }
 
@@ -40,6 +43,7 @@ pub fn run() -> Result<()> {
     })?;
     match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
+        Command::Textures(arguments) => textures::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
 }

@@ -35,6 +35,7 @@ pub mod record;
 pub mod renderer;
 pub mod scene;
 pub mod styles;
+pub mod textures;
 pub mod tolerances;
 
 mod bytes;

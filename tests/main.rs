@@ -8,4 +8,5 @@ mod licences;
 mod pipeline;
 mod shared_models;
 mod support;
+mod textures;
 mod twin;
