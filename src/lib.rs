@@ -23,6 +23,7 @@
 //! # }
 //! ```
 
+pub mod animation;
 pub mod camera;
 pub mod edges;
 pub mod error;
@@ -41,6 +42,7 @@ pub mod tolerances;
 mod bytes;
 mod names;
 
+pub use animation::{AnimationTarget, AnimationWriter};
 pub use camera::{Camera, CameraSettings, View};
 pub use edges::EdgeList;
 pub use error::{Error, Result};
