@@ -2,6 +2,7 @@
 
 mod info;
 mod options;
+mod progress;
 mod render;
 mod textures;
 
@@ -16,6 +17,7 @@ use tinta::{Error, Result};
 Examples:
   tinta render builtin:bust -o bust.png          a drawing without any file of your own
   tinta render cow.obj -o cow.png --style two-pass --tones 2
+  tinta render cow.obj -o cow.gif --turntable 60 a turn around it
   tinta textures -o textures                     a charcoal drawing's grain, noise and paper
   tinta info                                     which OpenGL is there
 

@@ -10,4 +10,5 @@ mod pipeline;
 mod shared_models;
 mod support;
 mod textures;
+mod turntable;
 mod twin;

@@ -1,5 +1,7 @@
 //! `tinta render`: models to a picture.
 
+mod animate;
+
 use super::options::{CameraArguments, CartoonArguments, ModelArguments, parse_cull};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,7 +23,7 @@ pub struct Arguments {
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 
-    /// Picture to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output
+    /// Picture to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output; animations: .gif .apng frame-%04d.png
     #[arg(short, long, value_name = "FILE")]
     output: String,
 
@@ -63,6 +65,9 @@ pub struct Arguments {
     model: ModelArguments,
 
     #[command(flatten)]
+    animation: animate::AnimationArguments,
+
+    #[command(flatten)]
     run: RunArguments,
 }
 
@@ -98,6 +103,9 @@ const PASS_FRAMES: usize = 21;
 
 /// Draws what the arguments say.
 pub fn run(arguments: &Arguments) -> Result<()> {
+    if let Some(target) = arguments.animation.target(&arguments.output, arguments.transparent)? {
+        return animate::run(arguments, target);
+    }
     let target = Target::check(&arguments.output, arguments.transparent)?;
     if target == Target::Stdout && (arguments.run.json || arguments.run.explain) {
         return Err(Error::Setting {
