@@ -5,7 +5,9 @@ mod edges;
 mod info;
 mod models;
 mod options;
+mod progress;
 mod render;
+mod textures;
 
 use clap::{Parser, Subcommand};
 use std::io::Write;
@@ -18,8 +20,10 @@ use tinta::{Error, Result};
 Examples:
   tinta render builtin:bust -o bust.png          a drawing without any file of your own
   tinta render cow.obj -o cow.png --style two-pass --tones 2
+  tinta render cow.obj -o cow.gif --turntable 60 a turn around it
   tinta compare builtin:gear -o both.png         two styles' lines, what both drew and what only one
   tinta edges cow.obj                            its edges, counted by class
+  tinta textures -o textures                     a charcoal drawing's grain, noise and paper
   tinta info                                     which OpenGL is there
 
 Exit codes: 0 done, 2 could not be done; the reason is one sentence on standard error.")]
@@ -33,6 +37,7 @@ enum Command {
     Render(Box<render::Arguments>),
     Compare(Box<compare::Arguments>),
     Edges(Box<edges::Arguments>),
+    Textures(textures::Arguments),
     Info(info::Arguments),
 }
 
@@ -49,6 +54,7 @@ pub fn run() -> Result<()> {
         Command::Render(arguments) => render::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Edges(arguments) => edges::run(&arguments),
+        Command::Textures(arguments) => textures::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
 }

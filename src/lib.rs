@@ -23,6 +23,7 @@
 //! # }
 //! ```
 
+pub mod animation;
 pub mod camera;
 pub mod compare;
 pub mod edges;
@@ -37,11 +38,13 @@ pub mod renderer;
 pub mod scene;
 pub mod sheet;
 pub mod styles;
+pub mod textures;
 pub mod tolerances;
 
 mod bytes;
 mod names;
 
+pub use animation::{AnimationTarget, AnimationWriter};
 pub use camera::{Camera, CameraSettings, View};
 pub use edges::EdgeList;
 pub use error::{Error, Result};

@@ -142,6 +142,12 @@ impl PictureFormat {
         ("ppm", Self::Ppm),
     ];
 
+    /// The format of a file's name, by its extension.
+    pub(crate) fn of(file: &Path) -> Option<Self> {
+        let extension = file.extension()?.to_str()?.to_ascii_lowercase();
+        Self::EXTENSIONS.iter().find(|(known, _)| *known == extension).map(|(_, format)| *format)
+    }
+
     fn has_alpha(self) -> bool {
         matches!(self, Self::Png | Self::Tga)
     }
@@ -174,13 +180,10 @@ impl Target {
         }
         let file = PathBuf::from(path);
         let known = || PictureFormat::EXTENSIONS.map(|(extension, _)| extension).join(", ");
-        let extension = file.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
-        let format = extension.as_deref().and_then(|extension| {
-            PictureFormat::EXTENSIONS.iter().find(|(known, _)| *known == extension).map(|(_, format)| *format)
-        });
-        let format = match (format, extension) {
+        let format = match (PictureFormat::of(&file), file.extension()) {
             (Some(format), _) => format,
             (None, Some(extension)) => {
+                let extension = extension.to_string_lossy().to_ascii_lowercase();
                 return Err(refuse(format!("pictures are not written as .{extension}; use one of {}", known())));
             }
             (None, None) => return Err(refuse(format!("the name has no extension; use one of {}", known()))),
@@ -188,14 +191,7 @@ impl Target {
         if transparent && !format.has_alpha() {
             return Err(refuse("this format has no transparency; write .png, or leave out --transparent".to_owned()));
         }
-        if file.is_dir() {
-            return Err(refuse("this is a directory; name a file in it".to_owned()));
-        }
-        // A new file takes the old one's place, which must be a file: not a device, a pipe or a link to nowhere.
-        if file.symlink_metadata().is_ok() && !file.is_file() {
-            return Err(refuse("this is no ordinary file; name another, or - for standard output".to_owned()));
-        }
-        temporary_beside(&file).map_err(|error| refuse(cannot_write(&file, &error)))?;
+        check_file(&file)?;
         Ok(Self::File { path: file, format })
     }
 
@@ -230,13 +226,32 @@ pub fn write_rgba_png(picture: &Picture, path: &Path) -> Result<()> {
     write_file(path, |out| picture.encode(PictureFormat::Png, true, out))
 }
 
-/// Writes beside the file, then renames: a link is followed, a file replaced only by a whole one.
 fn write_file(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResult<()>) -> Result<()> {
-    let failed = |problem: String| Error::Output { path: path.display().to_string(), problem };
     let mut bytes = Vec::new();
-    encode(&mut bytes).map_err(|error| failed(format!("the picture cannot be encoded ({error}); try .png")))?;
+    encode(&mut bytes).map_err(|error| Error::Output {
+        path: path.display().to_string(),
+        problem: format!("the picture cannot be encoded ({error}); try .png"),
+    })?;
+    write_whole(path, &bytes)
+}
+
+/// Checks that a file of any kind can be written here.
+pub(crate) fn check_file(file: &Path) -> Result<()> {
+    let refuse = |problem: String| Error::Output { path: file.display().to_string(), problem };
+    if file.is_dir() {
+        return Err(refuse("this is a directory; name a file in it".to_owned()));
+    }
+    // A new file takes the old one's place, which must be a file: not a device, a pipe or a link to nowhere.
+    if file.symlink_metadata().is_ok() && !file.is_file() {
+        return Err(refuse("this is no ordinary file; name another, or - for standard output".to_owned()));
+    }
+    temporary_beside(file).map(drop).map_err(|error| refuse(cannot_write(file, &error)))
+}
+
+/// Writes beside the file, then renames: a link is followed, a file replaced only by a whole one.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     let written = temporary_beside(path).and_then(|mut file| {
-        file.write_all(&bytes)?;
+        file.write_all(bytes)?;
         // A file that is replaced keeps its permissions.
         if let Ok(metadata) = path.metadata() {
             file.as_file().set_permissions(metadata.permissions())?;
@@ -244,7 +259,7 @@ fn write_file(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResu
         file.persist(resolved(path)).map_err(|error| error.error)?;
         Ok(())
     });
-    written.map_err(|error| failed(cannot_write(path, &error)))
+    written.map_err(|error| Error::Output { path: path.display().to_string(), problem: cannot_write(path, &error) })
 }
 
 /// A file that deletes itself, in the folder of `path`, with the permissions a new file there would get.

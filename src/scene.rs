@@ -4,6 +4,7 @@
 //! lies and however large it is, and so that the papers' light, given in eye space without a unit, always stands at the
 //! same place relative to what it lights (errata E11). Scene space only moves and scales world space; nothing turns.
 
+mod turntable;
 mod values;
 
 pub use values::{Background, Color, Size};

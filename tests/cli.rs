@@ -4,7 +4,7 @@ use crate::support::{root, skip};
 use std::path::Path;
 use std::process::{Command, Output};
 
-fn tinta(arguments: &[&str]) -> Output {
+pub fn tinta(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_tinta")).args(arguments).current_dir(root()).output().unwrap()
 }
 
@@ -20,24 +20,24 @@ fn refused(arguments: &[&str], words: &[&str]) {
     assert!(!message.contains("panicked"), "{message}");
 }
 
-fn refused_in_one_line(arguments: &[&str], words: &[&str]) {
+pub fn refused_in_one_line(arguments: &[&str], words: &[&str]) {
     refused(arguments, words);
     let message = String::from_utf8_lossy(&tinta(arguments).stderr).into_owned();
     assert_eq!(message.trim_end().lines().count(), 1, "{message}");
 }
 
-struct Folder(tempfile::TempDir);
+pub struct Folder(tempfile::TempDir);
 
 impl Folder {
-    fn new() -> Self {
+    pub fn new() -> Self {
         Self(tempfile::tempdir().unwrap())
     }
 
-    fn path(&self, name: &str) -> String {
+    pub fn path(&self, name: &str) -> String {
         self.0.path().join(name).to_str().unwrap().to_owned()
     }
 
-    fn file(&self, name: &str, bytes: &[u8]) -> String {
+    pub fn file(&self, name: &str, bytes: &[u8]) -> String {
         std::fs::write(self.0.path().join(name), bytes).unwrap();
         self.path(name)
     }

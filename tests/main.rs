@@ -1,5 +1,6 @@
 //! Tests that need a GL context or the finished program. One binary, so that it links once.
 
+mod animation;
 mod cli;
 mod docs;
 mod edges;
@@ -9,4 +10,6 @@ mod licences;
 mod pipeline;
 mod shared_models;
 mod support;
+mod textures;
+mod turntable;
 mod twin;

@@ -1,5 +1,7 @@
 //! `tinta render`: models to a picture.
 
+mod animate;
+
 use super::models::load_meshes;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
 use std::path::PathBuf;
@@ -19,7 +21,7 @@ pub struct Arguments {
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 
-    /// Picture to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output
+    /// Picture to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output; animations: .gif .apng frame-%04d.png
     #[arg(short, long, value_name = "FILE")]
     output: String,
 
@@ -38,6 +40,9 @@ pub struct Arguments {
 
     #[command(flatten)]
     model: ModelArguments,
+
+    #[command(flatten)]
+    animation: animate::AnimationArguments,
 
     #[command(flatten)]
     run: RunArguments,
@@ -75,6 +80,9 @@ const PASS_FRAMES: usize = 21;
 
 /// Draws what the arguments say.
 pub fn run(arguments: &Arguments) -> Result<()> {
+    if let Some(target) = arguments.animation.target(&arguments.output, arguments.scene.transparent)? {
+        return animate::run(arguments, target);
+    }
     let target = Target::check(&arguments.output, arguments.scene.transparent)?;
     if target == Target::Stdout && (arguments.run.json || arguments.run.explain) {
         return Err(Error::Setting {

@@ -1,0 +1,86 @@
+//! Animated PNG: lossless, with alpha. The png crate is known here only; the image crate has no animations of it.
+
+use super::changes::Rectangle;
+use crate::picture::Picture;
+use crate::scene::Size;
+use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, Filter, Writer};
+use std::io::{Result, Write};
+use std::sync::{Arc, Mutex, PoisonError};
+
+pub(super) struct ApngEncoder {
+    writer: Writer<Shared>,
+    file: Shared,
+    size: Size,
+    transparent: bool,
+    before: Vec<u8>,
+}
+
+/// The file being put together: the writer does not give its own back.
+#[derive(Clone, Default)]
+struct Shared(Arc<Mutex<Vec<u8>>>);
+
+impl Write for Shared {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).write(bytes)
+    }
+
+    fn flush(&mut self) -> Result<()> {
+        Ok(())
+    }
+}
+
+type Encoded<T> = std::result::Result<T, String>;
+
+fn in_words(error: png::EncodingError) -> String {
+    format!("the animation cannot be encoded ({error}); write .gif or numbered pictures")
+}
+
+impl ApngEncoder {
+    pub fn new(size: Size, transparent: bool, frames: u32, delay_ms: u16) -> Encoded<Self> {
+        let file = Shared::default();
+        let writer = || {
+            let mut encoder = Encoder::new(file.clone(), size.width, size.height);
+            encoder.set_color(if transparent { ColorType::Rgba } else { ColorType::Rgb });
+            encoder.set_depth(BitDepth::Eight);
+            encoder.set_compression(Compression::Fast);
+            encoder.set_filter(Filter::Adaptive);
+            encoder.set_animated(frames, 0)?;
+            encoder.set_frame_delay(delay_ms, 1000)?;
+            encoder.set_blend_op(BlendOp::Source)?;
+            encoder.set_dispose_op(DisposeOp::None)?;
+            encoder.write_header()
+        };
+        Ok(Self { writer: writer().map_err(in_words)?, file, size, transparent, before: Vec::new() })
+    }
+
+    /// Stores what changed since the picture before.
+    pub fn add(&mut self, picture: Picture) -> Encoded<()> {
+        let picture = if self.transparent { picture } else { picture.opaque() };
+        let part = if self.before.is_empty() {
+            Rectangle::whole(self.size)
+        } else {
+            Rectangle::changed(self.size, &self.before, &picture.pixels)
+        };
+        let channels = if self.transparent { 4 } else { 3 };
+        let mut data = Vec::with_capacity(part.size.pixel_count() * channels);
+        for row in part.rows(self.size.width) {
+            let pixels = picture.pixels[row.start * 4..row.end * 4].chunks_exact(4);
+            pixels.for_each(|pixel| data.extend_from_slice(&pixel[..channels]));
+        }
+        self.before = picture.pixels;
+        let writer = &mut self.writer;
+        let mut write = || {
+            // To the corner first: a size is checked against the place, and a place against the size.
+            writer.reset_frame_position()?;
+            writer.set_frame_dimension(part.size.width, part.size.height)?;
+            writer.set_frame_position(part.left, part.top)?;
+            writer.write_image_data(&data)
+        };
+        write().map_err(in_words)
+    }
+
+    pub fn finish(self) -> Encoded<Vec<u8>> {
+        self.writer.finish().map_err(in_words)?;
+        Ok(std::mem::take(&mut *self.file.0.lock().unwrap_or_else(PoisonError::into_inner)))
+    }
+}

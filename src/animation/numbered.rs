@@ -1,0 +1,60 @@
+//! Names with a number in them, as C's `printf` writes it: `frame-%04d.png` is `frame-0001.png`, `frame-0002.png`, …
+
+use crate::picture::PictureFormat;
+use std::path::Path;
+
+/// A name whose file name has one number left open.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NumberedName {
+    before: String,
+    digits: usize,
+    after: String,
+}
+
+impl NumberedName {
+    /// Finds the first `%d` or `%0Nd` (N from 1 to 9) in the file name of a picture format; `None` without one.
+    ///
+    /// Only there: a per cent sign that means nothing, in a folder's name or before anything else, stays what it is.
+    pub fn parse(name: &str) -> Option<Self> {
+        let file_name = Path::new(name).file_name()?.to_str()?;
+        PictureFormat::of(Path::new(name))?;
+        let (folder, file_name) = name.split_at(name.rfind(file_name)?);
+        let places = file_name.match_indices('%');
+        places.into_iter().find_map(|(at, _)| {
+            let rest = &file_name[at + 1..];
+            let (digits, after) = match rest.as_bytes() {
+                [b'd', ..] => (1, &rest[1..]),
+                [b'0', digit @ b'1'..=b'9', b'd', ..] => (usize::from(digit - b'0'), &rest[3..]),
+                _ => return None,
+            };
+            Some(Self { before: format!("{folder}{}", &file_name[..at]), digits, after: after.to_owned() })
+        })
+    }
+
+    /// The name with this number.
+    pub fn with(&self, number: u32) -> String {
+        format!("{}{number:0digits$}{}", self.before, self.after, digits = self.digits)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_put_in_as_printf_does() {
+        let name = |pattern: &str, number| NumberedName::parse(pattern).unwrap().with(number);
+        assert_eq!(name("frame-%04d.png", 7), "frame-0007.png");
+        assert_eq!(name("a/%d.tga", 120), "a/120.tga");
+        assert_eq!(name("50%/x%02d_100%.png", 123), "50%/x123_100%.png");
+        assert_eq!(name("10%_%03d.png", 4), "10%_004.png");
+    }
+
+    #[test]
+    fn names_without_a_number_have_none() {
+        for name in ["a.png", "100%.png", "%04d/a.png", "%4d.png", "%0d.png", "%s.png", "frame-%04d", "%d.gif", "%", ""]
+        {
+            assert_eq!(NumberedName::parse(name), None, "{name}");
+        }
+    }
+}

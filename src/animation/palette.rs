@@ -1,0 +1,193 @@
+//! The colours of a GIF's frames, at most 256.
+//!
+//! Pictures with so few colours are stored exactly. Others get the colours they need most and mix the rest from two of
+//! them in a pattern that stands still on the screen. One palette serves frame after frame until it fits one too badly:
+//! a new one for each would let tones flicker.
+
+use super::quantize::{choose, distance, mix};
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// The index of no colour, where pictures have holes: the first, so that it stays when colours are added.
+pub(super) const TRANSPARENT: u8 = 0;
+
+/// A colour as one number, red in the high byte.
+pub(super) type Packed = u32;
+
+/// Colours with the number of their pixels.
+pub(super) type Histogram = Vec<(Packed, u32)>;
+
+/// Two palette entries and how many of 64 pixels the second gets, at most half of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Mix {
+    pub first: u8,
+    pub second: u8,
+    pub share: u8,
+}
+
+pub(super) struct Palette {
+    transparent: bool,
+    /// The table, the transparent entry included.
+    colors: Vec<Packed>,
+    /// All colours met while this table served.
+    known: HashMap<Packed, Mix, BuildHasherDefault<ColorHasher>>,
+    is_exact: bool,
+    /// Mean square error of the picture that the table was made for.
+    error: f64,
+}
+
+/// A table is kept while a picture's mean square error is at most this many times that of the one it was made for …
+const WORSE: f64 = 1.5;
+
+/// … or not more than this, a difference of one step in one colour.
+const UNSEEN: f64 = 1.0;
+
+/// A colour on this share of the picture is a flat tone, which must not be mixed.
+const FLAT_SHARE: f64 = 1.0 / 64.0;
+
+/// Most colours remembered; a new table forgets them.
+const MOST_KNOWN: usize = 1 << 20;
+
+impl Palette {
+    pub fn new(transparent: bool) -> Self {
+        let mut palette = Self { transparent, colors: vec![], known: HashMap::default(), is_exact: true, error: 0.0 };
+        palette.clear();
+        palette
+    }
+
+    /// Forgets all colours but the transparent entry.
+    fn clear(&mut self) {
+        self.known.clear();
+        self.colors.clear();
+        self.colors.extend(self.transparent.then_some(0));
+        self.is_exact = true;
+    }
+
+    /// Makes the palette serve these RGBA pixels, of which those with alpha 0 do not count.
+    pub fn fit(&mut self, pixels: &[u8]) {
+        let histogram = histogram(pixels);
+        let room = 256 - usize::from(self.transparent);
+        let new = histogram.iter().filter(|(color, _)| !self.known.contains_key(color)).count();
+        if self.is_exact && self.colors.len() + new <= 256 {
+            self.add_exactly(&histogram);
+        } else if histogram.len() <= room {
+            self.clear();
+            self.add_exactly(&histogram);
+        } else if self.is_exact || self.known.len() + new > MOST_KNOWN || !self.serves(&histogram) {
+            self.clear();
+            self.is_exact = false;
+            self.colors.extend(choose(&histogram, room));
+            self.add_mixed(&histogram);
+            self.error = self.mean_error(&histogram);
+        }
+    }
+
+    fn add_exactly(&mut self, histogram: &Histogram) {
+        for (color, _) in histogram {
+            let first = self.colors.len() as u8;
+            if !self.known.contains_key(color) {
+                self.known.insert(*color, Mix { first, second: first, share: 0 });
+                self.colors.push(*color);
+            }
+        }
+    }
+
+    fn add_mixed(&mut self, histogram: &Histogram) {
+        let first_color = usize::from(self.transparent);
+        for (color, _) in histogram {
+            self.known.entry(*color).or_insert_with(|| mix(*color, &self.colors, first_color));
+        }
+    }
+
+    /// Whether the present table does for another picture.
+    fn serves(&mut self, histogram: &Histogram) -> bool {
+        self.add_mixed(histogram);
+        let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
+        let flat = histogram.iter().filter(|(_, count)| f64::from(*count) >= pixels * FLAT_SHARE);
+        flat.clone().all(|(color, _)| self.nearest(*color) == *color)
+            && self.mean_error(histogram) <= (self.error * WORSE).max(UNSEEN)
+    }
+
+    fn nearest(&self, color: Packed) -> Packed {
+        self.known.get(&color).map_or(color, |mix| self.colors[usize::from(mix.first)])
+    }
+
+    fn mean_error(&self, histogram: &Histogram) -> f64 {
+        let square =
+            |(color, count): &(Packed, u32)| f64::from(distance(*color, self.nearest(*color))) * f64::from(*count);
+        let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
+        histogram.iter().map(square).sum::<f64>() / pixels
+    }
+
+    /// Appends the indices of a row of pixels that begins at this place of the screen.
+    pub fn map_row<'a>(&self, pixels: impl Iterator<Item = &'a [u8]>, left: u32, y: u32, to: &mut Vec<u8>) {
+        // Neighbours are often alike.
+        let mut last = (Packed::MAX, Mix { first: TRANSPARENT, second: TRANSPARENT, share: 0 });
+        for (x, pixel) in (left..).zip(pixels) {
+            if pixel[3] == 0 {
+                to.push(TRANSPARENT);
+                continue;
+            }
+            let color = packed(pixel);
+            if color != last.0 {
+                last = (color, self.known.get(&color).copied().unwrap_or(last.1));
+            }
+            let Mix { first, second, share } = last.1;
+            to.push(if threshold(x, y) < share { second } else { first });
+        }
+    }
+
+    /// The table as red, green and blue bytes.
+    pub fn bytes(&self) -> Vec<u8> {
+        self.colors.iter().flat_map(|color| color.to_be_bytes().into_iter().skip(1)).collect()
+    }
+}
+
+fn packed(pixel: &[u8]) -> Packed {
+    u32::from_be_bytes([0, pixel[0], pixel[1], pixel[2]])
+}
+
+/// The colours in order, with how many pixels each has.
+fn histogram(pixels: &[u8]) -> Histogram {
+    let mut counts: HashMap<Packed, u32, BuildHasherDefault<ColorHasher>> = HashMap::default();
+    let (mut color, mut run) = (0, 0);
+    for pixel in pixels.chunks_exact(4).filter(|pixel| pixel[3] > 0) {
+        let next = packed(pixel);
+        if next != color && run > 0 {
+            *counts.entry(color).or_default() += run;
+            run = 0;
+        }
+        color = next;
+        run += 1;
+    }
+    if run > 0 {
+        *counts.entry(color).or_default() += run;
+    }
+    let mut histogram: Histogram = counts.into_iter().collect();
+    histogram.sort_unstable();
+    histogram
+}
+
+/// Bayer's ordered pattern of 8 x 8 pixels: each number from 0 to 63 once.
+fn threshold(x: u32, y: u32) -> u8 {
+    (0..3).fold(0, |sum, bit| (sum << 2) | ((((x ^ y) >> bit & 1) << 1 | (y >> bit & 1)) as u8))
+}
+
+/// Hashes colours: the standard hash, which withstands attacks, takes longer than the rest of the encoder.
+#[derive(Default)]
+struct ColorHasher(u64);
+
+impl Hasher for ColorHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|byte| self.write_u32(u32::from(*byte)));
+    }
+
+    fn write_u32(&mut self, number: u32) {
+        let mixed = (self.0 ^ u64::from(number)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 = mixed ^ (mixed >> 32);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
+}

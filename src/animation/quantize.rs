@@ -1,0 +1,162 @@
+//! The 256 colours that stand best for thousands: flat tones exactly, then boxes cut where colours vary most (after
+//! Heckbert's median cut, 1982), then moved to the means of what they stand for (Lloyd). Crates for it bring large
+//! dependencies or shift flat tones.
+
+use super::palette::{Histogram, Mix, Packed};
+
+/// Red, green and blue count so much in a distance: about as the eye sees them.
+const WEIGHTS: [i32; 3] = [3, 4, 2];
+
+/// A colour on this share of the picture keeps its exact place …
+const FLAT_SHARE: f64 = 1.0 / 512.0;
+
+/// … but no more than this share of the palette.
+const FLAT_ENTRIES: f64 = 0.5;
+
+/// Rounds in which entries move to the means of their colours.
+const ROUNDS: usize = 3;
+
+fn channels(color: Packed) -> [i32; 3] {
+    let [_, red, green, blue] = color.to_be_bytes();
+    [red, green, blue].map(i32::from)
+}
+
+/// Square of the weighted distance of two colours, in square steps of 255 (the weights' sum is three times too large).
+pub(super) fn distance(a: Packed, b: Packed) -> f32 {
+    let (a, b) = (channels(a), channels(b));
+    let sum: i32 = (0..3).map(|channel| WEIGHTS[channel] * (a[channel] - b[channel]).pow(2)).sum();
+    sum as f32 / 3.0
+}
+
+/// At most `room` colours for a picture that has more.
+pub(super) fn choose(histogram: &Histogram, room: usize) -> Vec<Packed> {
+    let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
+    let mut by_count = histogram.clone();
+    by_count.sort_unstable_by_key(|(color, count)| (std::cmp::Reverse(*count), *color));
+    let flat_room = (room as f64 * FLAT_ENTRIES) as usize;
+    let flat_count = by_count.iter().take(flat_room).take_while(|(_, n)| f64::from(*n) >= pixels * FLAT_SHARE).count();
+    let others = by_count.split_off(flat_count);
+    let flat: Vec<Packed> = by_count.iter().map(|(color, _)| *color).collect();
+    let mut colors: Vec<Packed> = flat.iter().copied().chain(cut(others.clone(), room - flat_count)).collect();
+    for _ in 0..ROUNDS {
+        move_to_means(&mut colors, flat.len(), &others);
+    }
+    colors.sort_unstable();
+    colors.dedup();
+    colors
+}
+
+/// Colours of a part of the colour space.
+struct Part {
+    colors: Histogram,
+    channel: usize,
+    mean: f64,
+    /// Weighted sum of square differences from the mean along that channel.
+    spread: f64,
+}
+
+impl Part {
+    fn new(colors: Histogram) -> Self {
+        let pixels: f64 = colors.iter().map(|(_, count)| f64::from(*count)).sum();
+        let along = |channel: usize| {
+            let sum = |power: i32| -> f64 {
+                colors.iter().map(|(c, count)| f64::from(channels(*c)[channel]).powi(power) * f64::from(*count)).sum()
+            };
+            let mean = sum(1) / pixels;
+            (channel, mean, (sum(2) - mean * mean * pixels) * f64::from(WEIGHTS[channel]))
+        };
+        let widest =
+            [1, 2].map(along).into_iter().fold(along(0), |best, next| if next.2 > best.2 { next } else { best });
+        let (channel, mean, spread) = widest;
+        Self { colors, channel, mean, spread }
+    }
+
+    fn mean_color(&self) -> Packed {
+        let pixels: f64 = self.colors.iter().map(|(_, count)| f64::from(*count)).sum();
+        let mean = |channel: usize| {
+            let sum: f64 = self.colors.iter().map(|(c, n)| f64::from(channels(*c)[channel]) * f64::from(*n)).sum();
+            (sum / pixels).round() as u8
+        };
+        u32::from_be_bytes([0, mean(0), mean(1), mean(2)])
+    }
+}
+
+/// Cuts colours into this many parts, always the part that varies most, and returns their means.
+fn cut(colors: Histogram, count: usize) -> Vec<Packed> {
+    if colors.is_empty() || count == 0 {
+        return Vec::new();
+    }
+    let mut parts = vec![Part::new(colors)];
+    while parts.len() < count {
+        let widest = (0..parts.len()).max_by(|a, b| parts[*a].spread.total_cmp(&parts[*b].spread));
+        let Some(widest) = widest.filter(|widest| parts[*widest].colors.len() > 1) else { break };
+        let part = parts.swap_remove(widest);
+        let (low, high): (Histogram, Histogram) =
+            part.colors.iter().partition(|(color, _)| f64::from(channels(*color)[part.channel]) <= part.mean);
+        if low.is_empty() || high.is_empty() {
+            // Rounding put the mean outside: nothing left to cut here.
+            parts.push(Part { spread: 0.0, ..part });
+            break;
+        }
+        parts.push(Part::new(low));
+        parts.push(Part::new(high));
+    }
+    parts.iter().map(Part::mean_color).collect()
+}
+
+/// Moves all entries but the first, fixed ones to the mean of the colours that are nearest to each.
+fn move_to_means(colors: &mut [Packed], fixed: usize, histogram: &Histogram) {
+    let mut sums = vec![[0.0f64; 4]; colors.len()];
+    for (color, count) in histogram {
+        let sum = &mut sums[nearest(*color, colors)];
+        let count = f64::from(*count);
+        channels(*color).iter().zip(sum.iter_mut()).for_each(|(value, sum)| *sum += f64::from(*value) * count);
+        sum[3] += count;
+    }
+    for (color, [red, green, blue, count]) in colors.iter_mut().zip(sums).skip(fixed).filter(|(_, sum)| sum[3] > 0.0) {
+        let [red, green, blue] = [red, green, blue].map(|sum| (sum / count).round() as u8);
+        *color = u32::from_be_bytes([0, red, green, blue]);
+    }
+}
+
+fn nearest(color: Packed, colors: &[Packed]) -> usize {
+    let mut best = (0, f32::INFINITY);
+    for (index, entry) in colors.iter().enumerate() {
+        let distance = distance(color, *entry);
+        if distance < best.1 {
+            best = (index, distance);
+        }
+    }
+    best.0
+}
+
+/// The two entries from `first_color` on, and their shares, whose mix comes nearest to a colour without being rough.
+pub(super) fn mix(color: Packed, colors: &[Packed], first_color: usize) -> Mix {
+    /// What the difference of the two entries counts against that of their mean and the colour.
+    const ROUGHNESS: f32 = 0.25;
+    let first = first_color + nearest(color, &colors[first_color..]);
+    let single = distance(color, colors[first]);
+    let mut best = (Mix { first: first as u8, second: first as u8, share: 0 }, single);
+    if single == 0.0 {
+        return best.0;
+    }
+    let weights = WEIGHTS.map(|weight| weight as f32);
+    let (target, start) = (channels(color), channels(colors[first]));
+    let wanted = [0, 1, 2].map(|channel| (target[channel] - start[channel]) as f32);
+    let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|channel| weights[channel] * a[channel] * b[channel]).sum::<f32>();
+    for (second, entry) in colors.iter().enumerate().skip(first_color).filter(|(index, _)| *index != first) {
+        let end = channels(*entry);
+        let step = [0, 1, 2].map(|channel| (end[channel] - start[channel]) as f32);
+        let length = dot(step, step);
+        if length == 0.0 {
+            continue;
+        }
+        let share = (dot(wanted, step) / length).clamp(0.0, 0.5);
+        let rest = [0, 1, 2].map(|channel| wanted[channel] - share * step[channel]);
+        let error = (dot(rest, rest) + ROUGHNESS * share * (1.0 - share) * length) / 3.0;
+        if error < best.1 {
+            best = (Mix { first: first as u8, second: second as u8, share: (share * 64.0).round() as u8 }, error);
+        }
+    }
+    best.0
+}

@@ -1,0 +1,30 @@
+//! A progress bar for commands that take a while: on standard error, and only where that is a terminal.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// Disappears when it is dropped, so that a message after it stands in a line of its own.
+pub struct Progress(ProgressBar);
+
+impl Progress {
+    /// A bar for `count` steps with the word for what is done, such as "drawing".
+    pub fn new(what: &'static str, count: u64) -> Self {
+        // Draws nothing unless standard error is a terminal.
+        let bar = ProgressBar::with_draw_target(Some(count), ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:32}] {pos}/{len}, {eta} left") {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        bar.set_message(what);
+        Self(bar)
+    }
+
+    /// One step more is done.
+    pub fn step(&self) {
+        self.0.inc(1);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}

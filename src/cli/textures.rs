@@ -1,0 +1,143 @@
+//! `tinta textures`: the charcoal drawing's textures as files, to be looked at and used elsewhere.
+
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use tinta::renderer::milliseconds_since;
+use tinta::textures::{ContrastTexture, NoiseTexture, PaperTexture};
+use tinta::{Error, Picture, Result, Size, Target};
+
+/// Write the textures of a charcoal drawing: the contrast-enhanced one, noise, paper
+#[derive(clap::Args)]
+#[command(after_help = "\
+Files: cet.png, noise.png and paper.png. With the default density, exponent and blur also the text's figures 2
+(figure-2.png, the grains before they are moved) and 3 (figure-3-m-1.3.png, -5.5 and -15).")]
+pub struct Arguments {
+    /// Folder to write into; made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+
+    /// Size in pixels, or one number for a square [default: 512x512]
+    #[arg(long, value_name = "WxH", default_value = "512x512", hide_default_value = true)]
+    size: Size,
+
+    /// Where the random numbers begin; the same seed gives the same files [default: 0]
+    #[arg(long, value_name = "N", default_value = "0", hide_default_value = true, allow_hyphen_values = true)]
+    seed: u64,
+
+    /// Share of black pixels before they are moved, percent; more is darker [default: 60]
+    #[arg(long, value_name = "PERCENT", default_value = "60", hide_default_value = true, allow_hyphen_values = true)]
+    density: f64,
+
+    /// Exponent m that moves black pixels along t to t^m; more leaves fewer grains in light tones [default: 5.5]
+    #[arg(long, value_name = "M", default_value = "5.5", hide_default_value = true, allow_hyphen_values = true)]
+    cet_exponent: f64,
+
+    /// Standard deviation of the blur that follows, pixels [default: 0.8]
+    #[arg(long, value_name = "PIXELS", default_value = "0.8", hide_default_value = true, allow_hyphen_values = true)]
+    cet_blur: f64,
+
+    /// Print one JSON object: files, settings, milliseconds [default: off]
+    #[arg(long)]
+    json: bool,
+}
+
+/// Makes all textures, then writes them: nonsense leaves no file.
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let mut made = Vec::new();
+    let contrast = arguments.contrast();
+    made.push(Made::new("cet.png", &contrast, ContrastTexture::picture)?);
+    made.push(Made::new("noise.png", &arguments.noise(), NoiseTexture::picture)?);
+    made.push(Made::new("paper.png", &arguments.paper(), PaperTexture::picture)?);
+    let (size, seed) = (arguments.size, arguments.seed);
+    if contrast == (ContrastTexture { size, seed, ..ContrastTexture::default() }) {
+        let scattered = ContrastTexture::figure_2(size, seed);
+        made.push(Made::new("figure-2.png", &scattered, ContrastTexture::picture)?);
+        for texture in ContrastTexture::figure_3(size, seed) {
+            let name = format!("figure-3-m-{}.png", texture.exponent);
+            made.push(Made::new(&name, &texture, ContrastTexture::picture)?);
+        }
+    }
+    make_folder(&arguments.output)?;
+    let targets = made.iter().map(|texture| {
+        let path = arguments.output.join(&texture.name);
+        Target::check(&path.to_string_lossy(), false)
+    });
+    let targets = targets.collect::<Result<Vec<_>>>()?;
+    made.iter().zip(targets).try_for_each(|(texture, target)| target.write(&texture.picture))?;
+    if arguments.json {
+        let rows: Vec<_> = made
+            .iter()
+            .map(|texture| json!({ "file": texture.name, "settings": texture.settings, "ms": texture.ms }))
+            .collect();
+        super::print_json(&json!({ "version": env!("CARGO_PKG_VERSION"), "textures": rows }))?;
+    }
+    Ok(())
+}
+
+/// A texture, its file's name and how long it took.
+struct Made {
+    name: String,
+    settings: serde_json::Value,
+    picture: Picture,
+    ms: f64,
+}
+
+impl Made {
+    fn new<T: serde::Serialize>(name: &str, texture: &T, make: impl Fn(&T) -> Result<Picture>) -> Result<Self> {
+        let start = Instant::now();
+        let picture = make(texture)?;
+        Ok(Self { name: name.to_owned(), settings: json!(texture), picture, ms: milliseconds_since(start) })
+    }
+}
+
+fn make_folder(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).map_err(|error| Error::Output {
+        path: format!("-o {}", folder.display()),
+        problem: if folder.is_file() {
+            "this is a file; name a folder".to_owned()
+        } else {
+            format!("the folder cannot be made ({error}); choose another")
+        },
+    })
+}
+
+impl Arguments {
+    fn contrast(&self) -> ContrastTexture {
+        ContrastTexture {
+            size: self.size,
+            density_percent: self.density,
+            exponent: self.cet_exponent,
+            blur_px: self.cet_blur,
+            seed: self.seed,
+        }
+    }
+
+    fn noise(&self) -> NoiseTexture {
+        NoiseTexture { size: self.size, seed: self.seed }
+    }
+
+    fn paper(&self) -> PaperTexture {
+        PaperTexture { size: self.size, seed: self.seed }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        arguments: Arguments,
+    }
+
+    #[test]
+    fn without_options_the_command_line_means_the_librarys_defaults() {
+        let arguments = Line::try_parse_from(["tinta", "-o", "folder"]).unwrap().arguments;
+        assert_eq!(arguments.contrast(), ContrastTexture::default());
+        assert_eq!(arguments.noise(), NoiseTexture::default());
+        assert_eq!(arguments.paper(), PaperTexture::default());
+    }
+}

@@ -1,0 +1,110 @@
+//! `tinta render` into animations, as a user meets it.
+
+use crate::cli::{Folder, refused_in_one_line, tinta};
+use crate::support::{public_models, skip};
+use image::AnimationDecoder;
+use image::codecs::{gif::GifDecoder, png::PngDecoder};
+use std::io::Cursor;
+
+fn render(arguments: &[&str]) -> String {
+    let output = tinta(&[&["render"], arguments].concat());
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}");
+    assert_eq!(said, "", "no progress bar where there is no terminal");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn gif(path: &str) -> Vec<image::Frame> {
+    GifDecoder::new(Cursor::new(std::fs::read(path).unwrap())).unwrap().into_frames().collect_frames().unwrap()
+}
+
+#[test]
+fn a_turntable_is_as_many_different_pictures_and_begins_with_the_view() {
+    let folder = Folder::new();
+    let (gif_path, apng_path) = (folder.path("a.gif"), folder.path("a.apng"));
+    let model = ["builtin:bust", "--size", "48x40", "--turntable", "6"];
+    let record = render(&[&model[..], &["-o", &gif_path, "--json"]].concat());
+    render(&[&model[..], &["-o", &apng_path, "--frame-delay", "50"]].concat());
+    render(&[&model[..], &["-o", &folder.path("a-%02d.png")]].concat());
+    let frames = gif(&gif_path);
+    assert_eq!(frames.len(), 6);
+    assert!((1..6).all(|number| frames[number].buffer() != frames[0].buffer()));
+    let decoder = PngDecoder::new(Cursor::new(std::fs::read(&apng_path).unwrap())).unwrap();
+    let lossless = decoder.apng().unwrap().into_frames().collect_frames().unwrap();
+    for (number, frame) in lossless.iter().enumerate() {
+        assert_eq!(frame.delay().numer_denom_ms(), (50, 1));
+        let picture = image::open(folder.path(&format!("a-{:02}.png", number + 1))).unwrap().into_rgba8();
+        assert!(*frame.buffer() == picture, "picture {number}");
+    }
+    let record: serde_json::Value = serde_json::from_str(&record).unwrap();
+    assert_eq!((&record["frames"], &record["delay_ms"]), (&6.into(), &200.into()));
+    assert_eq!(record["frame_ms"]["all"].as_array().unwrap().len(), 6);
+    assert_eq!(record["encode_ms"]["all"].as_array().unwrap().len(), 6);
+    assert_eq!(record["bytes"], std::fs::metadata(&gif_path).unwrap().len());
+}
+
+#[test]
+fn a_gif_without_a_turn_is_one_picture_the_same_as_the_png() {
+    let folder = Folder::new();
+    let (gif_path, png) = (folder.path("a.gif"), folder.path("a.png"));
+    for path in [&gif_path, &png] {
+        render(&["builtin:open-box", "--size", "40", "-o", path]);
+    }
+    let frames = gif(&gif_path);
+    assert_eq!(frames.len(), 1);
+    assert!(*frames[0].buffer() == image::open(png).unwrap().into_rgba8());
+}
+
+#[test]
+fn a_transparent_turntable_leaves_nothing_of_the_view_before() {
+    let folder = Folder::new();
+    let (gif_path, pictures) = (folder.path("a.gif"), folder.path("a-%d.png"));
+    for path in [&gif_path, &pictures] {
+        render(&["builtin:ant", "--size", "64", "--turntable", "5", "--transparent", "-o", path]);
+    }
+    for (number, frame) in gif(&gif_path).iter().enumerate() {
+        let picture = image::open(folder.path(&format!("a-{}.png", number + 1))).unwrap().into_rgba8();
+        for (kept, drawn) in frame.buffer().pixels().zip(picture.pixels()) {
+            assert_eq!(kept.0[3] == 255, drawn.0[3] >= 128, "view {number}");
+        }
+    }
+}
+
+#[test]
+fn a_models_frames_are_walked_through() {
+    let Some(folder) = public_models() else { return };
+    let model = folder.join("faerie.md2");
+    let Some(model) = model.to_str().filter(|model| std::path::Path::new(model).is_file()) else {
+        return skip("faerie.md2: not there");
+    };
+    let folder = Folder::new();
+    let out = folder.path("run.gif");
+    render(&[model, "--animate=run", "--size", "64", "-o", &out]);
+    let frames = gif(&out);
+    assert_eq!(frames.len(), 6);
+    assert!(frames.iter().all(|frame| frame.delay().numer_denom_ms() == (100, 1)));
+    assert!((1..6).all(|number| frames[number].buffer() != frames[0].buffer()));
+    refused_in_one_line(&["render", model, "-o", &out, "--animate=fly"], &["--animate=fly", "stand, run, attack"]);
+}
+
+#[test]
+fn what_makes_no_animation_is_refused() {
+    let folder = Folder::new();
+    let out = folder.path("a.gif");
+    let refused = |output: &str, options: &[&str], words: &[&str]| {
+        refused_in_one_line(&[&["render", "builtin:ant", "-o", output], options].concat(), words);
+    };
+    refused("a.png", &["--turntable", "4"], &["a.png: this names one picture", ".gif or .apng", "frame-%04d.png"]);
+    refused("-", &["--turntable", "4"], &["-: this names one picture"]);
+    refused("no/such/a.gif", &[], &["no/such/a.gif: the folder no/such is not there"]);
+    refused(&folder.path("%d.jpg"), &["--transparent"], &["no transparency"]);
+    refused(&out, &["--turntable", "0"], &["--turntable", "1..=10000"]);
+    refused(&out, &["--turntable", "4", "--frame-delay", "5"], &["--frame-delay", "20..=60000"]);
+    refused(&out, &["--turntable", "4", "--animate"], &["--turntable", "--animate"]);
+    refused(&out, &["--animate", "--model-frame", "2"], &["--animate", "--model-frame"]);
+    refused(&out, &["--animate"], &["--animate: builtin:ant has no frames", "--turntable"]);
+    refused(&out, &["--turntable", "4", "--dump", "steps"], &["--dump: this is for one picture"]);
+    refused(&out, &["--explain"], &["--explain: this is for one picture"]);
+    refused(&out, &["--frames", "9"], &["--frames: this is for one picture"]);
+    assert!(!std::path::Path::new(&out).exists());
+}
