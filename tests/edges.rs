@@ -479,7 +479,7 @@ fn faces_seen_all_but_edge_on_are_judged_as_rational_arithmetic_does() {
 
 #[test]
 fn counts_agree_with_other_libraries_on_public_models() {
-    // By vtkFeatureEdges (VTK 9.6) and trimesh 4.12 after joining equal positions: edges, boundary, non-manifold, and
+    // By vtkFeatureEdges (VTK 9.7) and trimesh 5.2 after joining equal positions: edges, boundary, non-manifold, and
     // creases whose cosine is below 0.4.
     let expected = [
         ("ant.ply", [1368, 0, 0, 299]),

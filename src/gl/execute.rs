@@ -221,10 +221,10 @@ impl Resources {
         // SAFETY: the context is current; the names are of GL 2.1.
         unsafe {
             match draw.depth {
-                Depth::TestAndWrite => {
+                Depth::TestAndWrite | Depth::TestOnly => {
                     gl.enable(glow::DEPTH_TEST);
                     gl.depth_func(glow::LESS);
-                    gl.depth_mask(true);
+                    gl.depth_mask(draw.depth == Depth::TestAndWrite);
                 }
                 Depth::Ignore => {
                     gl.disable(glow::DEPTH_TEST);
