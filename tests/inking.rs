@@ -1,6 +1,6 @@
 //! The styles inking and dietrich, drawn: against closed forms, against each other's variants, in every option.
 
-use crate::edges::{cuboid, icosphere};
+use crate::shapes::{cuboid, icosphere};
 use crate::support::{BACKENDS, renderer, scene, scene_with};
 use glam::DVec3;
 use std::sync::Arc;
