@@ -9,7 +9,7 @@ use crate::scene::Size;
 use serde::Serialize;
 
 /// Darkness from which a pixel is ink, of 255.
-const INK_FROM: u32 = 64;
+const INK_FROM: u8 = 64;
 
 /// Which pixels of a picture are ink.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,12 +19,13 @@ pub struct InkMask {
 }
 
 impl InkMask {
-    /// Pixels at least a quarter covered by ink, so that faint lines count too: on white by their darkness, on a transparent
-    /// ground by their alpha.
+    /// Pixels at least a quarter covered by ink, so that faint lines count too: on white by how far the pixel is from white
+    /// in any channel, on a transparent ground by its alpha.
     pub fn of(lines: &Picture) -> Self {
-        let is_ink = |pixel: &[u8]| {
-            let darkness = 255 - u32::from(pixel[..3].iter().copied().max().unwrap_or_default());
-            darkness * u32::from(pixel[3]) >= INK_FROM * 255
+        let is_transparent = lines.pixels.chunks_exact(4).any(|pixel| pixel[3] < u8::MAX);
+        let is_ink = |pixel: &[u8]| match is_transparent {
+            true => pixel[3] >= INK_FROM,
+            false => u8::MAX - pixel[..3].iter().copied().min().unwrap_or_default() >= INK_FROM,
         };
         Self { size: lines.size, ink: lines.pixels.chunks_exact(4).map(is_ink).collect() }
     }

@@ -18,6 +18,7 @@ pub use orientation::{Eye, Side, side_of_face};
 pub use silhouette::{SilhouetteRule, Silhouettes};
 
 use crate::mesh::Mesh;
+use std::sync::{Mutex, PoisonError};
 
 /// Each edge of a mesh once, with its faces.
 ///
@@ -127,21 +128,21 @@ fn ranges(count: usize, pieces: usize) -> Vec<std::ops::Range<usize>> {
 fn filled<T: Copy + Send>(count: usize, threads: usize, blank: T, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let mut list = vec![blank; count];
     let length = count.div_ceil(threads.max(1)).max(1);
-    let fill = |(piece, places): (usize, &mut [T])| {
-        places.iter_mut().enumerate().for_each(|(index, place)| *place = value(piece * length + index));
-    };
-    if threads <= 1 {
-        fill((0, &mut list));
-        return list;
-    }
-    std::thread::scope(|scope| {
-        let fill = &fill;
-        let mut pieces = list.chunks_mut(length).enumerate();
-        let first = pieces.next();
-        for piece in pieces {
-            scope.spawn(move || fill(piece));
+    let pieces = Mutex::new(list.chunks_mut(length).enumerate());
+    // Every thread takes pieces while there are any, this one too: where no other can be had, it does them all.
+    let fill = || {
+        let next = || pieces.lock().unwrap_or_else(PoisonError::into_inner).next();
+        while let Some((piece, places)) = next() {
+            places.iter_mut().enumerate().for_each(|(index, place)| *place = value(piece * length + index));
         }
-        first.into_iter().for_each(fill);
+    };
+    std::thread::scope(|scope| {
+        let others: Vec<_> =
+            (1..threads).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, fill).ok()).collect();
+        fill();
+        for other in others {
+            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
     });
     list
 }

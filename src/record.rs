@@ -140,9 +140,9 @@ pub struct EdgeRecord {
 pub struct DrawingRecord {
     /// The style with every setting.
     pub style: Style,
-    /// Making the plan.
+    /// Making the first plan: edge list, classes and planes included, where the style needs them.
     pub plan_ms: f64,
-    /// The frames after warm-up, read-back included, milliseconds.
+    /// The frames after warm-up, each with a plan of its own, read-back included, milliseconds.
     pub frame_ms: Summary,
 }
 

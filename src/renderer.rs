@@ -66,14 +66,20 @@ impl Renderer {
         let info = self.context.info();
         let mut remarks: Vec<String> = Vec::new();
         for (_, step) in plan.steps() {
-            let Step::Draw(Draw { geometry: Geometry::Edges { mark, width_px, is_smooth, line_drawing, .. }, .. }) =
-                step
+            let Step::Draw(Draw { geometry: Geometry::Edges { width_px, is_smooth, line_drawing, .. }, .. }) = step
             else {
                 continue;
             };
-            if *line_drawing == LineDrawing::Gl && !info.draws_width(*mark, *width_px, *is_smooth) {
-                let remark =
-                    format!("lines of {width_px} px are drawn as quads: GL's are not that wide on {}", info.renderer);
+            if *line_drawing == LineDrawing::Gl && !info.draws_edges(*width_px, *is_smooth) {
+                let [[least_line, widest_line], [least_point, widest_point]] = match is_smooth {
+                    false => [info.aliased_line_width, info.aliased_point_size],
+                    true => [info.smooth_line_width, info.smooth_point_size],
+                };
+                let remark = format!(
+                    "lines of {width_px} px are drawn as quads: {} draws lines of {least_line} to {widest_line} and points \
+                     of {least_point} to {widest_point} px",
+                    info.renderer
+                );
                 if !remarks.contains(&remark) {
                     remarks.push(remark);
                 }

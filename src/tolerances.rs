@@ -44,3 +44,7 @@ pub const BACKGROUND_DISTANCE: f32 = 1000.0;
 /// Distance, in rows, from the edge of two texture rows at which a grain counts as lying on it: far more than a platform's
 /// `pow` is off by, far less than a grain.
 pub const ROW_EDGE: f64 = 1e-9;
+
+/// What rounding may take from the cosine between two equal unit normals: without it a crease angle of 0 would make creases
+/// of flat surfaces.
+pub const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;

@@ -237,3 +237,52 @@ fn counts_agree_with_other_libraries_on_public_models() {
         }
     }
 }
+
+#[test]
+fn unused_vertices_do_not_keep_the_others_from_being_welded() {
+    let jitter = |i: usize| (i % 3) as f64 * 1e-9;
+    let cube = cuboid(DVec3::ZERO, DVec3::ONE);
+    let mut text = String::new();
+    for (i, corner) in cube.triangles.iter().flatten().enumerate() {
+        let DVec3 { x, y, z } = cube.positions[*corner as usize] + DVec3::splat(jitter(i));
+        text.push_str(&format!("v {x} {y} {z}\n"));
+    }
+    text.push_str("v 0.5 0.5 0.5\n");
+    (0..12).for_each(|i| text.push_str(&format!("f {} {} {}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3)));
+    let file = tempfile::Builder::new().suffix(".obj").tempfile().unwrap();
+    std::fs::write(file.path(), text).unwrap();
+    let mesh = load(file.path().to_str().unwrap(), &LoadOptions::default()).unwrap().mesh;
+    assert_eq!((mesh.positions.len(), mesh.defects.unused_vertices), (8, 1));
+    assert_eq!(EdgeList::new(&mesh).len(), 18);
+}
+
+#[test]
+fn non_manifold_edges_around_a_hub_are_matched_in_linear_time_and_in_order() {
+    // Each spoke has four faces, and the hub more edges than are searched one by one.
+    let spokes = 3000u32;
+    let positions =
+        (0..spokes * 4 + 1).map(|i| DVec3::new(f64::from(i % 97), f64::from(i % 89), f64::from(i))).collect();
+    let triangles: Vec<[u32; 3]> = (0..4)
+        .flat_map(|side| (0..spokes).map(move |spoke| [0, 1 + spoke, 1 + spokes + (spoke * 4 + side) % (spokes * 3)]))
+        .collect();
+    let expected = listing(&triangles[..]);
+    let fan = mesh(positions, triangles);
+    for threads in [1, 2, 5] {
+        let edges = EdgeList::with_threads(&fan, threads);
+        assert_eq!(edges.len(), expected.len());
+        for (edge, positions) in edges.positions().iter().enumerate() {
+            assert_eq!(edges.faces(edge as u32), &expected[positions].1[..]);
+        }
+    }
+}
+
+#[test]
+fn a_crease_angle_of_zero_makes_no_creases_of_flat_surfaces() {
+    let sheet = load("builtin:gear", &LoadOptions::default()).unwrap().mesh;
+    let edges = EdgeList::new(&sheet);
+    let creases = |degrees: f64| {
+        let angle = CreaseAngle::from_degrees(degrees).unwrap();
+        Classes::new(&sheet, &edges, angle, ClassSet::of(&[Class::Crease])).counts().crease
+    };
+    assert_eq!(creases(0.0), creases(0.01));
+}

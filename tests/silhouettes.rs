@@ -181,3 +181,75 @@ fn faces_seen_all_but_edge_on_are_judged_as_rational_arithmetic_does() {
     }
     assert!(sides.iter().all(|count| *count > 30), "front, back and edge all occur: {sides:?}");
 }
+
+/// A bowl, or a dome seen from inside out: rings of a sphere's cap up to this angle from its pole, in degrees.
+fn cap(degrees: f64, rings: u32) -> Mesh {
+    let sides = 24;
+    let point = |ring: u32, side: u32| {
+        let (polar, around) = (
+            degrees.to_radians() * f64::from(ring) / f64::from(rings),
+            f64::from(side) / f64::from(sides) * std::f64::consts::TAU,
+        );
+        DVec3::new(polar.sin() * around.cos(), polar.sin() * around.sin(), polar.cos())
+    };
+    let positions = [DVec3::Z].into_iter().chain((1..=rings).flat_map(|r| (0..sides).map(move |s| point(r, s))));
+    let number = |ring: u32, side: u32| if ring == 0 { 0 } else { 1 + (ring - 1) * sides + side % sides };
+    let mut triangles = Vec::new();
+    for ring in 0..rings {
+        for side in 0..sides {
+            let (a, b) = (number(ring, side), number(ring, side + 1));
+            let (c, d) = (number(ring + 1, side), number(ring + 1, side + 1));
+            triangles.push([a, c, d]);
+            if ring > 0 {
+                triangles.push([a, d, b]);
+            }
+        }
+    }
+    mesh(positions.collect(), triangles)
+}
+
+#[test]
+fn the_hierarchy_finds_every_silhouette_from_eyes_close_to_a_surface() {
+    let mut random = Random(5);
+    let mut silhouettes_found = 0;
+    for degrees in [5.0, 30.0, 60.0, 80.0, 89.0, 120.0] {
+        for rings in [1, 2, 5] {
+            let cap = cap(degrees, rings);
+            let edges = EdgeList::new(&cap);
+            let silhouettes = Silhouettes::new(&cap, &edges);
+            let cones = NormalCones::new(&cap, &edges, &silhouettes);
+            for case in 0..400 {
+                let face = cap.triangles[case % cap.triangles.len()].map(|corner| cap.positions[corner as usize]);
+                let normal = (face[1] - face[0]).cross(face[2] - face[0]).normalize();
+                let away = [1e-6, 1e-4, 1e-2, 0.1, 1.0][case % 5] * if case % 2 == 0 { 1.0 } else { -1.0 };
+                let near = (face[0] + face[1] + face[2]) / 3.0 + normal * away + random.direction() * away * 0.5;
+                let across = normal.any_orthonormal_vector() + normal * away + random.direction() * 1e-3;
+                for eye in [Eye::Point(near), Eye::Point(DVec3::Z * (1.0 + away)), Eye::Direction(across)] {
+                    for (_, rule) in SilhouetteRule::ALL {
+                        let plain = silhouettes.find(&cap, &edges, eye, rule);
+                        let found = cones.find(&cap, &edges, &silhouettes, eye, rule);
+                        assert_eq!(found, plain, "{degrees} degrees, {rings} rings, {eye:?} {rule:?}");
+                        silhouettes_found += plain.len();
+                    }
+                }
+            }
+        }
+    }
+    assert!(silhouettes_found > 10_000, "{silhouettes_found}");
+}
+
+#[test]
+fn a_thin_blade_seen_along_its_flat_is_silhouette_by_the_hierarchy_too() {
+    let blade = mesh(
+        vec![DVec3::ZERO, DVec3::Z, DVec3::new(-1.0, 2e-4, 0.5), DVec3::new(-1.0, -2e-4, 0.5)],
+        vec![[0, 1, 2], [1, 0, 3]],
+    );
+    let edges = EdgeList::new(&blade);
+    let silhouettes = Silhouettes::new(&blade, &edges);
+    let cones = NormalCones::new(&blade, &edges, &silhouettes);
+    for y in [1e-4, 1e-3, 2.4e-3, 3e-3, 0.1] {
+        let eye = Eye::Direction(DVec3::new(10.0, y, 0.0));
+        let plain = silhouettes.find(&blade, &edges, eye, SilhouetteRule::Exact);
+        assert_eq!(cones.find(&blade, &edges, &silhouettes, eye, SilhouetteRule::Exact), plain, "{y}");
+    }
+}

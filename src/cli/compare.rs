@@ -17,7 +17,7 @@ pub struct Arguments {
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 
-    /// Sheet to write (.png .jpg .bmp .tga .ppm), or a folder for it and its three pictures
+    /// Sheet to write (.png .jpg .bmp .tga .ppm), or with a / at the end a folder for it and its three pictures
     #[arg(short, long, value_name = "FILE|DIR")]
     output: String,
 
@@ -70,11 +70,32 @@ struct Drawing {
 
 pub fn run(arguments: &Arguments) -> Result<()> {
     let output = Output::check(&arguments.output)?;
+    if arguments.json && matches!(output, Output::File(Target::Stdout)) {
+        return Err(Error::Setting {
+            setting: "-o -".to_owned(),
+            problem: "the sheet and --json cannot share standard output; name a file".to_owned(),
+        });
+    }
+    if arguments.styles.no_borders {
+        return Err(Error::Setting {
+            setting: "--no-borders".to_owned(),
+            problem: "it is lines that are compared; leave it out".to_owned(),
+        });
+    }
     if arguments.styles.show != Show::Final {
         return Err(Error::Setting {
             setting: "--show".to_owned(),
             problem: "a comparison shows finished pictures; leave it out".to_owned(),
         });
+    }
+    for (option, name) in [("--left", arguments.left), ("--right", arguments.right)] {
+        if name == StyleName::Phong {
+            return Err(Error::Setting {
+                setting: format!("{option} phong"),
+                problem: "this style has no lines to compare; choose three-pass, two-pass, inking or dietrich"
+                    .to_owned(),
+            });
+        }
     }
     let styles = [arguments.left, arguments.right].map(|name| arguments.styles.style(name));
     let [left_style, right_style] = styles;
@@ -84,15 +105,24 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()))?;
     let mut renderer = Renderer::new(arguments.backend)?;
     let mut draw = |style: &tinta::Style| -> Result<Drawing> {
-        let lines = style.plan(&scene, Show::Borders)?;
         let start = Instant::now();
         let plan = style.plan(&scene, Show::Final)?;
         let plan_ms = milliseconds_since(start);
+        let lines = style.plan(&scene, Show::Borders)?;
         renderer.remarks(&plan).iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
         let ink = InkMask::of(&renderer.draw(&scene, &lines)?);
         let picture = renderer.draw(&scene, &plan)?;
-        let frame_ms = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, arguments.frames as usize)?);
-        Ok(Drawing { picture, ink, record: DrawingRecord { style: style.clone(), plan_ms, frame_ms } })
+        renderer.time_frames(&scene, &plan, WARM_UP, 1)?;
+        // As when the view moves: silhouettes and light are due in every frame.
+        let mut frame = || -> Result<f64> {
+            let start = Instant::now();
+            let plan = style.plan(&scene, Show::Final)?;
+            renderer.time_frames(&scene, &plan, 0, 1)?;
+            Ok(milliseconds_since(start))
+        };
+        let times: Result<Vec<f64>> = (0..arguments.frames).map(|_| frame()).collect();
+        let record = DrawingRecord { style: style.clone(), plan_ms, frame_ms: Summary::new(times?) };
+        Ok(Drawing { picture, ink, record })
     };
     let [left, right] = [draw(&styles[0])?, draw(&styles[1])?];
     let agreement = Agreement::of(&left.ink, &right.ink, arguments.tolerance).ok_or_else(|| Error::Setting {
@@ -117,7 +147,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         panel(names[1], &record.right, right.picture),
         Panel { title: "their lines".to_owned(), subtitle: String::new(), picture: map },
     ];
-    let whole = sheet(&panels, &captions(&record, names));
+    let whole = sheet(&panels, &captions(&record, names, &arguments.models));
     output.write(&whole, panels)?;
     if arguments.json { super::print_json(&record) } else { Ok(()) }
 }
@@ -126,14 +156,17 @@ fn panel(name: &str, record: &DrawingRecord, picture: Picture) -> Panel {
     Panel { title: name.to_owned(), subtitle: format!("{:.1} ms a frame", record.frame_ms.median), picture }
 }
 
-fn captions(record: &ComparisonRecord, [left, right]: [&str; 2]) -> Vec<Caption> {
+fn captions(record: &ComparisonRecord, [left, right]: [&str; 2], names_of_models: &[String]) -> Vec<Caption> {
     let AgreementNumbers { tolerance_px, left_px, right_px, only_left_px, only_right_px, .. } = record.agreement;
-    let percent = |share: Option<f64>| share.map_or("no ink".to_owned(), |share| format!("{:.1} %", share * 100.0));
+    let percent = |share: Option<f64>| share.map_or("nothing".to_owned(), |share| format!("{:.1} %", share * 100.0));
     let (left_shared, right_shared) = (percent(record.agreement.left_shared), percent(record.agreement.right_shared));
     let line = |swatch: Option<[u8; 3]>, text: String| Caption { swatch, text };
-    let file = Path::new(&record.model.path)
-        .file_name()
-        .map_or(record.model.path.as_str().into(), |name| name.to_string_lossy());
+    let first = &names_of_models[0];
+    let file = Path::new(first).file_name().map_or(first.as_str().into(), |name| name.to_string_lossy());
+    let others = match names_of_models.len() - 1 {
+        0 => String::new(),
+        count => format!(" and {count} more"),
+    };
     vec![
         line(Some(BOTH_COLOR), format!("both: {left_shared} of {left}'s ink, {right_shared} of {right}'s")),
         line(Some(LEFT_COLOR), format!("only {left}: {only_left_px} of its {left_px} px")),
@@ -141,7 +174,7 @@ fn captions(record: &ComparisonRecord, [left, right]: [&str; 2]) -> Vec<Caption>
         line(
             None,
             format!(
-                "{file}, {} triangles, {} px, ink within {tolerance_px} px counts as the same, {}",
+                "{file}{others}, {} triangles, {} px, ink within {tolerance_px} px counts as the same, {}",
                 record.model.triangles, record.size, record.gl.renderer
             ),
         ),

@@ -45,6 +45,8 @@ fn in_words(attempt: &Attempt) -> String {
         ("alpha, depth bits", format!("{}, {}", info.alpha_bits, info.depth_bits)),
         ("line widths", format!("{} to {} px", info.aliased_line_width[0], info.aliased_line_width[1])),
         ("smooth line widths", format!("{} to {} px", info.smooth_line_width[0], info.smooth_line_width[1])),
+        ("point sizes", format!("{} to {} px", info.aliased_point_size[0], info.aliased_point_size[1])),
+        ("smooth point sizes", format!("{} to {} px", info.smooth_point_size[0], info.smooth_point_size[1])),
         ("largest picture", format!("{} px", info.largest_picture)),
         ("timer queries", if info.timer_queries { "yes" } else { "no" }.to_owned()),
     ];

@@ -26,13 +26,13 @@ const NO_EDGE: u32 = u32::MAX;
 
 pub(super) fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) -> EdgeList {
     let is_degenerate = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a || *a.max(b).max(c) >= positions;
-    // Faces are numbered in 31 bits beside the direction; a mesh of more has 50 GB of edges.
-    let triangles = &triangles[..triangles.len().min(1 << 31)];
-    let degenerate_faces: usize = in_parallel(triangles.len(), threads, |faces| {
+    // Half-edges are counted in 32 bits: a mesh of more has 30 GB of edges, and what is beyond has none here.
+    let (triangles, beyond) = triangles.split_at(triangles.len().min(u32::MAX as usize / 3));
+    let degenerate_faces = in_parallel(triangles.len(), threads, |faces| {
         triangles[faces].iter().filter(|triangle| is_degenerate(triangle)).count()
     })
     .into_iter()
-    .sum();
+    .sum::<usize>();
     // Each thread sorts the half-edges of its share of the faces, then matches those of its share of the positions.
     let sorted = in_parallel(triangles.len(), threads, |faces| match degenerate_faces {
         0 => Sorted::new(triangles, faces, positions as usize, |_| false),
@@ -40,7 +40,7 @@ pub(super) fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) 
     });
     let shares = shares(&sorted, positions, threads);
     let parts = in_parallel(shares.len(), shares.len(), |share| part(&sorted, &shares[share.start]));
-    join(parts, degenerate_faces)
+    join(parts, degenerate_faces + beyond.len())
 }
 
 /// Ranges of positions with about the same number of half-edges each, one a thread.
@@ -194,7 +194,7 @@ impl Part {
     #[inline(always)]
     fn finish(&mut self, first: usize) {
         for (faces, incidence) in self.faces[first..].iter_mut().zip(&self.incidence[first..]) {
-            if *incidence == Incidence::Boundary {
+            if matches!(incidence, Incidence::Boundary | Incidence::NonManifold) {
                 faces[1] = faces[0];
             }
         }
@@ -240,14 +240,12 @@ impl Part {
                 self.incidence[edge] = if is_reversed { Incidence::InnerReversed } else { Incidence::Inner };
             }
             Incidence::Inner | Incidence::InnerReversed => {
-                self.faces[edge] = [first; 2];
+                // Until the position is finished, the second place keeps where the faces are listed.
+                self.faces[edge] = [first, self.non_manifold.len() as u32];
                 self.incidence[edge] = Incidence::NonManifold;
                 self.non_manifold.push((edge as u32, vec![first, second, face]));
             }
-            Incidence::NonManifold => {
-                let entry = self.non_manifold.iter_mut().rev().find(|(known, _)| *known == edge as u32);
-                entry.into_iter().for_each(|(_, faces)| faces.push(face));
-            }
+            Incidence::NonManifold => self.non_manifold[second as usize].1.push(face),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::{EdgeList, Incidence, filled, in_parallel, threads_for};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::names::find;
+use crate::tolerances::PARALLEL_COSINE;
 use glam::DVec3;
 use serde::Serialize;
 use std::str::FromStr;
@@ -307,7 +308,7 @@ impl Judge<'_> {
                     let [first, second] = faces.map(|face| DVec3::from_array(self.normals[face]));
                     let cosine = first.dot(second);
                     let cosine = if incidence == Incidence::Inner { cosine } else { -cosine };
-                    if cosine < self.cosine {
+                    if cosine < self.cosine - PARALLEL_COSINE {
                         classes = ClassSet::of(&[Class::Crease]);
                     }
                 }

@@ -286,11 +286,13 @@ impl Cone {
         let is_point = eye.homogeneous.w;
         let towards_eye = eye.homogeneous.xyz() - self.middle * is_point;
         let along = self.axis.dot(towards_eye);
-        let across = (towards_eye.length_squared() - along * along).max(0.0).sqrt();
+        let across = (towards_eye - self.axis * along).length();
         let (middle, reach) = (along * self.cosine, across * self.sine);
         let clearance = clearance + PLANE_ERROR * (across + along.abs());
-        let all_front = middle - reach + self.lowest * is_point > clearance;
-        let all_back = middle + reach + self.highest * is_point < -clearance;
+        // Before a cone the least of the products is at the angle farthest from the eye's, behind it the greatest at the
+        // nearest; from the other side the bounds would not hold.
+        let all_front = along >= 0.0 && middle - reach + self.lowest * is_point > clearance;
+        let all_back = along <= 0.0 && middle + reach + self.highest * is_point < -clearance;
         if all_front || all_back { Verdict::NoSilhouette } else { Verdict::Unknown }
     }
 }

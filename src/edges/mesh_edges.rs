@@ -27,7 +27,7 @@ impl MeshEdges {
         &self.list
     }
 
-    /// The static classes in `wanted`, found once for one setting after the other.
+    /// The static classes in `wanted`; those of the last setting asked for are kept.
     pub fn classes(&self, crease_angle: CreaseAngle, wanted: ClassSet) -> Arc<Classes> {
         let mut kept = self.classes.lock().unwrap_or_else(PoisonError::into_inner);
         match &*kept {

@@ -7,7 +7,6 @@ use super::Gl;
 use super::legacy::{self, Legacy};
 use crate::error::{Error, Result};
 use crate::names::find;
-use crate::plan::Mark;
 use crate::scene::Size;
 use glow::HasContext;
 use serde::Serialize;
@@ -81,15 +80,14 @@ pub struct ContextInfo {
 }
 
 impl ContextInfo {
-    /// Whether GL draws lines and points this wide; what is narrower or wider it draws at the nearest width it can.
-    pub fn draws_width(&self, mark: Mark, width_px: f32, is_smooth: bool) -> bool {
-        let [narrowest, widest] = match (mark, is_smooth) {
-            (Mark::Lines, false) => self.aliased_line_width,
-            (Mark::Lines, true) => self.smooth_line_width,
-            (Mark::Points, false) => self.aliased_point_size,
-            (Mark::Points, true) => self.smooth_point_size,
+    /// Whether GL draws lines, and points to join them, this wide; what is narrower or wider it draws at the nearest width it
+    /// can.
+    pub fn draws_edges(&self, width_px: f32, is_smooth: bool) -> bool {
+        let ranges = match is_smooth {
+            false => [self.aliased_line_width, self.aliased_point_size],
+            true => [self.smooth_line_width, self.smooth_point_size],
         };
-        (narrowest..=widest).contains(&width_px)
+        ranges.iter().all(|[narrowest, widest]| (*narrowest..=*widest).contains(&width_px))
     }
 }
 

@@ -148,11 +148,13 @@ impl Resources {
         match &draw.geometry {
             Geometry::Objects(paint) => {
                 let material_unit = draw.textures.iter().position(|(_, texture)| *texture == plan::Texture::Material);
+                if material_unit.is_some_and(|unit| unit as u32 >= legacy::FIXED_UNITS) {
+                    return Err(Error::gl("drawing", "a plan reads the models' own pictures by a third unit"));
+                }
                 self.draw_objects(scene, paint, material_unit.map(|unit| unit as u32))?;
             }
             Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
-                let as_quads =
-                    *line_drawing == LineDrawing::Quads || !self.gl.info.draws_width(*mark, *width_px, *is_smooth);
+                let as_quads = *line_drawing == LineDrawing::Quads || !self.gl.info.draws_edges(*width_px, *is_smooth);
                 if as_quads {
                     self.draw_edge_quads(scene, runs, *mark, *width_px)?;
                 } else {

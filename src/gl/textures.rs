@@ -98,7 +98,7 @@ impl Textures {
     }
 }
 
-/// A picture as a texture, its lowest row first, as GL counts.
+/// A picture as a texture, its lowest row first, as GL counts; opaque, for alpha would be multiplied into the picture drawn.
 fn upload(gl: &Rc<Gl>, picture: &Picture, sampling: Sampling) -> Result<Texture> {
     let Size { width, height } = picture.size;
     let largest = gl.info.largest_texture;
@@ -114,7 +114,7 @@ fn upload(gl: &Rc<Gl>, picture: &Picture, sampling: Sampling) -> Result<Texture>
         gl.glow.tex_image_2d(
             glow::TEXTURE_2D,
             0,
-            glow::RGBA8 as i32,
+            glow::RGB8 as i32,
             width as i32,
             height as i32,
             0,

@@ -195,8 +195,13 @@ fn read_file(path: &str, options: &LoadOptions, remarks: &mut Vec<String>) -> Re
     #[cfg(unix)]
     if let Ok(metadata) = fs::metadata(path) {
         use std::os::unix::fs::FileTypeExt;
-        if metadata.file_type().is_char_device() || metadata.file_type().is_block_device() {
+        let kind = metadata.file_type();
+        if kind.is_char_device() || kind.is_block_device() {
             return Err(Error::model(path, "this is a device; name a model file"));
+        }
+        // It may never end, nor ever begin.
+        if kind.is_fifo() || kind.is_socket() {
+            return Err(Error::model(path, "this is a pipe; write it to a file and name that"));
         }
     }
     let bytes = fs::read(path).map_err(|error| Error::model(path, cannot_read(Path::new(path), &error)))?;

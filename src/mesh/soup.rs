@@ -116,15 +116,17 @@ impl Soup {
     /// For each vertex the one it is welded to, by a tolerance relative to the used vertices' bounding-box diagonal; vertices
     /// that nobody uses stay alone and do not count.
     fn welded(&self, used: &[bool], tolerance: f64, name: &str) -> Result<Vec<u32>> {
-        let alone = DVec3::NAN;
-        let points: Vec<DVec3> =
-            self.positions.iter().zip(used).map(|(p, used)| if *used { *p } else { alone }).collect();
-        let (low, high) = bounds(&points);
-        if points.iter().any(|point| point.abs().max_element() > LARGEST_COORDINATE) {
+        let in_use: Vec<DVec3> =
+            self.positions.iter().zip(used).filter(|(_, used)| **used).map(|(point, _)| *point).collect();
+        let (low, high) = bounds(&in_use);
+        if in_use.iter().any(|point| point.abs().max_element() > LARGEST_COORDINATE) {
             let problem = format!("its coordinates reach beyond {LARGEST_COORDINATE:e}; scale it down");
             return Err(Error::model(name, problem));
         }
         let diagonal = if low.cmple(high).all() { (high - low).length() } else { 0.0 };
+        let alone = DVec3::NAN;
+        let points: Vec<DVec3> =
+            self.positions.iter().zip(used).map(|(point, used)| if *used { *point } else { alone }).collect();
         Ok(weld::weld(&points, tolerance * diagonal))
     }
 

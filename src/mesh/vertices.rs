@@ -14,7 +14,7 @@ pub struct VertexArrays {
     pub texture_coordinates: Vec<[f32; 2]>,
     /// Three indices a triangle.
     pub indices: Vec<u32>,
-    /// For each of the mesh's positions one vertex that lies there.
+    /// For each of the mesh's positions one vertex that lies there, or [`NONE`] where no triangle does.
     pub position_vertices: Vec<u32>,
     /// The runs of triangles that share a material, in drawing order.
     pub parts: Vec<Part>,
@@ -47,10 +47,10 @@ impl VertexArrays {
         let mut corners = Vec::new();
         for (position, point) in mesh.positions.iter().enumerate() {
             let [x, y, z] = ((point - centre) / unit).as_vec3().to_array();
-            position_vertices.push(vertices.len() as u32);
             corners.clear();
             corners.extend(incidence.corners(position).iter().map(|corner| (keys.of(*corner as usize), *corner)));
             corners.sort_unstable();
+            position_vertices.push(if corners.is_empty() { NONE } else { vertices.len() as u32 });
             for group in corners.chunk_by(|a, b| a.0 == b.0) {
                 let [normal, texture, _] = group[0].0;
                 let [nx, ny, nz] = mesh.normals[normal as usize].to_array();
@@ -87,7 +87,8 @@ impl VertexArrays {
         if !self.texture_coordinates.is_empty() {
             self.texture_coordinates = order.iter().map(|old| self.texture_coordinates[*old as usize]).collect();
         }
-        self.position_vertices.iter_mut().for_each(|vertex| *vertex = number[*vertex as usize]);
+        let vertices = self.position_vertices.iter_mut().filter(|vertex| **vertex != NONE);
+        vertices.for_each(|vertex| *vertex = number[*vertex as usize]);
     }
 }
 

@@ -18,7 +18,7 @@ pub struct StyleArguments {
 
     /// No lines, tones or paint alone [default: off]
     #[arg(long)]
-    no_borders: bool,
+    pub no_borders: bool,
 
     /// Leave out faces turned away: none, back; faster, and the same picture of closed models [default: none]
     #[arg(long, value_name = "FACES", action = clap::ArgAction::Set, value_parser = parse_cull, default_value = "none", hide_default_value = true)]
@@ -89,15 +89,15 @@ struct InkingArguments {
     #[arg(long, value_name = "CLASSES", value_parser = parse_classes, default_value = "boundary,silhouette,crease", hide_default_value = true)]
     classes: ClassSet,
 
-    /// Colours of the lines: CLASS=COLOUR with commas between, or figure-6 (outer red, inner blue) [default: black]
+    /// Colours of the lines: CLASS=COLOUR with commas between, names or #rrggbb, or figure-6 (outer red, inner blue) [default: black]
     #[arg(long, value_name = "COLOURS")]
     class_colors: Option<ClassColors>,
 
-    /// Width of the lines, pixels [default: 2]
+    /// Width of the lines, pixels, above 0 to 16384 [default: 2]
     #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, allow_hyphen_values = true)]
     line_width: f32,
 
-    /// Smooth and blend the lines, on or off [default: on]
+    /// Smooth and blend the lines, on or off; quads are never smoothed [default: on]
     #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
     smooth: bool,
 
@@ -212,7 +212,7 @@ fn parse_classes(text: &str) -> std::result::Result<ClassSet, String> {
         return Ok(ClassSet::ALL);
     }
     let classes: std::result::Result<Vec<Class>, String> = text.split(',').map(|name| name.trim().parse()).collect();
-    classes.map(|classes| ClassSet::of(&classes))
+    classes.map(|classes| ClassSet::of(&classes)).map_err(|error| format!("{error}, or all"))
 }
 
 fn parse_cull(text: &str) -> std::result::Result<bool, String> {
