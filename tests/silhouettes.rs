@@ -239,6 +239,38 @@ fn the_hierarchy_finds_every_silhouette_from_eyes_close_to_a_surface() {
 }
 
 #[test]
+fn the_papers_rule_takes_edges_between_faces_that_are_both_edge_on_and_the_exact_one_does_not() {
+    // Errata D4: two faces whose normals' components along the view have one sign and this product.
+    let roof = |first: f64, second: f64| {
+        let (left, right) = (first.asin(), second.asin());
+        mesh(
+            vec![
+                DVec3::ZERO,
+                DVec3::Y,
+                DVec3::new(-left.sin(), 0.5, left.cos()),
+                DVec3::new(-right.sin(), 0.5, -right.cos()),
+            ],
+            vec![[0, 1, 2], [1, 0, 3]],
+        )
+    };
+    let found = |mesh: &Mesh, rule| {
+        let edges = EdgeList::new(mesh);
+        Silhouettes::new(mesh, &edges).find(mesh, &edges, Eye::Direction(DVec3::Z), rule).len()
+    };
+    for (first, second, paper) in [(5e-5, 1e-4, 1), (2e-4, 4e-5, 1), (2e-4, 1e-4, 0), (0.5, 1e-9, 1), (0.5, 1e-7, 0)] {
+        let roof = roof(first, -second);
+        let dots = roof.triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|corner| roof.positions[corner as usize]);
+            (b - a).cross(c - a).normalize().z
+        });
+        let product: f64 = dots.product();
+        assert!((product - first * second).abs() < 1e-3 * first * second, "{product:e}");
+        assert_eq!(found(&roof, SilhouetteRule::Paper), paper, "{first} {second}");
+        assert_eq!(found(&roof, SilhouetteRule::Exact), 0, "{first} {second}");
+    }
+}
+
+#[test]
 fn a_thin_blade_seen_along_its_flat_is_silhouette_by_the_hierarchy_too() {
     let blade = mesh(
         vec![DVec3::ZERO, DVec3::Z, DVec3::new(-1.0, 2e-4, 0.5), DVec3::new(-1.0, -2e-4, 0.5)],

@@ -1,7 +1,7 @@
 //! Edges drawn by GL: indices into the objects' own vertices, so that a line lies where the faces beside it do.
 
 use super::Gl;
-use super::execute::Resources;
+use super::execute::{Resources, of_another_scene};
 use super::legacy::{self, MODELVIEW, PROJECTION};
 use super::objects::Buffer;
 use super::quads::{line_quads, point_quads};
@@ -69,20 +69,20 @@ impl Resources {
         }
         let mut first = 0;
         for (run, count) in runs.iter().zip(&edges.counts) {
-            if let Some(object) = scene.objects.get(run.object)
-                && let Some(buffers) = self.find_mesh(&object.mesh)
-                && run.ends.as_flattened().iter().all(|end| (*end as usize) < buffers.vertex_count)
-            {
-                buffers.bind(&self.gl, None);
-                edges.buffer.bind();
-                // SAFETY: the context is current; the run lies within the bound index buffer and its indices, asked above,
-                // within the bound vertex buffer.
-                unsafe {
-                    self.gl.legacy.load_matrix(MODELVIEW, &scene.view_from_object(object, buffers.centre));
-                    self.gl.legacy.color(run.color);
-                    let first_byte = (first * size_of::<u32>()) as i32;
-                    self.gl.glow.draw_elements(mode, *count as i32, glow::UNSIGNED_INT, first_byte);
-                }
+            let object = scene.objects.get(run.object).ok_or_else(of_another_scene)?;
+            let buffers = self.find_mesh(&object.mesh).ok_or_else(of_another_scene)?;
+            if run.ends.as_flattened().iter().any(|end| *end as usize >= buffers.vertex_count) {
+                return Err(of_another_scene());
+            }
+            buffers.bind(&self.gl, None);
+            edges.buffer.bind();
+            // SAFETY: the context is current; the run lies within the bound index buffer and its indices, asked above, within
+            // the bound vertex buffer.
+            unsafe {
+                self.gl.legacy.load_matrix(MODELVIEW, &scene.view_from_object(object, buffers.centre));
+                self.gl.legacy.color(run.color);
+                let first_byte = (first * size_of::<u32>()) as i32;
+                self.gl.glow.draw_elements(mode, *count as i32, glow::UNSIGNED_INT, first_byte);
             }
             first += *count;
         }
@@ -114,7 +114,7 @@ impl Resources {
     /// Quads of the width asked for, for drivers whose lines or points are narrower.
     pub(super) fn draw_edge_quads(&mut self, scene: &Scene, runs: &[EdgeRun], mark: Mark, width_px: f32) -> Result<()> {
         for run in runs {
-            let Some(object) = scene.objects.get(run.object) else { continue };
+            let object = scene.objects.get(run.object).ok_or_else(of_another_scene)?;
             let arrays = scene.arrays(object);
             let clip_from_object = scene.clip_from_view() * scene.view_from_object(object, arrays.centre);
             let in_clip_space = |vertex: &u32| {

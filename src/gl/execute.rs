@@ -265,21 +265,28 @@ impl Resources {
     fn draw_objects(&mut self, scene: &Scene, paint: &Paint, material_unit: Option<u32>) -> Result<()> {
         // SAFETY: the context is current.
         unsafe { self.gl.legacy.load_matrix(PROJECTION, &scene.clip_from_view()) };
-        let mut bound: Option<*const Mesh> = None;
+        let mut bound = None;
         let mut streamed = None;
         for (number, object) in scene.objects.iter().enumerate() {
-            let Some(buffers) = self.find_mesh(&object.mesh) else { continue };
-            if bound != Some(Arc::as_ptr(&object.mesh)) || matches!(paint, Paint::Coordinates(_)) {
+            let buffers = self.find_mesh(&object.mesh).ok_or_else(of_another_scene)?;
+            let list = match paint {
+                Paint::Coordinates(lists) => {
+                    let list = lists.get(number).filter(|list| list.len() == buffers.vertex_count);
+                    Some(list.ok_or_else(of_another_scene)?)
+                }
+                Paint::Materials | Paint::Uniform(_) => None,
+            };
+            // Copies share both mesh and list.
+            let wanted = (Arc::as_ptr(&object.mesh), list.map(Arc::as_ptr));
+            if bound != Some(wanted) {
                 buffers.bind(&self.gl, material_unit);
-                bound = Some(Arc::as_ptr(&object.mesh));
-            }
-            if let Paint::Coordinates(lists) = paint {
-                let list = lists.get(number).filter(|list| list.len() == buffers.vertex_count);
-                let list = list.ok_or_else(|| Error::gl("drawing", "a plan was made for another scene"))?;
-                // Deleted only after the draw that reads it.
-                streamed = Some(Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(list))?);
-                // SAFETY: the context is current; the buffer just bound has coordinates for every vertex.
-                unsafe { self.gl.legacy.texture_coordinate_array(0) };
+                if let Some(list) = list {
+                    // The one before is deleted only now, after the draws that read it.
+                    streamed = Some(Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(list))?);
+                    // SAFETY: the context is current; the buffer just bound has coordinates for every vertex.
+                    unsafe { self.gl.legacy.texture_coordinate_array(0) };
+                }
+                bound = Some(wanted);
             }
             // SAFETY: the context is current.
             unsafe { self.gl.legacy.load_matrix(MODELVIEW, &scene.view_from_object(object, buffers.centre)) };
@@ -382,6 +389,11 @@ impl Resources {
     pub fn live_objects(&self) -> usize {
         self.gl.live_objects.get()
     }
+}
+
+/// A plan's lists are by the scene's objects and vertices.
+pub(super) fn of_another_scene() -> Error {
+    Error::gl("drawing", "a plan was made for another scene")
 }
 
 impl MeshBuffers {
