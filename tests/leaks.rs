@@ -19,7 +19,8 @@ fn a_thousand_frames_leave_memory_and_objects_as_they_were() {
     for backend in [Backend::Egl, Backend::OsMesa] {
         let mut renderer = Renderer::new(backend).unwrap_or_else(|error| panic!("{error}"));
         let mut frames = |count| {
-            for (_, style) in StyleName::ALL {
+            // Sand needs a model with a texture.
+            for (_, style) in StyleName::ALL.into_iter().filter(|(_, style)| *style != StyleName::Sand) {
                 let plan = Style::named(style).plan(&scene, Show::Final).unwrap();
                 renderer.time_frames(&scene, &plan, 0, count).unwrap();
                 renderer.time_passes(&scene, &plan, 2).unwrap();
