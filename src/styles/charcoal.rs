@@ -12,6 +12,7 @@ pub use pictures::{CharcoalPictures, Paper};
 
 use super::Show;
 use crate::error::{Error, Result};
+use crate::mesh::Mesh;
 use crate::plan::{
     Depth, Draw, Geometry, Output, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
 };
@@ -21,15 +22,15 @@ use serde::Serialize;
 /// Settings of `charcoal` and `sand`; the defaults are the text's where it gives them, ours elsewhere (errata V7).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Charcoal {
-    /// Exponent m of the contrast operator, above 0. Default 1.6, ours; more darkens all but the lights.
+    /// Exponent m of the contrast operator, above 0. Default 1.5, ours; more darkens all but the lights.
     pub contrast_exponent: f32,
     /// What the contrast-enhanced light is multiplied by, at least 0. Default 1; 1.2 lightens by a fifth, so that faint
     /// lines vanish: the text's closure.
     pub saturation: f32,
     /// Whether the drawing is multiplied by the light again, which darkens. Default no.
     pub smudge: bool,
-    /// Directions towards the two lights, eye space, of any length above 0. Default ours: above the left shoulder, and
-    /// fainter tones from low on the right; nearer to each other they burn out the lights between them.
+    /// Directions towards the two lights, eye space, of any length above 0. Default ours: from above and from the lower
+    /// left, 122 degrees apart, so that together they nowhere exceed 1; nearer to each other they wrap (errata V3).
     pub lights: [[f32; 3]; 2],
     /// Share of black in the contrast-enhanced texture before its grains are moved, percent. Default 60, the text's; more
     /// is darker.
@@ -64,10 +65,10 @@ pub struct Charcoal {
 impl Default for Charcoal {
     fn default() -> Self {
         Self {
-            contrast_exponent: 1.6,
+            contrast_exponent: 1.5,
             saturation: 1.0,
             smudge: false,
-            lights: [[-0.55, 0.75, 0.55], [0.9, -0.15, 0.35]],
+            lights: [[0.26, 0.9, 0.35], [-0.7, -0.56, 0.45]],
             density_percent: 60.0,
             cet_exponent: 5.5,
             seed: 0,
@@ -110,15 +111,17 @@ impl Charcoal {
 
     /// Paper and drawing mixed with the models' own textures in sepia.
     pub(super) fn sand(&self, scene: &Scene, show: Show) -> Result<Plan> {
-        let has_texture = scene.objects.iter().any(|object| {
-            let mesh = &object.mesh;
+        let has_texture = |mesh: &Mesh| {
             !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.texture.is_some())
-        });
-        if !has_texture {
+        };
+        if let Some(object) = scene.objects.iter().find(|object| !has_texture(&object.mesh)) {
             return Err(Error::setting(
                 "--style sand",
-                "it draws with a model's own texture, and no model of this scene has texture coordinates and a picture for \
-                 them; name one with --skin, or use --style charcoal",
+                format!(
+                    "it draws with a model's own texture, and {} has no texture coordinates with a picture for them; give \
+                     it one with --skin, or use --style charcoal",
+                    object.mesh.name
+                ),
             ));
         }
         self.plan(scene, show, true)

@@ -32,7 +32,7 @@ pub struct CharcoalArguments {
     #[command(flatten)]
     grain: GrainArguments,
 
-    /// Exponent of the light's contrast; more darkens all but the lights [default: 1.6]
+    /// Exponent of the light's contrast; more darkens all but the lights [default: 1.5]
     #[arg(long, value_name = "M", allow_hyphen_values = true)]
     contrast_exponent: Option<f32>,
 
@@ -44,12 +44,12 @@ pub struct CharcoalArguments {
     #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch)]
     smudge: Option<bool>,
 
-    /// Direction towards the first light, seen from the eye [default: -0.55,0.75,0.55]
-    #[arg(long = "light-1", value_name = "X,Y,Z", value_parser = parse_triple, default_value = "-0.55,0.75,0.55", hide_default_value = true, allow_hyphen_values = true)]
+    /// Direction towards the first light, seen from the eye [default: 0.26,0.9,0.35]
+    #[arg(long = "light-1", value_name = "X,Y,Z", value_parser = parse_triple, default_value = "0.26,0.9,0.35", hide_default_value = true, allow_hyphen_values = true)]
     first_light: [f32; 3],
 
-    /// Direction towards the second light [default: 0.9,-0.15,0.35]
-    #[arg(long = "light-2", value_name = "X,Y,Z", value_parser = parse_triple, default_value = "0.9,-0.15,0.35", hide_default_value = true, allow_hyphen_values = true)]
+    /// Direction towards the second light [default: -0.7,-0.56,0.45]
+    #[arg(long = "light-2", value_name = "X,Y,Z", value_parser = parse_triple, default_value = "-0.7,-0.56,0.45", hide_default_value = true, allow_hyphen_values = true)]
     second_light: [f32; 3],
 
     /// Picture of the paper, stretched over the whole drawing in place of --background [default: made from the seed]

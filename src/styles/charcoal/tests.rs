@@ -1,5 +1,4 @@
 use super::*;
-use crate::mesh::Mesh;
 use crate::scene::SceneSettings;
 use std::sync::Arc;
 

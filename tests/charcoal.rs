@@ -1,0 +1,481 @@
+//! The styles charcoal and sand, drawn: against an independent twin on the CPU, and in every setting's direction.
+
+use crate::support::{BACKENDS, failure_folder, renderer, scene, scene_with, side_by_side};
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
+use tinta::picture::{Difference, write_rgba_png};
+use tinta::styles::{CetCoordinate, CetFilter, Charcoal, ContrastOperator, Improvements, Noise, Paper, Recipe};
+use tinta::textures::{ContrastTexture, NoiseTexture, PaperTexture};
+use tinta::{
+    Background, CameraSettings, Color, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Show, Size, Style,
+    load,
+};
+
+const EQUAL: Difference = Difference { largest: 0, pixels: 0 };
+
+fn draw(renderer: &mut Renderer, scene: &Scene, charcoal: &Charcoal, show: Show) -> Picture {
+    renderer.draw(scene, &Style::Charcoal(charcoal.clone()).plan(scene, show).unwrap()).unwrap()
+}
+
+/// What a ray through the middle of a pixel meets first: the triangle and the corners' shares in the point.
+fn hit(mesh: &Mesh, origin: DVec3, direction: DVec3) -> Option<(usize, DVec3)> {
+    let mut nearest: Option<(f64, usize, DVec3)> = None;
+    for (number, triangle) in mesh.triangles.iter().enumerate() {
+        let [a, b, c] = triangle.map(|position| mesh.positions[position as usize]);
+        let (first, second) = (b - a, c - a);
+        let across = direction.cross(second);
+        let determinant = first.dot(across);
+        if determinant.abs() < 1e-14 {
+            continue;
+        }
+        let from_corner = origin - a;
+        let share_b = from_corner.dot(across) / determinant;
+        let share_c = direction.dot(from_corner.cross(first)) / determinant;
+        let distance = second.dot(from_corner.cross(first)) / determinant;
+        let is_inside = share_b >= 0.0 && share_c >= 0.0 && share_b + share_c <= 1.0;
+        if is_inside && distance > 0.0 && nearest.is_none_or(|(known, ..)| distance < known) {
+            nearest = Some((distance, number, DVec3::new(1.0 - share_b - share_c, share_b, share_c)));
+        }
+    }
+    nearest.map(|(_, number, shares)| (number, shares))
+}
+
+/// GL_LINEAR with GL_REPEAT, in [0, 1]; t counts from the lowest row.
+fn sample(picture: &Picture, place: DVec2) -> [f64; 3] {
+    let (width, height) = (i64::from(picture.size.width), i64::from(picture.size.height));
+    let (x, y) = (place.x * width as f64 - 0.5, place.y * height as f64 - 0.5);
+    let (left, low) = (x.floor(), y.floor());
+    let (right_share, high_share) = (x - left, y - low);
+    let texel = |dx: i64, dy: i64| {
+        let column = (left as i64 + dx).rem_euclid(width);
+        let row = (low as i64 + dy).rem_euclid(height);
+        picture.pixel(column, height - 1 - row)
+    };
+    [0, 1, 2].map(|channel| {
+        let value = |dx, dy| f64::from(texel(dx, dy)[channel]) / 255.0;
+        let lower = value(0, 0) * (1.0 - right_share) + value(1, 0) * right_share;
+        let upper = value(0, 1) * (1.0 - right_share) + value(1, 1) * right_share;
+        lower * (1.0 - high_share) + upper * high_share
+    })
+}
+
+/// The textures, made again from the settings.
+struct Textures {
+    noise: Picture,
+    cet: Picture,
+    paper: Picture,
+}
+
+impl Textures {
+    fn of(charcoal: &Charcoal) -> Self {
+        let (size, seed) = (charcoal.texture_size, charcoal.seed);
+        let (density_percent, exponent) = (charcoal.density_percent, charcoal.cet_exponent);
+        let cet = ContrastTexture { size, seed, density_percent, exponent, ..ContrastTexture::default() };
+        Self {
+            noise: NoiseTexture { size, seed }.picture().unwrap(),
+            cet: cet.picture().unwrap(),
+            paper: PaperTexture { size, seed }.picture().unwrap(),
+        }
+    }
+}
+
+/// The text's formula for a pixel of the model, in [0, 1]: the light, the CEM and the drawing.
+struct Tones {
+    light: f64,
+    cem: f64,
+    drawing: [f64; 3],
+}
+
+/// `normal_view` of any length, `place` in the picture from 0 to 1.
+fn tones(charcoal: &Charcoal, textures: &Textures, normal_view: DVec3, place: DVec2) -> Tones {
+    let normal = normal_view.normalize();
+    let light: f64 = charcoal
+        .lights
+        .iter()
+        .map(|light| DVec3::from_array(light.map(f64::from)).normalize().dot(normal).max(0.0))
+        .sum();
+    let original = light.powf(f64::from(charcoal.contrast_exponent));
+    let mut cem = original * f64::from(charcoal.saturation);
+    if charcoal.improve.clamp {
+        cem = cem.clamp(0.0, 1.0);
+    }
+    let mut row = if charcoal.cet_coordinate == CetCoordinate::Saturated { cem } else { original };
+    if charcoal.improve.wrap {
+        let half_texel = 0.5 / f64::from(charcoal.texture_size.height);
+        row = row.clamp(half_texel, 1.0 - half_texel);
+    }
+    let random = sample(&textures.noise, place).iter().sum::<f64>() / 3.0;
+    let grain = sample(&textures.cet, DVec2::new(random, row));
+    let paper = sample(&textures.paper, place);
+    let smudge = if charcoal.smudge { cem } else { 1.0 };
+    let drawing = [0, 1, 2].map(|channel| grain[channel] * cem * smudge - (1.0 - paper[channel]));
+    Tones { light, cem, drawing }
+}
+
+/// Normals in eye space and triangles met, for the middle of every pixel.
+fn cast(scene: &Scene) -> Vec<Option<(usize, DVec3)>> {
+    let Size { width, height } = scene.size;
+    let mesh = &scene.objects[0].mesh;
+    let world_from_clip = (scene.camera.clip_from_view(scene.size.aspect()) * scene.camera.view_from_world()).inverse();
+    let view = scene.camera.view_from_world();
+    let mut met = Vec::new();
+    for y in 0..height {
+        for x in 0..width {
+            let ndc = |z| {
+                let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+                DVec3::new(x / f64::from(width) * 2.0 - 1.0, 1.0 - y / f64::from(height) * 2.0, z)
+            };
+            let (near, far) = (world_from_clip.project_point3(ndc(-1.0)), world_from_clip.project_point3(ndc(1.0)));
+            met.push(hit(mesh, near, far - near).map(|(triangle, shares)| {
+                let [a, b, c] = mesh.triangle_normals[triangle].map(|normal| mesh.normals[normal as usize].as_dvec3());
+                (triangle, view.transform_vector3(a * shares.x + b * shares.y + c * shares.z))
+            }));
+        }
+    }
+    met
+}
+
+/// Mean and largest difference to the twin, steps of 255, over pixels of the model away from silhouettes.
+fn against_the_twin(
+    scene: &Scene,
+    met: &[Option<(usize, DVec3)>],
+    actual: &Picture,
+    expected: impl Fn(DVec3, DVec2) -> [f64; 3],
+) -> (f64, f64, Picture, usize) {
+    let (width, height) = (scene.size.width as usize, scene.size.height as usize);
+    let mut twin = actual.clone();
+    let (mut sum, mut largest, mut count) = (0.0, 0.0f64, 0usize);
+    for y in 1..height - 1 {
+        for x in 1..width - 1 {
+            let Some((_, normal)) = met[y * width + x] else { continue };
+            // Beside a silhouette or a crease GL may have chosen another triangle for the pixel.
+            let is_smooth = |(dx, dy): (usize, usize)| {
+                met[(y + dy - 1) * width + x + dx - 1]
+                    .is_some_and(|(_, other)| other.normalize().dot(normal.normalize()) > 0.7)
+            };
+            let block = (0..3).flat_map(|dx| (0..3).map(move |dy| (dx, dy)));
+            if !block.into_iter().all(is_smooth) {
+                continue;
+            }
+            let place = DVec2::new((x as f64 + 0.5) / width as f64, 1.0 - (y as f64 + 0.5) / height as f64);
+            let pixel = actual.pixel(x as i64, y as i64);
+            for (channel, value) in expected(normal, place).into_iter().enumerate() {
+                let value = value.clamp(0.0, 1.0) * 255.0;
+                twin.pixels[(y * width + x) * 4 + channel] = value.round() as u8;
+                let difference = (value - f64::from(pixel[channel])).abs();
+                (sum, largest, count) = (sum + difference, largest.max(difference), count + 1);
+            }
+        }
+    }
+    (sum / count as f64, largest, twin, count / 3)
+}
+
+/// A ball in parallel projection, where V4's coordinate and the twin's are the same.
+fn ball() -> Scene {
+    let mesh = crate::edges::icosphere(3);
+    let mut text = String::new();
+    mesh.positions.iter().for_each(|p| text.push_str(&format!("v {} {} {}\n", p.x, p.y, p.z)));
+    mesh.triangles.iter().for_each(|[a, b, c]| text.push_str(&format!("f {} {} {}\n", a + 1, b + 1, c + 1)));
+    let file = tempfile::Builder::new().suffix(".obj").tempfile().unwrap();
+    std::fs::write(file.path(), text).unwrap();
+    let mesh = load(file.path().to_str().unwrap(), &LoadOptions::default()).unwrap().mesh;
+    let camera = CameraSettings { parallel: true, ..CameraSettings::default() };
+    let settings = SceneSettings { camera, size: Size { width: 120, height: 120 }, ..SceneSettings::default() };
+    Scene::new(vec![Arc::new(mesh)], &settings).unwrap()
+}
+
+/// Textures of the picture's size, as 512 x 512 is by default: noise and paper are then read in the middle of their texels,
+/// where the filter's precision, which GL leaves open (Mesa's software renderer has 8 bits), does not count.
+fn variants() -> Vec<(&'static str, Charcoal)> {
+    let base = || Charcoal { texture_size: Size { width: 120, height: 120 }, ..Charcoal::default() };
+    let bright = [[-0.55, 0.75, 0.55], [0.9, -0.15, 0.35]];
+    vec![
+        ("published", base()),
+        ("sheet-3", Charcoal { seed: 3, ..base() }),
+        ("darker", Charcoal { texture_size: base().texture_size, ..Charcoal::recipe(Recipe::Darker) }),
+        ("closure", Charcoal { texture_size: base().texture_size, ..Charcoal::recipe(Recipe::Closure) }),
+        ("figure-8", Charcoal { cet_coordinate: CetCoordinate::Saturated, ..base() }),
+        ("bright", Charcoal { lights: bright, ..base() }),
+        ("bright-improved", Charcoal { lights: bright, saturation: 1.5, improve: Improvements::ALL, ..base() }),
+    ]
+}
+
+#[test]
+fn the_twin_notices_another_exponent_and_the_paper_that_swims() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let (scene, charcoal) = (ball(), variants().remove(0).1);
+    let (met, textures) = (cast(&scene), Textures::of(&charcoal));
+    let other = draw(&mut renderer, &scene, &Charcoal { contrast_exponent: 1.6, ..charcoal.clone() }, Show::Final);
+    let expected = |normal, place| tones(&charcoal, &textures, normal, place).drawing;
+    assert!(against_the_twin(&scene, &met, &other, expected).0 > 2.0);
+    // Errata V4: in perspective the coordinate of the vertex program is off within each large triangle.
+    let mut settings = SceneSettings { size: Size { width: 120, height: 120 }, ..SceneSettings::default() };
+    (settings.camera.fov_y_degrees, settings.camera.view) = (70.0, "20,60".parse().unwrap());
+    let box_scene = scene_with("builtin:open-box", settings);
+    let met = cast(&box_scene);
+    let mut mean = |paper_coordinate| {
+        let improve = Improvements { paper_coordinate, ..Improvements::default() };
+        let picture = draw(&mut renderer, &box_scene, &Charcoal { improve, ..charcoal.clone() }, Show::Final);
+        against_the_twin(&box_scene, &met, &picture, expected).0
+    };
+    let (published, improved) = (mean(false), mean(true));
+    assert!(published > 2.0 && improved < 0.5, "{published} {improved}");
+}
+
+#[test]
+fn the_drawing_is_the_texts_formula() {
+    let scene = ball();
+    let met = cast(&scene);
+    for backend in BACKENDS {
+        let mut renderer = renderer(backend);
+        for (name, charcoal) in variants() {
+            let textures = Textures::of(&charcoal);
+            let check = |show: Show, actual: &Picture, value: &dyn Fn(Tones) -> [f64; 3]| {
+                let expected = |normal, place| value(tones(&charcoal, &textures, normal, place));
+                let (mean, largest, twin, count) = against_the_twin(&scene, &met, actual, expected);
+                assert!(count > 5000, "{count} pixels were compared");
+                if mean >= 0.5 || largest >= 3.0 {
+                    let path = failure_folder().join(format!("charcoal-{name}-{show:?}-{backend:?}.png"));
+                    write_rgba_png(&side_by_side(&twin, actual), &path).unwrap();
+                    panic!(
+                        "{name} {show:?} {backend:?}: mean {mean}, largest {largest} of 255, allowed 0.5 and 3; \
+                         expected | difference | actual: {}",
+                        path.display()
+                    );
+                }
+            };
+            let mut picture = |show| draw(&mut renderer, &scene, &charcoal, show);
+            check(Show::Final, &picture(Show::Final), &|tones| tones.drawing);
+            check(Show::Diffuse, &picture(Show::Diffuse), &|tones| [tones.light; 3]);
+            check(Show::Cem, &picture(Show::Cem), &|tones| [tones.cem; 3]);
+        }
+    }
+}
+
+/// Red, green and blue of all pixels.
+fn channels(picture: &Picture) -> impl Iterator<Item = u8> + '_ {
+    picture.pixels.chunks_exact(4).flat_map(|pixel| pixel[..3].iter().copied())
+}
+
+fn mean(picture: &Picture) -> f64 {
+    channels(picture).map(f64::from).sum::<f64>() / channels(picture).count() as f64
+}
+
+#[test]
+fn smudging_never_lightens_saturation_never_darkens_and_density_darkens_on_average() {
+    for backend in BACKENDS {
+        let mut renderer = renderer(backend);
+        let scene = scene("builtin:bust", 200, 200);
+        let mut picture = |charcoal: Charcoal| draw(&mut renderer, &scene, &charcoal, Show::Final);
+        let base = Charcoal::default;
+        let plain = picture(base());
+        let smudged = picture(Charcoal { smudge: true, ..base() });
+        assert!(channels(&plain).zip(channels(&smudged)).all(|(plain, smudged)| smudged <= plain));
+        assert!(mean(&smudged) < mean(&plain) - 1.0);
+        let mut before = plain;
+        for saturation in [1.1, 1.5, 3.0] {
+            let after = picture(Charcoal { saturation, ..base() });
+            assert!(channels(&before).zip(channels(&after)).all(|(before, after)| before <= after), "{saturation}");
+            before = after;
+        }
+        let means = [0.0, 20.0, 40.0, 60.0, 80.0, 100.0]
+            .map(|density_percent| mean(&picture(Charcoal { density_percent, ..base() })));
+        assert!(means.is_sorted_by(|a, b| a > b), "{means:?}");
+        let [darker, closure] = [Recipe::Darker, Recipe::Closure].map(|r| mean(&picture(Charcoal::recipe(r))));
+        assert!(darker < means[3] && means[3] < closure, "{darker} {closure}");
+    }
+}
+
+#[test]
+fn the_listing_and_its_parts_draw_the_same_picture() {
+    // Luminance is sand's, so that charcoal with it runs the parts and none of them is an improved one.
+    let improve = Improvements { luminance: true, ..Improvements::default() };
+    for backend in BACKENDS {
+        let mut renderer = renderer(backend);
+        let scene = scene("builtin:bust", 256, 256);
+        for smudge in [false, true] {
+            let listing = Charcoal { smudge, ..Charcoal::default() };
+            let parts = Charcoal { improve, ..listing.clone() };
+            let plans = [&listing, &parts].map(|c| Style::Charcoal(c.clone()).plan(&scene, Show::Final).unwrap());
+            assert_ne!(plans[0].to_string(), plans[1].to_string(), "they run different shaders");
+            let [listing, parts] = plans.map(|plan| renderer.draw(&scene, &plan).unwrap());
+            assert!(listing.difference(&parts).unwrap().largest <= 1, "{backend:?}");
+        }
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_on_both_backends_and_another_seed_another_drawing() {
+    let [mut egl, mut osmesa] = BACKENDS.map(renderer);
+    let scene = scene("builtin:gear", 150, 100);
+    for (name, charcoal) in variants() {
+        let again = Charcoal { pictures: Default::default(), ..charcoal.clone() };
+        let pictures = [draw(&mut egl, &scene, &charcoal, Show::Final), draw(&mut osmesa, &scene, &again, Show::Final)];
+        assert_eq!(pictures[0].difference(&pictures[1]), Some(EQUAL), "{name}");
+        let other = draw(&mut egl, &scene, &Charcoal { seed: 77, ..charcoal }, Show::Final);
+        assert!(pictures[0].difference(&other).unwrap().pixels > 5000, "{name}");
+    }
+}
+
+#[test]
+fn each_choice_changes_the_drawing_and_every_operator_is_its_formula() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let scene = scene("builtin:bust", 160, 160);
+    let base = Charcoal::default;
+    let plain = draw(&mut renderer, &scene, &base(), Show::Final);
+    for other in [
+        Charcoal { cet_filter: CetFilter::Mipmap, ..base() },
+        Charcoal { noise: Noise::Object, ..base() },
+        Charcoal { operator: ContrastOperator::Sigmoid, ..base() },
+        Charcoal { cet_exponent: 1.3, ..base() },
+        Charcoal { lights: [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], ..base() },
+    ] {
+        let picture = draw(&mut renderer, &scene, &other, Show::Final);
+        assert!(picture.difference(&plain).unwrap().pixels > 1000, "{other:?}");
+    }
+    let light = draw(&mut renderer, &scene, &base(), Show::Diffuse);
+    let power = f64::from(base().contrast_exponent);
+    let formulas: [(ContrastOperator, &dyn Fn(f64) -> f64); 3] = [
+        (ContrastOperator::Power, &|tone| tone.powf(power)),
+        (ContrastOperator::Sigmoid, &|tone| tone.powf(power) / (tone.powf(power) + (1.0 - tone).powf(power))),
+        (ContrastOperator::Bias, &|tone| tone / (tone + power * (1.0 - tone))),
+    ];
+    for (operator, formula) in formulas {
+        let cem = draw(&mut renderer, &scene, &Charcoal { operator, ..base() }, Show::Cem);
+        for (light, cem) in channels(&light).zip(channels(&cem)) {
+            let expected = formula(f64::from(light) / 255.0) * 255.0;
+            assert!((expected - f64::from(cem)).abs() <= 1.6, "{operator:?} {light} {cem} {expected}");
+        }
+    }
+}
+
+#[test]
+fn mipmaps_blur_the_grain_away() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let scene = ball();
+    let mut roughness = |cet_filter| {
+        let picture = draw(&mut renderer, &scene, &Charcoal { cet_filter, ..Charcoal::default() }, Show::Cet);
+        let row = |y: i64| (45..75).map(move |x| (x, y));
+        let step = |(x, y)| f64::from(picture.pixel(x, y)[0].abs_diff(picture.pixel(x + 1, y)[0]));
+        (45..75).flat_map(row).map(step).sum::<f64>()
+    };
+    let (linear, mipmap) = (roughness(CetFilter::Linear), roughness(CetFilter::Mipmap));
+    assert!(mipmap < linear * 0.5, "{mipmap} {linear}");
+}
+
+#[test]
+fn noise_on_the_object_moves_with_it_and_noise_on_the_screen_does_not() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let still = ball();
+    let mut panned = still.clone();
+    let pixel = match still.camera.projection {
+        tinta::camera::Projection::Parallel { height } => height / f64::from(still.size.height),
+        _ => panic!("the ball is seen in parallel projection"),
+    };
+    let right = still.camera.view_from_world().inverse().transform_vector3(glam::DVec3::X);
+    // The camera goes left by seven pixels, so the ball goes right by as many.
+    panned.camera.eye -= right * pixel * 7.0;
+    panned.camera.target -= right * pixel * 7.0;
+    let mut different = |noise| {
+        let charcoal = Charcoal { noise, ..Charcoal::default() };
+        let [a, b] = [&still, &panned].map(|scene| draw(&mut renderer, scene, &charcoal, Show::Cet));
+        let pixels = (40..80).flat_map(|y| (40..80).map(move |x| (x, y)));
+        pixels.filter(|&(x, y)| a.pixel(x, y)[0].abs_diff(b.pixel(x + 7, y)[0]) > 24).count()
+    };
+    let (object, screen) = (different(Noise::Object), different(Noise::Screen));
+    assert!(object < 80 && screen > 400, "{object} {screen} of 1600 pixels differ");
+}
+
+#[test]
+fn specks_in_the_lights_come_from_wrapping_and_go_with_it() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let scene = ball();
+    let lights = [[0.0, 0.5, 1.0], [0.3, 0.0, 1.0]];
+    let mut dark = |improve| {
+        let charcoal = Charcoal { lights, improve, ..Charcoal::default() };
+        let (cet, light) = (draw(&mut renderer, &scene, &charcoal, Show::Cet), Show::Diffuse);
+        let light = draw(&mut renderer, &scene, &charcoal, light);
+        let pairs = cet.pixels.chunks_exact(4).zip(light.pixels.chunks_exact(4));
+        pairs.filter(|(cet, light)| light[0] == 255 && cet[0] < 64).count()
+    };
+    let (published, improved) = (dark("none".parse().unwrap()), dark("wrap".parse().unwrap()));
+    assert!(published > 500 && improved * 10 < published, "{published} {improved}");
+}
+
+#[test]
+fn paper_covers_the_background_unless_it_is_transparent_and_may_be_a_file() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let size = Size { width: 64, height: 48 };
+    let settings = SceneSettings { size, background: Background::Color(Color([1.0, 0.0, 0.0])), ..Default::default() };
+    let charcoal = Charcoal { texture_size: size, ..Charcoal::default() };
+    let paper = draw(&mut renderer, &scene_with("builtin:gear", settings.clone()), &charcoal, Show::Paper);
+    let sheet = PaperTexture { size, seed: 0 }.picture().unwrap();
+    assert!(paper.difference(&sheet).unwrap().largest <= 1);
+    let transparent = SceneSettings { background: Background::Transparent, ..settings.clone() };
+    let picture = draw(&mut renderer, &scene_with("builtin:gear", transparent), &charcoal, Show::Final);
+    assert_eq!(picture.pixel(0, 0), [0; 4]);
+    assert!(picture.pixels.chunks_exact(4).all(|pixel| [0, 255].contains(&pixel[3])));
+    let file = tempfile::Builder::new().suffix(".ppm").tempfile().unwrap();
+    std::fs::write(file.path(), b"P6 1 1 255\n\xc0\x80\x40").unwrap();
+    let charcoal = Charcoal { paper: Paper::read(file.path()).unwrap(), ..charcoal };
+    let picture = draw(&mut renderer, &scene_with("builtin:gear", settings), &charcoal, Show::Final);
+    assert_eq!(picture.pixel(0, 0), [0xc0, 0x80, 0x40, 255]);
+    let brightest = picture.pixels.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]).max().unwrap();
+    assert_eq!(brightest, [0xc0, 0x80, 0x40], "nothing is lighter than the paper without saturation");
+}
+
+/// A square in the plane z = 0 with a picture of one colour on it, seen straight on.
+fn textured_square(ppm_color: [u8; 3]) -> Scene {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("one.ppm"), [b"P6 1 1 255\n".as_slice(), &ppm_color].concat()).unwrap();
+    let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    std::fs::write(at("square.obj"), obj).unwrap();
+    let options = LoadOptions { skin: Some(at("one.ppm")), ..LoadOptions::default() };
+    let mesh = load(at("square.obj").to_str().unwrap(), &options).unwrap().mesh;
+    let mut settings = SceneSettings { size: Size { width: 100, height: 100 }, ..SceneSettings::default() };
+    settings.camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..settings.camera };
+    let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
+    // Read while the file is there.
+    scene.material_pictures(&scene.objects[0]).unwrap();
+    scene
+}
+
+#[test]
+fn sand_is_the_drawing_mixed_with_sepia_by_the_printed_weights_or_rec_709s() {
+    let scene = textured_square([200, 100, 50]);
+    let color = [200.0, 100.0, 50.0].map(|value: f64| value / 255.0);
+    let weighted = |weights: [f64; 3], alpha: f64| weights.iter().zip(color).map(|(w, c)| w * c).sum::<f64>() + alpha;
+    let cases = [
+        (Improvements::default(), weighted([0.1125, 0.0154, 0.0721], 1.0)),
+        ("luminance".parse().unwrap(), weighted([0.2125, 0.7154, 0.0721], 0.0)),
+    ];
+    for backend in BACKENDS {
+        let mut renderer = renderer(backend);
+        for (improve, luminance) in cases {
+            let charcoal = Charcoal { improve, ..Charcoal::default() };
+            let drawing = draw(&mut renderer, &scene, &charcoal, Show::Final);
+            let plan = Style::Sand(charcoal).plan(&scene, Show::Final).unwrap();
+            let sand = renderer.draw(&scene, &plan).unwrap();
+            let sepia = [1.2, 1.0, 0.8].map(|factor| luminance * factor);
+            for (x, y) in [(50, 50), (20, 70), (70, 30), (33, 44)] {
+                for (channel, sepia) in sepia.iter().enumerate() {
+                    let expected = f64::from(drawing.pixel(x, y)[channel]) * 0.4 + sepia * 255.0 * 0.6;
+                    let actual = f64::from(sand.pixel(x, y)[channel]);
+                    // The drawing was rounded before it was mixed here.
+                    assert!((expected.min(255.0) - actual).abs() <= 1.0, "{backend:?} {expected} {actual}");
+                }
+            }
+            assert_eq!(sand.pixel(0, 0), drawing.pixel(0, 0), "the paper is the same");
+        }
+    }
+}
+
+#[test]
+fn sand_without_texture_coordinates_or_a_picture_is_refused_with_that_sentence() {
+    let refused = Style::Sand(Charcoal::default()).plan(&scene("builtin:gear", 9, 9), Show::Final).unwrap_err();
+    let refused = refused.to_string();
+    for words in ["--style sand", "builtin:gear has no texture coordinates", "--skin", "--style charcoal"] {
+        assert!(refused.contains(words), "{refused}");
+    }
+}
