@@ -100,7 +100,7 @@ impl Charcoal {
         match recipe {
             Recipe::Published => base,
             Recipe::Darker => Self { density_percent: 85.0, contrast_exponent: 1.2, smudge: true, ..base },
-            Recipe::Closure => Self { density_percent: 35.0, contrast_exponent: 2.0, saturation: 1.8, ..base },
+            Recipe::Closure => Self { density_percent: 35.0, contrast_exponent: 2.0, saturation: 1.4, ..base },
         }
     }
 
