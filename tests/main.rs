@@ -2,6 +2,7 @@
 
 mod animation;
 mod charcoal;
+mod charcoal_twin;
 mod cli;
 mod docs;
 mod edges;

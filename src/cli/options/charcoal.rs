@@ -25,7 +25,7 @@ pub struct GrainArguments {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Styles charcoal and sand (the defaults are the text's where it gives them)")]
 pub struct CharcoalArguments {
-    /// Recipe: published, darker (--density 85 --contrast-exponent 1.2 --smudge on), closure (--density 35 --contrast-exponent 2 --saturation 1.4); options given beside it count more [default: published]
+    /// Recipe: published, darker (density 85, contrast exponent 1.2, smudged), closure (density 35, contrast exponent 2, saturation 1.4); options given beside it count more [default: published]
     #[arg(long, value_name = "RECIPE", default_value = "published", hide_default_value = true)]
     charcoal: Recipe,
 
