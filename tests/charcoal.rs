@@ -1,6 +1,7 @@
 //! The styles charcoal and sand, drawn: in every setting's direction, by closed forms, refused where they cannot draw.
 
 use crate::charcoal_twin::{ball, draw, variants};
+use crate::cli::{Folder, refused_in_one_line, tinta};
 use crate::support::{BACKENDS, renderer, scene, scene_with};
 use std::sync::Arc;
 use tinta::picture::Difference;
@@ -236,4 +237,41 @@ fn sand_without_texture_coordinates_or_a_picture_is_refused_with_that_sentence()
     for words in ["--style sand", "builtin:gear has no texture coordinates", "--skin", "--style charcoal"] {
         assert!(refused.contains(words), "{refused}");
     }
+}
+
+#[test]
+fn recipes_are_overruled_by_options_and_nonsense_is_refused_by_name() {
+    let folder = Folder::new();
+    let out = folder.path("out.png");
+    let line = |options: &[&str]| {
+        let line = ["render", "builtin:gear", "-o", &out, "--size", "32", "--style", "charcoal"];
+        [&line[..], options].concat().iter().map(|word| (*word).to_owned()).collect::<Vec<String>>()
+    };
+    let settings = |options: &[&str]| {
+        let line = line(options);
+        let output = tinta(&line.iter().map(String::as_str).collect::<Vec<_>>());
+        let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        record["style"].clone()
+    };
+    let closure = settings(&["--json", "--charcoal", "closure", "--density", "50", "--improve", "clamp,wrap"]);
+    assert_eq!((closure["name"].as_str(), closure["density_percent"].as_f64()), (Some("charcoal"), Some(50.0)));
+    assert_eq!((closure["saturation"].as_f64(), closure["smudge"].as_bool()), (Some(1.4), Some(false)));
+    assert_eq!((&closure["improve"]["wrap"], &closure["improve"]["luminance"]), (&true.into(), &false.into()));
+    let darker = settings(&["--json", "--charcoal", "darker", "--smudge", "off"]);
+    assert_eq!((darker["density_percent"].as_f64(), darker["smudge"].as_bool()), (Some(85.0), Some(false)));
+    let refused = |options: &[&str], words: &[&str]| {
+        let line = line(options);
+        refused_in_one_line(&line.iter().map(String::as_str).collect::<Vec<_>>(), words);
+    };
+    refused(&["--improve", "clamps"], &["--improve", "paper-coordinate"]);
+    refused(&["--charcoal", "lighter"], &["--charcoal", "darker", "closure"]);
+    refused(&["--light-1", "0,0,0"], &["--light-1"]);
+    refused(&["--texture-size", "5000"], &["--texture-size 5000x5000", "4096"]);
+    refused(&["--paper", "no/such.png"], &["no/such.png"]);
+    refused(&["--show", "tones"], &["--show", "diffuse"]);
+    for style in ["phong", "three-pass", "two-pass", "inking", "dietrich"] {
+        let line = ["render", "builtin:gear", "-o", &out, "--style", style, "--show", "cet"];
+        refused_in_one_line(&line, &["--show"]);
+    }
+    refused_in_one_line(&["render", "builtin:gear", "-o", &out, "--style", "sand"], &["--style sand", "--skin"]);
 }
