@@ -71,8 +71,16 @@ fn main() {
         .into_iter()
         .map(|(mesh, repeats)| edge_tables(&settings, mesh, repeats, folder.path()))
         .collect();
+    let listing_ms = listing_ms(&mesh);
+    println!("\nthe text's linear search, once: {listing_ms:.0} ms");
     let frames = frame_table(&settings, &mesh, folder.path());
-    write_record("edges", &json!({ "model": settings.model, "edges": tables, "frames": frames }));
+    let record = json!({
+        "model": settings.model,
+        "edges": tables,
+        "listing_ms": listing_ms,
+        "frames": frames,
+    });
+    write_record("edges", &record);
 }
 
 /// Every triangle cut into four at its sides' middles, twice.
@@ -95,6 +103,24 @@ fn cut_in_sixteen(mesh: &Mesh) -> Mesh {
         triangles = finer;
     }
     Mesh { positions, triangles, ..Mesh::triangle() }
+}
+
+/// The listing's edge list, every edge looked for among all before it (errata D1), milliseconds.
+fn listing_ms(mesh: &Mesh) -> f64 {
+    let start = Instant::now();
+    let mut list: Vec<([u32; 2], u32)> = Vec::with_capacity(mesh.triangles.len() * 3);
+    for [a, b, c] in &mesh.triangles {
+        for (from, to) in [(a, b), (a, c), (b, c)] {
+            let edge = [*from.min(to), *from.max(to)];
+            match list.iter_mut().find(|(known, _)| *known == edge) {
+                Some((_, boundary)) => *boundary += 1,
+                None => list.push((edge, 1)),
+            }
+        }
+    }
+    let time = milliseconds_since(start);
+    assert_eq!(list.len(), EdgeList::new(mesh).len());
+    time
 }
 
 /// The mesh as the peers read it.

@@ -1,10 +1,10 @@
-//! tinta: historical non-photorealistic pipelines as their authors published them, on OpenGL 2.1; so far the cartoon of
-//! Evangelista et al. 2005.
+//! tinta: historical non-photorealistic pipelines as their authors published them, on OpenGL 2.1: the cartoon of
+//! Evangelista et al. 2005, ink and paint of Dachsbacher.
 //!
 //! Data flows one way, and every arrow is a plain value:
 //!
 //! ```text
-//! model file ─► Mesh ─► Scene ─► Style::plan ─► Plan ─► Renderer (gl::execute) ─► Picture
+//! model file ─► Mesh ─► EdgeList ─► Scene ─► Style::plan ─► Plan ─► Renderer (gl::execute) ─► Picture
 //! ```
 //!
 //! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`].

@@ -239,6 +239,8 @@ pub enum Sampling {
 pub enum Depth {
     /// Drawn where nearer than what is there (GL_LESS), and written.
     TestAndWrite,
+    /// Drawn where nearer than what is there (GL_LESS), not written.
+    TestOnly,
     /// Neither tested nor written.
     Ignore,
 }
@@ -346,8 +348,10 @@ impl fmt::Display for Draw {
         for (sampler, texture) in &self.textures {
             write!(out, ", {sampler} = {texture:?}")?;
         }
-        if self.depth == Depth::Ignore {
-            write!(out, ", no depth test")?;
+        match self.depth {
+            Depth::TestAndWrite => {}
+            Depth::TestOnly => write!(out, ", depth not written")?,
+            Depth::Ignore => write!(out, ", no depth test")?,
         }
         if self.cull_back_faces {
             write!(out, ", back faces left out")?;

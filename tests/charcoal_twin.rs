@@ -169,7 +169,7 @@ fn against_the_twin(
 
 /// A ball in parallel projection, where V4's coordinate and the twin's are the same.
 pub fn ball() -> Scene {
-    let mesh = crate::edges::icosphere(3);
+    let mesh = crate::shapes::icosphere(3);
     let mut text = String::new();
     mesh.positions.iter().for_each(|p| text.push_str(&format!("v {} {} {}\n", p.x, p.y, p.z)));
     mesh.triangles.iter().for_each(|[a, b, c]| text.push_str(&format!("f {} {} {}\n", a + 1, b + 1, c + 1)));

@@ -1,135 +1,22 @@
-//! The edge list: exact counts on solids everybody can count, agreement with slow and obvious twins and with other
-//! libraries, silhouettes against rational arithmetic.
+//! The edge list: exact counts on solids everybody can count, agreement with a slow and obvious twin and with other
+//! libraries.
 
+use crate::shapes::{Random, cuboid, joined, mesh, random_eye, random_mesh};
+use crate::silhouettes::loops;
 use crate::support::{public_models, skip};
 use glam::DVec3;
-use num_rational::BigRational;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use tinta::edges::{
-    Class, ClassCounts, ClassSet, Classes, CreaseAngle, Eye, Incidence, NormalCones, Side, SilhouetteRule, Silhouettes,
-    side_of_face,
+    Class, ClassCounts, ClassSet, Classes, CreaseAngle, Eye, Incidence, NormalCones, SilhouetteRule, Silhouettes,
 };
 use tinta::{EdgeList, LoadOptions, Mesh, load};
-
-fn mesh(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Mesh {
-    Mesh { positions, triangles, normals: Vec::new(), triangle_normals: Vec::new(), ..Mesh::triangle() }
-}
 
 fn counts(mesh: &Mesh) -> (EdgeList, ClassCounts) {
     let edges = EdgeList::new(mesh);
     let classes = Classes::new(mesh, &edges, CreaseAngle::default(), ClassSet::ALL);
     let counts = classes.counts();
     (edges, counts)
-}
-
-/// A box, two triangles a side, wound outwards.
-pub fn cuboid(low: DVec3, high: DVec3) -> Mesh {
-    let corner = |i: u32| {
-        let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 1 { high } else { low };
-        DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
-    };
-    let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-    let triangles = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
-    mesh((0..8).map(corner).collect(), triangles)
-}
-
-/// Meshes put together, equal positions joined.
-fn joined(meshes: &[Mesh]) -> Mesh {
-    let mut all = mesh(Vec::new(), Vec::new());
-    for one in meshes {
-        let mut number = |position: &DVec3| {
-            all.positions.iter().position(|known| known == position).unwrap_or_else(|| {
-                all.positions.push(*position);
-                all.positions.len() - 1
-            }) as u32
-        };
-        let numbers: Vec<u32> = one.positions.iter().map(&mut number).collect();
-        all.triangles.extend(one.triangles.iter().map(|triangle| triangle.map(|corner| numbers[corner as usize])));
-    }
-    all
-}
-
-/// A sphere from an icosahedron, each triangle cut into four `levels` times.
-pub fn icosphere(levels: u32) -> Mesh {
-    let golden = (1.0 + 5f64.sqrt()) / 2.0;
-    let (g, o, z) = (golden, 1.0, 0.0);
-    let corners = [
-        [-o, g, z],
-        [o, g, z],
-        [-o, -g, z],
-        [o, -g, z],
-        [z, -o, g],
-        [z, o, g],
-        [z, -o, -g],
-        [z, o, -g],
-        [g, z, -o],
-        [g, z, o],
-        [-g, z, -o],
-        [-g, z, o],
-    ];
-    let mut positions: Vec<DVec3> = corners.iter().map(|corner| DVec3::from_array(*corner).normalize()).collect();
-    let mut triangles: Vec<[u32; 3]> = vec![
-        [0, 11, 5],
-        [0, 5, 1],
-        [0, 1, 7],
-        [0, 7, 10],
-        [0, 10, 11],
-        [1, 5, 9],
-        [5, 11, 4],
-        [11, 10, 2],
-        [10, 7, 6],
-        [7, 1, 8],
-        [3, 9, 4],
-        [3, 4, 2],
-        [3, 2, 6],
-        [3, 6, 8],
-        [3, 8, 9],
-        [4, 9, 5],
-        [2, 4, 11],
-        [6, 2, 10],
-        [8, 6, 7],
-        [9, 8, 1],
-    ];
-    for _ in 0..levels {
-        let mut middles: BTreeMap<(u32, u32), u32> = BTreeMap::new();
-        let mut finer = Vec::new();
-        for [a, b, c] in triangles {
-            let mut middle = |a: u32, b: u32| {
-                *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                    positions.push((positions[a as usize] + positions[b as usize]).normalize());
-                    positions.len() as u32 - 1
-                })
-            };
-            let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
-            finer.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
-        }
-        triangles = finer;
-    }
-    mesh(positions, triangles)
-}
-
-/// The loops that edges form: `None` if at some position other than two of them meet.
-fn loops(edges: &EdgeList, chosen: &[u32]) -> Option<usize> {
-    let mut neighbours: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-    for edge in chosen {
-        let [a, b] = edges.positions()[*edge as usize];
-        neighbours.entry(a).or_default().push(b);
-        neighbours.entry(b).or_default().push(a);
-    }
-    if neighbours.values().any(|ends| ends.len() != 2) {
-        return None;
-    }
-    let mut count = 0;
-    while let Some((&start, _)) = neighbours.first_key_value() {
-        let mut next = Some(start);
-        while let Some(at) = next {
-            let ends = neighbours.remove(&at).unwrap_or_default();
-            next = ends.into_iter().find(|end| neighbours.contains_key(end));
-        }
-        count += 1;
-    }
-    Some(count)
 }
 
 #[test]
@@ -211,40 +98,6 @@ fn a_strip_of_coplanar_quads_has_a_rim_and_no_lines_within() {
 }
 
 #[test]
-fn the_silhouette_of_a_sphere_is_one_closed_loop_from_any_eye_outside() {
-    let sphere = icosphere(3);
-    let edges = EdgeList::new(&sphere);
-    let silhouettes = Silhouettes::new(&sphere, &edges);
-    let cones = NormalCones::new(&sphere, &edges, &silhouettes);
-    let mut random = Random(7);
-    for _ in 0..1000 {
-        let eye = random.direction() * (1.001 + 5.0 * random.number().powi(3));
-        for eye in [Eye::Point(eye), Eye::Direction(eye)] {
-            let found = silhouettes.find(&sphere, &edges, eye, SilhouetteRule::Exact);
-            assert_eq!(loops(&edges, &found), Some(1), "{eye:?}");
-            assert_eq!(cones.find(&sphere, &edges, &silhouettes, eye, SilhouetteRule::Exact), found, "{eye:?}");
-        }
-    }
-    let inside = Eye::Point(DVec3::new(0.1, 0.2, -0.3));
-    assert!(silhouettes.find(&sphere, &edges, inside, SilhouetteRule::Exact).is_empty());
-}
-
-#[test]
-fn the_silhouette_is_closed_even_where_faces_are_seen_exactly_edge_on() {
-    let box_mesh = cuboid(DVec3::ZERO, DVec3::ONE);
-    let edges = EdgeList::new(&box_mesh);
-    let silhouettes = Silhouettes::new(&box_mesh, &edges);
-    let find = |eye| silhouettes.find(&box_mesh, &edges, eye, SilhouetteRule::Exact);
-    for direction in [DVec3::Z, DVec3::NEG_X, DVec3::Y] {
-        let found = find(Eye::Direction(direction));
-        assert_eq!((found.len(), loops(&edges, &found)), (4, Some(1)), "{direction}");
-    }
-    // In the plane of the top: of the three sides around that corner only one is seen.
-    let found = find(Eye::Point(DVec3::new(3.0, 1.0, 0.5)));
-    assert_eq!((found.len(), loops(&edges, &found)), (4, Some(1)));
-}
-
-#[test]
 fn inner_edges_between_materials_texture_coordinates_and_normals_are_seams() {
     let mut quad = mesh(vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y], vec![[0, 1, 2], [0, 2, 3]]);
     quad.triangle_materials = vec![0, 1];
@@ -312,35 +165,6 @@ fn listing(triangles: &[[u32; 3]]) -> BTreeMap<[u32; 2], (usize, Vec<u32>)> {
     list.into_iter().map(|(key, faces)| (key, (faces.len(), faces))).collect()
 }
 
-/// The listing's silhouette test of one edge, f32 as there.
-fn listing_silhouette(mesh: &Mesh, faces: &[u32], view: DVec3) -> f32 {
-    let along_view = |face: &u32| {
-        let [a, b, c] = mesh.triangles[*face as usize].map(|corner| mesh.positions[corner as usize]);
-        let normal = (b - a).cross(c - a).normalize().as_vec3();
-        normal.dot(view.normalize().as_vec3())
-    };
-    along_view(&faces[0]) * along_view(&faces[1])
-}
-
-fn random_mesh(positions: usize, faces: usize) -> impl Strategy<Value = Mesh> {
-    let position =
-        prop::array::uniform3(-8i32..8).prop_map(|[x, y, z]| DVec3::new(x.into(), y.into(), z.into()) * 0.37);
-    let corner = 0..positions as u32;
-    let triangle =
-        [corner.clone(), corner.clone(), corner].prop_filter("three corners", |[a, b, c]| a != b && b != c && c != a);
-    (prop::collection::vec(position, positions), prop::collection::vec(triangle, 1..faces))
-        .prop_map(|(positions, triangles)| mesh(positions, triangles))
-}
-
-fn random_eye() -> impl Strategy<Value = Eye> {
-    let vector =
-        prop::array::uniform3(-20i32..20).prop_map(|[x, y, z]| DVec3::new(x.into(), y.into(), z.into()) * 0.25);
-    (vector, any::<bool>()).prop_map(|(vector, parallel)| match parallel {
-        true => Eye::Direction(if vector == DVec3::ZERO { DVec3::Z } else { vector }),
-        false => Eye::Point(vector),
-    })
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -372,114 +196,11 @@ proptest! {
             }
         }
     }
-
-    #[test]
-    fn exact_silhouettes_are_those_of_rational_arithmetic(mesh in random_mesh(30, 120), eye in random_eye()) {
-        let edges = EdgeList::new(&mesh);
-        let silhouettes = Silhouettes::new(&mesh, &edges);
-        let found = silhouettes.find(&mesh, &edges, eye, SilhouetteRule::Exact);
-        for (edge, incidence) in edges.incidence().iter().enumerate() {
-            let side = |face: u32| rational_side(corners(&mesh, face), eye);
-            let expected = match (incidence, edges.faces(edge as u32)) {
-                (Incidence::Inner, [a, b]) => (side(*a) == Side::Front) != (side(*b) == Side::Front),
-                (Incidence::InnerReversed, [a, b]) => (side(*a) == Side::Front) != (side(*b) == Side::Back),
-                _ => false,
-            };
-            prop_assert_eq!(found.binary_search(&(edge as u32)).is_ok(), expected, "edge {}", edge);
-        }
-        let cones = NormalCones::new(&mesh, &edges, &silhouettes);
-        prop_assert_eq!(cones.find(&mesh, &edges, &silhouettes, eye, SilhouetteRule::Exact), found);
-    }
-
-    #[test]
-    fn silhouettes_by_the_papers_rule_are_the_listings(mesh in random_mesh(30, 120), eye in random_eye()) {
-        let edges = EdgeList::new(&mesh);
-        let silhouettes = Silhouettes::new(&mesh, &edges);
-        let (Eye::Point(view) | Eye::Direction(view)) = eye;
-        let view = if view == DVec3::ZERO { DVec3::Z } else { view };
-        let found = silhouettes.find(&mesh, &edges, Eye::Direction(view), SilhouetteRule::Paper);
-        for (edge, incidence) in edges.incidence().iter().enumerate() {
-            // The normal of a face without area is rounding noise, in the listing as here.
-            let has_area = |face: &u32| {
-                let [a, b, c] = corners(&mesh, *face);
-                (b - a).cross(c - a).length() > 1e-9
-            };
-            let is_inner = matches!(incidence, Incidence::Inner | Incidence::InnerReversed);
-            if is_inner && edges.faces(edge as u32).iter().all(has_area) {
-                let product = listing_silhouette(&mesh, edges.faces(edge as u32), view);
-                // Rounding may decide within a few places of the bound.
-                if (product - 1e-8).abs() > 1e-6 {
-                    prop_assert_eq!(found.binary_search(&(edge as u32)).is_ok(), product <= 1e-8, "edge {}", edge);
-                }
-            }
-        }
-        let cones = NormalCones::new(&mesh, &edges, &silhouettes);
-        prop_assert_eq!(cones.find(&mesh, &edges, &silhouettes, Eye::Direction(view), SilhouetteRule::Paper), found);
-    }
-}
-
-fn corners(mesh: &Mesh, face: u32) -> [DVec3; 3] {
-    mesh.triangles[face as usize].map(|corner| mesh.positions[corner as usize])
-}
-
-/// The side by rational numbers: no rounding anywhere.
-fn rational_side([a, b, c]: [DVec3; 3], eye: Eye) -> Side {
-    let exact = |vector: DVec3| vector.to_array().map(|number| BigRational::from_float(number).unwrap());
-    let minus = |p: &[BigRational; 3], q: &[BigRational; 3]| [0, 1, 2].map(|i| &p[i] - &q[i]);
-    let [a, b, c] = [a, b, c].map(exact);
-    let (u, v) = (minus(&b, &a), minus(&c, &a));
-    let towards_eye = match eye {
-        Eye::Point(eye) => minus(&exact(eye), &a),
-        Eye::Direction(direction) => exact(direction),
-    };
-    let cross = |i: usize, j: usize| &u[i] * &v[j] - &u[j] * &v[i];
-    let determinant = &towards_eye[0] * cross(1, 2) + &towards_eye[1] * cross(2, 0) + &towards_eye[2] * cross(0, 1);
-    match determinant.cmp(&BigRational::default()) {
-        std::cmp::Ordering::Greater => Side::Front,
-        std::cmp::Ordering::Less => Side::Back,
-        std::cmp::Ordering::Equal => Side::Edge,
-    }
-}
-
-#[test]
-fn faces_seen_all_but_edge_on_are_judged_as_rational_arithmetic_does() {
-    let mut random = Random(3);
-    let mut sides = [0usize; 3];
-    for case in 0..20_000 {
-        // Every fourth lies on a grid, where what is in the plane is so exactly.
-        let is_on_grid = case % 4 == 0;
-        let on_grid = |vector: DVec3| if is_on_grid { (vector * 256.0).round() / 256.0 } else { vector };
-        let origin = on_grid(random.direction() * [0.0, 1.0, 1e6][case % 3]);
-        let [a, u, v] = [(); 3].map(|()| on_grid(random.direction()));
-        let a = a + origin;
-        // A needle now and then.
-        let v = if case % 5 == 1 && !is_on_grid { u * 0.5 + v * 1e-9 } else { v };
-        let corners = [a, a + u, a + v];
-        let [s, t] = [(); 2].map(|()| random.number() * 8.0 - 4.0).map(|x| if is_on_grid { x.round() } else { x });
-        // In the plane but for rounding, then moved by a few units in the last place.
-        let nudged = |x: f64, steps: i64| f64::from_bits((x.to_bits() as i64 + steps) as u64);
-        let steps = if is_on_grid { 0 } else { (random.number() * 5.0) as i64 - 2 };
-        let nudge = |vector: DVec3| DVec3::new(nudged(vector.x, steps), vector.y, nudged(vector.z, -steps));
-        for eye in [Eye::Point(nudge(a + u * s + v * t)), Eye::Direction(nudge(u * s + v * t))] {
-            let expected = rational_side(corners, eye);
-            assert_eq!(side_of_face(corners, eye), expected, "{corners:?} {eye:?}");
-            sides[expected as usize] += 1;
-            let mesh = mesh(
-                corners.into_iter().chain([a + u.cross(v) * 0.3 + (u + v) * 0.2]).collect(),
-                vec![[0, 1, 2], [0, 3, 1]],
-            );
-            let edges = EdgeList::new(&mesh);
-            let found = Silhouettes::new(&mesh, &edges).find(&mesh, &edges, eye, SilhouetteRule::Exact);
-            let other = rational_side([corners[0], mesh.positions[3], corners[1]], eye);
-            assert_eq!(found.len() == 1, (expected == Side::Front) != (other == Side::Front), "{corners:?} {eye:?}");
-        }
-    }
-    assert!(sides.iter().all(|count| *count > 30), "front, back and edge all occur: {sides:?}");
 }
 
 #[test]
 fn counts_agree_with_other_libraries_on_public_models() {
-    // By vtkFeatureEdges (VTK 9.6) and trimesh 4.12 after joining equal positions: edges, boundary, non-manifold, and
+    // By vtkFeatureEdges (VTK 9.7) and trimesh 5.2 after joining equal positions: edges, boundary, non-manifold, and
     // creases whose cosine is below 0.4.
     let expected = [
         ("ant.ply", [1368, 0, 0, 299]),
@@ -512,29 +233,6 @@ fn counts_agree_with_other_libraries_on_public_models() {
                     let plain = silhouettes.find(&mesh, &edges, eye, rule);
                     assert_eq!(cones.find(&mesh, &edges, &silhouettes, eye, rule), plain, "{file} {eye:?} {rule:?}");
                 }
-            }
-        }
-    }
-}
-
-/// Numbers that look random and are the same every time (xorshift).
-struct Random(u64);
-
-impl Random {
-    /// In [0, 1).
-    fn number(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// A unit vector.
-    fn direction(&mut self) -> DVec3 {
-        loop {
-            let vector = DVec3::new(self.number(), self.number(), self.number()) * 2.0 - DVec3::ONE;
-            if (0.01..1.0).contains(&vector.length_squared()) {
-                return vector.normalize();
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The styles inking and dietrich, drawn: against closed forms, against each other's variants, in every option.
 
-use crate::edges::{cuboid, icosphere};
+use crate::shapes::{cuboid, icosphere};
 use crate::support::{BACKENDS, renderer, scene, scene_with};
 use glam::DVec3;
 use std::sync::Arc;
@@ -240,6 +240,25 @@ fn without_polygon_offset_the_faces_eat_their_own_lines() {
     };
     let (with, without) = (ink([1.0, 5.0]), ink([0.0, 0.0]));
     assert!(without < with * 85 / 100, "{without} of {with} pixels of ink are left");
+}
+
+#[test]
+fn lines_that_only_test_depth_close_the_gaps_between_smoothed_ones() {
+    // Errata D11.
+    let mut settings = SceneSettings { size: Size { width: 240, height: 240 }, ..SceneSettings::default() };
+    settings.camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..settings.camera };
+    let scene = scene_with("builtin:gear", settings);
+    for backend in BACKENDS {
+        let mut renderer = renderer(backend);
+        let [written, tested] = [true, false].map(|writes_depth| {
+            let style = Inking { writes_depth, silhouette: SilhouetteRule::Exact, ..Inking::default() };
+            draw(&mut renderer, &scene, style, Show::Borders)
+        });
+        let pairs = || written.pixels.chunks_exact(4).zip(tested.pixels.chunks_exact(4)).map(|(a, b)| (a[0], b[0]));
+        assert!(pairs().all(|(written, tested)| tested <= written), "ink is only added");
+        let closed = pairs().filter(|(written, tested)| written - tested > 100).count();
+        assert!(closed > 200, "{backend:?}: {closed} pixels");
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 #version 120
 // Painting with the light computed on the graphics card: the last section of C. Dachsbacher, "Beethoven aus Bits und
-// Bytes" (PC Magazin), names this variant; the text prints no shader for it, so this is ours, after its CPU listing.
+// Bytes" (PC Underground), names this variant; the text prints no shader for it, so this is ours, after its CPU listing.
 //
 // In: position, normal, colour, texture coordinate 0 (its t is the row of the ramp) and 1 (the model's own).
 // Out: for fixed-function fragments, texture coordinate 0 (light, row) and 1, colour.

@@ -5,13 +5,14 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::renderer::milliseconds_since;
+use tinta::styles::Ramp;
 use tinta::textures::{ContrastTexture, NoiseTexture, PaperTexture};
 use tinta::{Error, Picture, Result, Size, Target};
 
-/// Write the textures of a charcoal drawing: the contrast-enhanced one, noise, paper
+/// Write the textures that styles draw with: a charcoal drawing's grain, noise and paper, and the paint's ramp
 #[derive(clap::Args)]
 #[command(after_help = "\
-Files: cet.png, noise.png and paper.png. With the default density, exponent and blur also the text's figures 2
+Files: cet.png, noise.png and paper.png, and ramp.png, to be changed and given to --ramp. With the default density, exponent and blur also the text's figures 2
 (figure-2.png, the grains before they are moved) and 3 (figure-3-m-1.3.png, -5.5 and -15).")]
 pub struct Arguments {
     /// Folder to write into; made if it is not there
@@ -41,6 +42,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     made.push(Made::new("cet.png", &contrast, ContrastTexture::picture)?);
     made.push(Made::new("noise.png", &arguments.noise(), NoiseTexture::picture)?);
     made.push(Made::new("paper.png", &arguments.paper(), PaperTexture::picture)?);
+    made.push(Made::new("ramp.png", &Ramp::default(), |ramp| Ok(Picture::clone(&ramp.picture)))?);
     let (size, seed) = (arguments.size, arguments.grain.seed);
     if contrast == (ContrastTexture { size, seed, ..ContrastTexture::default() }) {
         let scattered = ContrastTexture::figure_2(size, seed);

@@ -1,5 +1,6 @@
 //! Edges drawn by GL: indices into the objects' own vertices, so that a line lies where the faces beside it do.
 
+use super::Gl;
 use super::execute::Resources;
 use super::legacy::{self, MODELVIEW, PROJECTION};
 use super::objects::Buffer;
@@ -9,12 +10,35 @@ use crate::plan::{EdgeRun, Mark};
 use crate::scene::Scene;
 use glam::{Mat4, Vec3};
 use glow::HasContext;
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// The ends of some edges on the device, one run after the other.
 pub struct EdgeIndices {
     runs: Arc<Vec<EdgeRun>>,
+    /// How many indices each run has.
+    counts: Vec<usize>,
     buffer: Buffer,
+}
+
+impl EdgeIndices {
+    fn new(gl: &Rc<Gl>, runs: &Arc<Vec<EdgeRun>>, mark: Mark) -> Result<Self> {
+        let ends = |run: &EdgeRun| match mark {
+            Mark::Lines => run.ends.as_flattened().to_vec(),
+            Mark::Points => each_once(run.ends.as_flattened()),
+        };
+        let indices: Vec<Vec<u32>> = runs.iter().map(ends).collect();
+        let counts = indices.iter().map(Vec::len).collect();
+        let buffer = Buffer::new(gl, glow::ELEMENT_ARRAY_BUFFER, bytemuck::cast_slice(&indices.concat()))?;
+        Ok(Self { runs: runs.clone(), counts, buffer })
+    }
+}
+
+/// The different numbers in order of first appearance: where the text draws a point again, the first one's depth turns it
+/// away.
+fn each_once(numbers: &[u32]) -> Vec<u32> {
+    let mut is_known = vec![false; numbers.iter().max().map_or(0, |largest| *largest as usize + 1)];
+    numbers.iter().copied().filter(|number| !std::mem::replace(&mut is_known[*number as usize], true)).collect()
 }
 
 impl Resources {
@@ -27,11 +51,11 @@ impl Resources {
         width_px: f32,
         is_smooth: bool,
     ) -> Result<()> {
-        if self.edges.as_ref().is_none_or(|edges| !Arc::ptr_eq(&edges.runs, runs)) {
-            let ends: Vec<[u32; 2]> = runs.iter().flat_map(|run| &run.ends).copied().collect();
-            let buffer = Buffer::new(&self.gl, glow::ELEMENT_ARRAY_BUFFER, bytemuck::cast_slice(&ends))?;
-            self.edges = Some(EdgeIndices { runs: runs.clone(), buffer });
+        let slot = mark as usize;
+        if self.edges[slot].as_ref().is_none_or(|edges| !Arc::ptr_eq(&edges.runs, runs)) {
+            self.edges[slot] = Some(EdgeIndices::new(&self.gl, runs, mark)?);
         }
+        let Some(edges) = &self.edges[slot] else { return Ok(()) };
         let (mode, smooth) = smoothed(mark);
         // SAFETY: the context is current; widths are finite and above 0, which the style has checked.
         unsafe {
@@ -44,26 +68,23 @@ impl Resources {
             self.gl.legacy.load_matrix(PROJECTION, &scene.clip_from_view());
         }
         let mut first = 0;
-        for run in runs.iter() {
-            let count = run.ends.len() * 2;
+        for (run, count) in runs.iter().zip(&edges.counts) {
             if let Some(object) = scene.objects.get(run.object)
                 && let Some(buffers) = self.find_mesh(&object.mesh)
                 && run.ends.as_flattened().iter().all(|end| (*end as usize) < buffers.vertex_count)
             {
                 buffers.bind(&self.gl, None);
-                if let Some(edges) = &self.edges {
-                    edges.buffer.bind();
-                }
+                edges.buffer.bind();
                 // SAFETY: the context is current; the run lies within the bound index buffer and its indices, asked above,
                 // within the bound vertex buffer.
                 unsafe {
                     self.gl.legacy.load_matrix(MODELVIEW, &scene.view_from_object(object, buffers.centre));
                     self.gl.legacy.color(run.color);
                     let first_byte = (first * size_of::<u32>()) as i32;
-                    self.gl.glow.draw_elements(mode, count as i32, glow::UNSIGNED_INT, first_byte);
+                    self.gl.glow.draw_elements(mode, *count as i32, glow::UNSIGNED_INT, first_byte);
                 }
             }
-            first += count;
+            first += *count;
         }
         // SAFETY: the context is current.
         unsafe { self.gl.glow.disable(smooth) };
@@ -125,5 +146,14 @@ fn smoothed(mark: Mark) -> (u32, u32) {
     match mark {
         Mark::Lines => (glow::LINES, glow::LINE_SMOOTH),
         Mark::Points => (glow::POINTS, legacy::POINT_SMOOTH),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn each_end_is_a_point_once_in_order_of_appearance() {
+        assert_eq!(super::each_once(&[5, 2, 2, 7, 5, 0]), [5, 2, 7, 0]);
+        assert!(super::each_once(&[]).is_empty());
     }
 }

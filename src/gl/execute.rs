@@ -24,8 +24,8 @@ pub struct Resources {
     squares: Option<Buffer>,
     border_map: Option<Texture>,
     textures: Textures,
-    /// The edges last drawn, as indices on the device.
-    pub(super) edges: Option<EdgeIndices>,
+    /// The edges last drawn as lines and as points, as indices on the device.
+    pub(super) edges: [Option<EdgeIndices>; 2],
 }
 
 /// A mesh on the device.
@@ -61,7 +61,7 @@ impl Resources {
             squares: None,
             border_map: None,
             textures: Textures::default(),
-            edges: None,
+            edges: [None, None],
         }
     }
 
@@ -231,10 +231,10 @@ impl Resources {
         // SAFETY: the context is current; the names are of GL 2.1.
         unsafe {
             match draw.depth {
-                Depth::TestAndWrite => {
+                Depth::TestAndWrite | Depth::TestOnly => {
                     gl.enable(glow::DEPTH_TEST);
                     gl.depth_func(glow::LESS);
-                    gl.depth_mask(true);
+                    gl.depth_mask(draw.depth == Depth::TestAndWrite);
                 }
                 Depth::Ignore => {
                     gl.disable(glow::DEPTH_TEST);

@@ -1,6 +1,6 @@
 //! What is wrong with a model file, counted.
 //!
-//! Readers and [`super::soup`] fill the counts; the command line says them once, `--strict` makes them an error.
+//! Readers and `soup` fill the counts; the command line says them once, `--strict` makes them an error.
 
 use serde::Serialize;
 use std::fmt;

@@ -9,7 +9,7 @@ use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::names::find;
 use crate::plan::{
-    Draw, EdgeRun, Geometry, LineDrawing, Mark, Output, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
+    Depth, Draw, EdgeRun, Geometry, LineDrawing, Mark, Output, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
     Texture,
 };
 use crate::scene::{Background, Color, Scene};
@@ -35,6 +35,9 @@ pub struct Inking {
     pub is_smooth: bool,
     /// How lines get their width. Default as GL draws them.
     pub line_drawing: LineDrawing,
+    /// Whether lines write depth, as the text leaves it. Default yes; then a smoothed line's faint end hides the point that
+    /// should close the gap to the next one.
+    pub writes_depth: bool,
     /// The lines' colours. Default black.
     pub colors: ClassColors,
     /// glPolygonOffset's factor and units. Default 1 and 5; more frees lines from their own faces and lets hidden ones
@@ -64,6 +67,7 @@ impl Default for Inking {
             line_width_px: 2.0,
             is_smooth: true,
             line_drawing: LineDrawing::Gl,
+            writes_depth: true,
             colors: ClassColors::default(),
             polygon_offset: [1.0, 5.0],
             paint: PaintMode::Ramp,
@@ -181,7 +185,8 @@ impl Inking {
                     is_smooth: self.is_smooth && self.line_drawing == LineDrawing::Gl,
                     line_drawing: self.line_drawing,
                 };
-                Step::Draw(Draw { blend: self.is_smooth, ..Draw::new(geometry, None) })
+                let depth = if self.writes_depth { Depth::TestAndWrite } else { Depth::TestOnly };
+                Step::Draw(Draw { blend: self.is_smooth, depth, ..Draw::new(geometry, None) })
             };
             passes.push(Pass { name: "ink", steps: vec![mark(Mark::Lines), mark(Mark::Points)] });
         }

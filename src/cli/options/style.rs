@@ -109,6 +109,10 @@ struct InkingArguments {
     #[arg(long, value_name = "HOW", default_value = "gl", hide_default_value = true)]
     line_drawing: LineDrawing,
 
+    /// Lines write depth as in the text (write), which leaves gaps between smoothed lines, or only test it (test) [default: write]
+    #[arg(long, value_name = "HOW", action = clap::ArgAction::Set, value_parser = parse_ink_depth, default_value = "write", hide_default_value = true)]
+    ink_depth: bool,
+
     /// How far faces are pushed behind the lines: glPolygonOffset's factor and units [default: 1,5]
     #[arg(long, value_name = "F,U", value_parser = parse_pair, default_value = "1,5", hide_default_value = true, allow_hyphen_values = true)]
     polygon_offset: [f32; 2],
@@ -196,6 +200,7 @@ impl InkingArguments {
             line_width_px: self.line_width,
             is_smooth: self.smooth,
             line_drawing: self.line_drawing,
+            writes_depth: self.ink_depth,
             colors: self.class_colors.unwrap_or_default(),
             polygon_offset: self.polygon_offset,
             paint: self.paint,
@@ -221,5 +226,13 @@ fn parse_cull(text: &str) -> std::result::Result<bool, String> {
         "none" => Ok(false),
         "back" => Ok(true),
         _ => Err("choose none or back".to_owned()),
+    }
+}
+
+fn parse_ink_depth(text: &str) -> std::result::Result<bool, String> {
+    match text {
+        "write" => Ok(true),
+        "test" => Ok(false),
+        _ => Err("choose write or test".to_owned()),
     }
 }

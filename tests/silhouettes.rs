@@ -1,0 +1,183 @@
+//! Silhouettes: closed loops on closed solids, rational arithmetic, the listing's rule, the hierarchy.
+
+use crate::shapes::{Random, cuboid, icosphere, mesh, random_eye, random_mesh};
+use glam::DVec3;
+use num_rational::BigRational;
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+use tinta::edges::{Eye, Incidence, NormalCones, Side, SilhouetteRule, Silhouettes, side_of_face};
+use tinta::{EdgeList, Mesh};
+
+/// The loops that edges form: `None` if at some position other than two of them meet.
+pub fn loops(edges: &EdgeList, chosen: &[u32]) -> Option<usize> {
+    let mut neighbours: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for edge in chosen {
+        let [a, b] = edges.positions()[*edge as usize];
+        neighbours.entry(a).or_default().push(b);
+        neighbours.entry(b).or_default().push(a);
+    }
+    if neighbours.values().any(|ends| ends.len() != 2) {
+        return None;
+    }
+    let mut count = 0;
+    while let Some((&start, _)) = neighbours.first_key_value() {
+        let mut next = Some(start);
+        while let Some(at) = next {
+            let ends = neighbours.remove(&at).unwrap_or_default();
+            next = ends.into_iter().find(|end| neighbours.contains_key(end));
+        }
+        count += 1;
+    }
+    Some(count)
+}
+
+#[test]
+fn the_silhouette_of_a_sphere_is_one_closed_loop_from_any_eye_outside() {
+    let sphere = icosphere(3);
+    let edges = EdgeList::new(&sphere);
+    let silhouettes = Silhouettes::new(&sphere, &edges);
+    let cones = NormalCones::new(&sphere, &edges, &silhouettes);
+    let mut random = Random(7);
+    for _ in 0..1000 {
+        let eye = random.direction() * (1.001 + 5.0 * random.number().powi(3));
+        for eye in [Eye::Point(eye), Eye::Direction(eye)] {
+            let found = silhouettes.find(&sphere, &edges, eye, SilhouetteRule::Exact);
+            assert_eq!(loops(&edges, &found), Some(1), "{eye:?}");
+            assert_eq!(cones.find(&sphere, &edges, &silhouettes, eye, SilhouetteRule::Exact), found, "{eye:?}");
+        }
+    }
+    let inside = Eye::Point(DVec3::new(0.1, 0.2, -0.3));
+    assert!(silhouettes.find(&sphere, &edges, inside, SilhouetteRule::Exact).is_empty());
+}
+
+#[test]
+fn the_silhouette_is_closed_even_where_faces_are_seen_exactly_edge_on() {
+    let box_mesh = cuboid(DVec3::ZERO, DVec3::ONE);
+    let edges = EdgeList::new(&box_mesh);
+    let silhouettes = Silhouettes::new(&box_mesh, &edges);
+    let find = |eye| silhouettes.find(&box_mesh, &edges, eye, SilhouetteRule::Exact);
+    for direction in [DVec3::Z, DVec3::NEG_X, DVec3::Y] {
+        let found = find(Eye::Direction(direction));
+        assert_eq!((found.len(), loops(&edges, &found)), (4, Some(1)), "{direction}");
+    }
+    // In the plane of the top: of the three sides around that corner only one is seen.
+    let found = find(Eye::Point(DVec3::new(3.0, 1.0, 0.5)));
+    assert_eq!((found.len(), loops(&edges, &found)), (4, Some(1)));
+}
+
+/// The listing's silhouette test of one edge, f32 as there.
+fn listing_silhouette(mesh: &Mesh, faces: &[u32], view: DVec3) -> f32 {
+    let along_view = |face: &u32| {
+        let [a, b, c] = mesh.triangles[*face as usize].map(|corner| mesh.positions[corner as usize]);
+        let normal = (b - a).cross(c - a).normalize().as_vec3();
+        normal.dot(view.normalize().as_vec3())
+    };
+    along_view(&faces[0]) * along_view(&faces[1])
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn exact_silhouettes_are_those_of_rational_arithmetic(mesh in random_mesh(30, 120), eye in random_eye()) {
+        let edges = EdgeList::new(&mesh);
+        let silhouettes = Silhouettes::new(&mesh, &edges);
+        let found = silhouettes.find(&mesh, &edges, eye, SilhouetteRule::Exact);
+        for (edge, incidence) in edges.incidence().iter().enumerate() {
+            let side = |face: u32| rational_side(corners(&mesh, face), eye);
+            let expected = match (incidence, edges.faces(edge as u32)) {
+                (Incidence::Inner, [a, b]) => (side(*a) == Side::Front) != (side(*b) == Side::Front),
+                (Incidence::InnerReversed, [a, b]) => (side(*a) == Side::Front) != (side(*b) == Side::Back),
+                _ => false,
+            };
+            prop_assert_eq!(found.binary_search(&(edge as u32)).is_ok(), expected, "edge {}", edge);
+        }
+        let cones = NormalCones::new(&mesh, &edges, &silhouettes);
+        prop_assert_eq!(cones.find(&mesh, &edges, &silhouettes, eye, SilhouetteRule::Exact), found);
+    }
+
+    #[test]
+    fn silhouettes_by_the_papers_rule_are_the_listings(mesh in random_mesh(30, 120), eye in random_eye()) {
+        let edges = EdgeList::new(&mesh);
+        let silhouettes = Silhouettes::new(&mesh, &edges);
+        let (Eye::Point(view) | Eye::Direction(view)) = eye;
+        let view = if view == DVec3::ZERO { DVec3::Z } else { view };
+        let found = silhouettes.find(&mesh, &edges, Eye::Direction(view), SilhouetteRule::Paper);
+        for (edge, incidence) in edges.incidence().iter().enumerate() {
+            // The normal of a face without area is rounding noise, in the listing as here.
+            let has_area = |face: &u32| {
+                let [a, b, c] = corners(&mesh, *face);
+                (b - a).cross(c - a).length() > 1e-9
+            };
+            let is_inner = matches!(incidence, Incidence::Inner | Incidence::InnerReversed);
+            if is_inner && edges.faces(edge as u32).iter().all(has_area) {
+                let product = listing_silhouette(&mesh, edges.faces(edge as u32), view);
+                // Rounding may decide within a few places of the bound.
+                if (product - 1e-8).abs() > 1e-6 {
+                    prop_assert_eq!(found.binary_search(&(edge as u32)).is_ok(), product <= 1e-8, "edge {}", edge);
+                }
+            }
+        }
+        let cones = NormalCones::new(&mesh, &edges, &silhouettes);
+        prop_assert_eq!(cones.find(&mesh, &edges, &silhouettes, Eye::Direction(view), SilhouetteRule::Paper), found);
+    }
+}
+
+fn corners(mesh: &Mesh, face: u32) -> [DVec3; 3] {
+    mesh.triangles[face as usize].map(|corner| mesh.positions[corner as usize])
+}
+
+/// The side by rational numbers: no rounding anywhere.
+fn rational_side([a, b, c]: [DVec3; 3], eye: Eye) -> Side {
+    let exact = |vector: DVec3| vector.to_array().map(|number| BigRational::from_float(number).unwrap());
+    let minus = |p: &[BigRational; 3], q: &[BigRational; 3]| [0, 1, 2].map(|i| &p[i] - &q[i]);
+    let [a, b, c] = [a, b, c].map(exact);
+    let (u, v) = (minus(&b, &a), minus(&c, &a));
+    let towards_eye = match eye {
+        Eye::Point(eye) => minus(&exact(eye), &a),
+        Eye::Direction(direction) => exact(direction),
+    };
+    let cross = |i: usize, j: usize| &u[i] * &v[j] - &u[j] * &v[i];
+    let determinant = &towards_eye[0] * cross(1, 2) + &towards_eye[1] * cross(2, 0) + &towards_eye[2] * cross(0, 1);
+    match determinant.cmp(&BigRational::default()) {
+        std::cmp::Ordering::Greater => Side::Front,
+        std::cmp::Ordering::Less => Side::Back,
+        std::cmp::Ordering::Equal => Side::Edge,
+    }
+}
+
+#[test]
+fn faces_seen_all_but_edge_on_are_judged_as_rational_arithmetic_does() {
+    let mut random = Random(3);
+    let mut sides = [0usize; 3];
+    for case in 0..20_000 {
+        // Every fourth lies on a grid, where what is in the plane is so exactly.
+        let is_on_grid = case % 4 == 0;
+        let on_grid = |vector: DVec3| if is_on_grid { (vector * 256.0).round() / 256.0 } else { vector };
+        let origin = on_grid(random.direction() * [0.0, 1.0, 1e6][case % 3]);
+        let [a, u, v] = [(); 3].map(|()| on_grid(random.direction()));
+        let a = a + origin;
+        // A needle now and then.
+        let v = if case % 5 == 1 && !is_on_grid { u * 0.5 + v * 1e-9 } else { v };
+        let corners = [a, a + u, a + v];
+        let [s, t] = [(); 2].map(|()| random.number() * 8.0 - 4.0).map(|x| if is_on_grid { x.round() } else { x });
+        // In the plane but for rounding, then moved by a few units in the last place.
+        let nudged = |x: f64, steps: i64| f64::from_bits((x.to_bits() as i64 + steps) as u64);
+        let steps = if is_on_grid { 0 } else { (random.number() * 5.0) as i64 - 2 };
+        let nudge = |vector: DVec3| DVec3::new(nudged(vector.x, steps), vector.y, nudged(vector.z, -steps));
+        for eye in [Eye::Point(nudge(a + u * s + v * t)), Eye::Direction(nudge(u * s + v * t))] {
+            let expected = rational_side(corners, eye);
+            assert_eq!(side_of_face(corners, eye), expected, "{corners:?} {eye:?}");
+            sides[expected as usize] += 1;
+            let mesh = mesh(
+                corners.into_iter().chain([a + u.cross(v) * 0.3 + (u + v) * 0.2]).collect(),
+                vec![[0, 1, 2], [0, 3, 1]],
+            );
+            let edges = EdgeList::new(&mesh);
+            let found = Silhouettes::new(&mesh, &edges).find(&mesh, &edges, eye, SilhouetteRule::Exact);
+            let other = rational_side([corners[0], mesh.positions[3], corners[1]], eye);
+            assert_eq!(found.len() == 1, (expected == Side::Front) != (other == Side::Front), "{corners:?} {eye:?}");
+        }
+    }
+    assert!(sides.iter().all(|count| *count > 30), "front, back and edge all occur: {sides:?}");
+}
