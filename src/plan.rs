@@ -195,6 +195,8 @@ pub enum Value {
     Vec2([f32; 2]),
     /// vec3
     Vec3([f32; 3]),
+    /// int
+    Int(i32),
 }
 
 /// The textures a plan can read.
@@ -228,6 +230,8 @@ pub enum Sampling {
     NearestClamped,
     /// LINEAR, GL_REPEAT.
     LinearRepeated,
+    /// LINEAR_MIPMAP_LINEAR where smaller, LINEAR where larger, GL_REPEAT.
+    MipmapRepeated,
 }
 
 /// How a draw meets the depth buffer.
@@ -336,6 +340,7 @@ impl fmt::Display for Draw {
         for uniform in &self.uniforms {
             match uniform.value {
                 Value::Float(x) => write!(out, ", {} = {x}", uniform.name)?,
+                Value::Int(x) => write!(out, ", {} = {x}", uniform.name)?,
                 Value::Vec2([x, y]) => write!(out, ", {} = ({x}, {y})", uniform.name)?,
                 Value::Vec3([x, y, z]) => write!(out, ", {} = ({x}, {y}, {z})", uniform.name)?,
             }

@@ -7,9 +7,12 @@
 //! | `two-pass` | Evangelista et al. 2005, section 4.2 and appendix 2 |
 //! | `inking` | Dachsbacher, edge list and painting |
 //! | `dietrich` | the hardware's outline that Dachsbacher names as the alternative |
+//! | `charcoal` | Valente 2007 |
+//! | `sand` | Valente 2007, section 4 |
 
 mod border;
 mod cartoon;
+mod charcoal;
 mod dietrich;
 mod inking;
 mod phong;
@@ -18,6 +21,9 @@ mod tones;
 
 pub use border::{Border, Filter};
 pub use cartoon::Cartoon;
+pub use charcoal::{
+    CetCoordinate, CetFilter, Charcoal, CharcoalPictures, ContrastOperator, Improvements, Noise, Paper, Recipe,
+};
 pub use dietrich::Dietrich;
 pub use inking::{ClassColors, Inking, LightOn, PaintMode};
 pub use phong::Phong;
@@ -45,6 +51,10 @@ pub enum Style {
     Inking(Inking),
     /// Ink where the surface is seen at a grazing angle.
     Dietrich(Dietrich),
+    /// Grain by tone, on paper.
+    Charcoal(Charcoal),
+    /// The same mixed with the model's own texture in sepia.
+    Sand(Charcoal),
 }
 
 /// Which of a style's pictures is wanted.
@@ -64,6 +74,14 @@ pub enum Show {
     Borders,
     /// The tones alone (figure 5).
     Tones,
+    /// The light of a charcoal drawing (Valente 2007, figure 4, left).
+    Diffuse,
+    /// The contrast-enhanced model (figure 4, right).
+    Cem,
+    /// The contrast-enhanced texture where the model reads it.
+    Cet,
+    /// The paper alone.
+    Paper,
 }
 
 impl Style {
@@ -75,6 +93,8 @@ impl Style {
             StyleName::TwoPass => Self::TwoPass(Cartoon::default()),
             StyleName::Inking => Self::Inking(Inking::default()),
             StyleName::Dietrich => Self::Dietrich(Dietrich::default()),
+            StyleName::Charcoal => Self::Charcoal(Charcoal::default()),
+            StyleName::Sand => Self::Sand(Charcoal::default()),
         }
     }
 
@@ -90,6 +110,8 @@ impl Style {
             Self::TwoPass(cartoon) => cartoon.two_pass(scene, show),
             Self::Inking(inking) => inking.plan(scene, show),
             Self::Dietrich(dietrich) => dietrich.plan(scene, show),
+            Self::Charcoal(charcoal) => charcoal.charcoal(scene, show),
+            Self::Sand(charcoal) => charcoal.sand(scene, show),
         }
     }
 }
@@ -107,16 +129,22 @@ pub enum StyleName {
     Inking,
     /// `dietrich`
     Dietrich,
+    /// `charcoal`
+    Charcoal,
+    /// `sand`
+    Sand,
 }
 
 impl StyleName {
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 5] = [
+    pub const ALL: [(&'static str, Self); 7] = [
         ("phong", Self::Phong),
         ("three-pass", Self::ThreePass),
         ("two-pass", Self::TwoPass),
         ("inking", Self::Inking),
         ("dietrich", Self::Dietrich),
+        ("charcoal", Self::Charcoal),
+        ("sand", Self::Sand),
     ];
 }
 
@@ -136,14 +164,23 @@ impl FromStr for StyleName {
 }
 
 impl Show {
+    /// Whether only charcoal and sand draw this picture.
+    fn is_of_charcoal(self) -> bool {
+        matches!(self, Self::Diffuse | Self::Cem | Self::Cet | Self::Paper)
+    }
+
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 6] = [
+    pub const ALL: [(&'static str, Self); 10] = [
         ("final", Self::Final),
         ("normals", Self::Normals),
         ("depth", Self::Depth),
         ("map", Self::Map),
         ("borders", Self::Borders),
         ("tones", Self::Tones),
+        ("diffuse", Self::Diffuse),
+        ("cem", Self::Cem),
+        ("cet", Self::Cet),
+        ("paper", Self::Paper),
     ];
 }
 

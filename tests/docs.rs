@@ -16,7 +16,7 @@ fn documents() -> Vec<(PathBuf, String)> {
 
 /// The words of a document that stand in backquotes and begin like a path of this project.
 fn quoted_paths(text: &str) -> Vec<&str> {
-    const FOLDERS: [&str; 11] = [
+    const FOLDERS: [&str; 12] = [
         "src/",
         "glsl/",
         "models/",
@@ -28,6 +28,7 @@ fn quoted_paths(text: &str) -> Vec<&str> {
         "phong/",
         "dachsbacher/",
         "dietrich/",
+        "valente/",
     ];
     text.split('`')
         .skip(1)

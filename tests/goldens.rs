@@ -5,7 +5,7 @@
 use crate::support::{BACKENDS, failure_folder, renderer, root, scene_with, side_by_side};
 use tinta::edges::SilhouetteRule;
 use tinta::picture::write_rgba_png;
-use tinta::styles::{Border, Cartoon, ClassColors, Filter, Inking, PaintMode, Tones};
+use tinta::styles::{Border, Cartoon, Charcoal, ClassColors, Filter, Inking, PaintMode, Recipe, Tones};
 use tinta::{Picture, SceneSettings, Show, Size, Style, StyleName};
 
 /// A pixel counts as different beyond this, in 1/255: what another version of Mesa may round differently.
@@ -30,6 +30,9 @@ fn cases() -> Vec<Case> {
         Inking { silhouette: SilhouetteRule::Exact, paint: PaintMode::Flat, is_smooth: false, ..Inking::default() };
     let class_colors =
         Inking { colors: ClassColors::figure_6(), paint: PaintMode::None, line_width_px: 3.0, ..Inking::default() };
+    // As large as the picture, so that every driver reads noise and paper in the middle of their texels.
+    let texture_size = Size { width: 160, height: 160 };
+    let charcoal = |recipe| Style::Charcoal(Charcoal { texture_size, ..Charcoal::recipe(recipe) });
     let case = |name, model, style, show| Case { name, model, style, show };
     let (bust, gear, ant, open_box) = ("builtin:bust", "builtin:gear", "builtin:ant", "builtin:open-box");
     vec![
@@ -53,6 +56,10 @@ fn cases() -> Vec<Case> {
         case("bust-inking-paint", bust, Style::named(StyleName::Inking), Show::Tones),
         case("ant-inking-exact-flat", ant, Style::Inking(exact_flat), Show::Final),
         case("open-box-class-colors", open_box, Style::Inking(class_colors), Show::Final),
+        case("bust-charcoal", bust, charcoal(Recipe::Published), Show::Final),
+        case("bust-charcoal-darker", bust, charcoal(Recipe::Darker), Show::Final),
+        case("bust-charcoal-closure", bust, charcoal(Recipe::Closure), Show::Final),
+        case("gear-charcoal-cet", gear, charcoal(Recipe::Published), Show::Cet),
         case("bust-dietrich", bust, Style::named(StyleName::Dietrich), Show::Final),
     ]
 }

@@ -16,16 +16,23 @@ fn a_thousand_frames_leave_memory_and_objects_as_they_were() {
     let mesh = load("builtin:ant", &LoadOptions::default()).unwrap().mesh;
     let settings = SceneSettings { size: Size { width: 64, height: 64 }, ..SceneSettings::default() };
     let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
+    // Made once, as an animation does: charcoal keeps its textures in them. Sand needs a model with a texture.
+    let names = StyleName::ALL.into_iter().filter(|(_, name)| *name != StyleName::Sand);
+    let styles: Vec<Style> = names.map(|(_, name)| Style::named(name)).collect();
     for backend in [Backend::Egl, Backend::OsMesa] {
         let mut renderer = Renderer::new(backend).unwrap_or_else(|error| panic!("{error}"));
         let mut frames = |count| {
-            for (_, style) in StyleName::ALL {
-                let plan = Style::named(style).plan(&scene, Show::Final).unwrap();
+            for style in &styles {
+                let plan = style.plan(&scene, Show::Final).unwrap();
                 renderer.time_frames(&scene, &plan, 0, count).unwrap();
                 renderer.time_passes(&scene, &plan, 2).unwrap();
             }
             renderer.live_objects()
         };
+        // Charcoal's textures, 3 MiB uploaded anew after every other style, first find their place in the allocator.
+        (0..6).for_each(|_| {
+            frames(5);
+        });
         let (objects, memory) = (frames(334), resident_kib());
         assert!(objects > 0);
         assert_eq!(frames(334), objects);

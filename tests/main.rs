@@ -1,6 +1,8 @@
 //! Tests that need a GL context or the finished program. One binary, so that it links once.
 
 mod animation;
+mod charcoal;
+mod charcoal_twin;
 mod cli;
 mod docs;
 mod edges;

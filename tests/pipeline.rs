@@ -99,7 +99,8 @@ fn the_background_has_exactly_the_colour_asked_for_in_every_style_and_number_of_
         let mut settings = settings(size);
         settings.camera.fov_y_degrees = 100.0;
         let scene = scene_with("builtin:ant", settings);
-        for (name, style) in styles() {
+        // Charcoal draws on paper.
+        for (name, style) in styles().into_iter().filter(|(name, _)| *name != "charcoal") {
             for count in 1..=3 {
                 for lookup in [ToneLookup::Steps, ToneLookup::Texture] {
                     let mut style = style.clone();

@@ -89,9 +89,9 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         });
     }
     for (option, name) in [("--left", arguments.left), ("--right", arguments.right)] {
-        if name == StyleName::Phong {
+        if matches!(name, StyleName::Phong | StyleName::Charcoal | StyleName::Sand) {
             return Err(Error::Setting {
-                setting: format!("{option} phong"),
+                setting: format!("{option} {}", name.name()),
                 problem: "this style has no lines to compare; choose three-pass, two-pass, inking or dietrich"
                     .to_owned(),
             });

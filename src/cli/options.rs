@@ -1,8 +1,10 @@
 //! Options that more than one command takes, in groups: camera, styles, models.
 
+mod charcoal;
 mod scene;
 mod style;
 
+pub use charcoal::GrainArguments;
 pub use scene::SceneArguments;
 pub use style::{CreaseArguments, StyleArguments};
 

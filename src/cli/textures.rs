@@ -1,5 +1,6 @@
 //! `tinta textures`: the charcoal drawing's textures as files, to be looked at and used elsewhere.
 
+use super::options::GrainArguments;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -22,17 +23,8 @@ pub struct Arguments {
     #[arg(long, value_name = "WxH", default_value = "512x512", hide_default_value = true)]
     size: Size,
 
-    /// Where the random numbers begin; the same seed gives the same files [default: 0]
-    #[arg(long, value_name = "N", default_value = "0", hide_default_value = true, allow_hyphen_values = true)]
-    seed: u64,
-
-    /// Share of black pixels before they are moved, percent; more is darker [default: 60]
-    #[arg(long, value_name = "PERCENT", default_value = "60", hide_default_value = true, allow_hyphen_values = true)]
-    density: f64,
-
-    /// Exponent m that moves black pixels along t to t^m; more leaves fewer grains in light tones [default: 5.5]
-    #[arg(long, value_name = "M", default_value = "5.5", hide_default_value = true, allow_hyphen_values = true)]
-    cet_exponent: f64,
+    #[command(flatten)]
+    grain: GrainArguments,
 
     /// Standard deviation of the blur that follows, pixels [default: 0.8]
     #[arg(long, value_name = "PIXELS", default_value = "0.8", hide_default_value = true, allow_hyphen_values = true)]
@@ -51,7 +43,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     made.push(Made::new("noise.png", &arguments.noise(), NoiseTexture::picture)?);
     made.push(Made::new("paper.png", &arguments.paper(), PaperTexture::picture)?);
     made.push(Made::new("ramp.png", &Ramp::default(), |ramp| Ok(Picture::clone(&ramp.picture)))?);
-    let (size, seed) = (arguments.size, arguments.seed);
+    let (size, seed) = (arguments.size, arguments.grain.seed);
     if contrast == (ContrastTexture { size, seed, ..ContrastTexture::default() }) {
         let scattered = ContrastTexture::figure_2(size, seed);
         made.push(Made::new("figure-2.png", &scattered, ContrastTexture::picture)?);
@@ -106,21 +98,22 @@ fn make_folder(folder: &Path) -> Result<()> {
 
 impl Arguments {
     fn contrast(&self) -> ContrastTexture {
+        let default = ContrastTexture::default();
         ContrastTexture {
             size: self.size,
-            density_percent: self.density,
-            exponent: self.cet_exponent,
+            density_percent: self.grain.density.unwrap_or(default.density_percent),
+            exponent: self.grain.cet_exponent.unwrap_or(default.exponent),
             blur_px: self.cet_blur,
-            seed: self.seed,
+            seed: self.grain.seed,
         }
     }
 
     fn noise(&self) -> NoiseTexture {
-        NoiseTexture { size: self.size, seed: self.seed }
+        NoiseTexture { size: self.size, seed: self.grain.seed }
     }
 
     fn paper(&self) -> PaperTexture {
-        PaperTexture { size: self.size, seed: self.seed }
+        PaperTexture { size: self.size, seed: self.grain.seed }
     }
 }
 

@@ -73,6 +73,8 @@ pub struct ContextInfo {
     pub smooth_point_size: [f32; 2],
     /// Largest width and height of a texture, pixels.
     pub largest_texture: u32,
+    /// How many textures a fragment shader can read; OpenGL 2.1 promises 2.
+    pub texture_units: u32,
     /// Largest picture, pixels: the smallest of viewport, texture and surface limits.
     pub largest_picture: Size,
     /// Whether passes can be timed on the device.
@@ -326,6 +328,7 @@ fn load_functions(platform: &Platform, backend: &'static str, device: String) ->
         aliased_point_size: range(legacy::ALIASED_POINT_SIZE_RANGE),
         smooth_point_size: range(legacy::SMOOTH_POINT_SIZE_RANGE),
         largest_texture: texture.max(0) as u32,
+        texture_units: integer(glow::MAX_TEXTURE_IMAGE_UNITS).max(0) as u32,
         largest_picture: Size { width: limit(viewport[0], surface.width), height: limit(viewport[1], surface.height) },
         timer_queries,
     };

@@ -84,6 +84,16 @@ impl Resources {
         }
         self.textures.prepare(&gl, scene, plan)?;
         for (_, step) in plan.steps() {
+            if let Step::Draw(draw) = step
+                && draw.textures.len() > gl.info.texture_units as usize
+            {
+                let what = format!(
+                    "the style reads {} textures at once, this driver allows {}; use another style or --backend",
+                    draw.textures.len(),
+                    gl.info.texture_units
+                );
+                return Err(Error::gl("setting up", what));
+            }
             if let Step::Draw(Draw { program: Some(program), .. }) = step
                 && !self.programs.contains_key(program)
             {

@@ -26,6 +26,8 @@ pub const LUMINANCE_ALPHA: u32 = 0x190A;
 pub const LUMINANCE8_ALPHA8: u32 = 0x8045;
 /// `GL_RGBA` as the internal format the paper copies to.
 pub const RGBA: u32 = 0x1908;
+/// `GL_GENERATE_MIPMAP`
+pub const GENERATE_MIPMAP: u32 = 0x8191;
 /// `GL_QUADS`
 pub const QUADS: u32 = 0x0007;
 /// `GL_ALPHA_BITS`

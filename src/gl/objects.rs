@@ -1,6 +1,6 @@
 //! GL objects with one owner each, deleted when it is dropped, which must happen while their context is current.
 
-use super::Gl;
+use super::{Gl, legacy};
 use crate::error::{Error, Result};
 use crate::plan::{self, Sampling};
 use glow::HasContext;
@@ -71,9 +71,10 @@ pub struct Texture {
 impl Texture {
     /// An empty texture; `target` is GL_TEXTURE_1D or GL_TEXTURE_2D.
     pub fn new(gl: &Rc<Gl>, target: u32, sampling: Sampling) -> Result<Self> {
-        let (filter, wrap) = match sampling {
-            Sampling::NearestClamped => (glow::NEAREST, glow::CLAMP_TO_EDGE),
-            Sampling::LinearRepeated => (glow::LINEAR, glow::REPEAT),
+        let (smaller, larger, wrap) = match sampling {
+            Sampling::NearestClamped => (glow::NEAREST, glow::NEAREST, glow::CLAMP_TO_EDGE),
+            Sampling::LinearRepeated => (glow::LINEAR, glow::LINEAR, glow::REPEAT),
+            Sampling::MipmapRepeated => (glow::LINEAR_MIPMAP_LINEAR, glow::LINEAR, glow::REPEAT),
         };
         // SAFETY: the context is current; the parameters are those of every texture of GL 2.1.
         unsafe {
@@ -81,19 +82,24 @@ impl Texture {
             let texture = Self { live: Live::new(gl), id, target };
             gl.glow.bind_texture(target, Some(id));
             for (name, value) in [
-                (glow::TEXTURE_MIN_FILTER, filter),
-                (glow::TEXTURE_MAG_FILTER, filter),
+                (glow::TEXTURE_MIN_FILTER, smaller),
+                (glow::TEXTURE_MAG_FILTER, larger),
                 (glow::TEXTURE_WRAP_S, wrap),
                 (glow::TEXTURE_WRAP_T, wrap),
             ] {
                 gl.glow.tex_parameter_i32(target, name, value as i32);
+            }
+            if sampling == Sampling::MipmapRepeated {
+                // The way of GL 1.4 to 2.1: the smaller levels follow whenever the largest is uploaded.
+                gl.glow.tex_parameter_i32(target, legacy::GENERATE_MIPMAP, 1);
             }
             Ok(texture)
         }
     }
 
     pub fn bind(&self, unit: u32) {
-        // SAFETY: the context is current and this texture alive; GL 2.1 has at least two units, and plans use no more.
+        // SAFETY: the context is current and this texture alive; that there are as many units `Resources::prepare` has
+        // checked.
         unsafe {
             self.live.0.glow.active_texture(glow::TEXTURE0 + unit);
             self.live.0.glow.bind_texture(self.target, Some(self.id));
@@ -157,6 +163,7 @@ impl Program {
         // SAFETY: as above; the value has the type the shader declares, which a test of every program checks.
         unsafe {
             match value {
+                plan::Value::Int(x) => gl.uniform_1_i32(location, x),
                 plan::Value::Float(x) => gl.uniform_1_f32(location, x),
                 plan::Value::Vec2([x, y]) => gl.uniform_2_f32(location, x, y),
                 plan::Value::Vec3([x, y, z]) => gl.uniform_3_f32(location, x, y, z),

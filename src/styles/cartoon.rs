@@ -98,6 +98,13 @@ impl Cartoon {
     }
 
     fn check(&self, scene: &Scene, show: Show) -> Result<()> {
+        if show.is_of_charcoal() {
+            return Err(Error::setting(
+                "--show",
+                "diffuse, cem, cet and paper are pictures of the styles charcoal and sand; show final, normals, depth, map, \
+                 borders or tones",
+            ));
+        }
         self.tones.check()?;
         match self.border {
             Some(border) => border.check()?,
@@ -117,9 +124,9 @@ impl Cartoon {
 
     fn finish(&self, passes: Vec<Pass>, show: Show) -> Plan {
         let output = match show {
-            Show::Final | Show::Map | Show::Borders | Show::Tones => Output::Rgba,
             Show::Normals => Output::Rgb,
             Show::Depth => Output::AlphaAsGrey,
+            _ => Output::Rgba,
         };
         let reads_table = passes
             .iter()

@@ -40,8 +40,11 @@ impl Dietrich {
             Show::Tones => (Paint::Materials, scene.background.clear_color(), 0.0),
             Show::Borders if transparent => (Paint::Uniform([0.0; 4]), [0.0; 4], self.threshold),
             Show::Borders => (Paint::Uniform([1.0; 4]), [1.0; 4], self.threshold),
-            Show::Normals | Show::Depth | Show::Map => {
-                return Err(Error::setting("--show", "the style dietrich has no map; show final, borders or tones"));
+            _ => {
+                return Err(Error::setting(
+                    "--show",
+                    "the style dietrich has no map, light or paper; show final, borders or tones",
+                ));
             }
         };
         let program = Program { vertex: "dietrich/dietrich.vert", fragments: vec!["dietrich/dietrich.frag"] };

@@ -203,8 +203,11 @@ impl Inking {
         if self.polygon_offset.iter().any(|number| !number.is_finite()) {
             return Err(Error::setting("--polygon-offset", "its two numbers must be finite"));
         }
-        if matches!(show, Show::Normals | Show::Depth | Show::Map) {
-            return Err(Error::setting("--show", "the style inking has no map; show final, borders or tones"));
+        if !matches!(show, Show::Final | Show::Borders | Show::Tones) {
+            return Err(Error::setting(
+                "--show",
+                "the style inking has no map, light or paper; show final, borders or tones",
+            ));
         }
         if show == Show::Borders && !self.is_inked {
             return Err(Error::setting("--show borders", "there are none with --no-borders; leave out one of the two"));

@@ -1,5 +1,6 @@
 //! The styles' settings, in one group for every command that draws.
 
+use super::charcoal::CharcoalArguments;
 use super::{parse_pair, parse_switch, parse_triple};
 use std::path::PathBuf;
 use tinta::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
@@ -12,7 +13,7 @@ use tinta::{Result, Show, Style, StyleName};
 #[derive(clap::Args)]
 #[command(next_help_heading = "All styles")]
 pub struct StyleArguments {
-    /// Which picture: final, borders, tones; three-pass and two-pass also normals, depth, map [default: final]
+    /// Which picture: final, borders, tones; three-pass and two-pass also normals, depth, map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
     #[arg(long, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
     pub show: Show,
 
@@ -35,6 +36,9 @@ pub struct StyleArguments {
 
     #[command(flatten)]
     dietrich: DietrichArguments,
+
+    #[command(flatten)]
+    charcoal: CharcoalArguments,
 }
 
 #[derive(clap::Args)]
@@ -155,6 +159,8 @@ impl StyleArguments {
                 cull_back_faces: self.cull,
                 ..Dietrich::default()
             }),
+            StyleName::Charcoal => Style::Charcoal(self.charcoal.settings(self.cull)?),
+            StyleName::Sand => Style::Sand(self.charcoal.settings(self.cull)?),
         })
     }
 }

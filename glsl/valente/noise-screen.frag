@@ -1,0 +1,9 @@
+#version 120
+// Noise by the paper's coordinate, as published: it stands still on the picture while the model turns.
+// In: the part paper-*. Out: the noise texture's coordinate.
+
+vec2 paperPlace();
+
+vec2 noisePlace() {
+    return paperPlace();
+}

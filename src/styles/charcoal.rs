@@ -1,0 +1,291 @@
+//! `charcoal` and `sand`: Valente 2007, after Majumder and Gopi 2002.
+//!
+//! One pass: the paper over the whole picture, then the objects, dark grain where little light falls. The published listings
+//! run unless a setting is none of their uniforms; then their parts do, each of which can be exchanged alone
+//! (`glsl/valente/charcoal-parts.frag`). A test shows that listing and parts draw the same picture.
+
+mod choices;
+mod pictures;
+
+pub use choices::{CetCoordinate, CetFilter, ContrastOperator, Improvements, Noise, Recipe};
+pub use pictures::{CharcoalPictures, Paper};
+
+use super::Show;
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::plan::{
+    Depth, Draw, Geometry, Output, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
+};
+use crate::scene::{Background, Scene, Size};
+use serde::Serialize;
+
+/// Settings of `charcoal` and `sand`; the defaults are the text's where it gives them, ours elsewhere (errata V7).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Charcoal {
+    /// Exponent m of the contrast operator, above 0. Default 1.5, ours; more darkens all but the lights.
+    pub contrast_exponent: f32,
+    /// What the contrast-enhanced light is multiplied by, at least 0. Default 1; 1.2 lightens by a fifth, so that faint
+    /// lines vanish: the text's closure.
+    pub saturation: f32,
+    /// Whether the drawing is multiplied by the light again, which darkens. Default no.
+    pub smudge: bool,
+    /// Directions towards the two lights, eye space, of any length above 0. Default ours: from above and from the lower
+    /// left, 122 degrees apart, so that together they nowhere exceed 1; nearer to each other they wrap (errata V3).
+    pub lights: [[f32; 3]; 2],
+    /// Share of black in the contrast-enhanced texture before its grains are moved, percent. Default 60, the text's; more
+    /// is darker.
+    pub density_percent: f64,
+    /// Exponent of the contrast-enhanced texture, at least 1. Default 5.5, the text's middle one; more leaves fewer
+    /// grains in light tones.
+    pub cet_exponent: f64,
+    /// Where the random numbers of all textures begin. Default 0.
+    pub seed: u64,
+    /// Size of the textures made here, pixels. Default 512 x 512. Noise and paper are stretched once over the picture, as
+    /// published: more is finer grain.
+    pub texture_size: Size,
+    /// The paper. Default made here.
+    pub paper: Paper,
+    /// How the contrast-enhanced texture is filtered. Default linear, as published.
+    pub cet_filter: CetFilter,
+    /// By which light its rows are read. Default that before saturation, as published.
+    pub cet_coordinate: CetCoordinate,
+    /// What enhances contrast. Default the power, as published.
+    pub operator: ContrastOperator,
+    /// Where the noise lies. Default on the picture, as published.
+    pub noise: Noise,
+    /// Which of the text's flaws are mended. Default none.
+    pub improve: Improvements,
+    /// Whether faces turned away from the eye are left out. Default no.
+    pub cull_back_faces: bool,
+    /// The textures once they are made; kept for the next picture with the same settings and shared between clones.
+    #[serde(skip)]
+    pub pictures: CharcoalPictures,
+}
+
+impl Default for Charcoal {
+    fn default() -> Self {
+        Self {
+            contrast_exponent: 1.5,
+            saturation: 1.0,
+            smudge: false,
+            lights: [[0.26, 0.9, 0.35], [-0.7, -0.56, 0.45]],
+            density_percent: 60.0,
+            cet_exponent: 5.5,
+            seed: 0,
+            texture_size: Size { width: 512, height: 512 },
+            paper: Paper::Made,
+            cet_filter: CetFilter::Linear,
+            cet_coordinate: CetCoordinate::Original,
+            operator: ContrastOperator::Power,
+            noise: Noise::Screen,
+            improve: Improvements::default(),
+            cull_back_faces: false,
+            pictures: CharcoalPictures::default(),
+        }
+    }
+}
+
+/// Where a plan's pictures are in its list.
+const NOISE: usize = 0;
+const CET: usize = 1;
+const PAPER: usize = 2;
+
+/// The ground of the light and the contrast-enhanced model, shown by themselves.
+const WHITE: [f32; 4] = [1.0; 4];
+
+impl Charcoal {
+    /// The settings of one of the text's recipes.
+    pub fn recipe(recipe: Recipe) -> Self {
+        let base = Self::default();
+        match recipe {
+            Recipe::Published => base,
+            Recipe::Darker => Self { density_percent: 85.0, contrast_exponent: 1.2, smudge: true, ..base },
+            Recipe::Closure => Self { density_percent: 35.0, contrast_exponent: 2.0, saturation: 1.4, ..base },
+        }
+    }
+
+    /// Paper and drawing.
+    pub(super) fn charcoal(&self, scene: &Scene, show: Show) -> Result<Plan> {
+        self.plan(scene, show, false)
+    }
+
+    /// Paper and drawing mixed with the models' own textures in sepia.
+    pub(super) fn sand(&self, scene: &Scene, show: Show) -> Result<Plan> {
+        let has_texture = |mesh: &Mesh| {
+            !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.texture.is_some())
+        };
+        if let Some(object) = scene.objects.iter().find(|object| !has_texture(&object.mesh)) {
+            return Err(Error::setting(
+                "--style sand",
+                format!(
+                    "it draws with a model's own texture, and {} has no texture coordinates with a picture for them; give \
+                     it one with --skin, or use --style charcoal",
+                    object.mesh.name
+                ),
+            ));
+        }
+        self.plan(scene, show, true)
+    }
+
+    fn plan(&self, scene: &Scene, show: Show, is_sand: bool) -> Result<Plan> {
+        self.check(show, is_sand)?;
+        let made = self.pictures.of(self)?;
+        let cet = match self.cet_filter {
+            CetFilter::Linear => Sampling::LinearRepeated,
+            CetFilter::Mipmap => Sampling::MipmapRepeated,
+        };
+        let linear = Sampling::LinearRepeated;
+        let picture = |name, picture, sampling| PlanPicture { name, picture, sampling };
+        let pictures = vec![
+            picture("noise", made.noise, linear),
+            picture("cet", made.cet, cet),
+            picture("paper", made.paper, linear),
+        ];
+        let has_paper = matches!(show, Show::Final | Show::Paper) && scene.background != Background::Transparent;
+        let color = match show {
+            Show::Final | Show::Paper => scene.background.clear_color(),
+            _ if scene.background == Background::Transparent => [0.0; 4],
+            _ => WHITE,
+        };
+        let mut steps = vec![Step::Clear { color }];
+        if has_paper {
+            let program = Program { vertex: "valente/paper.vert", fragments: vec!["valente/paper.frag"] };
+            // The text draws it in 2D over the whole screen; what follows is nearer, so it needs no depth.
+            steps.push(Step::Draw(Draw {
+                textures: vec![("paperTexture", Texture::Picture(PAPER))],
+                depth: Depth::Ignore,
+                ..Draw::new(Geometry::ScreenSquare, Some(program))
+            }));
+        }
+        if show != Show::Paper {
+            steps.push(Step::Draw(self.objects(scene, show, is_sand)));
+        }
+        let pass = Pass { name: if is_sand { "sand" } else { "charcoal" }, steps };
+        Ok(Plan { passes: vec![pass], tone_table: None, pictures, output: Output::Rgba })
+    }
+
+    /// The drawing itself.
+    fn objects(&self, scene: &Scene, show: Show, is_sand: bool) -> Draw {
+        let uniform = |name, value| Uniform { name, value };
+        let mut uniforms = vec![
+            uniform("inputLight1", Value::Vec3(self.lights[0])),
+            uniform("inputLight2", Value::Vec3(self.lights[1])),
+            uniform("contrastExp", Value::Float(self.contrast_exponent)),
+            uniform("saturationFactor", Value::Float(self.saturation)),
+            uniform("smudge", Value::Int(self.smudge.into())),
+        ];
+        let mut textures = Vec::new();
+        if is_sand && show == Show::Final {
+            // First, for the first unit's coordinates are those the listing reads.
+            textures.push(("origTexture", Texture::Material));
+        }
+        textures.extend([
+            ("noiseTexture", Texture::Picture(NOISE)),
+            ("contrastTexture", Texture::Picture(CET)),
+            ("paperTexture", Texture::Picture(PAPER)),
+        ]);
+        let program = match self.is_published(show) {
+            true if is_sand => Program { vertex: "valente/sand.vert", fragments: vec!["valente/sand.frag"] },
+            true => Program { vertex: "valente/charcoal.vert", fragments: vec!["valente/charcoal.frag"] },
+            false => {
+                let Size { width, height } = scene.size;
+                let texel = 1.0 / self.texture_size.height as f32;
+                let unit = [1.0 / width as f32, 1.0 / height as f32];
+                // About as many texels a pixel as on the screen, where the scene's radius is about half the picture.
+                let across = [width, height].map(|side| width.min(height) as f32 / side as f32 * 0.5);
+                uniforms.extend([
+                    uniform("cetTexel", Value::Float(texel)),
+                    uniform("textureUnit", Value::Vec2(unit)),
+                    uniform("noiseScale", Value::Vec2(across)),
+                ]);
+                self.parts(show, is_sand)
+            }
+        };
+        Draw {
+            uniforms,
+            textures,
+            cull_back_faces: self.cull_back_faces,
+            ..Draw::new(Geometry::Objects(Paint::Uniform([1.0; 4])), Some(program))
+        }
+    }
+
+    /// Whether the listing can draw this.
+    fn is_published(&self, show: Show) -> bool {
+        show == Show::Final
+            && self.cet_coordinate == CetCoordinate::Original
+            && self.operator == ContrastOperator::Power
+            && self.noise == Noise::Screen
+            && self.improve == Improvements::default()
+    }
+
+    /// The listing in parts, each the one that is asked for.
+    fn parts(&self, show: Show, is_sand: bool) -> Program {
+        let either = |condition: bool, yes, no| if condition { yes } else { no };
+        let improve = &self.improve;
+        let mut fragments = vec![
+            "valente/charcoal-parts.frag",
+            match self.operator {
+                ContrastOperator::Power => "valente/operator-power.frag",
+                ContrastOperator::Sigmoid => "valente/operator-sigmoid.frag",
+                ContrastOperator::Bias => "valente/operator-bias.frag",
+            },
+            either(improve.clamp, "valente/clamp-kept.frag", "valente/clamp-discarded.frag"),
+            match self.cet_coordinate {
+                CetCoordinate::Original => "valente/row-original.frag",
+                CetCoordinate::Saturated => "valente/row-saturated.frag",
+            },
+            either(improve.wrap, "valente/wrap-edge.frag", "valente/wrap-repeat.frag"),
+            either(improve.paper_coordinate, "valente/paper-pixel.frag", "valente/paper-vertex.frag"),
+            either(self.noise == Noise::Object, "valente/noise-object.frag", "valente/noise-screen.frag"),
+            match show {
+                Show::Diffuse => "valente/finish-diffuse.frag",
+                Show::Cem => "valente/finish-cem.frag",
+                Show::Cet => "valente/finish-cet.frag",
+                _ if is_sand => "valente/finish-sand.frag",
+                _ => "valente/finish-drawing.frag",
+            },
+        ];
+        if is_sand && show == Show::Final {
+            let rec709 = "valente/luminance-rec709.frag";
+            fragments.push(either(improve.luminance, rec709, "valente/luminance-published.frag"));
+        }
+        let vertex = match self.noise {
+            Noise::Object => "valente/charcoal-object.vert",
+            Noise::Screen => either(is_sand, "valente/sand.vert", "valente/charcoal.vert"),
+        };
+        Program { vertex, fragments }
+    }
+
+    fn check(&self, show: Show, is_sand: bool) -> Result<()> {
+        let above_zero = |x: f32| x > 0.0 && x.is_finite();
+        if !above_zero(self.contrast_exponent) {
+            return Err(Error::setting(
+                format!("--contrast-exponent {}", self.contrast_exponent),
+                "the exponent is a finite number above 0; below 1 it lightens",
+            ));
+        }
+        if !(self.saturation >= 0.0 && self.saturation.is_finite()) {
+            return Err(Error::setting(
+                format!("--saturation {}", self.saturation),
+                "the saturation is a finite number of at least 0; 1 changes nothing",
+            ));
+        }
+        for (light, option) in self.lights.iter().zip(["--light-1", "--light-2"]) {
+            let length = light.iter().map(|x| x * x).sum::<f32>().sqrt();
+            if !above_zero(length) {
+                return Err(Error::setting(option, "a light's direction is three finite numbers, not all 0"));
+            }
+        }
+        if matches!(show, Show::Normals | Show::Depth | Show::Map | Show::Borders | Show::Tones) {
+            let name = if is_sand { "sand" } else { "charcoal" };
+            return Err(Error::setting(
+                "--show",
+                format!("the style {name} has no map, lines or tones; show final, diffuse, cem, cet or paper"),
+            ));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

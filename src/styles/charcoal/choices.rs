@@ -1,0 +1,176 @@
+//! The charcoal drawing's choices that have names.
+
+use crate::names::find;
+use serde::Serialize;
+use std::str::FromStr;
+
+/// The text's ways to draw, in its conclusions.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Recipe {
+    /// The default settings.
+    #[default]
+    Published,
+    /// Stronger strokes: more grains, less contrast, smudged.
+    Darker,
+    /// Faint outlines left to the viewer: fewer grains, more contrast, more saturation.
+    Closure,
+}
+
+impl Recipe {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 3] =
+        [("published", Self::Published), ("darker", Self::Darker), ("closure", Self::Closure)];
+}
+
+/// How the contrast-enhanced texture is filtered.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CetFilter {
+    /// GL_LINEAR, as published.
+    #[default]
+    Linear,
+    /// GL_LINEAR_MIPMAP_LINEAR, which blurs the grain away, as the text says.
+    Mipmap,
+}
+
+impl CetFilter {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("linear", Self::Linear), ("mipmap", Self::Mipmap)];
+}
+
+/// By which light the rows of the contrast-enhanced texture are read.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CetCoordinate {
+    /// Before saturation, as published.
+    #[default]
+    Original,
+    /// After it: figure 8.
+    Saturated,
+}
+
+impl CetCoordinate {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("original", Self::Original), ("saturated", Self::Saturated)];
+}
+
+/// What enhances contrast.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ContrastOperator {
+    /// The light to the power of the exponent, as published.
+    #[default]
+    Power,
+    /// An S about half light: darkens shadows and lightens lights.
+    Sigmoid,
+    /// Schlick's bias: darkens middle tones more evenly.
+    Bias,
+}
+
+impl ContrastOperator {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 3] =
+        [("power", Self::Power), ("sigmoid", Self::Sigmoid), ("bias", Self::Bias)];
+}
+
+/// Where the noise lies that chooses grains.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Noise {
+    /// On the picture, as published: the model moves behind it.
+    #[default]
+    Screen,
+    /// On the model: it turns with it.
+    Object,
+}
+
+impl Noise {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("screen", Self::Screen), ("object", Self::Object)];
+}
+
+/// Which of the text's flaws are mended.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Improvements {
+    /// V2: the saturated light is clamped to 1.
+    pub clamp: bool,
+    /// V3: the texture's rows do not wrap, so that lights stay free of specks.
+    pub wrap: bool,
+    /// V4: paper and noise are placed by the pixel.
+    pub paper_coordinate: bool,
+    /// V5: luminance by Rec. 709 (the style sand only).
+    pub luminance: bool,
+}
+
+impl Improvements {
+    /// All of them.
+    pub const ALL: Self = Self { clamp: true, wrap: true, paper_coordinate: true, luminance: true };
+}
+
+impl FromStr for Improvements {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "none" => return Ok(Self::default()),
+            "all" => return Ok(Self::ALL),
+            _ => {}
+        }
+        let mut chosen = Self::default();
+        for name in text.split(',') {
+            match name.trim() {
+                "clamp" => chosen.clamp = true,
+                "wrap" => chosen.wrap = true,
+                "paper-coordinate" => chosen.paper_coordinate = true,
+                "luminance" => chosen.luminance = true,
+                _ => {
+                    return Err(
+                        "write all, none, or some of clamp, wrap, paper-coordinate, luminance with commas between"
+                            .to_owned(),
+                    );
+                }
+            }
+        }
+        Ok(chosen)
+    }
+}
+
+impl FromStr for Recipe {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+impl FromStr for CetFilter {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+impl FromStr for CetCoordinate {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+impl FromStr for ContrastOperator {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+impl FromStr for Noise {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}

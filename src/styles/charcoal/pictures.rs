@@ -1,0 +1,113 @@
+//! The charcoal drawing's three textures, made once for all pictures with the same settings.
+
+use super::Charcoal;
+use crate::error::{Error, Result};
+use crate::picture::Picture;
+use crate::textures::{ContrastTexture, LARGEST_SIDE_PX, NoiseTexture, PaperTexture};
+use serde::{Serialize, Serializer};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The paper a drawing is made on.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub enum Paper {
+    /// Made from the seed.
+    #[default]
+    Made,
+    /// A picture, stretched over the whole drawing.
+    File {
+        /// Where it came from.
+        path: PathBuf,
+        /// The picture; its alpha is not used.
+        picture: Arc<Picture>,
+    },
+}
+
+impl Paper {
+    /// Reads a picture.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Picture`] when it cannot be read.
+    pub fn read(path: &Path) -> Result<Self> {
+        // Transparent paper would make the drawing's own alpha negative.
+        let picture = Arc::new(Picture::read(path)?.opaque());
+        Ok(Self::File { path: path.to_path_buf(), picture })
+    }
+}
+
+impl Serialize for Paper {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        match self {
+            Self::Made => serializer.serialize_str("made"),
+            Self::File { path, .. } => serializer.collect_str(&path.display()),
+        }
+    }
+}
+
+/// Textures kept for the next picture; shared between clones. Two of them are always equal: they follow from the settings.
+#[derive(Debug, Clone, Default)]
+pub struct CharcoalPictures(Arc<Mutex<Option<(Settings, Made)>>>);
+
+impl PartialEq for CharcoalPictures {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// What the textures follow from.
+#[derive(Debug, Clone, PartialEq)]
+struct Settings {
+    contrast: ContrastTexture,
+    noise: NoiseTexture,
+    paper: Paper,
+}
+
+/// The textures.
+#[derive(Debug, Clone)]
+pub(super) struct Made {
+    pub noise: Arc<Picture>,
+    pub cet: Arc<Picture>,
+    pub paper: Arc<Picture>,
+}
+
+impl CharcoalPictures {
+    /// The textures of these settings: those kept, or else made now.
+    pub(super) fn of(&self, charcoal: &Charcoal) -> Result<Made> {
+        let (size, seed) = (charcoal.texture_size, charcoal.seed);
+        if size.width.max(size.height) > LARGEST_SIDE_PX {
+            return Err(Error::setting(
+                format!("--texture-size {size}"),
+                format!("a texture has 1 to {LARGEST_SIDE_PX} pixels on each side"),
+            ));
+        }
+        let settings = Settings {
+            contrast: ContrastTexture {
+                size,
+                seed,
+                density_percent: charcoal.density_percent,
+                exponent: charcoal.cet_exponent,
+                ..ContrastTexture::default()
+            },
+            noise: NoiseTexture { size, seed },
+            paper: charcoal.paper.clone(),
+        };
+        // What is behind the lock is replaced as a whole, so a panic elsewhere leaves nothing half done.
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((known, made)) = kept.as_ref()
+            && *known == settings
+        {
+            return Ok(made.clone());
+        }
+        let made = Made {
+            noise: Arc::new(settings.noise.picture()?),
+            cet: Arc::new(settings.contrast.picture()?),
+            paper: match &settings.paper {
+                Paper::Made => Arc::new(PaperTexture { size, seed }.picture()?),
+                Paper::File { picture, .. } => picture.clone(),
+            },
+        };
+        *kept = Some((settings, made.clone()));
+        Ok(made)
+    }
+}
