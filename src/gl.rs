@@ -10,6 +10,7 @@ pub mod context;
 mod edges;
 pub(crate) mod execute;
 mod legacy;
+mod meshes;
 mod objects;
 mod quads;
 mod textures;

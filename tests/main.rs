@@ -4,6 +4,7 @@ mod animation;
 mod charcoal;
 mod charcoal_twin;
 mod cli;
+mod cli_ink;
 mod docs;
 mod edges;
 mod goldens;

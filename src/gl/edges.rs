@@ -1,8 +1,9 @@
 //! Edges drawn by GL: indices into the objects' own vertices, so that a line lies where the faces beside it do.
 
 use super::Gl;
-use super::execute::{Resources, of_another_scene};
+use super::execute::Resources;
 use super::legacy::{self, MODELVIEW, PROJECTION};
+use super::meshes::of_another_scene;
 use super::objects::Buffer;
 use super::quads::{line_quads, point_quads};
 use crate::error::Result;
