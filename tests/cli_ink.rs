@@ -91,3 +91,16 @@ fn ink_takes_its_options_and_refuses_what_it_cannot_use() {
     assert!(record["plan_ms"].as_f64() > Some(0.0));
     assert_eq!(record["style"]["classes"], serde_json::json!(["boundary", "silhouette", "crease"]));
 }
+
+#[test]
+fn a_dump_does_not_take_the_pictures_place() {
+    let folder = Folder::new();
+    let dump = folder.path("steps");
+    std::fs::create_dir(&dump).unwrap();
+    let render = |name: &str| {
+        tinta(&["render", "builtin:ant", "-o", &format!("{dump}/{name}"), "--dump", &dump, "--size", "32"])
+    };
+    assert!(render("ant.png").status.success());
+    let picture = format!("{dump}/01-map-clear.png");
+    refused_in_one_line(&["render", "builtin:ant", "-o", &picture, "--dump", &dump], &["01-map-clear.png", "--dump"]);
+}

@@ -4,7 +4,7 @@ mod animate;
 
 use super::models::load_meshes;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
@@ -207,6 +207,20 @@ fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style) ->
 
 fn make_dump_folder(arguments: &Arguments) -> Result<()> {
     let Some(folder) = &arguments.run.dump else { return Ok(()) };
+    let output = Path::new(&arguments.output);
+    let parent = output.parent().map(|parent| if parent == "" { Path::new(".") } else { parent });
+    let is_folder = |parent: &Path| {
+        parent.canonicalize().is_ok_and(|parent| folder.canonicalize().is_ok_and(|folder| folder == parent))
+    };
+    // The steps' files are called 01-map-clear.png and so on.
+    let name = output.file_name().and_then(|name| name.to_str()).unwrap_or_default().as_bytes();
+    let is_step = name.len() > 2 && name[0].is_ascii_digit() && name[1].is_ascii_digit() && name[2] == b'-';
+    if is_step && parent.is_some_and(is_folder) {
+        return Err(Error::Output {
+            path: arguments.output.clone(),
+            problem: "a step's picture in the --dump folder may take its place; give it another name".to_owned(),
+        });
+    }
     std::fs::create_dir_all(folder).map_err(|error| Error::Output {
         path: format!("--dump {}", folder.display()),
         problem: if folder.is_file() {
