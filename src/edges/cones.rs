@@ -77,8 +77,8 @@ impl NormalCones {
         let faces = &edges.faces;
         let point = |position: u32| silhouettes.frame.local(mesh.positions[position as usize]);
         let parts = in_parallel(edges.len(), threads_for(edges.len()), |range| {
-            // The listing's rule takes reversed edges as they are, the exact one turns a face round: too few to be worth a
-            // cone, and never where they could be left out.
+            // The listing's rule takes reversed edges as they are, the exact one turns a face round, so that a cone of one
+            // orientation says nothing of them: each is looked at by itself.
             let is_candidate = |edge: &usize| matches!(edges.incidence[*edge], Incidence::Inner);
             let candidates = range.filter(is_candidate);
             let key = |edge: usize| {
@@ -195,8 +195,8 @@ impl NormalCones {
         }
     }
 
-    /// Tests every edge of a lowest group. `IS_EXACT` is the rule, known when compiling: the loops are then a third of the
-    /// time.
+    /// Tests every edge of a lowest group. `IS_EXACT` is the rule, known when compiling, so that the loops
+    /// have no branch.
     #[inline(always)]
     fn search_leaf<const IS_EXACT: bool>(
         &self,
