@@ -30,6 +30,7 @@ pub mod edges;
 pub mod error;
 pub mod gl;
 pub mod glsl;
+pub mod lines;
 pub mod mesh;
 pub mod picture;
 pub mod plan;

@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         let mut lap = || milliseconds_since(std::mem::replace(&mut clock, Instant::now()));
         let edges = EdgeList::new(&mesh);
         let build = lap();
-        let classes = Classes::new(&mesh, &edges, crease_angle, ClassSet::ALL);
+        let classes = Classes::new(&mesh, &edges, crease_angle, ClassSet::EDGES);
         let classify = lap();
         let silhouettes = Silhouettes::new(&mesh, &edges);
         let planes = lap();
@@ -98,7 +98,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 fn in_words(record: &EdgeRecord) -> String {
     let mut counts = record.classes;
     let mut text = format!("{:<16}{:>10}\n", "edges", record.edges);
-    for (name, class) in Class::ALL {
+    for class in ClassSet::EDGES.classes() {
+        let name = class.name();
         let what = match class {
             Class::Boundary => "one face",
             Class::NonManifold => "three faces or more",
@@ -107,6 +108,7 @@ fn in_words(record: &EdgeRecord) -> String {
             Class::Material => "between two materials",
             Class::Texture => "between different texture coordinates",
             Class::Normal => "between different vertex normals",
+            Class::Intersection => "where faces pass through one another",
         };
         text.push_str(&format!("  {name:<14}{:>10}  {what}\n", counts.of(class)));
     }

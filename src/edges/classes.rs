@@ -28,11 +28,13 @@ pub enum Class {
     Texture,
     /// The vertex normals at it differ between its two faces; likewise.
     Normal,
+    /// No edge of the mesh: two faces pass through one another along it. Only the exact lines find it.
+    Intersection,
 }
 
 impl Class {
     /// All of them, as the user writes them, in the order in which an edge of several classes belongs to one.
-    pub const ALL: [(&'static str, Self); 7] = [
+    pub const ALL: [(&'static str, Self); 8] = [
         ("boundary", Self::Boundary),
         ("non-manifold", Self::NonManifold),
         ("silhouette", Self::Silhouette),
@@ -40,6 +42,7 @@ impl Class {
         ("material", Self::Material),
         ("texture", Self::Texture),
         ("normal", Self::Normal),
+        ("intersection", Self::Intersection),
     ];
 
     /// As the user writes it.
@@ -63,6 +66,9 @@ pub struct ClassSet(u8);
 impl ClassSet {
     /// Every class.
     pub const ALL: Self = Self((1 << Class::ALL.len()) - 1);
+
+    /// Every class that a mesh's edges can be of.
+    pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8));
 
     /// The set of these classes.
     pub const fn of(classes: &[Class]) -> Self {
@@ -173,6 +179,15 @@ pub struct ClassCounts {
     pub texture: usize,
     /// Between different vertex normals.
     pub normal: usize,
+    /// Where faces pass through one another; not counted among edges.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub intersection: usize,
+}
+
+/// Whether there is nothing to say.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 impl ClassCounts {
@@ -186,6 +201,7 @@ impl ClassCounts {
             Class::Material => &mut self.material,
             Class::Texture => &mut self.texture,
             Class::Normal => &mut self.normal,
+            Class::Intersection => &mut self.intersection,
         }
     }
 }
