@@ -65,7 +65,7 @@ pub struct ClassSet(u8);
 
 impl ClassSet {
     /// Every class.
-    pub const ALL: Self = Self((1 << Class::ALL.len()) - 1);
+    pub const ALL: Self = Self(u8::MAX >> (u8::BITS as usize - Class::ALL.len()));
 
     /// Every class that a mesh's edges can be of.
     pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8));
