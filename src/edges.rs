@@ -18,7 +18,7 @@ pub use orientation::{Eye, Side, side_of_face};
 pub use silhouette::{SilhouetteRule, Silhouettes};
 
 use crate::mesh::Mesh;
-use std::sync::{Mutex, PoisonError};
+use crate::threads::threads_for;
 
 /// Each edge of a mesh once, with its faces.
 ///
@@ -105,70 +105,4 @@ impl EdgeList {
     pub fn degenerate_faces(&self) -> usize {
         self.degenerate_faces
     }
-}
-
-/// Faces below which a second thread costs more than it brings.
-const FACES_WORTH_A_THREAD: usize = 100_000;
-
-/// How many threads work on so many faces is worth.
-fn threads_for(faces: usize) -> usize {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    cores.min(faces / FACES_WORTH_A_THREAD).max(1)
-}
-
-/// Cuts `0..count` into at most `pieces` ranges of nearly one length.
-fn ranges(count: usize, pieces: usize) -> Vec<std::ops::Range<usize>> {
-    let length = count.div_ceil(pieces.max(1)).max(1);
-    (0..count).step_by(length).map(|start| start..(start + length).min(count)).collect()
-}
-
-/// Puts `value` of each number into a list, each thread its own piece of it in place.
-///
-/// `blank` is what zeroed memory means: the system then hands out the list's pages where they are first written.
-fn filled<T: Copy + Send>(count: usize, threads: usize, blank: T, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let mut list = vec![blank; count];
-    let length = count.div_ceil(threads.max(1)).max(1);
-    let pieces = Mutex::new(list.chunks_mut(length).enumerate());
-    // Every thread takes pieces while there are any, this one too: where no other can be had, it does them all.
-    let fill = || {
-        let next = || pieces.lock().unwrap_or_else(PoisonError::into_inner).next();
-        while let Some((piece, places)) = next() {
-            places.iter_mut().enumerate().for_each(|(index, place)| *place = value(piece * length + index));
-        }
-    };
-    std::thread::scope(|scope| {
-        let others: Vec<_> =
-            (1..threads).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, fill).ok()).collect();
-        fill();
-        for other in others {
-            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        }
-    });
-    list
-}
-
-/// Does `work` for each piece of `0..count`, one thread each, and returns the results in order.
-fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(std::ops::Range<usize>) -> T + Sync) -> Vec<T> {
-    let mut pieces = ranges(count, threads);
-    let Some(last) = pieces.pop() else { return Vec::new() };
-    let work = &work;
-    std::thread::scope(|scope| {
-        let others: Vec<_> = pieces
-            .into_iter()
-            .map(|piece| {
-                let started = std::thread::Builder::new().spawn_scoped(scope, {
-                    let piece = piece.clone();
-                    move || work(piece)
-                });
-                // Where no thread can be had, this one does it all.
-                started.map_err(|_| piece)
-            })
-            .collect();
-        let last = work(last);
-        let join = |started: Result<std::thread::ScopedJoinHandle<'_, T>, _>| match started {
-            Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
-            Err(piece) => work(piece),
-        };
-        others.into_iter().map(join).chain([last]).collect()
-    })
 }

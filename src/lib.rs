@@ -44,6 +44,7 @@ pub mod tolerances;
 
 mod bytes;
 mod names;
+mod threads;
 
 pub use animation::{AnimationTarget, AnimationWriter};
 pub use camera::{Camera, CameraSettings, View};

@@ -6,11 +6,27 @@
 //! (boundary, non-manifold, silhouette), or where the edge passes through a face (Appel 1967). All these places are found,
 //! the edge is cut there, and each piece is decided by one ray.
 
-use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle};
-use crate::error::Result;
+mod boxes;
+mod faces;
+mod features;
+mod intersections;
+mod mend;
+mod space;
+mod visibility;
+
+use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, MeshEdges};
+use crate::error::{Error, Result};
+use crate::renderer::milliseconds_since;
 use crate::scene::{Scene, Size};
+use faces::Faces;
+use features::{Edges, Part};
 use glam::DVec2;
 use serde::Serialize;
+use space::Space;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+use visibility::Lines;
 
 /// Which lines are wanted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -80,18 +96,91 @@ pub struct LineTimes {
     pub visibility_ms: f64,
 }
 
+/// How far the work is, for whoever watches from another thread.
+#[derive(Debug, Default)]
+pub struct Progress {
+    done: AtomicUsize,
+    total: AtomicUsize,
+}
+
+impl Progress {
+    /// Lines decided and lines in all; 0 and 0 until it is known how many there are.
+    pub fn state(&self) -> (usize, usize) {
+        (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
+    }
+
+    fn begin(&self, total: usize) {
+        self.total.store(total, Ordering::Relaxed);
+    }
+
+    fn advance(&self, count: usize) {
+        self.done.fetch_add(count, Ordering::Relaxed);
+    }
+}
+
 impl VisibleLines {
     /// Finds the lines of a scene.
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] when no class is wanted.
-    pub fn of(scene: &Scene, _settings: &LineSettings) -> Result<Self> {
-        Ok(Self {
-            size: scene.size,
-            segments: Vec::new(),
-            edges: ClassCounts::default(),
-            times: LineTimes::default(),
-        })
+    /// [`crate::Error::Setting`] when no class is wanted, or the scene has more than 2^32 faces or positions.
+    pub fn of(scene: &Scene, settings: &LineSettings) -> Result<Self> {
+        Self::with_progress(scene, settings, &Progress::default())
     }
+
+    /// As [`VisibleLines::of`], saying how far it is.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
+        if settings.classes.is_empty() {
+            return Err(Error::setting("--classes", "name at least one class of lines"));
+        }
+        let all_positions: usize = scene.objects.iter().map(|object| object.mesh.positions.len()).sum();
+        if scene.triangle_count().max(all_positions) > u32::MAX as usize / 4 {
+            return Err(Error::setting("--copies", "the scene has too many faces to find its lines; ask for fewer"));
+        }
+        let clock = Instant::now();
+        let space = Space::of(scene);
+        let parts = parts(scene);
+        let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.mesh.clone())).collect();
+        let faces = Faces::new(&space, &meshes);
+        for part in &parts {
+            part.edges.get().classes(settings.crease_angle, features::asked(settings));
+        }
+        let topology_ms = milliseconds_since(clock);
+
+        let clock = Instant::now();
+        let (mut lines, edges) = features::edge_features(scene, &space, &faces, &parts, settings);
+        let silhouette_ms = milliseconds_since(clock);
+
+        let clock = Instant::now();
+        let (intersections, piercings) = intersections::intersections(&space, &faces);
+        if settings.classes.contains(Class::Intersection) {
+            lines.extend(features::intersection_features(&faces, &parts, &intersections));
+        }
+        lines.extend(features::near_plane_features(&space, &faces));
+        let segments = Lines::new(&space, &faces, &lines, &piercings).segments(progress);
+        let mut edges = edges;
+        edges.intersection = intersections.len();
+        let visibility_ms = milliseconds_since(clock);
+        let times = LineTimes { topology_ms, silhouette_ms, visibility_ms };
+        Ok(Self { size: scene.size, segments, edges, times })
+    }
+}
+
+/// The scene's objects with their edges, mended where that is needed; objects of one mesh share them.
+fn parts(scene: &Scene) -> Vec<Part<'_>> {
+    let part = |object| {
+        let edges = scene.edges(object);
+        match mend::mended(&object.mesh, edges.list()) {
+            None => Part { object, mesh: object.mesh.clone(), edges: Edges::OfScene(edges) },
+            Some(mesh) => {
+                let mesh = Arc::new(mesh);
+                Part { object, mesh: mesh.clone(), edges: Edges::Mended(MeshEdges::new(mesh)) }
+            }
+        }
+    };
+    scene.objects.iter().map(part).collect()
 }

@@ -48,3 +48,26 @@ pub const ROW_EDGE: f64 = 1e-9;
 /// What rounding may take from the cosine between two equal unit normals: without it a crease angle of 0 would make creases
 /// of flat surfaces.
 pub const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;
+
+/// Distance of a point from a face, as a share of the shorter of the face's longest side and the line's length, below which
+/// they touch: then the face does not hide the line, and does not pass through its neighbour. Models that stand on one
+/// another meet as well as six printed digits let them.
+pub const CONTACT: f64 = 1e-5;
+
+/// Distance of a point from the image of a line, as a share of the picture's larger side, below which it lies on it: a line
+/// exactly behind the rim of something nearer is hidden, whatever the last digit says.
+pub const TIE: f64 = 2e-11;
+
+/// Distance between two lines, as a share of the picture's larger side, below which they touch: one is then cut where the
+/// other ends, and where both lie on one another only one is kept. A cut too many costs a ray, one too few an error.
+pub const TOUCH: f64 = 1e-7;
+
+/// Length, as a share of the picture's larger side, below which a line or a piece of one is a point: an edge seen end-on.
+pub const SHORTEST_LINE: f64 = 1e-7;
+
+/// What rounding may take from a coordinate as a share of the largest one in the scene: a few of f64's last places.
+pub const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
+
+/// Sine of the angle between a face and the view below which the face is seen edge-on: all its sides are then places where
+/// a surface may end. One too many costs a ray.
+pub const EDGE_ON: f64 = 1e-9;

@@ -4,7 +4,8 @@
 //! The text searches the whole list for every edge (errata D1). A hash table would be linear too, but would go to
 //! a place of its own in memory for every edge; a vertex's half-edges lie together here.
 
-use super::{EdgeList, Incidence, in_parallel};
+use super::{EdgeList, Incidence};
+use crate::threads::in_parallel;
 
 /// One side of a triangle as found: its higher position, and its face times two plus 1 if it runs from high to low. An array
 /// and no struct, so that fresh memory need not be cleared by hand.

@@ -1,9 +1,10 @@
 //! The classes of an edge that do not depend on the view.
 
-use super::{EdgeList, Incidence, filled, in_parallel, threads_for};
+use super::{EdgeList, Incidence};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::names::find;
+use crate::threads::{filled, in_parallel, threads_for};
 use crate::tolerances::PARALLEL_COSINE;
 use glam::DVec3;
 use serde::Serialize;

@@ -6,8 +6,9 @@
 //! of the planes make the test sharper than a bounding sphere does).
 
 use super::silhouette::{LocalEye, PAPER_CLEAR, PLANE_ERROR, is_silhouette_in_the_paper};
-use super::{EdgeList, Eye, Incidence, SilhouetteRule, Silhouettes, in_parallel, threads_for};
+use super::{EdgeList, Eye, Incidence, SilhouetteRule, Silhouettes};
 use crate::mesh::{Mesh, hilbert_code};
+use crate::threads::{in_parallel, threads_for};
 use glam::{Vec3, Vec4, Vec4Swizzles};
 
 /// Edges in a group of the lowest level: fewer make more groups to test, more make more edges to test.

@@ -4,9 +4,10 @@
 //! told so, exactly. The text's rule multiplies two products with one view vector (errata D3, D4).
 
 use super::classes::corners;
-use super::{EdgeList, Eye, Incidence, Side, filled, in_parallel, ranges, side_of_face, threads_for};
+use super::{EdgeList, Eye, Incidence, Side, side_of_face};
 use crate::mesh::{Mesh, triangle_normal};
 use crate::names::find;
+use crate::threads::{filled, in_parallel, ranges, threads_for};
 use glam::{DVec3, Vec3, Vec4};
 use serde::Serialize;
 use std::str::FromStr;

@@ -1,0 +1,147 @@
+//! Boxes that are asked what overlaps them. The BVH crate is known here only.
+//!
+//! Boxes are f32, rounded outwards: they only say what may overlap, f64 decides.
+
+use glam::{DVec3, Vec3A};
+use obvhs::Boundable;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+
+/// An axis-aligned box.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Box3(Aabb);
+
+impl Box3 {
+    /// The smallest box around points, rounded outwards.
+    pub fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
+        let (low, high) = points
+            .into_iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)));
+        Self::new(low, high)
+    }
+
+    /// The box between two corners, rounded outwards.
+    pub fn new(low: DVec3, high: DVec3) -> Self {
+        let down = |x: f64| clamped(x).next_down();
+        let up = |x: f64| clamped(x).next_up();
+        Self(Aabb {
+            min: Vec3A::new(down(low.x), down(low.y), down(low.z)),
+            max: Vec3A::new(up(high.x), up(high.y), up(high.z)),
+        })
+    }
+
+    fn overlaps(&self, other: &Self) -> bool {
+        self.0.intersect_aabb(&other.0)
+    }
+}
+
+impl Boundable for Box3 {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
+
+/// Far enough for anything, and its squares are finite.
+fn clamped(x: f64) -> f32 {
+    const FARTHEST: f64 = 1e15;
+    x.clamp(-FARTHEST, FARTHEST) as f32
+}
+
+/// Numbered things with a box each, in a hierarchy of boxes.
+pub(super) struct BoxTree {
+    nodes: Bvh2,
+    /// The boxes and the things' numbers, leaf by leaf.
+    boxes: Vec<Box3>,
+    items: Vec<u32>,
+    leaves: Vec<u32>,
+}
+
+/// Most things in a leaf.
+const LARGEST_LEAF: u32 = 8;
+
+/// What a step down the hierarchy costs, in tests of a thing: more makes larger leaves.
+const STEP_COST: f32 = 3.0;
+
+impl BoxTree {
+    /// Builds the hierarchy over boxes and the numbers of what is in them, in time n log n.
+    pub fn new(boxes: Vec<Box3>, items: Vec<u32>) -> Self {
+        let count = boxes.len();
+        let numbers = (0..count as u32).collect();
+        let mut nodes = PlocBuilder::with_capacity(count).build(
+            PlocSearchDistance::Minimum,
+            &boxes,
+            numbers,
+            SortPrecision::U64,
+            0,
+        );
+        collapse(&mut nodes, LARGEST_LEAF, STEP_COST);
+        let order = &nodes.primitive_indices;
+        let (sorted_boxes, sorted_items) =
+            order.iter().map(|index| (boxes[*index as usize], items[*index as usize])).unzip();
+        let leaves = (0..nodes.nodes.len() as u32).filter(|node| nodes.nodes[*node as usize].is_leaf()).collect();
+        Self { boxes: sorted_boxes, items: sorted_items, leaves, nodes }
+    }
+
+    /// Calls `visit` with each thing whose box overlaps `query` until it returns true; returns whether it did.
+    pub fn any(&self, query: &Box3, mut visit: impl FnMut(u32) -> bool) -> bool {
+        self.any_leaf(query, |range| {
+            range.into_iter().any(|index| query.overlaps(&self.boxes[index]) && visit(self.items[index]))
+        })
+    }
+
+    /// How many groups [`BoxTree::pairs`] may be asked for.
+    pub fn group_count(&self) -> usize {
+        self.leaves.len()
+    }
+
+    /// Calls `visit` with each pair of things whose boxes overlap, one of them in one of these groups; over all groups each
+    /// pair comes once.
+    pub fn pairs(&self, groups: std::ops::Range<usize>, mut visit: impl FnMut(u32, u32)) {
+        for leaf in &self.leaves[groups] {
+            let node = &self.nodes.nodes[*leaf as usize];
+            let own = range(node.first_index, node.prim_count);
+            self.any_leaf(&Box3(*node.aabb()), |other| {
+                if other.start >= own.start {
+                    for first in own.clone() {
+                        for second in other.start.max(first + 1)..other.end {
+                            if self.boxes[first].overlaps(&self.boxes[second]) {
+                                visit(self.items[first], self.items[second]);
+                            }
+                        }
+                    }
+                }
+                false
+            });
+        }
+    }
+
+    /// Calls `visit` with the places of each leaf that overlaps until it returns true.
+    fn any_leaf(&self, query: &Box3, mut visit: impl FnMut(std::ops::Range<usize>) -> bool) -> bool {
+        let nodes = &self.nodes.nodes;
+        if nodes.is_empty() || !nodes[0].aabb().intersect_aabb(&query.0) {
+            return false;
+        }
+        let mut open = Vec::with_capacity(64);
+        open.push(0);
+        while let Some(index) = open.pop() {
+            let node = &nodes[index as usize];
+            if node.is_leaf() {
+                if visit(range(node.first_index, node.prim_count)) {
+                    return true;
+                }
+            } else {
+                let children = [node.first_index, node.first_index + 1];
+                open.extend(
+                    children.into_iter().filter(|child| nodes[*child as usize].aabb().intersect_aabb(&query.0)),
+                );
+            }
+        }
+        false
+    }
+}
+
+fn range(first: u32, count: u32) -> std::ops::Range<usize> {
+    first as usize..(first + count) as usize
+}

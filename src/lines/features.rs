@@ -1,0 +1,190 @@
+//! The lines of a scene before it is known what of them is seen: edges by class, places where surfaces end, intersections.
+
+use super::LineSettings;
+use super::faces::{Faces, Own, near_crossing};
+use super::intersections::Intersection;
+use super::space::Space;
+use crate::edges::{Class, ClassCounts, ClassSet, EdgeList, Incidence, MeshEdges, SilhouetteRule};
+use crate::mesh::{Mesh, triangle_normal};
+use crate::scene::{Object, Scene};
+use crate::tolerances::EDGE_ON;
+use glam::DVec3;
+use std::sync::Arc;
+
+/// A line in the eye's space.
+#[derive(Debug, Clone)]
+pub(super) struct Feature {
+    /// What it is drawn as; `None` for one that is not wanted and only hides others.
+    pub class: Option<Class>,
+    /// Whether a surface ends or turns away at it, so that what is behind may appear or disappear there.
+    pub occludes: bool,
+    pub object: u32,
+    pub own: Own,
+    pub ends: [DVec3; 2],
+    /// Vertices in the file.
+    pub edge: Option<[u32; 2]>,
+    pub angle_degrees: Option<f64>,
+}
+
+/// An object with the mesh its lines are found on.
+pub(super) struct Part<'a> {
+    pub object: &'a Object,
+    pub mesh: Arc<Mesh>,
+    pub edges: Edges<'a>,
+}
+
+/// The edges of the scene's own mesh, or of a mended one.
+pub(super) enum Edges<'a> {
+    OfScene(&'a MeshEdges),
+    Mended(MeshEdges),
+}
+
+impl Edges<'_> {
+    pub fn get(&self) -> &MeshEdges {
+        match self {
+            Self::OfScene(edges) => edges,
+            Self::Mended(edges) => edges,
+        }
+    }
+}
+
+/// Classes at which a surface ends or turns away.
+const OCCLUDING: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, Class::Silhouette]);
+
+/// The classes of a mesh's edges that have to be known for some settings.
+pub(super) fn asked(settings: &LineSettings) -> ClassSet {
+    settings.classes.or(OCCLUDING).and(ClassSet::EDGES)
+}
+
+/// The edges of all parts that are wanted or hide others, in a stable order, and how many are wanted of each class.
+pub(super) fn edge_features(
+    scene: &Scene,
+    space: &Space,
+    faces: &Faces,
+    parts: &[Part<'_>],
+    settings: &LineSettings,
+) -> (Vec<Feature>, ClassCounts) {
+    let mut features = Vec::new();
+    let mut counts = ClassCounts::default();
+    let (mut first_position, mut first_face) = (0, 0);
+    for (number, part) in parts.iter().enumerate() {
+        let edges = part.edges.get();
+        let list = edges.list();
+        let classes = edges.classes(settings.crease_angle, asked(settings));
+        let silhouette = edges.silhouette(scene.eye(part.object, SilhouetteRule::Exact), SilhouetteRule::Exact);
+        let edge_on = edges_of_edge_on_faces(space, faces, list, first_face, part.mesh.triangles.len());
+        for edge in merged(merged(classes.marked.iter().copied(), silhouette.iter().copied()), edge_on.iter().copied())
+        {
+            let mut of_edge = classes.of_edges[edge as usize];
+            if silhouette.binary_search(&edge).is_ok() {
+                of_edge = of_edge.or(ClassSet::of(&[Class::Silhouette]));
+            }
+            let class = of_edge.and(settings.classes).first();
+            if let Some(class) = class {
+                *counts.of(class) += 1;
+            }
+            let occludes = !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
+            if class.is_none() && !occludes {
+                continue;
+            }
+            let ends = list.positions()[edge as usize];
+            features.push(Feature {
+                class,
+                occludes,
+                object: number as u32,
+                own: Own::Edge(ends.map(|position| position + first_position)),
+                ends: ends.map(|position| faces.positions[(position + first_position) as usize]),
+                edge: Some(ends.map(|position| part.mesh.file_vertices[position as usize])),
+                angle_degrees: angle(&part.mesh, list, edge),
+            });
+        }
+        first_position += part.mesh.positions.len() as u32;
+        first_face += part.mesh.triangles.len();
+    }
+    (features, counts)
+}
+
+/// The lines where faces intersect, as features.
+pub(super) fn intersection_features(faces: &Faces, parts: &[Part<'_>], intersections: &[Intersection]) -> Vec<Feature> {
+    let starts: Vec<usize> = parts
+        .iter()
+        .scan(0, |next, part| {
+            let start = *next;
+            *next += part.mesh.triangles.len();
+            Some(start)
+        })
+        .collect();
+    let feature = |intersection: &Intersection| {
+        let [first, second] = intersection.faces.map(|face| triangle_normal(faces.corners(face)));
+        Feature {
+            class: Some(Class::Intersection),
+            occludes: false,
+            object: (starts.partition_point(|start| *start <= intersection.faces[0] as usize) - 1) as u32,
+            own: Own::Faces(intersection.faces),
+            ends: intersection.ends,
+            edge: None,
+            angle_degrees: first.zip(second).map(|(first, second)| degrees_between(first, second)),
+        }
+    };
+    intersections.iter().map(feature).collect()
+}
+
+/// Where faces are cut off by the near plane: what is behind appears there.
+pub(super) fn near_plane_features(space: &Space, faces: &Faces) -> Vec<Feature> {
+    let cut = |face: &u32| {
+        let corners = faces.corners(*face);
+        let mut points = (0..3).filter_map(|side| near_crossing(space, corners[side], corners[(side + 1) % 3]));
+        Some(Feature {
+            class: None,
+            occludes: true,
+            object: 0,
+            own: Own::Faces([*face; 2]),
+            ends: [points.next()?, points.next()?],
+            edge: None,
+            angle_degrees: None,
+        })
+    };
+    faces.cut_by_near.iter().filter_map(cut).collect()
+}
+
+/// Edges of the faces that are seen edge-on: there a surface that faces the eye may go over into one that does not, without
+/// any single edge between the two.
+fn edges_of_edge_on_faces(space: &Space, faces: &Faces, list: &EdgeList, first: usize, count: usize) -> Vec<u32> {
+    let is_edge_on = |face: usize| faces.is_edge_on(space, face + first, EDGE_ON);
+    let edge_on: Vec<bool> = (0..count).map(is_edge_on).collect();
+    if !edge_on.contains(&true) {
+        return Vec::new();
+    }
+    (0..list.len() as u32).filter(|edge| list.faces(*edge).iter().any(|face| edge_on[*face as usize])).collect()
+}
+
+/// The angle between an edge's two faces, of one orientation, degrees.
+fn angle(mesh: &Mesh, list: &EdgeList, edge: u32) -> Option<f64> {
+    let &[first, second] = list.faces(edge) else { return None };
+    let normal =
+        |face: u32| triangle_normal(mesh.triangles[face as usize].map(|corner| mesh.positions[corner as usize]));
+    let (first, second) = (normal(first)?, normal(second)?);
+    let is_reversed = list.incidence()[edge as usize] == Incidence::InnerReversed;
+    Some(degrees_between(first, if is_reversed { -second } else { second }))
+}
+
+/// The angle between two unit vectors, exact also where it is small.
+fn degrees_between(first: DVec3, second: DVec3) -> f64 {
+    first.cross(second).length().atan2(first.dot(second)).to_degrees()
+}
+
+/// Two ascending sequences as one, each number once.
+fn merged(first: impl Iterator<Item = u32>, second: impl Iterator<Item = u32>) -> impl Iterator<Item = u32> {
+    let (mut first, mut second) = (first.peekable(), second.peekable());
+    std::iter::from_fn(move || {
+        let next = match (first.peek(), second.peek()) {
+            (Some(a), Some(b)) => *a.min(b),
+            (Some(a), None) => *a,
+            (None, Some(b)) => *b,
+            (None, None) => return None,
+        };
+        first.next_if_eq(&next);
+        second.next_if_eq(&next);
+        Some(next)
+    })
+}

@@ -1,0 +1,154 @@
+//! What is mended of a mesh before its lines are found.
+//!
+//! - Of faces with the same three corners, as a surface modelled from both sides has them, only the first is kept: the
+//!   others would make every edge one of four faces.
+//! - Where a vertex of one open rim lies on an edge of another (a T-junction), the face behind that edge is split there, so
+//!   that the two rims become one inner edge and no line is drawn across a surface that looks whole.
+//!
+//! Cracks wider than `--weld` stay openings.
+
+use super::boxes::{Box3, BoxTree};
+use crate::edges::{EdgeList, Incidence};
+use crate::mesh::Mesh;
+use crate::tolerances::{CONTACT, WELD};
+use glam::DVec3;
+use std::collections::{BTreeMap, HashSet};
+
+/// The mended mesh, if there was anything to mend.
+pub(super) fn mended(mesh: &Mesh, edges: &EdgeList) -> Option<Mesh> {
+    let repeated = repeated_faces(mesh, edges);
+    let without = (!repeated.is_empty()).then(|| keep_faces(mesh, |face| !repeated.contains(&face)));
+    let split = match &without {
+        None => split_at_junctions(mesh, edges),
+        Some(mesh) => split_at_junctions(mesh, &EdgeList::new(mesh)),
+    };
+    split.or(without)
+}
+
+/// Faces that have the same corners as one of a lower number.
+fn repeated_faces(mesh: &Mesh, edges: &EdgeList) -> HashSet<u32> {
+    let sorted = |face: u32| {
+        let mut corners = mesh.triangles[face as usize];
+        corners.sort_unstable();
+        corners
+    };
+    let mut repeated = HashSet::new();
+    for edge in 0..edges.len() as u32 {
+        let faces = edges.faces(edge);
+        for (index, face) in faces.iter().enumerate() {
+            if faces[..index].iter().any(|earlier| earlier != face && sorted(*earlier) == sorted(*face)) {
+                repeated.insert(*face);
+            }
+        }
+    }
+    repeated
+}
+
+/// The mesh with some of its faces.
+fn keep_faces(mesh: &Mesh, keep: impl Fn(u32) -> bool) -> Mesh {
+    let kept: Vec<usize> = (0..mesh.triangles.len()).filter(|face| keep(*face as u32)).collect();
+    with_faces(mesh, kept.iter().map(|face| (*face, mesh.triangles[*face])).collect())
+}
+
+/// The mesh with these faces, each with the number of the one whose normals, texture and material it has.
+fn with_faces(mesh: &Mesh, faces: Vec<(usize, [u32; 3])>) -> Mesh {
+    fn picked<T: Copy>(list: &[T], faces: &[(usize, [u32; 3])]) -> Vec<T> {
+        faces.iter().filter_map(|(face, _)| list.get(*face).copied()).collect()
+    }
+    Mesh {
+        triangle_normals: picked(&mesh.triangle_normals, &faces),
+        triangle_texture_coordinates: picked(&mesh.triangle_texture_coordinates, &faces),
+        triangle_materials: picked(&mesh.triangle_materials, &faces),
+        triangles: faces.into_iter().map(|(_, corners)| corners).collect(),
+        ..mesh.clone()
+    }
+}
+
+/// The mesh with every face split where a vertex of an open rim lies on its own; `None` if there is none.
+fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Mesh> {
+    let rims: Vec<u32> =
+        (0..edges.len() as u32).filter(|edge| edges.incidence()[*edge as usize] == Incidence::Boundary).collect();
+    if rims.is_empty() {
+        return None;
+    }
+    let ends = |rim: u32| edges.positions()[rim as usize];
+    let position = |index: u32| mesh.positions[index as usize];
+    let (low, high) = mesh.bounds();
+    let radius = (high - low).length() * 0.5;
+    let scaled = |point: DVec3| (point - (low + high) * 0.5) / radius;
+    let boxes = rims.iter().map(|rim| {
+        let [a, b] = ends(*rim).map(|end| scaled(position(end)));
+        let margin = DVec3::splat(CONTACT * a.distance(b) + WELD);
+        Box3::new(a.min(b) - margin, a.max(b) + margin)
+    });
+    let tree = BoxTree::new(boxes.collect(), rims.clone());
+    let mut vertices: Vec<u32> = rims.iter().flat_map(|rim| ends(*rim)).collect();
+    vertices.sort_unstable();
+    vertices.dedup();
+    // For each edge the vertices on it, by their place along it.
+    let mut junctions: BTreeMap<u32, Vec<(f64, u32)>> = BTreeMap::new();
+    for vertex in vertices {
+        let point = position(vertex);
+        tree.any(&Box3::around([scaled(point)]), |rim| {
+            let [a, b] = ends(rim);
+            let (start, along) = (position(a), position(b) - position(a));
+            let place = (point - start).dot(along) / along.length_squared();
+            let distance = (start + along * place).distance(point);
+            let is_on_it = distance <= CONTACT * along.length() && place > CONTACT && place < 1.0 - CONTACT;
+            let corners = mesh.triangles[edges.faces(rim)[0] as usize];
+            if is_on_it && !corners.contains(&vertex) {
+                junctions.entry(rim).or_default().push((place, vertex));
+            }
+            false
+        });
+    }
+    if junctions.is_empty() {
+        return None;
+    }
+    let mut on_sides: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
+    let mut touched: HashSet<u32> = HashSet::new();
+    for (rim, mut places) in junctions {
+        places.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        on_sides.insert(ends(rim), places.into_iter().map(|(_, vertex)| vertex).collect());
+        touched.extend(edges.faces(rim));
+    }
+    let mut faces = Vec::with_capacity(mesh.triangles.len() + on_sides.len());
+    for (face, corners) in mesh.triangles.iter().enumerate() {
+        if touched.contains(&(face as u32)) {
+            split(*corners, &on_sides, &mut |corners| faces.push((face, corners)));
+        } else {
+            faces.push((face, *corners));
+        }
+    }
+    Some(with_faces(mesh, faces))
+}
+
+/// Splits a face at the vertices on its sides.
+fn split(corners: [u32; 3], on_sides: &BTreeMap<[u32; 2], Vec<u32>>, add: &mut impl FnMut([u32; 3])) {
+    // From corner to corner with what is between them.
+    let sides: [Vec<u32>; 3] = std::array::from_fn(|side| {
+        let (from, to) = (corners[side], corners[(side + 1) % 3]);
+        let mut between = on_sides.get(&[from.min(to), from.max(to)]).cloned().unwrap_or_default();
+        if from > to {
+            between.reverse();
+        }
+        between
+    });
+    split_sides(corners, sides, add);
+}
+
+fn split_sides(corners: [u32; 3], mut sides: [Vec<u32>; 3], add: &mut impl FnMut([u32; 3])) {
+    let [a, b, c] = corners;
+    // Cut off at the first side's first vertex; turned until the first side has one.
+    if !sides[0].is_empty() {
+        let vertex = sides[0].remove(0);
+        let [rest, second, third] = sides;
+        split_sides([a, vertex, c], [Vec::new(), Vec::new(), third], add);
+        split_sides([vertex, b, c], [rest, second, Vec::new()], add);
+    } else if sides.iter().any(|side| !side.is_empty()) {
+        sides.rotate_left(1);
+        split_sides([b, c, a], sides, add);
+    } else {
+        add(corners);
+    }
+}
