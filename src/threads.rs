@@ -104,7 +104,7 @@ pub(crate) fn in_chunks<T: Send + Sync>(
     std::thread::scope(|scope| {
         let wanted = threads.min(pieces.len());
         let others: Vec<_> =
-            (1..wanted).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, &take).ok()).collect();
+            (1..wanted).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, take).ok()).collect();
         take();
         for other in others {
             other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
