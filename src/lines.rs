@@ -18,6 +18,7 @@ use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, MeshEdges};
 use crate::error::{Error, Result};
 use crate::renderer::milliseconds_since;
 use crate::scene::{Scene, Size};
+use crate::threads::both;
 use faces::Faces;
 use features::{Edges, Part};
 use glam::DVec2;
@@ -143,16 +144,29 @@ impl VisibleLines {
         }
         let clock = Instant::now();
         let space = Space::of(scene);
-        let parts = parts(scene);
-        let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.mesh.clone())).collect();
-        let faces = Faces::new(&space, &meshes);
-        for part in &parts {
-            part.edges.get().classes(settings.crease_angle, features::asked(settings));
-        }
+        let unmended: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
+        // The hierarchy is built on one thread, the edges on another.
+        let (parts, faces) = both(
+            || {
+                let parts = parts(scene);
+                for part in &parts {
+                    part.edges.get().classes(settings.crease_angle, features::asked(settings));
+                }
+                parts
+            },
+            || Faces::new(&space, &unmended),
+        );
+        let is_mended = parts.iter().any(|part| matches!(part.edges, Edges::Mended(_)));
+        let faces = if is_mended {
+            let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.mesh.clone())).collect();
+            Faces::new(&space, &meshes)
+        } else {
+            faces
+        };
         let topology_ms = milliseconds_since(clock);
 
         let clock = Instant::now();
-        let (mut lines, edges) = features::edge_features(scene, &space, &faces, &parts, settings);
+        let (mut lines, edges) = features::edge_features(scene, &faces, &parts, settings);
         let silhouette_ms = milliseconds_since(clock);
 
         let clock = Instant::now();

@@ -112,3 +112,14 @@ pub(crate) fn in_chunks<T: Send + Sync>(
     });
     results.into_iter().filter_map(OnceLock::into_inner).collect()
 }
+
+/// Does two things at once, the second on a thread of its own.
+pub(crate) fn both<A, B: Send>(first: impl FnOnce() -> A, second: impl Fn() -> B + Sync) -> (A, B) {
+    std::thread::scope(|scope| match std::thread::Builder::new().spawn_scoped(scope, &second) {
+        Ok(thread) => {
+            let first = first();
+            (first, thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+        }
+        Err(_) => (first(), second()),
+    })
+}

@@ -52,9 +52,8 @@ fn clamped(x: f64) -> f32 {
 /// Numbered things with a box each, in a hierarchy of boxes.
 pub(super) struct BoxTree {
     nodes: Bvh2,
-    /// The boxes and the things' numbers, leaf by leaf.
+    /// The boxes, leaf by leaf.
     boxes: Vec<Box3>,
-    items: Vec<u32>,
     leaves: Vec<u32>,
 }
 
@@ -65,29 +64,24 @@ const LARGEST_LEAF: u32 = 8;
 const STEP_COST: f32 = 3.0;
 
 impl BoxTree {
-    /// Builds the hierarchy over boxes and the numbers of what is in them, in time n log n.
-    pub fn new(boxes: Vec<Box3>, items: Vec<u32>) -> Self {
+    /// Builds the hierarchy over boxes in time n log n, and returns it with the boxes' numbers in its own order: it speaks of
+    /// things by their places in that order, so that whoever keeps them in it has neighbours together.
+    pub fn new(boxes: &[Box3]) -> (Self, Vec<u32>) {
         let count = boxes.len();
         let numbers = (0..count as u32).collect();
-        let mut nodes = PlocBuilder::with_capacity(count).build(
-            PlocSearchDistance::Minimum,
-            &boxes,
-            numbers,
-            SortPrecision::U64,
-            0,
-        );
+        let mut nodes =
+            PlocBuilder::with_capacity(count).build(PlocSearchDistance::Minimum, boxes, numbers, SortPrecision::U64, 0);
         collapse(&mut nodes, LARGEST_LEAF, STEP_COST);
-        let order = &nodes.primitive_indices;
-        let (sorted_boxes, sorted_items) =
-            order.iter().map(|index| (boxes[*index as usize], items[*index as usize])).unzip();
+        nodes.parents = Vec::new();
+        let order = std::mem::take(&mut nodes.primitive_indices);
         let leaves = (0..nodes.nodes.len() as u32).filter(|node| nodes.nodes[*node as usize].is_leaf()).collect();
-        Self { boxes: sorted_boxes, items: sorted_items, leaves, nodes }
+        (Self { boxes: order.iter().map(|index| boxes[*index as usize]).collect(), leaves, nodes }, order)
     }
 
     /// Calls `visit` with each thing whose box overlaps `query` until it returns true; returns whether it did.
     pub fn any(&self, query: &Box3, mut visit: impl FnMut(u32) -> bool) -> bool {
         self.any_leaf(query, |range| {
-            range.into_iter().any(|index| query.overlaps(&self.boxes[index]) && visit(self.items[index]))
+            range.into_iter().any(|place| query.overlaps(&self.boxes[place]) && visit(place as u32))
         })
     }
 
@@ -107,7 +101,7 @@ impl BoxTree {
                     for first in own.clone() {
                         for second in other.start.max(first + 1)..other.end {
                             if self.boxes[first].overlaps(&self.boxes[second]) {
-                                visit(self.items[first], self.items[second]);
+                                visit(first as u32, second as u32);
                             }
                         }
                     }

@@ -4,21 +4,30 @@ use super::boxes::{Box3, BoxTree};
 use super::space::Space;
 use crate::mesh::Mesh;
 use crate::scene::Object;
-use crate::threads::{cores, filled};
-use crate::tolerances::CONTACT;
+use crate::threads::{cores, filled, in_chunks};
+use crate::tolerances::{CONTACT, EDGE_ON, WELD};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
-/// Faces and positions of all objects, numbered through.
+/// Faces and positions of all objects.
+///
+/// A face is spoken of by its place in the hierarchy's order, in which neighbours lie together; faces outside the picture or
+/// the planes have none.
 pub(super) struct Faces {
-    /// In the eye's space.
+    /// In the eye's space, object by object.
     pub positions: Vec<DVec3>,
     /// Three positions each.
     pub triangles: Vec<[u32; 3]>,
-    /// Which of them reach through the near plane.
+    /// Each one's number in the scene, counted through all objects.
+    pub numbers: Vec<u32>,
+    /// Places of those that reach through the near plane, ascending.
     pub cut_by_near: Vec<u32>,
-    /// Those with a part inside the picture, between the planes, by their boxes of pixels and keys.
+    /// Numbers of those that are seen edge-on, ascending.
+    pub edge_on: Vec<u32>,
+    /// By their boxes of pixels and keys.
     pub tree: BoxTree,
+    /// Each object's first position and the distance below which its positions count as one, file units.
+    welds: Vec<(u32, f64)>,
 }
 
 /// A point of a line of which it is asked whether it is hidden.
@@ -30,6 +39,8 @@ pub(super) struct Probe {
     pub key: f64,
     /// The line's length, file units.
     pub line_length: f64,
+    /// The distance below which positions of the line's object count as one, file units.
+    pub weld: f64,
     /// The line's ends among the positions, or the two faces it is the intersection of.
     pub own: Own,
 }
@@ -46,49 +57,61 @@ pub(super) enum Own {
 impl Faces {
     /// Puts the objects' faces together; the meshes may be mended ones.
     pub fn new(space: &Space, parts: &[(&Object, Arc<Mesh>)]) -> Self {
-        let threads = cores();
         let mut positions = Vec::with_capacity(parts.iter().map(|(_, mesh)| mesh.positions.len()).sum());
-        let mut triangles = Vec::with_capacity(parts.iter().map(|(_, mesh)| mesh.triangles.len()).sum());
+        let mut welds = Vec::with_capacity(parts.len());
         for (object, mesh) in parts {
-            let base = positions.len() as u32;
+            let (low, high) = mesh.bounds();
+            welds.push((positions.len() as u32, WELD * (high - low).length()));
             let view = |index: usize| space.view(mesh.positions[index] + object.offset);
-            positions.extend(filled(mesh.positions.len(), worth(threads, mesh.positions.len()), DVec3::ZERO, view));
-            triangles.extend(mesh.triangles.iter().map(|corners| corners.map(|corner| corner + base)));
+            positions.extend(filled(mesh.positions.len(), worth(mesh.positions.len()), DVec3::ZERO, view));
         }
-        let projected = filled(positions.len(), worth(threads, positions.len()), (DVec2::ZERO, 0.0), |index| {
+        let projected = filled(positions.len(), worth(positions.len()), (DVec2::ZERO, 0.0), |index| {
             let view: DVec3 = positions[index];
-            // What is not in front of the near plane is cut off there first, below.
+            // What is not in front of the near plane is cut off there first.
             if -view.z >= space.near { space.project(view) } else { (DVec2::NAN, f64::NAN) }
         });
-        let whole = Box3::around([DVec3::ZERO, DVec3::ZERO]);
-        let boxes = filled(triangles.len(), worth(threads, triangles.len()), (whole, Reach::None), |face| {
-            let corners: [u32; 3] = triangles[face];
-            face_box(space, corners.map(|corner| positions[corner as usize]), || {
-                corners.map(|corner| projected[corner as usize])
-            })
-        });
-        let cut_by_near = (0..triangles.len() as u32).filter(|face| boxes[*face as usize].1 == Reach::ThroughNear);
-        let cut_by_near = cut_by_near.collect();
-        let (kept, numbers) = boxes
+        let mut sorted = Sorted::default();
+        let mut first_number = 0;
+        for ((_, mesh), (first_position, _)) in parts.iter().zip(&welds) {
+            let chunks = in_chunks(mesh.triangles.len(), CHUNK, cores(), |range| {
+                let mut sorted = Sorted::default();
+                for face in range {
+                    let corners = mesh.triangles[face].map(|corner| corner + first_position);
+                    let points = corners.map(|corner| positions[corner as usize]);
+                    let images = || corners.map(|corner| projected[corner as usize]);
+                    sorted.add((first_number + face) as u32, space, points, images);
+                }
+                sorted
+            });
+            chunks.into_iter().for_each(|chunk| sorted.append(chunk));
+            first_number += mesh.triangles.len();
+        }
+        drop(projected);
+        let (tree, order) = BoxTree::new(&sorted.boxes);
+        let numbers: Vec<u32> = order.iter().map(|index| sorted.numbers[*index as usize]).collect();
+        let starts: Vec<u32> = parts
             .iter()
-            .enumerate()
-            .filter(|(_, (_, reach))| *reach != Reach::None)
-            .map(|(number, (around, _))| (*around, number as u32))
-            .unzip();
-        Self { tree: BoxTree::new(kept, numbers), positions, triangles, cut_by_near }
+            .scan(0, |next, (_, mesh)| Some(std::mem::replace(next, *next + mesh.triangles.len() as u32)))
+            .collect();
+        let triangle = |number: &u32| {
+            let part = starts.partition_point(|start| start <= number) - 1;
+            parts[part].1.triangles[(number - starts[part]) as usize].map(|corner| corner + welds[part].0)
+        };
+        let triangles = numbers.iter().map(triangle).collect();
+        let is_cut = |place: &u32| sorted.cut_by_near.binary_search(&numbers[*place as usize]).is_ok();
+        let cut_by_near =
+            if sorted.cut_by_near.is_empty() { Vec::new() } else { (0..numbers.len() as u32).filter(is_cut).collect() };
+        Self { positions, triangles, cut_by_near, edge_on: sorted.edge_on, tree, numbers, welds }
+    }
+
+    /// The distance below which positions of the object with this one count as one, file units.
+    pub fn weld(&self, position: u32) -> f64 {
+        self.welds[self.welds.partition_point(|(first, _)| *first <= position) - 1].1
     }
 
     /// A face's corners in the eye's space.
     pub fn corners(&self, face: u32) -> [DVec3; 3] {
         self.triangles[face as usize].map(|corner| self.positions[corner as usize])
-    }
-
-    /// Whether the eye lies so nearly in a face's plane that the sine of the angle is below a bound.
-    pub fn is_edge_on(&self, space: &Space, face: usize, sine: f64) -> bool {
-        let [a, b, c] = self.corners(face as u32);
-        let normal = (b - a).cross(c - a);
-        let to_eye = space.to_eye(a);
-        normal.dot(to_eye).abs() <= sine * normal.length() * to_eye.length()
     }
 
     /// Whether any face hides a point.
@@ -116,7 +139,8 @@ impl Faces {
         let (ab, ac, bc) = (b - a, c - a, c - b);
         let normal = ab.cross(ac);
         let longest = ab.length_squared().max(ac.length_squared()).max(bc.length_squared()).sqrt();
-        let contact = (CONTACT * longest.min(probe.line_length) + 4.0 * space.noise) * normal.length();
+        let touching = CONTACT * longest.min(probe.line_length) + self.weld(numbers[0]).min(probe.weld);
+        let contact = (touching + 4.0 * space.noise) * normal.length();
         let above = normal.dot(probe.view - a);
         let towards_eye = match space.is_perspective() {
             true => -normal.dot(a),
@@ -149,50 +173,65 @@ impl Faces {
     }
 }
 
-/// How much of a face matters.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Reach {
-    /// None of it.
-    None,
-    /// All of it.
-    Whole,
-    /// What is behind the near plane.
-    ThroughNear,
+/// Faces looked at by a thread at once.
+const CHUNK: usize = 8192;
+
+/// Faces sorted by what matters of them.
+#[derive(Default, Clone)]
+struct Sorted {
+    /// Those inside the picture and between the planes, with their numbers.
+    boxes: Vec<Box3>,
+    numbers: Vec<u32>,
+    cut_by_near: Vec<u32>,
+    edge_on: Vec<u32>,
 }
 
-/// A face's box in the picture, and how much of the face matters.
-fn face_box(space: &Space, corners: [DVec3; 3], projected: impl Fn() -> [(DVec2, f64); 3]) -> (Box3, Reach) {
-    let nothing = (Box3::around([DVec3::ZERO]), Reach::None);
-    let depths = corners.map(|corner| -corner.z);
-    let (nearest, farthest) = (depths[0].min(depths[1]).min(depths[2]), depths[0].max(depths[1]).max(depths[2]));
-    if farthest < space.near || nearest > space.far {
-        return nothing;
+impl Sorted {
+    fn append(&mut self, other: Self) {
+        self.boxes.extend(other.boxes);
+        self.numbers.extend(other.numbers);
+        self.cut_by_near.extend(other.cut_by_near);
+        self.edge_on.extend(other.edge_on);
     }
-    let mut low = DVec3::INFINITY;
-    let mut high = DVec3::NEG_INFINITY;
-    let mut add = |(px, key): (DVec2, f64)| {
-        low = low.min(px.extend(key));
-        high = high.max(px.extend(key));
-    };
-    let is_cut = nearest < space.near;
-    if is_cut {
-        for (index, corner) in corners.iter().enumerate() {
-            if depths[index] >= space.near {
-                add(space.project(*corner));
-            }
-            if let Some(point) = near_crossing(space, *corner, corners[(index + 1) % 3]) {
-                add(space.project(point));
-            }
+
+    fn add(&mut self, number: u32, space: &Space, corners: [DVec3; 3], images: impl Fn() -> [(DVec2, f64); 3]) {
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a);
+        let to_eye = space.to_eye(a);
+        let height = normal.dot(to_eye);
+        if height * height <= EDGE_ON * EDGE_ON * normal.length_squared() * to_eye.length_squared() {
+            self.edge_on.push(number);
         }
-    } else {
-        projected().into_iter().for_each(add);
+        let depths = corners.map(|corner| -corner.z);
+        let (nearest, farthest) = (depths[0].min(depths[1]).min(depths[2]), depths[0].max(depths[1]).max(depths[2]));
+        if farthest < space.near || nearest > space.far {
+            return;
+        }
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let mut widen = |(px, key): (DVec2, f64)| {
+            low = low.min(px.extend(key));
+            high = high.max(px.extend(key));
+        };
+        if nearest < space.near {
+            for (index, corner) in corners.iter().enumerate() {
+                if depths[index] >= space.near {
+                    widen(space.project(*corner));
+                }
+                if let Some(point) = near_crossing(space, *corner, corners[(index + 1) % 3]) {
+                    widen(space.project(point));
+                }
+            }
+            self.cut_by_near.push(number);
+        } else {
+            images().into_iter().for_each(widen);
+        }
+        // Far more than rounding moves an image by.
+        const MARGIN: f64 = 1.0;
+        if low.x <= space.size.x + MARGIN && low.y <= space.size.y + MARGIN && high.x >= -MARGIN && high.y >= -MARGIN {
+            self.boxes.push(Box3::new(low, high));
+            self.numbers.push(number);
+        }
     }
-    // Rounding may move an image by no more than a tie.
-    let margin = 1.0;
-    if low.x > space.size.x + margin || low.y > space.size.y + margin || high.x < -margin || high.y < -margin {
-        return nothing;
-    }
-    (Box3::new(low, high), if is_cut { Reach::ThroughNear } else { Reach::Whole })
 }
 
 /// Where the line between two points passes the near plane, if it does.
@@ -207,7 +246,7 @@ pub(super) fn near_crossing(space: &Space, a: DVec3, b: DVec3) -> Option<DVec3> 
 }
 
 /// Threads for so many simple things.
-pub(super) fn worth(threads: usize, count: usize) -> usize {
+fn worth(count: usize) -> usize {
     const WORTH_A_THREAD: usize = 20_000;
-    threads.min(count / WORTH_A_THREAD).max(1)
+    cores().min(count / WORTH_A_THREAD).max(1)
 }

@@ -7,7 +7,6 @@ use super::space::Space;
 use crate::edges::{Class, ClassCounts, ClassSet, EdgeList, Incidence, MeshEdges, SilhouetteRule};
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::{Object, Scene};
-use crate::tolerances::EDGE_ON;
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -21,6 +20,8 @@ pub(super) struct Feature {
     pub object: u32,
     pub own: Own,
     pub ends: [DVec3; 2],
+    /// The distance below which its object's positions count as one, file units.
+    pub weld: f64,
     /// Vertices in the file.
     pub edge: Option<[u32; 2]>,
     pub angle_degrees: Option<f64>,
@@ -59,7 +60,6 @@ pub(super) fn asked(settings: &LineSettings) -> ClassSet {
 /// The edges of all parts that are wanted or hide others, in a stable order, and how many are wanted of each class.
 pub(super) fn edge_features(
     scene: &Scene,
-    space: &Space,
     faces: &Faces,
     parts: &[Part<'_>],
     settings: &LineSettings,
@@ -72,7 +72,7 @@ pub(super) fn edge_features(
         let list = edges.list();
         let classes = edges.classes(settings.crease_angle, asked(settings));
         let silhouette = edges.silhouette(scene.eye(part.object, SilhouetteRule::Exact), SilhouetteRule::Exact);
-        let edge_on = edges_of_edge_on_faces(space, faces, list, first_face, part.mesh.triangles.len());
+        let edge_on = edges_of_edge_on_faces(faces, list, first_face..first_face + part.mesh.triangles.len() as u32);
         for edge in merged(merged(classes.marked.iter().copied(), silhouette.iter().copied()), edge_on.iter().copied())
         {
             let mut of_edge = classes.of_edges[edge as usize];
@@ -94,34 +94,33 @@ pub(super) fn edge_features(
                 object: number as u32,
                 own: Own::Edge(ends.map(|position| position + first_position)),
                 ends: ends.map(|position| faces.positions[(position + first_position) as usize]),
+                weld: faces.weld(first_position),
                 edge: Some(ends.map(|position| part.mesh.file_vertices[position as usize])),
                 angle_degrees: angle(&part.mesh, list, edge),
             });
         }
         first_position += part.mesh.positions.len() as u32;
-        first_face += part.mesh.triangles.len();
+        first_face += part.mesh.triangles.len() as u32;
     }
     (features, counts)
 }
 
 /// The lines where faces intersect, as features.
 pub(super) fn intersection_features(faces: &Faces, parts: &[Part<'_>], intersections: &[Intersection]) -> Vec<Feature> {
-    let starts: Vec<usize> = parts
+    let starts: Vec<u32> = parts
         .iter()
-        .scan(0, |next, part| {
-            let start = *next;
-            *next += part.mesh.triangles.len();
-            Some(start)
-        })
+        .scan(0, |next, part| Some(std::mem::replace(next, *next + part.mesh.triangles.len() as u32)))
         .collect();
     let feature = |intersection: &Intersection| {
         let [first, second] = intersection.faces.map(|face| triangle_normal(faces.corners(face)));
         Feature {
             class: Some(Class::Intersection),
             occludes: false,
-            object: (starts.partition_point(|start| *start <= intersection.faces[0] as usize) - 1) as u32,
+            object: (starts.partition_point(|start| *start <= faces.numbers[intersection.faces[0] as usize]) - 1)
+                as u32,
             own: Own::Faces(intersection.faces),
             ends: intersection.ends,
+            weld: faces.weld(faces.triangles[intersection.faces[0] as usize][0]),
             edge: None,
             angle_degrees: first.zip(second).map(|(first, second)| degrees_between(first, second)),
         }
@@ -140,6 +139,7 @@ pub(super) fn near_plane_features(space: &Space, faces: &Faces) -> Vec<Feature> 
             object: 0,
             own: Own::Faces([*face; 2]),
             ends: [points.next()?, points.next()?],
+            weld: 0.0,
             edge: None,
             angle_degrees: None,
         })
@@ -149,13 +149,13 @@ pub(super) fn near_plane_features(space: &Space, faces: &Faces) -> Vec<Feature> 
 
 /// Edges of the faces that are seen edge-on: there a surface that faces the eye may go over into one that does not, without
 /// any single edge between the two.
-fn edges_of_edge_on_faces(space: &Space, faces: &Faces, list: &EdgeList, first: usize, count: usize) -> Vec<u32> {
-    let is_edge_on = |face: usize| faces.is_edge_on(space, face + first, EDGE_ON);
-    let edge_on: Vec<bool> = (0..count).map(is_edge_on).collect();
-    if !edge_on.contains(&true) {
-        return Vec::new();
+fn edges_of_edge_on_faces(faces: &Faces, list: &EdgeList, numbers: std::ops::Range<u32>) -> Vec<u32> {
+    let is_edge_on = |face: &u32| faces.edge_on.binary_search(&(face + numbers.start)).is_ok();
+    if faces.edge_on.iter().any(|number| numbers.contains(number)) {
+        (0..list.len() as u32).filter(|edge| list.faces(*edge).iter().any(is_edge_on)).collect()
+    } else {
+        Vec::new()
     }
-    (0..list.len() as u32).filter(|edge| list.faces(*edge).iter().any(|face| edge_on[*face as usize])).collect()
 }
 
 /// The angle between an edge's two faces, of one orientation, degrees.

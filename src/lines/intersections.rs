@@ -1,8 +1,9 @@
 //! Where faces pass through one another.
 //!
 //! Two faces do if each has corners on both sides of the other's plane and their parts of the line common to both planes
-//! overlap. Corners nearer to a plane than what counts as touching are taken to lie above it: a box that stands on a plane
-//! does not intersect it, and where vertices lie exactly on another surface its line is found once, on one side.
+//! overlap. Corners nearer to a plane than what counts as touching are taken to lie above it, so that where vertices lie
+//! exactly on another surface the line is found once, on one side; faces of which neither has corners clearly on both sides
+//! of the other lie on one another and do not intersect.
 
 use super::faces::Faces;
 use super::space::Space;
@@ -13,7 +14,7 @@ use glam::DVec3;
 /// A piece of line common to two faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Intersection {
-    /// The lower number first.
+    /// The one with the lower number first.
     pub faces: [u32; 2],
     /// In the eye's space.
     pub ends: [DVec3; 2],
@@ -33,22 +34,42 @@ pub(super) fn intersections(space: &Space, faces: &Faces) -> (Vec<Intersection>,
     const GROUPS: usize = 512;
     let parts = in_chunks(faces.tree.group_count(), GROUPS, cores(), |groups| {
         let mut found = Vec::new();
+        let mut plate = None;
         faces.tree.pairs(groups, |first, second| {
-            let pair = [first.min(second), first.max(second)];
-            found.extend(Pair::new(space, faces, pair).and_then(|pair| pair.intersection()));
+            // Pairs come with their first face in runs.
+            let first = match &plate {
+                Some(plate @ Plate { place, .. }) if *place == first => plate,
+                _ => plate.insert(Plate::new(space, faces, first)),
+            };
+            found.extend(first.meet(space, faces, second).and_then(|pair| pair.intersection()));
         });
         found
     });
     let mut found: Vec<(Intersection, [Option<Piercing>; 2])> = parts.concat();
-    found.sort_unstable_by_key(|(intersection, _)| intersection.faces);
+    found.sort_unstable_by_key(|(intersection, _)| intersection.faces.map(|face| faces.numbers[face as usize]));
     let piercings = found.iter().flat_map(|(_, piercings)| *piercings).flatten().collect();
     (found.into_iter().map(|(intersection, _)| intersection).collect(), piercings)
+}
+
+/// A face with its plane.
+struct Plate {
+    place: u32,
+    numbers: [u32; 3],
+    corners: [DVec3; 3],
+    /// Not normalised.
+    normal: DVec3,
+    normal_length: f64,
+    /// The longest side.
+    longest: f64,
+    weld: f64,
+    /// What counts as touching at most, whatever the other face, times the normal's length.
+    loose: f64,
 }
 
 /// Two faces of which each has corners on both sides of the other's plane.
 struct Pair<'a> {
     faces: &'a Faces,
-    numbers: [u32; 2],
+    places: [u32; 2],
     /// Each face's corners' distances from the other's plane times the length of its normal, 0 where they touch it.
     distances: [[f64; 3]; 2],
     /// Along both planes.
@@ -67,13 +88,25 @@ struct Crossing {
     piercing: Piercing,
 }
 
-impl<'a> Pair<'a> {
-    fn new(space: &Space, faces: &'a Faces, numbers: [u32; 2]) -> Option<Self> {
-        let [f, g] = numbers.map(|face| faces.triangles[face as usize]);
+impl Plate {
+    fn new(space: &Space, faces: &Faces, place: u32) -> Self {
+        let numbers = faces.triangles[place as usize];
+        let corners = faces.corners(place);
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a);
+        let (normal_length, weld) = (normal.length(), faces.weld(numbers[0]));
+        let longest = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared()).sqrt();
+        let loose = (CONTACT * longest + weld + 4.0 * space.noise) * normal_length;
+        Self { place, numbers, corners, normal, normal_length, longest, weld, loose }
+    }
+
+    /// This face and another, if each has corners on both sides of the other's plane.
+    fn meet<'a>(&self, space: &Space, faces: &'a Faces, other: u32) -> Option<Pair<'a>> {
+        let numbers = faces.triangles[other as usize];
         let mut shared = None;
         let mut shared_count = 0;
-        for (i, corner) in f.iter().enumerate() {
-            if let Some(j) = g.iter().position(|other| other == corner) {
+        for (i, corner) in self.numbers.iter().enumerate() {
+            if let Some(j) = numbers.iter().position(|other| other == corner) {
                 shared = Some([i, j]);
                 shared_count += 1;
             }
@@ -82,39 +115,78 @@ impl<'a> Pair<'a> {
         if shared_count > 1 {
             return None;
         }
-        let corners = numbers.map(|face| faces.corners(face));
-        let normal_of = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
-        let second_normal = normal_of(corners[1]);
-        let longest = |[a, b, c]: [DVec3; 3]| {
-            (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared())
+        let own = shared.map(|[_, j]| j);
+        let raw = self.raw_distances(faces.corners(other));
+        let all = |holds: &dyn Fn(f64) -> bool| (0..3).all(|index| own == Some(index) || holds(raw[index]));
+        if all(&|distance| distance > self.loose) || all(&|distance| distance < -self.loose) {
+            return None;
+        }
+        let other = Self::new(space, faces, other);
+        let contact = CONTACT * self.longest.min(other.longest) + self.weld.min(other.weld) + 4.0 * space.noise;
+        // A face no higher than what counts as touching is a line, and has no plane.
+        if [self, &other].iter().any(|plate| plate.normal_length <= contact * plate.longest) {
+            return None;
+        }
+        let second = Sides::of(raw, own, contact * self.normal_length);
+        if !second.straddle {
+            return None;
+        }
+        let raw = other.raw_distances(self.corners);
+        let first = Sides::of(raw, shared.map(|[i, _]| i), contact * other.normal_length);
+        // Two faces that only touch one another's plane lie on one another, as well as their coordinates say.
+        if !first.straddle || !(first.clearly || second.clearly) {
+            return None;
+        }
+        let in_order = faces.numbers[self.place as usize] < faces.numbers[other.place as usize];
+        let (plates, distances) = match in_order {
+            true => ([self, &other], [first.distances, second.distances]),
+            false => ([&other, self], [second.distances, first.distances]),
         };
-        let contact = CONTACT * longest(corners[0]).min(longest(corners[1])).sqrt() + 4.0 * space.noise;
-        let distances_from = |plane: [DVec3; 3], normal: DVec3, points: [DVec3; 3], own: Option<usize>| {
-            let touching = contact * normal.length();
-            let mut distances = [0.0; 3];
-            let (mut below, mut above) = (0, 0);
-            for (index, point) in points.iter().enumerate() {
-                if own == Some(index) {
-                    continue;
-                }
-                let distance = normal.dot(*point - plane[0]);
-                if distance < -touching {
-                    below += 1;
-                    distances[index] = distance;
-                } else {
-                    above += 1;
-                    distances[index] = if distance > touching { distance } else { 0.0 };
-                }
-            }
-            (below > 0 && above > 0).then_some(distances)
-        };
-        let first = distances_from(corners[1], second_normal, corners[0], shared.map(|[i, _]| i))?;
-        let first_normal = normal_of(corners[0]);
-        let second = distances_from(corners[0], first_normal, corners[1], shared.map(|[_, j]| j))?;
-        let direction = first_normal.cross(second_normal);
-        Some(Self { faces, numbers, distances: [first, second], direction, shared, shortest: contact })
+        Some(Pair {
+            faces,
+            places: plates.map(|plate| plate.place),
+            distances,
+            direction: plates[0].normal.cross(plates[1].normal),
+            shared: if in_order { shared } else { shared.map(|[i, j]| [j, i]) },
+            shortest: contact,
+        })
     }
 
+    /// Points' distances from the plane, times the normal's length.
+    fn raw_distances(&self, points: [DVec3; 3]) -> [f64; 3] {
+        points.map(|point| self.normal.dot(point - self.corners[0]))
+    }
+}
+
+/// On which sides of a plane a face's corners lie.
+struct Sides {
+    /// 0 for those that touch it, which count as above.
+    distances: [f64; 3],
+    /// Whether there are some on both sides.
+    straddle: bool,
+    /// Whether there are even without those that touch it.
+    clearly: bool,
+}
+
+impl Sides {
+    /// Of distances, without that of the corner the faces share.
+    fn of(mut distances: [f64; 3], shared: Option<usize>, touching: f64) -> Self {
+        let (mut below, mut clearly_above, mut above) = (false, false, false);
+        for (index, distance) in distances.iter_mut().enumerate() {
+            if shared == Some(index) || distance.abs() <= touching {
+                *distance = 0.0;
+                above |= shared != Some(index);
+            } else if *distance < 0.0 {
+                below = true;
+            } else {
+                (above, clearly_above) = (true, true);
+            }
+        }
+        Self { distances, straddle: below && above, clearly: below && clearly_above }
+    }
+}
+
+impl Pair<'_> {
     fn intersection(&self) -> Option<(Intersection, [Option<Piercing>; 2])> {
         let (low, high) = match self.shared {
             None => {
@@ -127,7 +199,7 @@ impl<'a> Pair<'a> {
                 (low.piercing, high.piercing)
             }
             Some([i, j]) => {
-                let start = self.faces.corners(self.numbers[0])[i];
+                let start = self.faces.corners(self.places[0])[i];
                 let from_start = start.dot(self.direction);
                 let first = self.crossing(0, (i + 1) % 3, (i + 2) % 3)?;
                 let second = self.crossing(1, (j + 1) % 3, (j + 2) % 3)?;
@@ -145,7 +217,7 @@ impl<'a> Pair<'a> {
             return None;
         }
         let piercings = [low, high].map(|piercing| (piercing.edge[0] != u32::MAX).then_some(piercing));
-        Some((Intersection { faces: self.numbers, ends: [low.point, high.point] }, piercings))
+        Some((Intersection { faces: self.places, ends: [low.point, high.point] }, piercings))
     }
 
     /// Where a face's rim passes the other's plane: the lower place along the common line first.
@@ -157,7 +229,7 @@ impl<'a> Pair<'a> {
 
     /// Where the side between two corners of a face passes the other's plane, if it does.
     fn crossing(&self, face: usize, from: usize, to: usize) -> Option<Crossing> {
-        let numbers = self.faces.triangles[self.numbers[face] as usize];
+        let numbers = self.faces.triangles[self.places[face] as usize];
         // Of two faces that share the side both get the same point, bit for bit.
         let (from, to) = if numbers[from] < numbers[to] { (from, to) } else { (to, from) };
         let (start, end) = (self.distances[face][from], self.distances[face][to]);

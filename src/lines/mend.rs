@@ -81,7 +81,7 @@ fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Mesh> {
         let margin = DVec3::splat(CONTACT * a.distance(b) + WELD);
         Box3::new(a.min(b) - margin, a.max(b) + margin)
     });
-    let tree = BoxTree::new(boxes.collect(), rims.clone());
+    let (tree, order) = BoxTree::new(&boxes.collect::<Vec<Box3>>());
     let mut vertices: Vec<u32> = rims.iter().flat_map(|rim| ends(*rim)).collect();
     vertices.sort_unstable();
     vertices.dedup();
@@ -89,7 +89,8 @@ fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Mesh> {
     let mut junctions: BTreeMap<u32, Vec<(f64, u32)>> = BTreeMap::new();
     for vertex in vertices {
         let point = position(vertex);
-        tree.any(&Box3::around([scaled(point)]), |rim| {
+        tree.any(&Box3::around([scaled(point)]), |place| {
+            let rim = rims[order[place as usize] as usize];
             let [a, b] = ends(rim);
             let (start, along) = (position(a), position(b) - position(a));
             let place = (point - start).dot(along) / along.length_squared();

@@ -28,7 +28,9 @@ pub(super) struct Lines<'a> {
     images: Vec<Option<Image>>,
     /// Where edges pass through faces.
     piercings: HashMap<[u32; 2], Vec<DVec3>>,
+    /// Parts of the lines, and each one's line.
     tree: BoxTree,
+    numbers: Vec<u32>,
     touch_px: f64,
     shortest_px: f64,
 }
@@ -44,16 +46,18 @@ impl<'a> Lines<'a> {
     pub fn new(space: &'a Space, faces: &'a Faces, features: &'a [Feature], piercings: &[Piercing]) -> Self {
         let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
         let side = space.size.max_element();
-        let (mut boxes, mut items) = (Vec::new(), Vec::new());
+        let (mut boxes, mut numbers) = (Vec::new(), Vec::new());
         for (index, image) in images.iter().enumerate() {
             let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
                 continue;
             };
             for part in image.parts(range, side / PARTS_OF_PICTURE) {
                 boxes.push(image.part_box(part, 0.0, FLAT));
-                items.push(index as u32);
+                numbers.push(index as u32);
             }
         }
+        let (tree, order) = BoxTree::new(&boxes);
+        let numbers = order.iter().map(|index| numbers[*index as usize]).collect();
         let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
         for piercing in piercings {
             pierced.entry(piercing.edge).or_default().push(piercing.point);
@@ -64,7 +68,8 @@ impl<'a> Lines<'a> {
             features,
             images,
             piercings: pierced,
-            tree: BoxTree::new(boxes, items),
+            tree,
+            numbers,
             touch_px: TOUCH * side,
             shortest_px: SHORTEST_LINE * side,
         }
@@ -136,14 +141,15 @@ impl<'a> Lines<'a> {
         if self.is_repeated(index, feature, px, -view.z, line_length) {
             return None;
         }
-        let probe = Probe { view, px, key, line_length, own: feature.own };
+        let probe = Probe { view, px, key, line_length, weld: feature.weld, own: feature.own };
         Some(!self.faces.hide(self.space, &probe))
     }
 
     /// Whether another line of an earlier class, or of the same and an earlier number, passes through the same place in space.
     fn is_repeated(&self, index: usize, feature: &Feature, px: DVec2, depth: f64, length: f64) -> bool {
         let here = Box3::new((px - self.touch_px).extend(0.0), (px + self.touch_px).extend(0.0));
-        self.tree.any(&here, |other_index| {
+        self.tree.any(&here, |place| {
+            let other_index = self.numbers[place as usize];
             let other = &self.features[other_index as usize];
             let comes_first = other.class.is_some() && (other.class, other_index as usize) < (feature.class, index);
             if !comes_first || feature.own.meets(other.own) {
@@ -152,7 +158,9 @@ impl<'a> Lines<'a> {
             let Some(image) = self.images[other_index as usize] else { return false };
             let place = image.place_of(px).clamp(0.0, 1.0);
             let other_depth = self.space.depth_of_key(image.key(place));
-            let contact = CONTACT * length.min(other.ends[0].distance(other.ends[1])) + 4.0 * self.space.noise;
+            let contact = CONTACT * length.min(other.ends[0].distance(other.ends[1]))
+                + feature.weld.min(other.weld)
+                + 4.0 * self.space.noise;
             image.at(place).distance(px) <= self.touch_px && (other_depth - depth).abs() <= contact
         })
     }
@@ -161,12 +169,15 @@ impl<'a> Lines<'a> {
     fn add_cuts(&self, index: usize, image: &Image, inside: [f64; 2], cuts: &mut Vec<f64>) {
         let feature = &self.features[index];
         for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
-            self.tree.any(&image.part_box(part, self.touch_px, FLAT), |other_index| {
+            self.tree.any(&image.part_box(part, self.touch_px, FLAT), |place| {
+                let other_index = self.numbers[place as usize];
                 let other = &self.features[other_index as usize];
-                if other_index as usize != index && !feature.own.meets(other.own)
-                    && let Some(other_image) = self.images[other_index as usize] {
-                        self.add_crossings(image, &other_image, other.occludes, cuts);
-                    }
+                if other_index as usize != index
+                    && !feature.own.meets(other.own)
+                    && let Some(other_image) = self.images[other_index as usize]
+                {
+                    self.add_crossings(image, &other_image, other.occludes, cuts);
+                }
                 false
             });
             if let Own::Faces(own) = feature.own {
@@ -182,9 +193,10 @@ impl<'a> Lines<'a> {
             }
         }
         if let Own::Edge([a, b]) = feature.own
-            && let Some(points) = self.piercings.get(&[a.min(b), a.max(b)]) {
-                cuts.extend(points.iter().map(|point| image.place_of(self.space.project(*point).0)));
-            }
+            && let Some(points) = self.piercings.get(&[a.min(b), a.max(b)])
+        {
+            cuts.extend(points.iter().map(|point| image.place_of(self.space.project(*point).0)));
+        }
     }
 
     /// Adds where a nearer line's image crosses or touches this one's, and where one that lies on it ends.
