@@ -7,6 +7,7 @@ use obvhs::Boundable;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 /// An axis-aligned box.
@@ -58,7 +59,7 @@ pub(super) struct BoxTree {
 }
 
 /// Most things in a leaf.
-const LARGEST_LEAF: u32 = 8;
+pub(super) const LARGEST_LEAF: u32 = 8;
 
 /// What a step down the hierarchy costs, in tests of a thing: more makes larger leaves.
 const STEP_COST: f32 = 3.0;
@@ -80,8 +81,9 @@ impl BoxTree {
 
     /// Calls `visit` with each thing whose box overlaps `query` until it returns true; returns whether it did.
     pub fn any(&self, query: &Box3, mut visit: impl FnMut(u32) -> bool) -> bool {
-        self.any_leaf(query, |range| {
-            range.into_iter().any(|place| query.overlaps(&self.boxes[place]) && visit(place as u32))
+        self.any_leaf(query, |leaf| {
+            range(leaf.first_index, leaf.prim_count)
+                .any(|place| query.overlaps(&self.boxes[place]) && visit(place as u32))
         })
     }
 
@@ -96,13 +98,16 @@ impl BoxTree {
         for leaf in &self.leaves[groups] {
             let node = &self.nodes.nodes[*leaf as usize];
             let own = range(node.first_index, node.prim_count);
-            self.any_leaf(&Box3(*node.aabb()), |other| {
-                if other.start >= own.start {
-                    for first in own.clone() {
-                        for second in other.start.max(first + 1)..other.end {
-                            if self.boxes[first].overlaps(&self.boxes[second]) {
-                                visit(first as u32, second as u32);
-                            }
+            self.any_leaf(&Box3(*node.aabb()), |leaf| {
+                let other = range(leaf.first_index, leaf.prim_count);
+                if other.start < own.start {
+                    return false;
+                }
+                let around = Box3(*leaf.aabb());
+                for first in own.clone().filter(|first| self.boxes[*first].overlaps(&around)) {
+                    for second in other.start.max(first + 1)..other.end {
+                        if self.boxes[first].overlaps(&self.boxes[second]) {
+                            visit(first as u32, second as u32);
                         }
                     }
                 }
@@ -111,8 +116,8 @@ impl BoxTree {
         }
     }
 
-    /// Calls `visit` with the places of each leaf that overlaps until it returns true.
-    fn any_leaf(&self, query: &Box3, mut visit: impl FnMut(std::ops::Range<usize>) -> bool) -> bool {
+    /// Calls `visit` with each leaf that overlaps until it returns true.
+    fn any_leaf(&self, query: &Box3, mut visit: impl FnMut(&Bvh2Node) -> bool) -> bool {
         let nodes = &self.nodes.nodes;
         if nodes.is_empty() || !nodes[0].aabb().intersect_aabb(&query.0) {
             return false;
@@ -122,7 +127,7 @@ impl BoxTree {
         while let Some(index) = open.pop() {
             let node = &nodes[index as usize];
             if node.is_leaf() {
-                if visit(range(node.first_index, node.prim_count)) {
+                if visit(node) {
                     return true;
                 }
             } else {

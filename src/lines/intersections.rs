@@ -5,6 +5,7 @@
 //! exactly on another surface the line is found once, on one side; faces of which neither has corners clearly on both sides
 //! of the other lie on one another and do not intersect.
 
+use super::boxes::LARGEST_LEAF;
 use super::faces::Faces;
 use super::space::Space;
 use crate::threads::{cores, in_chunks};
@@ -34,13 +35,14 @@ pub(super) fn intersections(space: &Space, faces: &Faces) -> (Vec<Intersection>,
     const GROUPS: usize = 512;
     let parts = in_chunks(faces.tree.group_count(), GROUPS, cores(), |groups| {
         let mut found = Vec::new();
-        let mut plate = None;
+        // Pairs come leaf by leaf, and the places in a leaf follow one another.
+        let mut plates: [Option<Plate>; LARGEST_LEAF as usize] = Default::default();
         faces.tree.pairs(groups, |first, second| {
-            // Pairs come with their first face in runs.
-            let first = match &plate {
-                Some(plate @ Plate { place, .. }) if *place == first => plate,
-                _ => plate.insert(Plate::new(space, faces, first)),
-            };
+            let kept = &mut plates[(first % LARGEST_LEAF) as usize];
+            if kept.as_ref().is_none_or(|plate| plate.place != first) {
+                *kept = Some(Plate::new(space, faces, first));
+            }
+            let Some(first) = kept else { return };
             found.extend(first.meet(space, faces, second).and_then(|pair| pair.intersection()));
         });
         found
