@@ -192,7 +192,7 @@ fn parts(scene: &Scene) -> Vec<Part<'_>> {
             None => Part { object, mesh: object.mesh.clone(), edges: Edges::OfScene(edges) },
             Some(mesh) => {
                 let mesh = Arc::new(mesh);
-                Part { object, mesh: mesh.clone(), edges: Edges::Mended(MeshEdges::new(mesh)) }
+                Part { object, mesh: mesh.clone(), edges: Edges::Mended(Box::new(MeshEdges::new(mesh))) }
             }
         }
     };
