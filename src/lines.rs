@@ -6,6 +6,14 @@
 //! (boundary, non-manifold, silhouette), or where the edge passes through a face (Appel 1967). All these places are found,
 //! the edge is cut there, and each piece is decided by one ray.
 
+mod chain;
+mod pen;
+mod simplify;
+mod svg;
+
+pub use chain::{LinePath, chain};
+pub use svg::{ClassWidths, Hidden, PaperSize, SvgSettings, svg, svg_of_paths};
+
 use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle};
 use crate::error::Result;
 use crate::scene::{Scene, Size};
@@ -87,11 +95,6 @@ impl VisibleLines {
     ///
     /// [`crate::Error::Setting`] when no class is wanted.
     pub fn of(scene: &Scene, _settings: &LineSettings) -> Result<Self> {
-        Ok(Self {
-            size: scene.size,
-            segments: Vec::new(),
-            edges: ClassCounts::default(),
-            times: LineTimes::default(),
-        })
+        Ok(Self { size: scene.size, segments: Vec::new(), edges: ClassCounts::default(), times: LineTimes::default() })
     }
 }

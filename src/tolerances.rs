@@ -48,3 +48,6 @@ pub const ROW_EDGE: f64 = 1e-9;
 /// What rounding may take from the cosine between two equal unit normals: without it a crease angle of 0 would make creases
 /// of flat surfaces.
 pub const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;
+
+/// How far a drawn line may pass by a point it leaves out, pixels: one step of the numbers in an SVG, which have three decimals.
+pub const STRAIGHT_PX: f64 = 1e-3;
