@@ -167,7 +167,7 @@ pub fn dashes(path: &LinePath, dash_px: f64, gap_px: f64) -> Vec<LinePath> {
         let mut done = 0.0;
         while length - done > rest {
             done += rest;
-            let point = a.lerp(b, done / length);
+            let point = a + (b - a) * (done / length);
             rest = match dash.take() {
                 Some(mut whole) => {
                     whole.points_px.push(point);

@@ -89,7 +89,7 @@ mod tests {
     }
 
     fn kept(points: &[[f64; 2]], is_closed: bool) -> Vec<[f64; 2]> {
-        simplified(&path(points, is_closed)).into_iter().map(DVec2::to_array).collect()
+        simplified(&path(points, is_closed)).into_iter().map(|point| point.to_array()).collect()
     }
 
     #[test]

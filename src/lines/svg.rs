@@ -15,7 +15,7 @@ use super::simplify::simplified;
 use super::{LineSegment, VisibleLines};
 use crate::edges::Class;
 use crate::error::{Error, Result};
-use crate::scene::{Background, Color, Size};
+use crate::scene::{Background, Size};
 use std::fmt::Write;
 use text::{escaped, hexadecimal, number, path_data};
 
@@ -148,14 +148,11 @@ impl Layer<'_> {
         let (class, settings) = (self.class, self.settings);
         let name = class.name();
         let visibility = if self.is_visible { "visible" } else { "hidden" };
-        let (color, width) = match settings.is_for_pen {
-            true => (Color([0.0; 3]), PEN_WIDTH_PX),
-            false => (settings.class_colors.0[class as usize], settings.width_px(class)),
-        };
+        let width = if settings.is_for_pen { PEN_WIDTH_PX } else { settings.width_px(class) };
         let _ = write!(
             out,
             r#"<g id="{visibility}-{name}" inkscape:groupmode="layer" inkscape:label="{visibility} {name}" fill="none" stroke="{}" stroke-width="{}" stroke-linecap="round" stroke-linejoin="round""#,
-            hexadecimal(color),
+            hexadecimal(settings.class_colors.0[class as usize]),
             number(width)
         );
         if !self.is_visible && !settings.is_for_pen {

@@ -31,8 +31,8 @@ pub struct SvgSettings {
     pub paper_size: PaperSize,
     /// Whether each path names its class, object, mesh edges and angles; then no point is left out. Default no.
     pub has_provenance: bool,
-    /// Whether it is for a plotter: thin black lines in an order that spares empty ways, dashes as lines of their own, no
-    /// background. Default no.
+    /// Whether it is for a plotter: thin lines in an order that spares empty ways, dashes as lines of their own, no
+    /// background; colours tell its pens apart. Default no.
     pub is_for_pen: bool,
 }
 
