@@ -98,28 +98,29 @@ fn layers(paths: Vec<LinePath>) -> [[Vec<LinePath>; Class::ALL.len()]; 2] {
 /// Everything before the layers.
 fn begin(size: Size, settings: &SvgSettings, out: &mut String) {
     let [width, height] = settings.paper_size.lengths(size);
-    let (title, command) = (escaped(&settings.title), escaped(&settings.command));
+    let Size { width: width_px, height: height_px } = size;
+    let element = |name: &str, text: &str| match text {
+        "" => String::new(),
+        text => format!("<{name}>{}</{name}>\n", escaped(text)),
+    };
+    let [title, title_again] = ["title", "dc:title"].map(|name| element(name, &settings.title));
+    let command = element("dc:description", &settings.command);
     let _ = write!(
         out,
         r#"<?xml version="1.0" encoding="UTF-8"?>
-<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" version="1.1" width="{width}" height="{height}" viewBox="0 0 {} {}">
-<title>{title}</title>
-<metadata>
+<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" version="1.1" width="{width}" height="{height}" viewBox="0 0 {width_px} {height_px}">
+{title}<metadata>
 <rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#" xmlns:cc="http://creativecommons.org/ns#" xmlns:dc="http://purl.org/dc/elements/1.1/">
 <cc:Work rdf:about="">
 <dc:format>image/svg+xml</dc:format>
-<dc:title>{title}</dc:title>
-<dc:description>{command}</dc:description>
-</cc:Work>
+{title_again}{command}</cc:Work>
 </rdf:RDF>
 </metadata>
-"#,
-        size.width, size.height
+"#
     );
     if let (Background::Color(color), false) = (settings.background, settings.is_for_pen) {
         let fill = hexadecimal(color);
-        let _ =
-            writeln!(out, r#"<rect id="background" width="{}" height="{}" fill="{fill}"/>"#, size.width, size.height);
+        let _ = writeln!(out, r#"<rect id="background" width="{width_px}" height="{height_px}" fill="{fill}"/>"#);
     }
 }
 
