@@ -115,3 +115,20 @@ fn inking_has_no_intersections() {
     refused_in_one_line(&[&ink[..], &["intersection"]].concat(), &["--classes intersection", "only style lines"]);
     made(&[&ink[..], &["all"]].concat());
 }
+
+#[test]
+fn lines_need_no_driver() {
+    let folder = Folder::new();
+    let out = folder.path("a.svg");
+    let vendors = folder.path("vendors");
+    std::fs::create_dir(&vendors).unwrap();
+    // A vendor folder without vendors leaves libEGL without a driver.
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .args(["render", "builtin:ant", "--backend", "egl", "-o", &out])
+        .env("__EGL_VENDOR_LIBRARY_DIRS", &vendors)
+        .env_remove("__EGL_VENDOR_LIBRARY_FILENAMES")
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(std::fs::read_to_string(&out).unwrap().ends_with("</svg>\n"));
+}

@@ -248,6 +248,21 @@ mod tests {
     }
 
     #[test]
+    fn lines_over_one_another_and_loops_at_a_meeting_are_followed_to_their_end() {
+        let twice = [segment([1.0, 1.0], [5.0, 1.0]), segment([1.0, 1.0], [5.0, 1.0])];
+        let paths = chain(&twice);
+        assert!(paths.len() == 1 && paths[0].is_closed && paths[0].points_px.len() == 2);
+        // A loop that comes back to where two other lines meet.
+        let a = [50.0, 50.0];
+        let around = [[a, [60.0, 60.0]], [[60.0, 60.0], [40.0, 60.0]], [[40.0, 60.0], a]];
+        let through = [[[10.0, 50.0], a], [a, [90.0, 50.0]]];
+        let pieces: Vec<LineSegment> = around.iter().chain(&through).map(|[a, b]| segment(*a, *b)).collect();
+        let paths = chain(&pieces);
+        let shapes: Vec<(bool, &[usize])> = paths.iter().map(|path| (path.is_closed, &path.segments[..])).collect();
+        assert_eq!(shapes, [(true, &[0, 1, 2][..]), (false, &[3, 4])]);
+    }
+
+    #[test]
     fn classes_visibilities_and_objects_are_not_joined() {
         let meet = || [segment([1.0, 1.0], [2.0, 2.0]), segment([2.0, 2.0], [3.0, 1.0])];
         assert_eq!(chain(&meet()).len(), 1);
