@@ -95,6 +95,11 @@ impl VisibleLines {
     ///
     /// [`crate::Error::Setting`] when no class is wanted.
     pub fn of(scene: &Scene, _settings: &LineSettings) -> Result<Self> {
-        Ok(Self { size: scene.size, segments: Vec::new(), edges: ClassCounts::default(), times: LineTimes::default() })
+        Ok(Self {
+            size: scene.size,
+            segments: Vec::new(),
+            edges: ClassCounts::default(),
+            times: LineTimes::default(),
+        })
     }
 }
