@@ -16,7 +16,8 @@ mod quantize;
 pub use numbered::NumberedName;
 
 use crate::error::{Error, Result};
-use crate::picture::{Picture, Target, check_file, write_whole};
+use crate::output::{check_file, write_whole};
+use crate::picture::{Picture, Target};
 use crate::renderer::milliseconds_since;
 use crate::scene::Size;
 use std::path::{Path, PathBuf};

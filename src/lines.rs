@@ -7,12 +7,19 @@
 //! the edge is cut there, and each piece is decided by one ray.
 
 mod boxes;
+mod chain;
 mod faces;
 mod features;
 mod intersections;
 mod mend;
+mod pen;
+mod simplify;
 mod space;
+mod svg;
 mod visibility;
+
+pub use chain::{LinePath, chain};
+pub use svg::{ClassWidths, Hidden, PaperSize, SvgSettings, svg, svg_of_paths};
 
 use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, MeshEdges};
 use crate::error::{Error, Result};

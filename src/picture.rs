@@ -4,6 +4,7 @@ mod pcx;
 mod read;
 
 use crate::error::{Error, Result};
+use crate::output::{check_file, write_standard_output, write_whole};
 use crate::scene::Size;
 use image::codecs::{bmp::BmpEncoder, jpeg::JpegEncoder, png, pnm, tga::TgaEncoder};
 use image::{ExtendedColorType, ImageEncoder};
@@ -203,14 +204,12 @@ impl Target {
     pub fn write(&self, picture: &Picture) -> Result<()> {
         match self {
             Self::Stdout => {
-                let failed = |error: &dyn std::fmt::Display| Error::Output {
-                    path: "-".to_owned(),
-                    problem: format!("standard output cannot be written ({error}); check where it goes"),
-                };
                 let mut bytes = Vec::new();
-                picture.encode(PictureFormat::Png, false, &mut bytes).map_err(|error| failed(&error))?;
-                let mut out = std::io::stdout().lock();
-                out.write_all(&bytes).and_then(|()| out.flush()).map_err(|error| failed(&error))
+                picture.encode(PictureFormat::Png, false, &mut bytes).map_err(|error| Error::Output {
+                    path: "-".to_owned(),
+                    problem: format!("the picture cannot be encoded ({error}); name a file"),
+                })?;
+                write_standard_output(&bytes)
             }
             Self::File { path, format } => write_file(path, |out| picture.encode(*format, false, out)),
         }
@@ -233,63 +232,6 @@ fn write_file(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResu
         problem: format!("the picture cannot be encoded ({error}); try .png"),
     })?;
     write_whole(path, &bytes)
-}
-
-/// Checks that a file of any kind can be written here.
-pub(crate) fn check_file(file: &Path) -> Result<()> {
-    let refuse = |problem: String| Error::Output { path: file.display().to_string(), problem };
-    if file.is_dir() {
-        return Err(refuse("this is a directory; name a file in it".to_owned()));
-    }
-    // A new file takes the old one's place, which must be a file: not a device, a pipe or a link to nowhere.
-    if file.symlink_metadata().is_ok() && !file.is_file() {
-        return Err(refuse("this is no ordinary file; name another, or - for standard output".to_owned()));
-    }
-    temporary_beside(file).map(drop).map_err(|error| refuse(cannot_write(file, &error)))
-}
-
-/// Writes beside the file, then renames: a link is followed, a file replaced only by a whole one.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let written = temporary_beside(path).and_then(|mut file| {
-        file.write_all(bytes)?;
-        // A file that is replaced keeps its permissions.
-        if let Ok(metadata) = path.metadata() {
-            file.as_file().set_permissions(metadata.permissions())?;
-        }
-        file.persist(resolved(path)).map_err(|error| error.error)?;
-        Ok(())
-    });
-    written.map_err(|error| Error::Output { path: path.display().to_string(), problem: cannot_write(path, &error) })
-}
-
-/// A file that deletes itself, in the folder of `path`, with the permissions a new file there would get.
-fn temporary_beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
-    let target = resolved(path);
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.prefix(".tinta-").tempfile_in(folder)
-}
-
-/// The file a link at `path` points to, so that the link stays.
-fn resolved(path: &Path) -> PathBuf {
-    path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
-}
-
-fn cannot_write(path: &Path, error: &std::io::Error) -> String {
-    use std::io::ErrorKind;
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    match error.kind() {
-        ErrorKind::NotFound | ErrorKind::NotADirectory => {
-            format!("the folder {} is not there; make it first", folder.display())
-        }
-        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
-            format!("the folder {} may not be written; choose another", folder.display())
-        }
-        ErrorKind::StorageFull => "the disk is full; free some space".to_owned(),
-        _ => format!("it cannot be written ({error})"),
-    }
 }
 
 #[cfg(test)]

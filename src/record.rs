@@ -1,5 +1,9 @@
 //! What one rendering was and took, as one JSON object.
 
+mod lines;
+
+pub use lines::{LineCounts, LinesRecord, LinesStyle, lines_json};
+
 use crate::camera::Projection;
 use crate::compare::AgreementNumbers;
 use crate::edges::{ClassCounts, SilhouetteRule};

@@ -71,3 +71,6 @@ pub const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
 /// Sine of the angle between a face and the view below which the face is seen edge-on: all its sides are then places where
 /// a surface may end. One too many costs a ray.
 pub const EDGE_ON: f64 = 1e-9;
+
+/// How far a drawn line may pass by a point it leaves out, pixels: one step of the numbers in an SVG, which have three decimals.
+pub const STRAIGHT_PX: f64 = 1e-3;

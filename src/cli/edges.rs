@@ -35,7 +35,7 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<()> {
     let crease_angle = arguments.crease.crease_angle()?;
-    let rule = arguments.crease.silhouette;
+    let rule = arguments.crease.silhouette();
     let start = Instant::now();
     let mut meshes = load_meshes(std::slice::from_ref(&arguments.model), &arguments.options.options())?;
     let load_ms = milliseconds_since(start);

@@ -1,6 +1,7 @@
 //! `tinta render`: models to a picture.
 
 mod animate;
+mod lines;
 
 use super::models::load_meshes;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
@@ -21,13 +22,13 @@ pub struct Arguments {
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 
-    /// Picture to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output; animations: .gif .apng frame-%04d.png
+    /// File to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output; lines: .svg .json; animations: .gif .apng frame-%04d.png
     #[arg(short, long, value_name = "FILE")]
     output: String,
 
-    /// Style: phong, three-pass, two-pass, inking, dietrich, charcoal, sand [default: three-pass]
-    #[arg(long, value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
-    style: StyleName,
+    /// Style: phong, three-pass, two-pass, inking, dietrich, charcoal, sand, lines [default: three-pass; into .svg and .json: lines]
+    #[arg(long, value_name = "STYLE")]
+    style: Option<lines::StyleChoice>,
 
     #[command(flatten)]
     scene: SceneArguments,
@@ -39,6 +40,9 @@ pub struct Arguments {
     styles: StyleArguments,
 
     #[command(flatten)]
+    lines: lines::LineArguments,
+
+    #[command(flatten)]
     model: ModelArguments,
 
     #[command(flatten)]
@@ -46,6 +50,16 @@ pub struct Arguments {
 
     #[command(flatten)]
     run: RunArguments,
+}
+
+impl Arguments {
+    /// The style of a picture.
+    fn style_name(&self) -> StyleName {
+        match self.style {
+            Some(lines::StyleChoice::Picture(name)) => name,
+            _ => StyleName::ThreePass,
+        }
+    }
 }
 
 #[derive(clap::Args)]
@@ -80,6 +94,10 @@ const PASS_FRAMES: usize = 21;
 
 /// Draws what the arguments say.
 pub fn run(arguments: &Arguments) -> Result<()> {
+    if let Some(format) = lines::format(arguments)? {
+        return lines::run(arguments, format);
+    }
+    arguments.lines.refuse("only style lines has this; leave it out, or write a .svg")?;
     if let Some(target) = arguments.animation.target(&arguments.output, arguments.scene.transparent)? {
         return animate::run(arguments, target);
     }
@@ -91,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         });
     }
     make_dump_folder(arguments)?;
-    let style = arguments.styles.style(arguments.style)?;
+    let style = arguments.styles.style(arguments.style_name())?;
     // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
     let settings = arguments.scene.settings(arguments.camera.settings());
     let (renderer, loaded) = std::thread::scope(|scope| {
@@ -262,7 +280,7 @@ fn after_help() -> String {
 mod tests {
     use super::*;
     use clap::Parser;
-    use tinta::{LoadOptions, Show};
+    use tinta::{LineSettings, LoadOptions, Show, SvgSettings};
 
     #[derive(Parser)]
     struct Line {
@@ -276,7 +294,10 @@ mod tests {
         for (name, style) in StyleName::ALL {
             assert_eq!(arguments.styles.style(style).unwrap(), Style::named(style), "{name}");
         }
-        assert_eq!(arguments.style, StyleName::ThreePass);
+        assert_eq!(arguments.style_name(), StyleName::ThreePass);
+        assert_eq!(arguments.styles.line_settings().unwrap(), LineSettings::default());
+        let drawn = SvgSettings { title: String::new(), command: String::new(), ..lines::svg_settings(&arguments) };
+        assert_eq!(drawn, SvgSettings::default());
         assert_eq!(arguments.model.options(), LoadOptions::default());
         let (asked, default) = (arguments.scene.settings(arguments.camera.settings()), SceneSettings::default());
         assert_eq!(asked.camera, default.camera);

@@ -200,6 +200,12 @@ impl Inking {
                 format!("a line's width is a number of pixels above 0 and at most {WIDEST_LINE}"),
             ));
         }
+        if self.classes.contains(Class::Intersection) {
+            return Err(Error::setting(
+                "--classes intersection",
+                "only style lines finds where faces pass through one another; leave it out, or write a .svg",
+            ));
+        }
         if self.polygon_offset.iter().any(|number| !number.is_finite()) {
             return Err(Error::setting("--polygon-offset", "its two numbers must be finite"));
         }

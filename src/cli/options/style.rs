@@ -8,7 +8,7 @@ use tinta::plan::LineDrawing;
 use tinta::styles::{
     Border, Cartoon, ClassColors, Dietrich, Filter, Inking, LightOn, PaintMode, Phong, Ramp, RampRow, ToneLookup, Tones,
 };
-use tinta::{Result, Show, Style, StyleName};
+use tinta::{Error, LineSettings, Result, Show, Style, StyleName};
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "All styles")]
@@ -77,27 +77,27 @@ struct CartoonArguments {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Style inking: lines from the model's edges (the defaults are the text's)")]
 pub struct CreaseArguments {
-    /// Least angle between faces that makes their edge a crease, degrees [default: 66.4, a cosine of 0.4]
+    /// Least angle between faces that makes their edge a crease, degrees; style lines too [default: 66.4, a cosine of 0.4]
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
     crease_angle: Option<f64>,
 
-    /// Find silhouettes with one view vector for all edges (paper) or exactly (exact) [default: paper]
-    #[arg(long, value_name = "RULE", default_value = "paper", hide_default_value = true)]
-    pub silhouette: SilhouetteRule,
+    /// Find silhouettes with one view vector for all edges (paper) or exactly (exact) [default: paper; style lines: exact]
+    #[arg(long, value_name = "RULE")]
+    silhouette: Option<SilhouetteRule>,
 }
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "Style inking: lines from the model's edges (the defaults are the text's)")]
 struct InkingArguments {
-    /// Edges to draw: boundary, non-manifold, silhouette, crease, material, texture, normal with commas between, or all [default: boundary,silhouette,crease]
-    #[arg(long, value_name = "CLASSES", value_parser = parse_classes, default_value = "boundary,silhouette,crease", hide_default_value = true)]
-    classes: ClassSet,
+    /// Edges to draw: boundary, non-manifold, silhouette, crease, material, texture, normal, in style lines also intersection, with commas between, or all [default: boundary,silhouette,crease; style lines: all but texture and normal]
+    #[arg(long, value_name = "CLASSES", value_parser = parse_classes)]
+    classes: Option<ClassChoice>,
 
-    /// Colours of the lines: CLASS=COLOUR with commas between, names or #rrggbb, or figure-6 (outer red, inner blue) [default: black]
+    /// Colours of the lines, style lines too: CLASS=COLOUR with commas between, names or #rrggbb, or figure-6 (outer red, inner blue) [default: black]
     #[arg(long, value_name = "COLOURS")]
     class_colors: Option<ClassColors>,
 
-    /// Width of the lines, pixels, above 0 to 16384 [default: 2]
+    /// Width of the lines, pixels, above 0 to 16384, style lines too [default: 2]
     #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, allow_hyphen_values = true)]
     line_width: f32,
 
@@ -165,6 +165,31 @@ impl StyleArguments {
     }
 }
 
+impl StyleArguments {
+    /// What the style lines draws.
+    pub fn line_settings(&self) -> Result<LineSettings> {
+        // Given explicitly, for lines know no other rule than the exact one.
+        if self.crease.silhouette == Some(SilhouetteRule::Paper) {
+            return Err(Error::Setting {
+                setting: "--silhouette paper".to_owned(),
+                problem: "style lines finds silhouettes exactly; leave it out, or draw --style inking into a .png"
+                    .to_owned(),
+            });
+        }
+        let classes = match self.inking.classes {
+            None => LineSettings::default().classes,
+            Some(ClassChoice::All) => ClassSet::ALL,
+            Some(ClassChoice::These(classes)) => classes,
+        };
+        Ok(LineSettings { classes, crease_angle: self.crease.crease_angle()? })
+    }
+
+    /// Colour and width of lines, which the style lines has in common with inking.
+    pub fn line_look(&self) -> (ClassColors, f32) {
+        (self.inking.class_colors.unwrap_or_default(), self.inking.line_width)
+    }
+}
+
 impl CartoonArguments {
     fn settings(&self, common: &StyleArguments) -> Cartoon {
         let [diffuse_threshold, specular_threshold] = self.tone_thresholds;
@@ -188,15 +213,24 @@ impl CreaseArguments {
     pub fn crease_angle(&self) -> Result<CreaseAngle> {
         self.crease_angle.map_or(Ok(CreaseAngle::default()), CreaseAngle::from_degrees)
     }
+
+    /// The rule for silhouettes.
+    pub fn silhouette(&self) -> SilhouetteRule {
+        self.silhouette.unwrap_or(SilhouetteRule::Paper)
+    }
 }
 
 impl InkingArguments {
     fn settings(&self, common: &StyleArguments) -> Result<Inking> {
         Ok(Inking {
             is_inked: !common.no_borders,
-            classes: self.classes,
+            classes: match self.classes {
+                None => Inking::default().classes,
+                Some(ClassChoice::All) => ClassSet::EDGES,
+                Some(ClassChoice::These(classes)) => classes,
+            },
             crease_angle: common.crease.crease_angle()?,
-            silhouette: common.crease.silhouette,
+            silhouette: common.crease.silhouette(),
             line_width_px: self.line_width,
             is_smooth: self.smooth,
             line_drawing: self.line_drawing,
@@ -213,12 +247,19 @@ impl InkingArguments {
     }
 }
 
-fn parse_classes(text: &str) -> std::result::Result<ClassSet, String> {
+/// Classes as the user names them; what all are depends on the style.
+#[derive(Clone, Copy)]
+enum ClassChoice {
+    All,
+    These(ClassSet),
+}
+
+fn parse_classes(text: &str) -> std::result::Result<ClassChoice, String> {
     if text == "all" {
-        return Ok(ClassSet::ALL);
+        return Ok(ClassChoice::All);
     }
     let classes: std::result::Result<Vec<Class>, String> = text.split(',').map(|name| name.trim().parse()).collect();
-    classes.map(|classes| ClassSet::of(&classes)).map_err(|error| format!("{error}, or all"))
+    classes.map(|classes| ClassChoice::These(ClassSet::of(&classes))).map_err(|error| format!("{error}, or all"))
 }
 
 fn parse_cull(text: &str) -> std::result::Result<bool, String> {

@@ -17,11 +17,11 @@ use tinta::{
 pub struct AnimationArguments {
     /// Draw N views of a full turn around the models [default: off]
     #[arg(long, value_name = "N", conflicts_with = "animate", value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    turntable: Option<u32>,
+    pub turntable: Option<u32>,
 
     /// Draw all frames of an animated model (MD2), or those of one movement, such as --animate=run [default: off]
     #[arg(long, value_name = "MOVEMENT", num_args = 0..=1, require_equals = true, default_missing_value = "", conflicts_with = "model_frame")]
-    animate: Option<String>,
+    pub animate: Option<String>,
 
     /// How long each picture is shown, milliseconds [default: 100 for a model's frame; a turn in 2500, at most 200 each]
     #[arg(long, value_name = "MS", value_parser = clap::value_parser!(u16).range(20..=60_000))]
@@ -54,7 +54,7 @@ impl AnimationArguments {
 pub fn run(arguments: &Arguments, target: AnimationTarget) -> Result<()> {
     let start = Instant::now();
     refuse_what_is_for_one_picture(arguments)?;
-    let style = arguments.styles.style(arguments.style)?;
+    let style = arguments.styles.style(arguments.style_name())?;
     let (scenes, load_ms) = scenes(arguments, &style)?;
     let delay_ms = arguments.animation.delay_ms(scenes.len());
     let context = Instant::now();

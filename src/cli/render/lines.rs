@@ -1,0 +1,264 @@
+//! `tinta render` into an SVG or JSON file: exact lines. No OpenGL is opened.
+
+use super::super::models::load_meshes;
+use super::{Arguments, model_records};
+use std::path::Path;
+use std::str::FromStr;
+use std::time::Instant;
+use tinta::lines::{ClassWidths, Hidden, PaperSize, chain, svg_of_paths};
+use tinta::record::{CameraRecord, LineCounts, LinesRecord, LinesStyle, ModelRecord, lines_json};
+use tinta::renderer::milliseconds_since;
+use tinta::{Error, Result, Scene, Show, StyleName, SvgSettings, TextTarget, VisibleLines};
+
+/// What `--style` takes: a style that GL draws, or lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StyleChoice {
+    Picture(StyleName),
+    Lines,
+}
+
+impl FromStr for StyleChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        if text == "lines" {
+            return Ok(Self::Lines);
+        }
+        text.parse().map(Self::Picture).map_err(|error: String| format!("{error}, lines"))
+    }
+}
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "Style lines: exact visible lines as vectors, into FILE.svg or FILE.json")]
+pub struct LineArguments {
+    /// Hidden lines: none, dashed, ghost (faint), each in layers below the visible ones [default: none]
+    #[arg(long, value_name = "HOW")]
+    hidden: Option<Hidden>,
+
+    /// Widths of single classes of lines: CLASS=PIXELS with commas between [default: all of --line-width]
+    #[arg(long, value_name = "WIDTHS", allow_hyphen_values = true)]
+    class_widths: Option<ClassWidths>,
+
+    /// Width on paper, millimetres; the height follows [default: none, sizes are pixels]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, conflicts_with = "dpi")]
+    width_mm: Option<f64>,
+
+    /// Size on paper as so many pixels an inch [default: none, sizes are pixels]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    dpi: Option<f64>,
+
+    /// Write each path's class, object, mesh edges and their angles beside it, and keep all its points [default: off]
+    #[arg(long)]
+    provenance: bool,
+
+    /// For a plotter: thin lines ordered to spare empty ways, dashes as lines of their own, no background [default: off]
+    #[arg(long, conflicts_with_all = ["class_widths", "line_width"])]
+    pen: bool,
+}
+
+impl LineArguments {
+    /// Refuses the first of these options that is given.
+    pub fn refuse(&self, problem: &str) -> Result<()> {
+        refuse_given(
+            &[
+                ("--hidden", self.hidden.is_some()),
+                ("--class-widths", self.class_widths.is_some()),
+                ("--width-mm", self.width_mm.is_some()),
+                ("--dpi", self.dpi.is_some()),
+                ("--provenance", self.provenance),
+                ("--pen", self.pen),
+            ],
+            problem,
+        )
+    }
+}
+
+fn refuse_given(given: &[(&str, bool)], problem: &str) -> Result<()> {
+    match given.iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => Err(Error::Setting { setting: (*option).to_owned(), problem: problem.to_owned() }),
+        None => Ok(()),
+    }
+}
+
+/// The files lines are written to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    Svg,
+    Json,
+}
+
+/// The format if lines are asked for: by the file's name, or by the style for standard output.
+pub fn format(arguments: &Arguments) -> Result<Option<Format>> {
+    let output = &arguments.output;
+    let extension = Path::new(output).extension().and_then(|extension| extension.to_str());
+    let format = match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("svg") => Some(Format::Svg),
+        Some("json") => Some(Format::Json),
+        _ => None,
+    };
+    let refuse = |problem: String| Err(Error::Output { path: output.clone(), problem });
+    match (arguments.style, format) {
+        (None | Some(StyleChoice::Lines), Some(format)) => Ok(Some(format)),
+        (Some(StyleChoice::Lines), None) if output == "-" => Ok(Some(Format::Svg)),
+        (Some(StyleChoice::Lines), None) => {
+            refuse("style lines writes .svg or .json; name the file so, or leave out --style lines".to_owned())
+        }
+        (Some(StyleChoice::Picture(name)), Some(_)) => refuse(format!(
+            "style {} draws pixels; leave out --style to write lines, or name a picture such as drawing.png",
+            name.name()
+        )),
+        (_, None) => Ok(None),
+    }
+}
+
+/// Finds the lines and writes them.
+pub fn run(arguments: &Arguments, format: Format) -> Result<()> {
+    let target = TextTarget::check(&arguments.output)?;
+    refuse_what_lines_have_not(arguments, format, &target)?;
+    let settings = arguments.styles.line_settings()?;
+    let drawn = svg_settings(arguments);
+    drawn.check()?;
+    let start = Instant::now();
+    let meshes = load_meshes(&arguments.models, &arguments.model.options())?;
+    let load_ms = milliseconds_since(start);
+    let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()))?;
+    let lines = VisibleLines::of(&scene, &settings)?;
+
+    let start = Instant::now();
+    let paths = if format == Format::Svg || arguments.run.json { chain(&lines.segments) } else { Vec::new() };
+    let counts = LineCounts::new(&lines, &paths);
+    let text = match format {
+        Format::Svg => svg_of_paths(&lines, paths, &drawn)?,
+        Format::Json => lines_json(&lines, &scene)?,
+    };
+    let lines_ms = milliseconds_since(start);
+    target.write(&text)?;
+    if !arguments.run.json {
+        return Ok(());
+    }
+    let models = model_records(&scene, arguments.models.len());
+    super::super::print_json(&LinesRecord {
+        version: env!("CARGO_PKG_VERSION"),
+        model: ModelRecord::together(&models),
+        models,
+        load: arguments.model.options(),
+        copies: arguments.scene.copies,
+        triangles: scene.triangle_count(),
+        style: LinesStyle { name: "lines", lines: settings, svg: (format == Format::Svg).then_some(drawn) },
+        size: scene.size,
+        camera: CameraRecord::new(&scene),
+        edges: lines.edges,
+        counts,
+        load_ms,
+        times: lines.times,
+        lines_ms,
+    })
+}
+
+/// How the SVG is to be written.
+pub fn svg_settings(arguments: &Arguments) -> SvgSettings {
+    let options = &arguments.lines;
+    let (class_colors, line_width_px) = arguments.styles.line_look();
+    let names =
+        arguments.models.iter().map(|path| Path::new(path).file_name().map_or(path.into(), |n| n.to_string_lossy()));
+    SvgSettings {
+        title: names.collect::<Vec<_>>().join(", "),
+        command: command(std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned())),
+        hidden: options.hidden.unwrap_or_default(),
+        class_colors,
+        line_width_px,
+        class_widths: options.class_widths.unwrap_or_default(),
+        background: arguments.scene.settings(arguments.camera.settings()).background,
+        paper_size: match (options.width_mm, options.dpi) {
+            (Some(width), _) => PaperSize::WidthMm(width),
+            (None, Some(dpi)) => PaperSize::Dpi(dpi),
+            (None, None) => PaperSize::Unset,
+        },
+        has_provenance: options.provenance,
+        is_for_pen: options.pen,
+    }
+}
+
+fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &TextTarget) -> Result<()> {
+    let run = &arguments.run;
+    refuse_given(
+        &[
+            ("--explain", run.explain),
+            ("--dump", run.dump.is_some()),
+            ("--frames", run.frames != 1),
+            ("--show", arguments.styles.show != Show::Final),
+            ("--turntable", arguments.animation.turntable.is_some()),
+            ("--animate", arguments.animation.animate.is_some()),
+        ],
+        "style lines has no passes and no frames; leave it out, or name a picture such as drawing.png",
+    )?;
+    refuse_given(&[("--no-borders", arguments.styles.no_borders)], "it is lines that are drawn; leave it out")?;
+    refuse_given(
+        &[("-o -", *target == TextTarget::Stdout && run.json)],
+        "the drawing and --json cannot share standard output; name a file",
+    )?;
+    match format {
+        Format::Svg => Ok(()),
+        Format::Json => arguments
+            .lines
+            .refuse("a .json file has all lines and where they come from, and no looks; leave it out, or write a .svg"),
+    }
+}
+
+/// The command line as a shell takes it, with `drawing` in the place of the output's own name: the same drawing is the same
+/// bytes wherever it is written.
+fn command(words: impl Iterator<Item = String>) -> String {
+    let mut text = "tinta".to_owned();
+    let mut is_output = false;
+    for word in words {
+        let named = |prefix: &str| word.strip_prefix(prefix).map(|name| format!("{prefix}{}", without_name(name)));
+        let plain = if is_output {
+            without_name(&word)
+        } else if word.starts_with("--") {
+            named("--output=").unwrap_or_else(|| word.clone())
+        } else if word == "-o" {
+            word.clone()
+        } else {
+            named("-o=").or_else(|| named("-o")).unwrap_or_else(|| word.clone())
+        };
+        is_output = !is_output && (word == "-o" || word == "--output");
+        text.push(' ');
+        text.push_str(&quoted(&plain));
+    }
+    text
+}
+
+fn without_name(output: &str) -> String {
+    match Path::new(output).extension() {
+        Some(extension) => format!("drawing.{}", extension.to_string_lossy()),
+        None => output.to_owned(),
+    }
+}
+
+fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_=+,.:/@%".contains(letter);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_is_written_for_a_shell_and_without_the_outputs_name() {
+        let made = |words: &[&str]| command(words.iter().map(|word| (*word).to_owned()));
+        let expected = "tinta render 'my cow.obj' -o drawing.svg --background '#fff'";
+        for output in [&["-o", "/tmp/a b.svg"][..], &["-o", "c.svg"]] {
+            let words = [&["render", "my cow.obj"], output, &["--background", "#fff"]].concat();
+            assert_eq!(made(&words), expected);
+        }
+        assert_eq!(
+            made(&["-oa.svg", "--output=b.svg", "--output", "c.svg"]),
+            "tinta -odrawing.svg --output=drawing.svg --output drawing.svg"
+        );
+        assert_eq!(made(&["it's", "", "-o", "-"]), r"tinta 'it'\''s' '' -o -");
+    }
+}

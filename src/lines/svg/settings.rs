@@ -1,0 +1,213 @@
+//! What an SVG of lines can be asked for.
+
+use crate::edges::Class;
+use crate::error::{Error, Result};
+use crate::names::find;
+use crate::scene::{Background, Color, Size};
+use crate::styles::ClassColors;
+use serde::Serialize;
+use std::str::FromStr;
+
+/// How an SVG is written.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SvgSettings {
+    /// Its title. Default none.
+    #[serde(skip)]
+    pub title: String,
+    /// The command that made it, kept in its metadata. Default none.
+    #[serde(skip)]
+    pub command: String,
+    /// What becomes of hidden lines. Default none of them is written.
+    pub hidden: Hidden,
+    /// Each class's colour. Default black.
+    pub class_colors: ClassColors,
+    /// Width of the lines, pixels. Default 2.
+    pub line_width_px: f32,
+    /// Widths of single classes, pixels. Default that of all.
+    pub class_widths: ClassWidths,
+    /// A rectangle behind everything, or nothing. Default white.
+    pub background: Background,
+    /// How large it is on paper. Default left to the program that shows it.
+    pub paper_size: PaperSize,
+    /// Whether each path names its class, object, mesh edges and angles; then no point is left out. Default no.
+    pub has_provenance: bool,
+    /// Whether it is for a plotter: thin lines in an order that spares empty ways, dashes as lines of their own, no
+    /// background; colours tell its pens apart. Default no.
+    pub is_for_pen: bool,
+}
+
+impl Default for SvgSettings {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            command: String::new(),
+            hidden: Hidden::None,
+            class_colors: ClassColors::default(),
+            line_width_px: 2.0,
+            class_widths: ClassWidths::default(),
+            background: Background::Color(Color([1.0; 3])),
+            paper_size: PaperSize::Unset,
+            has_provenance: false,
+            is_for_pen: false,
+        }
+    }
+}
+
+/// What becomes of hidden lines.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Hidden {
+    /// They are left out.
+    #[default]
+    None,
+    /// They are dashed.
+    Dashed,
+    /// They are faint; for a pen, which cannot be, thin lines in layers of their own.
+    Ghost,
+}
+
+impl Hidden {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 3] = [("none", Self::None), ("dashed", Self::Dashed), ("ghost", Self::Ghost)];
+}
+
+impl FromStr for Hidden {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+/// How large an SVG is on paper.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PaperSize {
+    /// In pixels, whatever they are.
+    #[default]
+    Unset,
+    /// This wide, millimetres.
+    WidthMm(f64),
+    /// This many pixels an inch.
+    Dpi(f64),
+}
+
+/// The largest width on paper, millimetres, and the most pixels an inch: beyond any paper, within any reader's numbers.
+const LARGEST: f64 = 1e6;
+
+/// The least of both: still written as more than 0.
+const SMALLEST: f64 = 1e-3;
+
+/// Decimals of a length on paper, which may be a small part of an inch.
+const PAPER_DECIMALS: u32 = 6;
+
+impl PaperSize {
+    /// Width and height as SVG writes them.
+    pub(super) fn lengths(self, size: Size) -> [String; 2] {
+        let (pixels, scale, unit) = match self {
+            Self::Unset => return [size.width.to_string(), size.height.to_string()],
+            Self::WidthMm(width) => (f64::from(size.width), width, "mm"),
+            Self::Dpi(dpi) => (dpi, 1.0, "in"),
+        };
+        [size.width, size.height]
+            .map(|length| super::text::decimal(f64::from(length) * scale / pixels, PAPER_DECIMALS) + unit)
+    }
+}
+
+/// Widths of lines by class, pixels, in the order of [`Class::ALL`]; `None` as wide as all others.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct ClassWidths(pub [Option<f32>; Class::ALL.len()]);
+
+impl FromStr for ClassWidths {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        let mut widths = Self::default();
+        for setting in text.split(',') {
+            let usage = || "write CLASS=PIXELS with commas between: silhouette=3,crease=1".to_owned();
+            let (class, width) = setting.split_once('=').ok_or_else(usage)?;
+            let width = width.trim().parse().map_err(|_| usage())?;
+            widths.0[class.trim().parse::<Class>()? as usize] = Some(width);
+        }
+        Ok(widths)
+    }
+}
+
+/// Widest and thinnest line, pixels; the widest as in the style inking, the thinnest still written as more than 0.
+const WIDTHS: std::ops::RangeInclusive<f32> = 1e-3..=16_384.0;
+
+impl SvgSettings {
+    /// Refuses nonsense, before any work.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a width, paper size or resolution that is none.
+    pub fn check(&self) -> Result<()> {
+        let refuse_width = |setting: String| {
+            let limits = (WIDTHS.start(), WIDTHS.end());
+            let problem = format!("a line's width is a number of pixels from {} to {}", limits.0, limits.1);
+            Err(Error::setting(setting, problem))
+        };
+        if !WIDTHS.contains(&self.line_width_px) {
+            return refuse_width(format!("--line-width {}", self.line_width_px));
+        }
+        for ((name, _), width) in Class::ALL.iter().zip(self.class_widths.0) {
+            if let Some(width) = width.filter(|width| !WIDTHS.contains(width)) {
+                return refuse_width(format!("--class-widths {name}={width}"));
+            }
+        }
+        let is_sound = |value: f64| (SMALLEST..=LARGEST).contains(&value);
+        match self.paper_size {
+            PaperSize::WidthMm(width) if !is_sound(width) => Err(Error::setting(
+                format!("--width-mm {width}"),
+                format!("a drawing is {SMALLEST} to {LARGEST} millimetres wide"),
+            )),
+            PaperSize::Dpi(dpi) if !is_sound(dpi) => Err(Error::setting(
+                format!("--dpi {dpi}"),
+                format!("a resolution is {SMALLEST} to {LARGEST} pixels an inch; 96 is usual"),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// A class's width, pixels.
+    pub(super) fn width_px(&self, class: Class) -> f64 {
+        f64::from(self.class_widths.0[class as usize].unwrap_or(self.line_width_px))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_are_read_and_nonsense_is_refused_by_name() {
+        let widths: ClassWidths = "silhouette=3, crease=0.5".parse().unwrap();
+        assert_eq!(widths.0[Class::Silhouette as usize], Some(3.0));
+        assert_eq!(widths.0[Class::Boundary as usize], None);
+        for bad in ["crease", "crease=", "crease=wide", "edges=2", ""] {
+            assert!(bad.parse::<ClassWidths>().is_err(), "{bad}");
+        }
+        let base = SvgSettings::default;
+        let message = |settings: SvgSettings| settings.check().unwrap_err().to_string();
+        for width in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+            assert!(message(SvgSettings { line_width_px: width, ..base() }).starts_with("--line-width"));
+            let class_widths = ClassWidths([Some(width); Class::ALL.len()]);
+            assert!(message(SvgSettings { class_widths, ..base() }).starts_with("--class-widths boundary="));
+        }
+        for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let with = |paper_size| message(SvgSettings { paper_size, ..base() });
+            assert!(with(PaperSize::WidthMm(value)).starts_with("--width-mm"));
+            assert!(with(PaperSize::Dpi(value)).starts_with("--dpi"));
+        }
+        assert!(base().check().is_ok());
+    }
+
+    #[test]
+    fn sizes_on_paper_keep_the_pictures_shape() {
+        let size = Size { width: 600, height: 400 };
+        assert_eq!(PaperSize::Unset.lengths(size), ["600", "400"]);
+        assert_eq!(PaperSize::WidthMm(210.0).lengths(size), ["210mm", "140mm"]);
+        assert_eq!(PaperSize::Dpi(96.0).lengths(size), ["6.25in", "4.166667in"]);
+    }
+}

@@ -1,0 +1,136 @@
+//! Whole files or none: checked before the work, written beside their place, then renamed into it.
+//!
+//! Pictures, animations and texts all go through here. Nothing half is left when the program is interrupted, without
+//! handling signals: what is written is complete in memory first. The price is its size in memory.
+
+use crate::error::{Error, Result};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Where a text goes: an SVG, a JSON file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum TextTarget {
+    /// Standard output.
+    Stdout,
+    /// A file.
+    File(PathBuf),
+}
+
+impl TextTarget {
+    /// Checks that `path` (or `-`) can be written.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Output`] for a directory, a device, a folder that is missing or may not be written.
+    pub fn check(path: &str) -> Result<Self> {
+        if path == "-" {
+            return Ok(Self::Stdout);
+        }
+        let file = PathBuf::from(path);
+        check_file(&file)?;
+        Ok(Self::File(file))
+    }
+
+    /// Writes the text; a file appears complete or stays as it was.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Output`] when the disk is full, the folder gone, the pipe closed.
+    pub fn write(&self, text: &str) -> Result<()> {
+        match self {
+            Self::Stdout => write_standard_output(text.as_bytes()),
+            Self::File(path) => write_whole(path, text.as_bytes()),
+        }
+    }
+}
+
+/// Writes all of it to standard output.
+pub(crate) fn write_standard_output(bytes: &[u8]) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| Error::Output {
+        path: "-".to_owned(),
+        problem: format!("standard output cannot be written ({error}); check where it goes"),
+    })
+}
+
+/// Checks that a file of any kind can be written here.
+pub(crate) fn check_file(file: &Path) -> Result<()> {
+    let refuse = |problem: String| Error::Output { path: file.display().to_string(), problem };
+    if file.is_dir() {
+        return Err(refuse("this is a directory; name a file in it".to_owned()));
+    }
+    // A new file takes the old one's place, which must be a file: not a device, a pipe or a link to nowhere.
+    if file.symlink_metadata().is_ok() && !file.is_file() {
+        return Err(refuse("this is no ordinary file; name another, or - for standard output".to_owned()));
+    }
+    temporary_beside(file).map(drop).map_err(|error| refuse(cannot_write(file, &error)))
+}
+
+/// Writes beside the file, then renames: a link is followed, a file replaced only by a whole one.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+    let written = temporary_beside(path).and_then(|mut file| {
+        file.write_all(bytes)?;
+        // A file that is replaced keeps its permissions.
+        if let Ok(metadata) = path.metadata() {
+            file.as_file().set_permissions(metadata.permissions())?;
+        }
+        file.persist(resolved(path)).map_err(|error| error.error)?;
+        Ok(())
+    });
+    written.map_err(|error| Error::Output { path: path.display().to_string(), problem: cannot_write(path, &error) })
+}
+
+/// A file that deletes itself, in the folder of `path`, with the permissions a new file there would get.
+fn temporary_beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let target = resolved(path);
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.prefix(".tinta-").tempfile_in(folder)
+}
+
+/// The file a link at `path` points to, so that the link stays.
+fn resolved(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
+}
+
+fn cannot_write(path: &Path, error: &std::io::Error) -> String {
+    use std::io::ErrorKind;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory => {
+            format!("the folder {} is not there; make it first", folder.display())
+        }
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            format!("the folder {} may not be written; choose another", folder.display())
+        }
+        ErrorKind::StorageFull => "the disk is full; free some space".to_owned(),
+        _ => format!("it cannot be written ({error})"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_replaces_a_file_whole_and_leaves_nothing_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("drawing.svg");
+        for text in ["<svg/>", "<svg></svg>"] {
+            TextTarget::check(path.to_str().unwrap()).unwrap().write(text).unwrap();
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert_eq!(TextTarget::check("-").unwrap(), TextTarget::Stdout);
+    }
+
+    #[test]
+    fn a_text_that_cannot_be_written_is_refused_before_the_work() {
+        let folder = tempfile::tempdir().unwrap();
+        let message = |path: &str| TextTarget::check(path).unwrap_err().to_string();
+        assert!(message(folder.path().to_str().unwrap()).contains("directory"));
+        assert!(message("no/such/folder/a.svg").contains("folder no/such/folder is not there"));
+    }
+}

@@ -1,0 +1,128 @@
+//! What is written of exact lines as JSON: their record, and the file of all of them.
+
+use super::{CameraRecord, ModelRecord};
+use crate::edges::ClassCounts;
+use crate::error::{Error, Result};
+use crate::lines::{LinePath, LineSettings, LineTimes, SvgSettings, VisibleLines};
+use crate::mesh::LoadOptions;
+use crate::scene::{Scene, Size};
+use serde::Serialize;
+use std::fmt::Write;
+
+/// A drawing's record: enough to make it again and to compare its cost.
+#[derive(Debug, Clone, Serialize)]
+pub struct LinesRecord {
+    /// tinta's version.
+    pub version: &'static str,
+    /// All models together, copies not repeated; their paths with commas between them.
+    pub model: ModelRecord,
+    /// Each model in the order given.
+    pub models: Vec<ModelRecord>,
+    /// How they were read.
+    pub load: LoadOptions,
+    /// How often the models are repeated.
+    pub copies: u32,
+    /// Triangles, all copies together.
+    pub triangles: usize,
+    /// Which lines, drawn how.
+    pub style: LinesStyle,
+    /// The picture's size.
+    pub size: Size,
+    /// The camera, world space.
+    pub camera: CameraRecord,
+    /// How many edges there are of each class, each counted in its first one.
+    pub edges: ClassCounts,
+    /// Pieces of lines, and what they were chained to.
+    pub counts: LineCounts,
+    /// Reading the models and making meshes of them.
+    pub load_ms: f64,
+    /// Topology, silhouettes, visibility.
+    #[serde(flatten)]
+    pub times: LineTimes,
+    /// Chaining and writing the text.
+    pub lines_ms: f64,
+}
+
+/// The style `lines` with its settings.
+#[derive(Debug, Clone, Serialize)]
+pub struct LinesStyle {
+    /// Its name.
+    pub name: &'static str,
+    /// Which lines.
+    #[serde(flatten)]
+    pub lines: LineSettings,
+    /// How they are drawn; absent from a JSON file's record, which draws nothing.
+    #[serde(flatten)]
+    pub svg: Option<SvgSettings>,
+}
+
+/// How many pieces and paths there are.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct LineCounts {
+    /// Pieces seen.
+    pub visible_segments: usize,
+    /// Pieces hidden.
+    pub hidden_segments: usize,
+    /// Polylines seen.
+    pub visible_paths: usize,
+    /// Polylines hidden, whether drawn or not.
+    pub hidden_paths: usize,
+}
+
+impl LineCounts {
+    /// Counts pieces and the paths made of them.
+    pub fn new(lines: &VisibleLines, paths: &[LinePath]) -> Self {
+        let visible_segments = lines.segments.iter().filter(|segment| segment.is_visible).count();
+        let visible_paths = paths.iter().filter(|path| path.is_visible).count();
+        Self {
+            visible_segments,
+            hidden_segments: lines.segments.len() - visible_segments,
+            visible_paths,
+            hidden_paths: paths.len() - visible_paths,
+        }
+    }
+}
+
+/// A piece of a line as the file has it.
+#[derive(Serialize)]
+struct SegmentRecord {
+    class: &'static str,
+    visible: bool,
+    a: [f64; 2],
+    b: [f64; 2],
+    edge: Option<[u32; 2]>,
+    angle_degrees: Option<f64>,
+    object: u32,
+}
+
+/// All lines as one JSON object: `size`, `camera`, and `segments`, one a line of the text; pixels, y down.
+///
+/// # Errors
+///
+/// [`Error::Setting`] for lines that are not finite or leave the picture.
+pub fn lines_json(lines: &VisibleLines, scene: &Scene) -> Result<String> {
+    lines.check()?;
+    let mut text = format!("{{\"size\": {},\n", json(&lines.size)?);
+    let _ = write!(text, "\"camera\": {},\n\"segments\": [", json(&CameraRecord::new(scene))?);
+    for (index, segment) in lines.segments.iter().enumerate() {
+        let [a, b] = segment.ends_px.map(|end| end.to_array());
+        let record = SegmentRecord {
+            class: segment.class.name(),
+            visible: segment.is_visible,
+            a,
+            b,
+            edge: segment.edge,
+            angle_degrees: segment.angle_degrees,
+            object: segment.object,
+        };
+        text.push_str(if index == 0 { "\n" } else { ",\n" });
+        text.push_str(&json(&record)?);
+    }
+    text.push_str("\n]}\n");
+    Ok(text)
+}
+
+fn json(value: &impl Serialize) -> Result<String> {
+    serde_json::to_string(value)
+        .map_err(|error| Error::setting("-o", format!("the lines cannot be written as JSON ({error}); write .svg")))
+}

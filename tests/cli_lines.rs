@@ -1,0 +1,134 @@
+//! `tinta render` into .svg and .json as a user meets it.
+
+use crate::cli::{Folder, refused_in_one_line, tinta};
+
+fn made(arguments: &[&str]) -> Vec<u8> {
+    let output = tinta(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
+}
+
+#[test]
+fn a_drawing_is_written_as_svg_with_the_command_that_made_it() {
+    let folder = Folder::new();
+    let out = folder.path("gear <&>.svg");
+    assert!(made(&["render", "builtin:gear", "-o", &out, "--size", "96x64", "--hidden", "dashed"]).is_empty());
+    let text = std::fs::read_to_string(&out).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    assert_eq!(document.root_element().attribute("viewBox"), Some("0 0 96 64"));
+    let said = document.descendants().find(|node| node.tag_name().name() == "description").unwrap();
+    assert_eq!(said.text(), Some("tinta render builtin:gear -o drawing.svg --size 96x64 --hidden dashed"));
+    let again = folder.path("again.svg");
+    made(&["render", "builtin:gear", "-o", &again, "--size", "96x64", "--hidden", "dashed"]);
+    assert_eq!(std::fs::read_to_string(&again).unwrap(), text);
+    let piped = made(&["render", "builtin:gear", "-o", "-", "--style", "lines", "--size", "96x64"]);
+    assert!(piped.starts_with(b"<?xml") && piped.ends_with(b"</svg>\n"));
+}
+
+#[test]
+fn lines_are_written_as_json_and_their_record_is_printed() {
+    let folder = Folder::new();
+    let out = folder.path("lines.json");
+    let record = made(&["render", "builtin:open-box", "-o", &out, "--json", "--classes", "all"]);
+    let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
+    assert_eq!(record["style"]["name"], "lines");
+    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(8));
+    assert_eq!(record["model"]["path"], "builtin:open-box");
+    for time in ["load_ms", "topology_ms", "silhouette_ms", "visibility_ms", "lines_ms"] {
+        assert!(record[time].is_f64(), "{time}");
+    }
+    let counts = &record["counts"];
+    for count in ["visible_segments", "hidden_segments", "visible_paths", "hidden_paths"] {
+        assert!(counts[count].is_u64(), "{count}");
+    }
+    let lines: serde_json::Value = serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap();
+    assert_eq!(lines["size"]["width"], 512);
+    assert_eq!(lines["camera"], record["camera"]);
+    let segments = lines["segments"].as_array().unwrap().len() as u64;
+    let counted = |name: &str| counts[name].as_u64().unwrap();
+    assert_eq!(segments, counted("visible_segments") + counted("hidden_segments"));
+    let record = made(&["render", "builtin:open-box", "-o", &folder.path("a.svg"), "--json", "--hidden", "ghost"]);
+    let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
+    assert_eq!((&record["style"]["hidden"], &record["style"]["line_width_px"]), (&"ghost".into(), &2.0.into()));
+    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(6));
+}
+
+#[test]
+fn styles_and_files_that_do_not_fit_are_refused() {
+    let folder = Folder::new();
+    let [svg, png, json] = ["a.svg", "a.png", "a.json"].map(|name| folder.path(name));
+    let refuse = |output: &str, options: &[&str], words: &[&str]| {
+        refused_in_one_line(&[&["render", "builtin:ant", "-o", output], options].concat(), words);
+    };
+    refuse(&png, &["--style", "lines"], &["a.png: style lines writes .svg or .json"]);
+    refuse("turn.gif", &["--style", "lines"], &["style lines writes .svg or .json"]);
+    refuse(&svg, &["--style", "three-pass"], &["a.svg: style three-pass draws pixels", ".png"]);
+    refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "sand, lines"]);
+    refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
+    refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such is not there"]);
+    for options in [
+        &["--explain"][..],
+        &["--dump", "steps"],
+        &["--frames", "3"],
+        &["--turntable", "4"],
+        &["--animate"],
+        &["--show", "borders"],
+    ] {
+        refuse(&svg, options, &[options[0], "style lines"]);
+    }
+    refuse(&svg, &["--no-borders"], &["--no-borders", "leave it out"]);
+    refuse(&svg, &["--silhouette", "paper"], &["--silhouette paper", "exactly"]);
+    for options in
+        [&["--hidden", "ghost"][..], &["--class-widths", "crease=1"], &["--width-mm", "9"], &["--dpi", "9"], &["--pen"]]
+    {
+        refuse(&png, options, &[options[0], "only style lines"]);
+        refuse(&json, options, &[options[0], ".json", ".svg"]);
+    }
+    assert!(!std::path::Path::new(&svg).exists());
+}
+
+#[test]
+fn nonsense_for_lines_is_refused_by_the_options_name() {
+    let folder = Folder::new();
+    let svg = folder.path("a.svg");
+    let refuse = |options: &[&str], words: &[&str]| {
+        refused_in_one_line(&[&["render", "builtin:ant", "-o", &svg], options].concat(), words);
+    };
+    refuse(&["--width-mm", "100", "--dpi", "96"], &["--width-mm", "--dpi"]);
+    refuse(&["--width-mm", "-3"], &["--width-mm -3", "millimetres"]);
+    refuse(&["--dpi", "NaN"], &["--dpi NaN", "96"]);
+    refuse(&["--line-width", "0"], &["--line-width 0"]);
+    refuse(&["--class-widths", "crease=-1"], &["--class-widths crease=-1"]);
+    refuse(&["--class-widths", "crease"], &["--class-widths", "CLASS=PIXELS"]);
+    refuse(&["--hidden", "dotted"], &["--hidden", "none, dashed, ghost"]);
+    refuse(&["--classes", "outline"], &["--classes", "intersection, or all"]);
+    refuse(&["--crease-angle", "200"], &["--crease-angle 200"]);
+    refuse(&["--pen", "--line-width", "3"], &["--pen", "--line-width"]);
+}
+
+#[test]
+fn inking_has_no_intersections() {
+    let folder = Folder::new();
+    let out = folder.path("a.png");
+    let ink = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--size", "32", "--classes"];
+    refused_in_one_line(&[&ink[..], &["intersection"]].concat(), &["--classes intersection", "only style lines"]);
+    made(&[&ink[..], &["all"]].concat());
+}
+
+#[test]
+fn lines_need_no_driver() {
+    let folder = Folder::new();
+    let out = folder.path("a.svg");
+    let vendors = folder.path("vendors");
+    std::fs::create_dir(&vendors).unwrap();
+    // A vendor folder without vendors leaves libEGL without a driver.
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .args(["render", "builtin:ant", "--backend", "egl", "-o", &out])
+        .env("__EGL_VENDOR_LIBRARY_DIRS", &vendors)
+        .env_remove("__EGL_VENDOR_LIBRARY_FILENAMES")
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(std::fs::read_to_string(&out).unwrap().ends_with("</svg>\n"));
+}

@@ -1,0 +1,254 @@
+//! Lines as SVG, from hand-made ones: read back by an XML parser and drawn by a renderer that is not ours.
+
+use glam::DVec2;
+use resvg::{tiny_skia, usvg};
+use roxmltree::{Document, Node};
+use tinta::edges::{Class, ClassCounts};
+use tinta::lines::{Hidden, LineSegment, LineTimes, PaperSize, svg};
+use tinta::{Background, Color, Size, SvgSettings, VisibleLines};
+
+const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+
+fn segment(class: Class, is_visible: bool, a: [f64; 2], b: [f64; 2]) -> LineSegment {
+    let edge = (class != Class::Intersection).then_some([a[0] as u32, b[0] as u32]);
+    LineSegment {
+        class,
+        is_visible,
+        ends_px: [a.into(), b.into()],
+        edge,
+        angle_degrees: edge.map(|_| 45.25),
+        object: 0,
+    }
+}
+
+fn lines(segments: Vec<LineSegment>) -> VisibleLines {
+    let size = Size { width: 120, height: 80 };
+    VisibleLines { size, segments, edges: ClassCounts::default(), times: LineTimes::default() }
+}
+
+/// A square of silhouettes from shuffled pieces, a crease through it with a hidden part, an intersection.
+fn drawing() -> VisibleLines {
+    use Class::{Crease, Intersection, Silhouette};
+    lines(vec![
+        segment(Silhouette, true, [100.0, 10.0], [100.0, 70.0]),
+        segment(Crease, true, [20.0, 40.0], [50.0, 40.0]),
+        segment(Silhouette, true, [20.0, 10.0], [20.0, 70.0]),
+        segment(Crease, false, [50.0, 40.0], [100.0, 40.0]),
+        segment(Silhouette, true, [100.0, 70.0], [20.0, 70.0]),
+        segment(Silhouette, true, [100.0, 10.0], [20.0, 10.0]),
+        segment(Intersection, true, [30.0, 20.123_456], [90.0, 60.0]),
+    ])
+}
+
+fn layers<'a>(document: &'a Document) -> Vec<Node<'a, 'a>> {
+    document.root_element().children().filter(|node| node.has_tag_name("g")).collect()
+}
+
+fn names(text: &str) -> Vec<String> {
+    layers(&Document::parse(text).unwrap()).iter().map(|layer| layer.attribute("id").unwrap().to_owned()).collect()
+}
+
+/// All path data of a layer, in order.
+fn data(text: &str, layer: &str) -> Vec<String> {
+    let document = Document::parse(text).unwrap();
+    let layer = layers(&document).into_iter().find(|node| node.attribute("id") == Some(layer)).unwrap();
+    let paths = layer.children().filter(|node| node.has_tag_name("path"));
+    paths.map(|path| path.attribute("d").unwrap().to_owned()).collect()
+}
+
+/// The points of path data that has straight lines only.
+fn points(data: &str) -> Vec<DVec2> {
+    let numbers: Vec<f64> =
+        data.split(['M', 'L', 'Z', ' ']).filter(|word| !word.is_empty()).map(|word| word.parse().unwrap()).collect();
+    numbers.chunks_exact(2).map(DVec2::from_slice).collect()
+}
+
+fn rendered(text: &str) -> tiny_skia::Pixmap {
+    let tree = usvg::Tree::from_str(text, &usvg::Options::default()).unwrap();
+    let size = tree.size().to_int_size();
+    let mut pixels = tiny_skia::Pixmap::new(size.width(), size.height()).unwrap();
+    resvg::render(&tree, tiny_skia::Transform::default(), &mut pixels.as_mut());
+    pixels
+}
+
+fn rgba(pixels: &tiny_skia::Pixmap, x: u32, y: u32) -> [u8; 4] {
+    let color = pixels.pixel(x, y).unwrap().demultiply();
+    [color.red(), color.green(), color.blue(), color.alpha()]
+}
+
+#[test]
+fn layers_are_groups_by_class_and_visibility_with_the_hidden_ones_below() {
+    let text = svg(&drawing(), &SvgSettings { hidden: Hidden::Dashed, ..SvgSettings::default() }).unwrap();
+    let document = Document::parse(&text).unwrap();
+    let root = document.root_element();
+    assert_eq!(root.attribute("viewBox"), Some("0 0 120 80"));
+    assert_eq!((root.attribute("width"), root.attribute("height")), (Some("120"), Some("80")));
+    assert_eq!(names(&text), ["hidden-crease", "visible-intersection", "visible-crease", "visible-silhouette"]);
+    for layer in layers(&document) {
+        assert_eq!(layer.attribute((INKSCAPE, "groupmode")), Some("layer"));
+        assert_eq!(layer.attribute((INKSCAPE, "label")).unwrap().replace(' ', "-"), layer.attribute("id").unwrap());
+        assert_eq!(layer.attribute("fill"), Some("none"));
+        let is_hidden = layer.attribute("id").unwrap().starts_with("hidden");
+        assert_eq!(layer.attribute("stroke-dasharray"), is_hidden.then_some("6 8"));
+    }
+    assert!(document.descendants().all(|node| !node.has_tag_name("image")));
+    let without = svg(&drawing(), &SvgSettings::default()).unwrap();
+    assert_eq!(names(&without), ["visible-intersection", "visible-crease", "visible-silhouette"]);
+}
+
+#[test]
+fn pieces_are_chained_and_written_short() {
+    let text = svg(&drawing(), &SvgSettings::default()).unwrap();
+    assert_eq!(data(&text, "visible-silhouette"), ["M100 10L100 70 20 70 20 10Z"]);
+    assert_eq!(data(&text, "visible-crease"), ["M20 40L50 40"]);
+    assert_eq!(data(&text, "visible-intersection"), ["M30 20.123L90 60"]);
+    let straight: Vec<LineSegment> = (0..50)
+        .map(|k| {
+            let at = |k: u32| [10.0 + f64::from(k) / 3.0, 5.0 + f64::from(k) / 7.0];
+            segment(Class::Crease, true, at(k), at(k + 1))
+        })
+        .collect();
+    let text = svg(&lines(straight.clone()), &SvgSettings::default()).unwrap();
+    assert_eq!(data(&text, "visible-crease"), ["M10 5L26.667 12.143"]);
+    let text = svg(&lines(straight), &SvgSettings { has_provenance: true, ..SvgSettings::default() }).unwrap();
+    assert_eq!(points(&data(&text, "visible-crease")[0]).len(), 51);
+}
+
+#[test]
+fn the_same_lines_are_the_same_bytes() {
+    let settings = SvgSettings { hidden: Hidden::Ghost, has_provenance: true, ..SvgSettings::default() };
+    for is_for_pen in [false, true] {
+        let settings = SvgSettings { is_for_pen, ..settings.clone() };
+        assert_eq!(svg(&drawing(), &settings).unwrap(), svg(&drawing(), &settings).unwrap());
+    }
+}
+
+#[test]
+fn every_number_is_finite_and_inside_the_picture() {
+    let border = 80.0_f64.next_up();
+    let mut edge_cases = drawing();
+    edge_cases.segments.push(segment(Class::Boundary, true, [-0.0, -1e-9], [120.0, border]));
+    edge_cases.segments.push(segment(Class::Boundary, true, [60.0, 1e-300], [60.0, 2e-300]));
+    for is_for_pen in [false, true] {
+        let settings = SvgSettings { hidden: Hidden::Dashed, is_for_pen, ..SvgSettings::default() };
+        let text = svg(&edge_cases, &settings).unwrap();
+        assert!(!text.contains("NaN") && !text.contains("inf") && !text.contains("-0"), "{text}");
+        for layer in names(&text) {
+            for point in data(&text, &layer).iter().flat_map(|data| points(data)) {
+                assert!((0.0..=120.0).contains(&point.x) && (0.0..=80.0).contains(&point.y), "{point}");
+            }
+        }
+    }
+    for bad in [[f64::NAN, 1.0], [f64::INFINITY, 1.0], [121.0, 1.0], [1.0, -1.0]] {
+        let broken = lines(vec![segment(Class::Crease, true, [1.0, 1.0], bad)]);
+        let message = svg(&broken, &SvgSettings::default()).unwrap_err().to_string();
+        assert!(message.starts_with("line 0 from"), "{message}");
+    }
+}
+
+#[test]
+fn an_empty_drawing_is_a_sound_file() {
+    let text = svg(&lines(Vec::new()), &SvgSettings::default()).unwrap();
+    assert!(names(&text).is_empty());
+    assert_eq!(rgba(&rendered(&text), 60, 40), [255; 4]);
+}
+
+#[test]
+fn any_command_and_title_can_be_read_back() {
+    let nasty = "tinta render 'a<b>&\"c\"]]>.obj' --\u{1}\u{0}\u{1b}[31m é→🖋\u{ffff} <!-- \n\t";
+    let settings = SvgSettings { title: nasty.to_owned(), command: nasty.to_owned(), ..SvgSettings::default() };
+    let text = svg(&drawing(), &settings).unwrap();
+    let document = Document::parse(&text).unwrap();
+    let mended: String =
+        nasty.chars().map(|c| if "\u{1}\u{0}\u{1b}\u{ffff}".contains(c) { '\u{fffd}' } else { c }).collect();
+    for name in ["description", "title"] {
+        let node = document.descendants().find(|node| node.tag_name().name() == name).unwrap();
+        assert_eq!(node.text(), Some(mended.as_str()));
+    }
+    let metadata = document.descendants().find(|node| node.has_tag_name("metadata")).unwrap();
+    assert!(metadata.descendants().any(|node| node.tag_name().name() == "description"));
+}
+
+#[test]
+fn provenance_names_a_paths_edges_and_angles() {
+    let text = svg(&drawing(), &SvgSettings { has_provenance: true, ..SvgSettings::default() }).unwrap();
+    let document = Document::parse(&text).unwrap();
+    let path = |class: &str| {
+        let of_class = |node: &Node| node.attribute("data-class") == Some(class);
+        document.descendants().find(of_class).unwrap()
+    };
+    let silhouette = path("silhouette");
+    assert_eq!(silhouette.attribute("data-object"), Some("0"));
+    assert_eq!(silhouette.attribute("data-edges"), Some("100-100 100-20 20-20 100-20"));
+    assert_eq!(silhouette.attribute("data-angles"), Some("45.25 45.25 45.25 45.25"));
+    assert_eq!(path("intersection").attribute("data-edges"), Some("-"));
+    assert_eq!(path("intersection").attribute("data-angles"), Some("-"));
+    assert!(!svg(&drawing(), &SvgSettings::default()).unwrap().contains("data-"));
+}
+
+#[test]
+fn another_renderer_draws_the_lines_where_they_are() {
+    let mut colors = tinta::styles::ClassColors::default();
+    colors.0[Class::Crease as usize] = Color([1.0, 0.0, 0.0]);
+    let mut settings = SvgSettings { class_colors: colors, hidden: Hidden::Ghost, ..SvgSettings::default() };
+    settings.class_widths.0[Class::Silhouette as usize] = Some(6.0);
+    let pixels = rendered(&svg(&drawing(), &settings).unwrap());
+    assert_eq!((pixels.width(), pixels.height()), (120, 80));
+    assert_eq!(rgba(&pixels, 5, 5), [255; 4], "the background");
+    for (x, y) in [(60, 10), (98, 40), (102, 40), (20, 69), (97, 71)] {
+        assert_eq!(rgba(&pixels, x, y), [0, 0, 0, 255], "silhouette at {x}, {y}");
+    }
+    assert_eq!(rgba(&pixels, 35, 40), [255, 0, 0, 255], "crease, seen");
+    let [red, green, _, _] = rgba(&pixels, 80, 40);
+    assert!(red == 255 && (170..190).contains(&green), "crease, hidden: {red} {green}");
+    let transparent = SvgSettings { background: Background::Transparent, ..settings.clone() };
+    assert_eq!(rgba(&rendered(&svg(&drawing(), &transparent).unwrap()), 5, 5)[3], 0);
+    settings.hidden = Hidden::Dashed;
+    let pixels = rendered(&svg(&drawing(), &settings).unwrap());
+    let greens: Vec<u8> = (55..95).map(|x| rgba(&pixels, x, 40)[1]).collect();
+    assert!(greens.contains(&0) && greens.contains(&255), "dashes and gaps: {greens:?}");
+}
+
+#[test]
+fn a_pens_lines_come_in_an_order_that_spares_the_way() {
+    let at = |k: u32| [f64::from(k * 7919 % 110) + 2.0, f64::from(k * 104_729 % 70) + 2.0];
+    let scattered: Vec<LineSegment> =
+        (0..300).map(|k| segment(Class::Crease, true, at(k), [at(k)[0] + 3.0, at(k)[1] + 0.25])).collect();
+    let travel = |is_for_pen: bool| {
+        let settings = SvgSettings { is_for_pen, ..SvgSettings::default() };
+        let text = svg(&lines(scattered.clone()), &settings).unwrap();
+        assert_eq!(text.contains("<rect"), !is_for_pen);
+        let paths: Vec<Vec<DVec2>> = data(&text, "visible-crease").iter().map(|data| points(data)).collect();
+        let ways = paths.windows(2).map(|pair| pair[0].last().unwrap().distance(pair[1][0]));
+        (paths.len(), ways.sum::<f64>())
+    };
+    let ((count, unsorted), (sorted_count, sorted)) = (travel(false), travel(true));
+    assert_eq!(count, sorted_count);
+    assert!(sorted < unsorted * 0.3, "{sorted} {unsorted}");
+    let hidden = SvgSettings { is_for_pen: true, hidden: Hidden::Dashed, ..SvgSettings::default() };
+    let text = svg(&drawing(), &hidden).unwrap();
+    assert!(data(&text, "hidden-crease").len() > 20 && !text.contains("stroke-dasharray"));
+}
+
+#[test]
+fn sizes_on_paper_are_millimetres_or_inches() {
+    let size = |paper_size| {
+        let text = svg(&drawing(), &SvgSettings { paper_size, ..SvgSettings::default() }).unwrap();
+        let document = Document::parse(&text).unwrap();
+        let attribute = |name| document.root_element().attribute(name).unwrap().to_owned();
+        assert_eq!(attribute("viewBox"), "0 0 120 80");
+        let drawn = usvg::Tree::from_str(&text, &usvg::Options::default()).unwrap().size();
+        assert!((drawn.width() / drawn.height() - 1.5).abs() < 1e-4);
+        (attribute("width"), attribute("height"))
+    };
+    assert_eq!(size(PaperSize::WidthMm(180.0)), ("180mm".to_owned(), "120mm".to_owned()));
+    assert_eq!(size(PaperSize::Dpi(300.0)), ("0.4in".to_owned(), "0.266667in".to_owned()));
+}
+
+#[test]
+fn nonsense_settings_are_refused_by_name() {
+    let message = |settings: SvgSettings| svg(&drawing(), &settings).unwrap_err().to_string();
+    assert!(message(SvgSettings { line_width_px: 0.0, ..SvgSettings::default() }).starts_with("--line-width 0"));
+    let paper_size = PaperSize::WidthMm(f64::NAN);
+    assert!(message(SvgSettings { paper_size, ..SvgSettings::default() }).starts_with("--width-mm NaN"));
+}
