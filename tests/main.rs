@@ -11,6 +11,7 @@ mod edges;
 mod goldens;
 mod inking;
 mod licences;
+mod lines_inking;
 mod pipeline;
 mod shapes;
 mod shared_models;

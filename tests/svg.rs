@@ -63,7 +63,7 @@ fn points(data: &str) -> Vec<DVec2> {
     numbers.chunks_exact(2).map(DVec2::from_slice).collect()
 }
 
-fn rendered(text: &str) -> tiny_skia::Pixmap {
+pub fn rendered(text: &str) -> tiny_skia::Pixmap {
     let tree = usvg::Tree::from_str(text, &usvg::Options::default()).unwrap();
     let size = tree.size().to_int_size();
     let mut pixels = tiny_skia::Pixmap::new(size.width(), size.height()).unwrap();

@@ -17,6 +17,12 @@ impl Progress {
         Self(bar)
     }
 
+    /// So many steps are done of so many.
+    pub fn set(&self, done: u64, count: u64) {
+        self.0.set_length(count);
+        self.0.set_position(done);
+    }
+
     /// One step more is done.
     pub fn step(&self) {
         self.0.inc(1);

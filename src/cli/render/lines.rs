@@ -1,11 +1,13 @@
 //! `tinta render` into an SVG or JSON file: exact lines. No OpenGL is opened.
 
 use super::super::models::load_meshes;
+use super::super::progress::Progress;
 use super::{Arguments, model_records};
 use std::path::Path;
 use std::str::FromStr;
-use std::time::Instant;
-use tinta::lines::{ClassWidths, Hidden, PaperSize, chain, svg_of_paths};
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::{Duration, Instant};
+use tinta::lines::{ClassWidths, Hidden, LineSettings, PaperSize, Progress as LineProgress, chain, svg_of_paths};
 use tinta::record::{CameraRecord, LineCounts, LinesRecord, LinesStyle, ModelRecord, lines_json};
 use tinta::renderer::milliseconds_since;
 use tinta::{Error, Result, Scene, Show, StyleName, SvgSettings, TextTarget, VisibleLines};
@@ -122,7 +124,7 @@ pub fn run(arguments: &Arguments, format: Format) -> Result<()> {
     let meshes = load_meshes(&arguments.models, &arguments.model.options())?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()))?;
-    let lines = VisibleLines::of(&scene, &settings)?;
+    let lines = find(&scene, &settings)?;
 
     let start = Instant::now();
     let paths = if format == Format::Svg || arguments.run.json { chain(&lines.segments) } else { Vec::new() };
@@ -152,6 +154,34 @@ pub fn run(arguments: &Arguments, format: Format) -> Result<()> {
         load_ms,
         times: lines.times,
         lines_ms,
+    })
+}
+
+/// How often the progress bar is looked after, and how long work takes before it gets one.
+const GLANCE: Duration = Duration::from_millis(200);
+
+/// Finds the lines, on a thread of its own so that this one can say how far it is.
+fn find(scene: &Scene, settings: &LineSettings) -> Result<VisibleLines> {
+    let state = LineProgress::default();
+    let work = || VisibleLines::with_progress(scene, settings, &state);
+    std::thread::scope(|scope| {
+        let (sender, receiver) = std::sync::mpsc::channel();
+        let start = std::thread::Builder::new().spawn_scoped(scope, move || sender.send(work()));
+        if start.is_err() {
+            return VisibleLines::of(scene, settings);
+        }
+        let mut bar = None;
+        loop {
+            match receiver.recv_timeout(GLANCE) {
+                Ok(lines) => return lines,
+                Err(RecvTimeoutError::Timeout) => {
+                    let (done, total) = state.state();
+                    bar.get_or_insert_with(|| Progress::new("finding lines", 0)).set(done as u64, total as u64);
+                }
+                // The thread has panicked; the scope passes that on.
+                Err(RecvTimeoutError::Disconnected) => return VisibleLines::of(scene, settings),
+            }
+        }
     })
 }
 

@@ -1,0 +1,75 @@
+//! The exact lines, written as SVG and drawn by an independent rasteriser, against the same edges drawn by GL.
+
+use crate::support::{BACKENDS, failure_folder, public_models, renderer, skip};
+use crate::svg::rendered;
+use std::sync::Arc;
+use tinta::compare::{Agreement, InkMask};
+use tinta::edges::{Class, ClassSet, SilhouetteRule};
+use tinta::lines::svg;
+use tinta::styles::{Inking, PaintMode};
+use tinta::{
+    LineSettings, LoadOptions, Picture, Renderer, Scene, SceneSettings, Size, Style, SvgSettings, VisibleLines, load,
+};
+
+/// Share of either drawing's ink that the other has within 2 pixels.
+const SHARE: f64 = 0.99;
+
+const TOLERANCE_PX: u32 = 2;
+
+/// What GL draws knows no intersections, and the exact lines are asked for none.
+const CLASSES: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, Class::Silhouette, Class::Crease]);
+
+#[test]
+fn the_svg_of_public_models_has_the_ink_that_gl_draws() {
+    let Some(folder) = public_models() else { return };
+    let mut renderer = renderer(BACKENDS[0]);
+    let mut failures = Vec::new();
+    for file in [
+        "ant.ply",
+        "beethoven.obj",
+        "cow.obj",
+        "faerie.md2",
+        "fandisk.obj",
+        "spot/spot_triangulated.obj",
+        "stanford-bunny.obj",
+        "suzanne.obj",
+        "teapot.obj",
+    ] {
+        let path = folder.join(file);
+        if !path.is_file() {
+            skip(&format!("{file}: not in {}", folder.display()));
+            continue;
+        }
+        let [of_svg, of_gl] = shares(&mut renderer, path.to_str().unwrap());
+        println!("{file}: {of_svg:.4} of the SVG's ink, {of_gl:.4} of GL's");
+        if of_svg < SHARE || of_gl < SHARE {
+            failures.push(format!("{file}: {of_svg:.4} of the SVG's ink is GL's too, {of_gl:.4} of GL's the SVG's"));
+        }
+    }
+    assert!(failures.is_empty(), "below {SHARE}; see {}: {failures:#?}", failure_folder().display());
+}
+
+/// The share of the SVG's ink that GL draws too, and of GL's that the SVG has.
+fn shares(renderer: &mut Renderer, path: &str) -> [f64; 2] {
+    let mesh = Arc::new(load(path, &LoadOptions::default()).unwrap().mesh);
+    let scene = Scene::new(vec![mesh], &SceneSettings::default()).unwrap();
+    let inking =
+        Inking { classes: CLASSES, silhouette: SilhouetteRule::Exact, paint: PaintMode::None, ..Inking::default() };
+    let of_gl = renderer.render(&scene, &Style::Inking(inking)).unwrap();
+    let settings = LineSettings { classes: CLASSES, ..LineSettings::default() };
+    let lines = VisibleLines::of(&scene, &settings).unwrap();
+    let pixels = rendered(&svg(&lines, &SvgSettings::default()).unwrap());
+    let size = Size { width: pixels.width(), height: pixels.height() };
+    let of_svg = Picture { size, pixels: pixels.data().to_vec() };
+    let masks = [InkMask::of(&of_svg), InkMask::of(&of_gl)];
+    assert!(masks.iter().all(|mask| mask.count() > 500), "{path}: there is nothing to compare");
+    let numbers = Agreement::of(&masks[0], &masks[1], TOLERANCE_PX).unwrap().numbers;
+    let name = path.rsplit('/').next().unwrap();
+    for (picture, what) in [(&of_svg, "svg"), (&of_gl, "gl")] {
+        tinta::Target::check(failure_folder().join(format!("{name}-{what}.png")).to_str().unwrap(), false)
+            .unwrap()
+            .write(picture)
+            .unwrap();
+    }
+    [numbers.left_shared.unwrap(), numbers.right_shared.unwrap()]
+}
