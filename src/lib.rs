@@ -31,6 +31,7 @@ pub mod error;
 pub mod gl;
 pub mod glsl;
 pub mod lines;
+pub mod measure;
 pub mod mesh;
 pub mod output;
 pub mod picture;

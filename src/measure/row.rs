@@ -1,0 +1,121 @@
+//! One measured setting: error and time together, as a line of `results.jsonl`.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A setting on a model: how wrong and how slow.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// tinta's version.
+    pub version: String,
+    /// Operating system, processor architecture and threads it runs at once, or what `--machine` says.
+    pub machine: String,
+    /// GL_RENDERER; `none` for lines found without GL.
+    pub renderer: String,
+    /// The model as the user named it.
+    pub model: String,
+    /// Triangles drawn.
+    pub triangles: usize,
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// The style's name.
+    pub style: String,
+    /// The options that make this setting, as `tinta render` takes them, the style among them.
+    pub options: String,
+    /// Whether these are the published program's own settings.
+    pub is_faithful: bool,
+    /// How well its lines are those of the reference; `None` for a style without lines.
+    pub lines: Option<LineError>,
+    /// How well its tones are those of the reference; `None` for a style without tones of its own.
+    pub tones: Option<ToneError>,
+    /// How long it takes.
+    pub time: RunTime,
+}
+
+impl Row {
+    /// What tells rows apart: machine, model, size and options.
+    pub fn key(&self) -> String {
+        format!(
+            "{} | {} | {} | {}x{} | {}",
+            self.machine, self.renderer, self.model, self.size[0], self.size[1], self.options
+        )
+    }
+}
+
+/// The error of a picture's ink against the exact visible lines.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LineError {
+    /// Distance within which ink and line count as the same, pixels.
+    pub tolerance_px: f64,
+    /// Darkness from which a pixel is ink, of 255.
+    pub ink_from: u8,
+    /// Angles between faces, degrees: creases between the two are neither missed nor invented.
+    pub ignored_creases_degrees: [f64; 2],
+    /// Length of the reference, pixels.
+    pub reference_px: f64,
+    /// Ink, pixels weighted by their darkness.
+    pub ink_px: f64,
+    /// Share of the reference's length with ink within the tolerance.
+    pub recall: f64,
+    /// Share of the ink, weighted by its darkness, within the tolerance of the reference; 1 without any ink.
+    pub precision: f64,
+    /// Harmonic mean of both.
+    pub f1: f64,
+    /// Precision averaged over recall, over all thresholds of ink.
+    pub average_precision: f64,
+    /// Mean and 95th percentile of the distance from the reference to the nearest ink, pixels; `None` without any ink.
+    pub reference_to_ink_px: Option<[f64; 2]>,
+    /// Mean and 95th percentile of the distance from ink to the reference, pixels; `None` without any ink.
+    pub ink_to_reference_px: Option<[f64; 2]>,
+    /// Recall of each class that the reference has.
+    pub recall_of_class: BTreeMap<String, f64>,
+}
+
+/// The error of a picture's tones against those of rays cast in f64.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ToneError {
+    /// Covered pixels farther than 1 pixel from every visible line.
+    pub inner_px: usize,
+    /// Share of them whose tone differs; for continuous tones `None`.
+    pub inner_differing: Option<f64>,
+    /// Covered pixels within 1 pixel of a visible line.
+    pub rim_px: usize,
+    /// Share of them whose tone differs; for continuous tones `None`.
+    pub rim_differing: Option<f64>,
+    /// Mean and largest difference of any channel over the inner pixels, of 255.
+    pub mean_difference: f64,
+    /// The largest.
+    pub largest_difference: f64,
+}
+
+/// How long a setting takes, milliseconds of the clock unless said otherwise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunTime {
+    /// Reading the model.
+    pub load_ms: f64,
+    /// Finding its edges, where the style draws them; 0 otherwise.
+    pub edges_ms: f64,
+    /// Making the plan, edges ready.
+    pub plan_ms: f64,
+    /// The first frame, the driver's compiling included.
+    pub first_frame_ms: f64,
+    /// The frames after warm-up, each ended by reading the picture back; in the order measured.
+    pub frames_ms: Vec<f64>,
+    /// Their median.
+    pub median_ms: f64,
+    /// Their lower and upper quartile.
+    pub quartiles_ms: [f64; 2],
+    /// Each pass.
+    pub passes: Vec<PassRow>,
+}
+
+/// A pass's median times, milliseconds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PassRow {
+    /// Its name in the plan.
+    pub name: String,
+    /// By the clock, until GL has finished it.
+    pub cpu_ms: f64,
+    /// By a timer query; `None` where GL has none.
+    pub gpu_ms: Option<f64>,
+}
