@@ -7,6 +7,7 @@
 //! the edge is cut there, and each piece is decided by one ray.
 
 mod boxes;
+mod cast;
 mod chain;
 mod faces;
 mod features;
@@ -18,6 +19,7 @@ mod space;
 mod svg;
 mod visibility;
 
+pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
 pub use svg::{ClassWidths, Hidden, PaperSize, SvgSettings, svg, svg_of_paths};
 

@@ -3,6 +3,12 @@
 //! In: models and a list of settings. Out: a [`Row`] for each as soon as it is known. What the numbers mean stands in
 //! docs/measuring.md.
 
+mod ink;
+mod reference;
 mod row;
+mod tones;
 
+pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
+pub use reference::{Reference, SOFT_CREASE_DEGREES, Sample};
 pub use row::{LineError, PassRow, Row, RunTime, ToneError};
+pub use tones::ReferenceLight;

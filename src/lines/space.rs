@@ -98,6 +98,21 @@ impl Space {
         }
     }
 
+    /// Two points of the line of sight through a pixel: the eye, or a point before the scene, and one on the near plane.
+    pub fn ray(&self, px: DVec2) -> [DVec3; 2] {
+        let centred = px - self.size * 0.5;
+        match self.lens {
+            Lens::Perspective { focal_px, .. } => {
+                let flat = centred * (self.near / focal_px);
+                [DVec3::ZERO, DVec3::new(flat.x, -flat.y, -self.near)]
+            }
+            Lens::Parallel { px_per_unit } => {
+                let flat = centred / px_per_unit;
+                [DVec3::new(flat.x, -flat.y, 0.0), DVec3::new(flat.x, -flat.y, -self.far)]
+            }
+        }
+    }
+
     /// Pixels that a length across the view covers at a depth.
     pub fn px_per_unit(&self, depth: f64) -> f64 {
         match self.lens {

@@ -1,0 +1,120 @@
+//! The exact lines of a scene as the yardstick of its ink: points along them, a tree that finds the nearest.
+
+use crate::edges::{Class, ClassSet, CreaseAngle};
+use crate::error::Result;
+use crate::lines::{LineSegment, LineSettings, VisibleLines};
+use crate::scene::{Scene, Size};
+use glam::DVec2;
+use rstar::{PointDistance, RTree, RTreeObject};
+
+/// Distance between points along a line, pixels: at a tolerance of 2 they see a distance by less than 0.001 too far.
+const STEP_PX: f64 = 0.125;
+
+/// Creases between this angle and the reference's own threshold count neither as lines nor as none: filters of a picture
+/// answer to any angle.
+pub const SOFT_CREASE_DEGREES: f64 = 20.0;
+
+/// The visible lines of a scene.
+pub struct Reference {
+    /// The picture's size.
+    pub size: Size,
+    /// The lines.
+    pub lines: VisibleLines,
+    /// From which angle an edge is a crease.
+    pub crease_angle: CreaseAngle,
+    /// Points along the lines.
+    pub samples: Vec<Sample>,
+    nearest: RTree<Place>,
+    ignored: RTree<Place>,
+}
+
+/// A point on a line that stands for a piece of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Pixels from the upper left, y down.
+    pub px: DVec2,
+    /// Length of the piece, pixels.
+    pub length_px: f64,
+    /// The line's class.
+    pub class: Class,
+}
+
+/// A point in a tree.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place(pub DVec2);
+
+impl RTreeObject for Place {
+    type Envelope = rstar::AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        rstar::AABB::from_point(self.0.to_array())
+    }
+}
+
+impl PointDistance for Place {
+    fn distance_2(&self, point: &[f64; 2]) -> f64 {
+        self.0.distance_squared(DVec2::from_array(*point))
+    }
+}
+
+/// A tree over points.
+pub(super) fn tree(points: impl Iterator<Item = DVec2>) -> RTree<Place> {
+    RTree::bulk_load(points.map(Place).collect())
+}
+
+/// Distance from a point to the nearest in a tree; infinite if it has none.
+pub(super) fn distance(tree: &RTree<Place>, point: DVec2) -> f64 {
+    tree.nearest_neighbor(point.to_array()).map_or(f64::INFINITY, |nearest| nearest.0.distance(point))
+}
+
+impl Reference {
+    /// Finds the lines of a scene.
+    ///
+    /// # Errors
+    ///
+    /// As [`VisibleLines::of`].
+    pub fn of(scene: &Scene, settings: &LineSettings) -> Result<Self> {
+        let lines = VisibleLines::of(scene, settings)?;
+        let soft = LineSettings {
+            classes: ClassSet::of(&[Class::Crease]),
+            crease_angle: CreaseAngle::from_degrees(SOFT_CREASE_DEGREES)?,
+        };
+        let limit = settings.crease_angle.degrees();
+        let is_between = |segment: &&LineSegment| segment.angle_degrees.is_none_or(|angle| angle <= limit);
+        let soft = VisibleLines::of(scene, &soft)?;
+        let ignored = soft.segments.iter().filter(|segment| segment.is_visible).filter(is_between).flat_map(samples);
+        let ignored = tree(ignored.map(|sample| sample.px));
+        let visible = lines.segments.iter().filter(|segment| segment.is_visible);
+        let samples: Vec<Sample> = visible.flat_map(samples).collect();
+        let nearest = tree(samples.iter().map(|sample| sample.px));
+        Ok(Self { size: lines.size, crease_angle: settings.crease_angle, samples, nearest, ignored, lines })
+    }
+
+    /// Length of all visible lines, pixels.
+    pub fn length_px(&self) -> f64 {
+        self.samples.iter().map(|sample| sample.length_px).sum()
+    }
+
+    /// Distance from a place in the picture to the nearest visible line, pixels.
+    pub fn distance_px(&self, px: DVec2) -> f64 {
+        distance(&self.nearest, px)
+    }
+
+    /// Distance to the nearest visible soft crease, pixels.
+    pub fn distance_to_ignored_px(&self, px: DVec2) -> f64 {
+        distance(&self.ignored, px)
+    }
+}
+
+/// The middles of a segment's equal pieces.
+fn samples(segment: &LineSegment) -> impl Iterator<Item = Sample> + use<> {
+    let [a, b] = segment.ends_px;
+    let class = segment.class;
+    let length = a.distance(b);
+    let count = (length / STEP_PX).ceil().max(1.0);
+    (0..count as usize).map(move |index| Sample {
+        px: a.lerp(b, (index as f64 + 0.5) / count),
+        length_px: length / count,
+        class,
+    })
+}
