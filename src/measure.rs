@@ -6,9 +6,11 @@
 mod ink;
 mod reference;
 mod row;
+mod run;
 mod tones;
 
 pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
 pub use reference::{Reference, SOFT_CREASE_DEGREES, Sample};
 pub use row::{LineError, PassRow, Row, RunTime, ToneError};
+pub use run::{MeasureSettings, Measured, Setting, Subject, measure, steps};
 pub use tones::ReferenceLight;

@@ -98,6 +98,37 @@ impl Style {
         }
     }
 
+    /// The style's name as the user writes it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Phong(_) => "phong",
+            Self::ThreePass(_) => "three-pass",
+            Self::TwoPass(_) => "two-pass",
+            Self::Inking(_) => "inking",
+            Self::Dietrich(_) => "dietrich",
+            Self::Charcoal(_) => "charcoal",
+            Self::Sand(_) => "sand",
+        }
+    }
+
+    /// Whether it draws lines that can be shown by themselves.
+    pub fn has_lines(&self) -> bool {
+        match self {
+            Self::ThreePass(cartoon) | Self::TwoPass(cartoon) => cartoon.border.is_some(),
+            Self::Inking(inking) => inking.is_inked,
+            Self::Dietrich(_) => true,
+            Self::Phong(_) | Self::Charcoal(_) | Self::Sand(_) => false,
+        }
+    }
+
+    /// The tones of a style whose tones are the first paper's.
+    pub fn tones(&self) -> Option<&Tones> {
+        match self {
+            Self::ThreePass(cartoon) | Self::TwoPass(cartoon) => Some(&cartoon.tones),
+            _ => None,
+        }
+    }
+
     /// What GL has to do for this scene.
     ///
     /// # Errors

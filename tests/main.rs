@@ -12,6 +12,7 @@ mod goldens;
 mod inking;
 mod licences;
 mod lines_inking;
+mod measure;
 mod pipeline;
 mod shapes;
 mod shared_models;

@@ -47,6 +47,17 @@ impl Ink {
         Self { size: picture.size, darkness: picture.pixels.chunks_exact(4).map(darkness).collect() }
     }
 
+    /// The ink of a picture over the same one without: the share of each pixel's light that is gone, where there was any.
+    pub fn over(without: &Picture, with: &Picture) -> Self {
+        let share = |(without, with): (&u8, &u8)| match without {
+            0 => 0,
+            before => ((f64::from(before.saturating_sub(*with)) / f64::from(*before)) * 255.0).round() as u8,
+        };
+        let pairs = without.pixels.chunks_exact(4).zip(with.pixels.chunks_exact(4));
+        let darkness = pairs.map(|(without, with)| without[..3].iter().zip(&with[..3]).map(share).max().unwrap_or(0));
+        Self { size: with.size, darkness: darkness.collect() }
+    }
+
     /// Pixels with ink and their middles.
     fn pixels(&self, from: u8) -> impl Iterator<Item = (usize, DVec2)> {
         let width = self.size.width as usize;

@@ -1,0 +1,98 @@
+//! Which settings are measured: each as the options that `tinta render` takes, so that a row can be drawn again.
+
+use super::super::options::StyleArguments;
+use clap::Parser;
+use tinta::measure::Setting;
+use tinta::{Error, Result, StyleName};
+
+/// A setting's options by themselves.
+#[derive(Parser)]
+struct Options {
+    #[arg(long)]
+    style: StyleName,
+
+    #[command(flatten)]
+    styles: StyleArguments,
+}
+
+/// The published settings, one a style; `phong` is what they compare with.
+const FAITHFUL: [&str; 7] = ["three-pass", "two-pass", "inking", "dietrich", "phong", "charcoal", "sand"];
+
+/// What is measured besides even when it has to be quick.
+const QUICK: [&str; 5] = [
+    "--style three-pass --filter sobel",
+    "--style three-pass --detection-factor 1",
+    "--style inking --silhouette exact",
+    "--style inking --silhouette exact --smooth off --line-width 1",
+    "--style three-pass --cull back",
+];
+
+/// What is measured besides when there is time.
+const FULL: [&str; 14] = [
+    "--style three-pass --filter laplacian8",
+    "--style three-pass --filter mitchell",
+    "--style three-pass --filter roberts",
+    "--style three-pass --filter sobel --detection-factor 0.5",
+    "--style three-pass --tones 1",
+    "--style three-pass --tones 2",
+    "--style three-pass --tone-lookup texture",
+    "--style two-pass --filter sobel",
+    "--style two-pass --background-quad off",
+    "--style two-pass --cull back",
+    "--style inking --silhouette exact --line-drawing quads",
+    "--style inking --silhouette exact --smooth off",
+    "--style inking --silhouette exact --ink-depth test",
+    "--style dietrich --ink-threshold 0.15",
+];
+
+/// The settings of some styles, all of them for none named.
+pub fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setting>> {
+    let published = FAITHFUL.iter().map(|style| (format!("--style {style}"), true));
+    let others = QUICK.iter().chain(FULL.iter().filter(|_| !is_quick));
+    published
+        .chain(others.map(|options| ((*options).to_owned(), false)))
+        .map(|(options, is_faithful)| setting(options, is_faithful))
+        .filter(|setting| match setting {
+            Ok((name, _)) => styles.is_empty() || styles.contains(name),
+            Err(_) => true,
+        })
+        .map(|setting| setting.map(|(_, setting)| setting))
+        .collect()
+}
+
+fn setting(options: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
+    let words = std::iter::once("tinta").chain(options.split_whitespace());
+    let parsed = Options::try_parse_from(words).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
+    let style = parsed.styles.style(parsed.style)?;
+    Ok((parsed.style, Setting { style, options, is_faithful }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tinta::Style;
+
+    #[test]
+    fn every_setting_is_one_that_render_takes_and_none_comes_twice() {
+        let all = settings(&[], false).unwrap();
+        assert_eq!(all.len(), FAITHFUL.len() + QUICK.len() + FULL.len());
+        for (index, setting) in all.iter().enumerate() {
+            assert!(all[..index].iter().all(|other| other.style != setting.style), "{}", setting.options);
+            assert!(all[..index].iter().all(|other| other.options != setting.options), "{}", setting.options);
+        }
+    }
+
+    #[test]
+    fn the_faithful_ones_are_the_librarys_defaults() {
+        for setting in settings(&[], true).unwrap().iter().filter(|setting| setting.is_faithful) {
+            let name = setting.options.trim_start_matches("--style ").parse().unwrap();
+            assert_eq!(setting.style, Style::named(name));
+        }
+    }
+
+    #[test]
+    fn styles_can_be_chosen() {
+        let chosen = settings(&[StyleName::Dietrich], false).unwrap();
+        assert!(!chosen.is_empty() && chosen.iter().all(|setting| setting.options.contains("dietrich")));
+    }
+}

@@ -1,0 +1,249 @@
+//! Settings drawn, timed in turn and measured.
+
+use super::ink::{Ink, Verdict};
+use super::reference::Reference;
+use super::tones::ReferenceLight;
+use super::{PassRow, Row, RunTime};
+use crate::edges::{ClassSet, Classes, MeshEdges, Silhouettes};
+use crate::error::{Error, Result};
+use crate::lines::LineSettings;
+use crate::picture::Picture;
+use crate::plan::Plan;
+use crate::renderer::{Renderer, median, milliseconds_since};
+use crate::scene::{Scene, Size};
+use crate::styles::{Show, Style};
+use std::time::Instant;
+
+/// A style with settings, and how the user asks for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// The style.
+    pub style: Style,
+    /// Its options for `tinta render`.
+    pub options: String,
+    /// Whether these are the published program's own.
+    pub is_faithful: bool,
+}
+
+/// A scene with what its pictures are measured against.
+pub struct Subject {
+    /// The model as the user named it.
+    pub model: String,
+    /// The scene, on a white background.
+    pub scene: Scene,
+    /// Its lines.
+    pub reference: Reference,
+    /// Its light.
+    pub light: ReferenceLight,
+    /// Reading the model, milliseconds.
+    pub load_ms: f64,
+    /// Finding its edges, milliseconds.
+    pub edges_ms: f64,
+}
+
+/// A measured setting.
+pub struct Measured {
+    /// The numbers.
+    pub row: Row,
+    /// Agreed ink black, missed lines red, invented ink blue, what does not count grey; `None` without lines.
+    pub error_picture: Option<Picture>,
+}
+
+/// How often and against what settings are measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasureSettings {
+    /// Distance within which ink and line count as the same, pixels. Default 2.
+    pub tolerance_px: f64,
+    /// Frames of each setting that are timed. Default 21.
+    pub frames: usize,
+    /// What the machine is called in the rows.
+    pub machine: String,
+}
+
+impl Default for MeasureSettings {
+    fn default() -> Self {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let machine = format!("{} {}, {threads} threads", std::env::consts::OS, std::env::consts::ARCH);
+        Self { tolerance_px: 2.0, frames: 21, machine }
+    }
+}
+
+/// Frames drawn before any are timed.
+const WARM_UP: usize = 2;
+
+/// Frames of a setting that follow one another before the next one's turn.
+const FRAMES_A_TURN: usize = 3;
+
+impl Subject {
+    /// Finds a scene's references.
+    ///
+    /// # Errors
+    ///
+    /// As [`Reference::of`].
+    pub fn new(model: &str, scene: Scene, load_ms: f64) -> Result<Self> {
+        let reference = Reference::of(&scene, &LineSettings::default())?;
+        let light = ReferenceLight::of(&scene);
+        let start = Instant::now();
+        for object in &scene.objects {
+            let edges = MeshEdges::new(object.mesh.clone());
+            Classes::new(&object.mesh, edges.list(), reference.crease_angle, ClassSet::EDGES);
+            Silhouettes::new(&object.mesh, edges.list());
+        }
+        let edges_ms = milliseconds_since(start);
+        Ok(Self { model: model.to_owned(), scene, reference, light, load_ms, edges_ms })
+    }
+}
+
+/// A setting on its way.
+struct Contestant {
+    plan: Plan,
+    measured: Measured,
+}
+
+/// Measures settings on a subject. Their errors one by one, their frames in turns, so that a busy moment hits all of them;
+/// `step` is called as often as [`steps`] says. A setting that this scene cannot be drawn with is left out, and the reason
+/// returned beside the rows.
+///
+/// # Errors
+///
+/// As [`Renderer::draw`].
+pub fn measure(
+    renderer: &mut Renderer,
+    subject: &Subject,
+    settings: &[Setting],
+    how: &MeasureSettings,
+    mut step: impl FnMut(),
+) -> Result<(Vec<Measured>, Vec<String>)> {
+    let (mut contestants, mut left_out) = (Vec::new(), Vec::new());
+    for setting in settings {
+        match contestant(renderer, subject, setting, how) {
+            Ok(contestant) => contestants.push(contestant),
+            Err(Error::Setting { setting: option, problem }) => {
+                left_out.push(format!("{}: {} is left out ({option}: {problem})", subject.model, setting.options));
+            }
+            Err(error) => return Err(error),
+        }
+        step();
+    }
+    for turn in 0..turns(how.frames) {
+        let frames = FRAMES_A_TURN.min(how.frames - turn * FRAMES_A_TURN);
+        for contestant in &mut contestants {
+            let times = renderer.time_frames(&subject.scene, &contestant.plan, 1, frames)?;
+            contestant.measured.row.time.frames_ms.extend(times);
+            step();
+        }
+    }
+    for contestant in &mut contestants {
+        let time = &mut contestant.measured.row.time;
+        let passes = renderer.time_passes(&subject.scene, &contestant.plan, FRAMES_A_TURN)?;
+        let row = |pass: crate::renderer::PassTime| PassRow {
+            name: pass.name.to_owned(),
+            cpu_ms: pass.cpu_ms,
+            gpu_ms: pass.gpu_ms,
+        };
+        time.passes = passes.into_iter().map(row).collect();
+        time.median_ms = median(time.frames_ms.clone()).unwrap_or_default();
+        time.quartiles_ms = quartiles(&time.frames_ms);
+    }
+    Ok((contestants.into_iter().map(|contestant| contestant.measured).collect(), left_out))
+}
+
+/// How many steps measuring so many settings has.
+pub fn steps(settings: usize, frames: usize) -> usize {
+    settings * (1 + turns(frames))
+}
+
+fn turns(frames: usize) -> usize {
+    frames.div_ceil(FRAMES_A_TURN)
+}
+
+/// A setting's errors, its plan, and its first frame.
+fn contestant(
+    renderer: &mut Renderer,
+    subject: &Subject,
+    setting: &Setting,
+    how: &MeasureSettings,
+) -> Result<Contestant> {
+    let scene = &subject.scene;
+    let style = &setting.style;
+    let start = Instant::now();
+    let plan = style.plan(scene, Show::Final)?;
+    let plan_ms = milliseconds_since(start);
+    let start = Instant::now();
+    renderer.draw(scene, &plan)?;
+    let first_frame_ms = milliseconds_since(start);
+    renderer.time_frames(scene, &plan, WARM_UP, 1)?;
+    let ink = match style.has_lines() {
+        // Two passes never draw the border by itself: it is what their picture is darker than its tones.
+        true if matches!(style, Style::TwoPass(_)) => {
+            let whole = renderer.draw(scene, &plan)?;
+            let tones = renderer.draw(scene, &style.plan(scene, Show::Tones)?)?;
+            Some(Ink::over(&tones, &whole))
+        }
+        true => Some(Ink::on_white(&renderer.draw(scene, &style.plan(scene, Show::Borders)?)?)),
+        false => None,
+    };
+    let tones = match style.tones() {
+        Some(tones) => {
+            let picture = renderer.draw(scene, &style.plan(scene, Show::Tones)?)?;
+            Some(subject.light.error(&picture, tones, &subject.reference))
+        }
+        None => None,
+    };
+    let Size { width, height } = scene.size;
+    let row = Row {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        machine: how.machine.clone(),
+        renderer: renderer.context().renderer.clone(),
+        model: subject.model.clone(),
+        triangles: scene.triangle_count(),
+        size: [width, height],
+        style: style.name().to_owned(),
+        options: setting.options.clone(),
+        is_faithful: setting.is_faithful,
+        lines: ink.as_ref().map(|ink| ink.error(&subject.reference, how.tolerance_px)),
+        tones,
+        time: RunTime {
+            load_ms: subject.load_ms,
+            edges_ms: if matches!(style, Style::Inking(_)) { subject.edges_ms } else { 0.0 },
+            plan_ms,
+            first_frame_ms,
+            frames_ms: Vec::new(),
+            median_ms: 0.0,
+            quartiles_ms: [0.0; 2],
+            passes: Vec::new(),
+        },
+    };
+    let error_picture = ink.map(|ink| error_picture(&ink, &subject.reference, how.tolerance_px));
+    Ok(Contestant { plan, measured: Measured { row, error_picture } })
+}
+
+fn quartiles(times: &[f64]) -> [f64; 2] {
+    let mut sorted = times.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    [1, 3].map(|quarter| sorted.get(sorted.len() * quarter / 4).copied().unwrap_or_default())
+}
+
+/// Agreed ink black, missed lines red, invented ink blue, ink that does not count grey.
+fn error_picture(ink: &Ink, reference: &Reference, tolerance_px: f64) -> Picture {
+    const AGREED: [u8; 4] = [0, 0, 0, 255];
+    const INVENTED: [u8; 4] = [30, 90, 230, 255];
+    const IGNORED: [u8; 4] = [190, 190, 190, 255];
+    const MISSED: [u8; 4] = [225, 25, 25, 255];
+    let verdicts = ink.verdicts(reference, tolerance_px);
+    let color = |verdict: &Option<Verdict>| match verdict {
+        None => [u8::MAX; 4],
+        Some(Verdict::Agreed) => AGREED,
+        Some(Verdict::Invented) => INVENTED,
+        Some(Verdict::Ignored) => IGNORED,
+    };
+    let mut pixels: Vec<u8> = verdicts.pixels.iter().flat_map(color).collect();
+    for place in verdicts.missed {
+        let (x, y) = (place.x.floor() as usize, place.y.floor() as usize);
+        if x < ink.size.width as usize && y < ink.size.height as usize {
+            let first = (y * ink.size.width as usize + x) * 4;
+            pixels[first..first + 4].copy_from_slice(&MISSED);
+        }
+    }
+    Picture { size: ink.size, pixels }
+}
