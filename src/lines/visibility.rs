@@ -163,10 +163,12 @@ impl<'a> Lines<'a> {
         for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
             self.tree.any(&image.part_box(part, self.touch_px, FLAT), |other_index| {
                 let other = &self.features[other_index as usize];
-                if other_index as usize != index && !feature.own.meets(other.own)
-                    && let Some(other_image) = self.images[other_index as usize] {
-                        self.add_crossings(image, &other_image, other.occludes, cuts);
-                    }
+                if other_index as usize != index
+                    && !feature.own.meets(other.own)
+                    && let Some(other_image) = self.images[other_index as usize]
+                {
+                    self.add_crossings(image, &other_image, other.occludes, cuts);
+                }
                 false
             });
             if let Own::Faces(own) = feature.own {
@@ -182,9 +184,10 @@ impl<'a> Lines<'a> {
             }
         }
         if let Own::Edge([a, b]) = feature.own
-            && let Some(points) = self.piercings.get(&[a.min(b), a.max(b)]) {
-                cuts.extend(points.iter().map(|point| image.place_of(self.space.project(*point).0)));
-            }
+            && let Some(points) = self.piercings.get(&[a.min(b), a.max(b)])
+        {
+            cuts.extend(points.iter().map(|point| image.place_of(self.space.project(*point).0)));
+        }
     }
 
     /// Adds where a nearer line's image crosses or touches this one's, and where one that lies on it ends.
