@@ -35,14 +35,17 @@ pub(super) fn intersections(space: &Space, faces: &Faces) -> (Vec<Intersection>,
         let mut found = Vec::new();
         faces.tree.pairs(groups, |first, second| {
             let pair = [first.min(second), first.max(second)];
-            found.extend(Pair::new(space, faces, pair).and_then(|pair| pair.intersection()));
+            found.extend(Pair::new(space, faces, pair).and_then(|pair| Some((pair.intersection()?, pair.shortest))));
         });
         found
     });
-    let mut found: Vec<(Intersection, [Option<Piercing>; 2])> = parts.concat();
-    found.sort_unstable_by_key(|(intersection, _)| intersection.faces);
-    let piercings = found.iter().flat_map(|(_, piercings)| *piercings).flatten().collect();
-    (found.into_iter().map(|(intersection, _)| intersection).collect(), piercings)
+    let mut found: Vec<((Intersection, [Option<Piercing>; 2]), f64)> = parts.concat();
+    found.sort_unstable_by_key(|((intersection, _), _)| intersection.faces);
+    let piercings = found.iter().flat_map(|((_, piercings), _)| *piercings).flatten().collect();
+    // Needles have no intersection worth a line, but their edges are cut all the same.
+    let is_line = |intersection: &Intersection, shortest| intersection.ends[0].distance(intersection.ends[1]) > shortest;
+    let lines = found.into_iter().map(|((line, _), shortest)| (line, shortest));
+    (lines.filter(|(line, shortest)| is_line(line, *shortest)).map(|(line, _)| line).collect(), piercings)
 }
 
 /// Two faces of which each has corners on both sides of the other's plane.
@@ -141,9 +144,6 @@ impl<'a> Pair<'a> {
                 (at_corner, nearer.piercing)
             }
         };
-        if low.point.distance(high.point) <= self.shortest {
-            return None;
-        }
         let piercings = [low, high].map(|piercing| (piercing.edge[0] != u32::MAX).then_some(piercing));
         Some((Intersection { faces: self.numbers, ends: [low.point, high.point] }, piercings))
     }
