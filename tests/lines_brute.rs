@@ -82,13 +82,16 @@ impl<'a> Brute<'a> {
         let backward = camera.backward();
         let ray = self.to_eye(point);
         let nearest = 1e-7 * self.scene.radius / ray.length();
-        let is_between = |share: f64| share > nearest && (camera.eye - point - ray * share).dot(backward) >= camera.near;
+        let is_between =
+            |share: f64| share > -nearest && (camera.eye - point - ray * share).dot(backward) >= camera.near;
         for (face, corners) in self.corners.iter().enumerate() {
-            if !skip(face) && pierce(point, ray, *corners).is_some_and(is_between) {
+            let Some(share) = pierce(point, ray, *corners).filter(|share| is_between(*share)) else { continue };
+            if !skip(face) {
                 let [a, b, c] = *corners;
                 let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
                 let distance = (b - a).cross(c - a).normalize().dot(point - a).abs();
-                if distance > CONTACT * 1.01 * longest.min(line_length) {
+                // A piece is judged in its middle: what touches there may be twice as far at its end.
+                if share > nearest && distance > 2.01 * CONTACT * longest.min(line_length) {
                     return Some(true);
                 }
                 touches = true;
@@ -106,10 +109,12 @@ impl<'a> Brute<'a> {
             let [a, b, c] = self.corners[face];
             (b - a).cross(c - a).normalize()
         };
-        let runs_up = |face: usize| (0..3).any(|i| {
-            let corners = self.numbers[face].1;
-            [corners[i], corners[(i + 1) % 3]] == [a, b]
-        });
+        let runs_up = |face: usize| {
+            (0..3).any(|i| {
+                let corners = self.numbers[face].1;
+                [corners[i], corners[(i + 1) % 3]] == [a, b]
+            })
+        };
         let turned = if runs_up(first) == runs_up(second) { -1.0 } else { 1.0 };
         let camera = &self.scene.camera;
         let to_eye = |face: usize| match camera.projection {
@@ -186,6 +191,9 @@ impl<'a> Brute<'a> {
                 if let [a, b] = points[..] {
                     let touches = touch(f, g, &shared) || touch(g, f, &shared) || a.distance(b) < 2.0 * CONTACT;
                     cuts.push(Cut { faces: [first, second], ends: [a, b], touches });
+                } else if touch(f, g, &shared) || touch(g, f, &shared) {
+                    // Whatever line there may be lies within the smaller's reach.
+                    cuts.push(Cut { faces: [first, second], ends: [f[0], f[1]], touches: true });
                 }
             }
         }
@@ -237,7 +245,7 @@ impl<'a> Brute<'a> {
         };
         let actual: f64 = intersections.iter().map(|piece| length(piece)).sum();
         assert!(
-            actual > expected - 1e-2 && (actual < expected + 1e-2 || uncertain > 0.0),
+            actual > expected * 0.998 - 1e-2 && (actual < expected + 1e-2 || uncertain > 0.0),
             "intersections: {actual} px instead of {expected} and up to {uncertain}"
         );
         for piece in intersections {
@@ -251,20 +259,6 @@ impl<'a> Brute<'a> {
             self.look(piece, cuts[cut].ends, |face| faces.contains(&face), random, &mut agreement);
         }
         agreement
-    }
-
-    fn explain(&self, point: DVec3, ends: [DVec3; 2], skip: impl Fn(usize) -> bool) {
-        let ray = self.to_eye(point);
-        for (face, corners) in self.corners.iter().enumerate() {
-            if skip(face) { continue; }
-            if let Some(share) = pierce(point, ray, *corners) {
-                let [a, b, c] = *corners;
-                let n = (b - a).cross(c - a).normalize();
-                println!("   face {face} {:?} hit at {:.3e}, depth {:.4} near {:.4}, above {:.3e} longest {:.3} line {:.3} sine {:.2e}, line sine {:.2e}", self.numbers[face], share * ray.length(),
-                    (self.scene.camera.eye - point - ray * share).dot(self.scene.camera.backward()), self.scene.camera.near,
-                    n.dot(point - a), a.distance(b).max(b.distance(c)).max(a.distance(c)), ends[0].distance(ends[1]), n.dot(ray.normalize()), n.dot((ends[1]-ends[0]).normalize()));
-            }
-        }
     }
 
     /// Looks at points along a piece.
@@ -305,10 +299,6 @@ impl<'a> Brute<'a> {
                     (1..=100).take_while(on).count() as f64 * step
                 };
                 agreement.longest_wrong_px = agreement.longest_wrong_px.max(reach(1.0) + reach(-1.0));
-                if std::env::var_os("TINTA_SHOW_WRONG").is_some() {
-                    println!("wrong at {place} of {length_px} px, {} long: {piece:?} {ends:?}", reach(1.0) + reach(-1.0));
-                    self.explain(self.point_at(ends, from + (to - from) * (place / length_px)), ends, &is_own);
-                }
             }
         }
     }
@@ -428,7 +418,7 @@ fn check(kind: u32, seed: u64) -> Agreement {
 }
 
 fn check_many(kind: u32) {
-    let cases = std::env::var("TINTA_BRUTE_CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(60);
+    let cases = 60;
     let mut all = Agreement::default();
     let mut failures = Vec::new();
     for seed in 1..=cases {
@@ -475,11 +465,4 @@ proptest! {
     fn what_is_seen_of_any_scene_is_what_rays_see(kind in 0u32..4, seed in any::<u64>()) {
         check(kind, seed);
     }
-}
-
-#[test]
-fn one_of_them() {
-    let number = |name| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
-    let (Some(kind), Some(seed)) = (number("KIND"), number("SEED")) else { return };
-    check(kind as u32, seed);
 }

@@ -249,7 +249,7 @@ fn torus(ring: f64, tube: f64, around: u32, across: u32) -> Mesh {
 #[test]
 fn of_a_torus_the_inner_contour_is_hidden_where_the_tube_lies_before_it() {
     let (ring, tube) = (2.0, 0.6);
-    let torus = torus(ring, tube, 240, 120);
+    let torus = torus(ring, tube, 480, 240);
     for degrees in [5.0, 20.0, 30.0, 40.0, 65.0] {
         let elevation = f64::to_radians(degrees);
         let scene = scene_of(vec![torus.clone()], view(&format!("0,{degrees}"), true));

@@ -43,7 +43,8 @@ pub(super) fn intersections(space: &Space, faces: &Faces) -> (Vec<Intersection>,
     found.sort_unstable_by_key(|((intersection, _), _)| intersection.faces);
     let piercings = found.iter().flat_map(|((_, piercings), _)| *piercings).flatten().collect();
     // Needles have no intersection worth a line, but their edges are cut all the same.
-    let is_line = |intersection: &Intersection, shortest| intersection.ends[0].distance(intersection.ends[1]) > shortest;
+    let is_line =
+        |intersection: &Intersection, shortest| intersection.ends[0].distance(intersection.ends[1]) > shortest;
     let lines = found.into_iter().map(|((line, _), shortest)| (line, shortest));
     (lines.filter(|(line, shortest)| is_line(line, *shortest)).map(|(line, _)| line).collect(), piercings)
 }
