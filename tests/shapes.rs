@@ -8,7 +8,8 @@ use tinta::edges::Eye;
 
 /// A mesh of positions and triangles alone.
 pub fn mesh(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Mesh {
-    Mesh { positions, triangles, normals: Vec::new(), triangle_normals: Vec::new(), ..Mesh::triangle() }
+    let file_vertices = (0..positions.len() as u32).collect();
+    Mesh { positions, file_vertices, triangles, normals: Vec::new(), triangle_normals: Vec::new(), ..Mesh::triangle() }
 }
 
 /// A box, two triangles a side, wound outwards.
@@ -35,6 +36,7 @@ pub fn joined(meshes: &[Mesh]) -> Mesh {
         let numbers: Vec<u32> = one.positions.iter().map(&mut number).collect();
         all.triangles.extend(one.triangles.iter().map(|triangle| triangle.map(|corner| numbers[corner as usize])));
     }
+    all.file_vertices = (0..all.positions.len() as u32).collect();
     all
 }
 

@@ -109,6 +109,11 @@ impl Faces {
         self.welds[self.welds.partition_point(|(first, _)| *first <= position) - 1].1
     }
 
+    /// Whether one place's face has a lower number than another's.
+    pub fn in_order(&self, first: u32, second: u32) -> bool {
+        self.numbers[first as usize] < self.numbers[second as usize]
+    }
+
     /// A face's corners in the eye's space.
     pub fn corners(&self, face: u32) -> [DVec3; 3] {
         self.triangles[face as usize].map(|corner| self.positions[corner as usize])

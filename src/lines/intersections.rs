@@ -11,6 +11,7 @@ use super::space::Space;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::CONTACT;
 use glam::DVec3;
+use std::collections::{HashMap, HashSet};
 
 /// A piece of line common to two faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,14 +44,66 @@ pub(super) fn intersections(space: &Space, faces: &Faces) -> (Vec<Intersection>,
                 *kept = Some(Plate::new(space, faces, first));
             }
             let Some(first) = kept else { return };
-            found.extend(first.meet(space, faces, second).and_then(|pair| pair.intersection()));
+            found.extend(first.meet(space, faces, second));
         });
         found
     });
-    let mut found: Vec<(Intersection, [Option<Piercing>; 2])> = parts.concat();
-    found.sort_unstable_by_key(|(intersection, _)| intersection.faces.map(|face| faces.numbers[face as usize]));
-    let piercings = found.iter().flat_map(|(_, piercings)| *piercings).flatten().collect();
-    (found.into_iter().map(|(intersection, _)| intersection).collect(), piercings)
+    let mut found: Vec<Found> = parts.concat();
+    found.sort_by_key(|found| found.faces.map(|face| faces.numbers[face as usize]));
+    let piercings = found.iter().flat_map(|found| found.piercings).flatten().collect();
+    let through = Through::new(space, faces, &found);
+    let lines = found.iter().filter(|found| found.is_line && through.allows(found));
+    (lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect(), piercings)
+}
+
+/// What two faces have in common.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    /// The one with the lower number first.
+    faces: [u32; 2],
+    ends: [DVec3; 2],
+    /// Whether it is long enough, and between faces high enough, to be a line: needles are cut but draw none.
+    is_line: bool,
+    piercings: [Option<Piercing>; 2],
+    /// Where the line is an edge that touches the other face: the edge, and that face.
+    touch: Option<([u32; 2], u32)>,
+}
+
+/// For edges that touch a face from one side, whether another face goes on from them to the other side: only then the
+/// surface passes through.
+struct Through {
+    through: HashSet<([u32; 2], u32)>,
+}
+
+impl Through {
+    fn new(space: &Space, faces: &Faces, found: &[Found]) -> Self {
+        let mut touched: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
+        for (edge, face) in found.iter().filter_map(|found| found.touch) {
+            touched.entry(edge).or_default().push(face);
+        }
+        let mut through = HashSet::new();
+        let sides = |triangle: &[u32; 3]| {
+            let [a, b, c] = *triangle;
+            [([a, b], c), ([b, c], a), ([c, a], b)].map(|([a, b], c)| ([a.min(b), a.max(b)], c))
+        };
+        let all = if touched.is_empty() { &[][..] } else { &faces.triangles[..] };
+        for (place, triangle) in all.iter().enumerate() {
+            for (edge, third) in sides(triangle) {
+                for face in touched.get(&edge).into_iter().flatten() {
+                    let (plate, own) = (Plate::new(space, faces, *face), Plate::new(space, faces, place as u32));
+                    let distance = plate.raw_distances([faces.positions[third as usize]; 3])[0];
+                    if distance > plate.contact(space, &own) * plate.normal_length {
+                        through.insert((edge, *face));
+                    }
+                }
+            }
+        }
+        Self { through }
+    }
+
+    fn allows(&self, found: &Found) -> bool {
+        found.touch.is_none_or(|touch| self.through.contains(&touch))
+    }
 }
 
 /// A face with its plane.
@@ -102,8 +155,8 @@ impl Plate {
         Self { place, numbers, corners, normal, normal_length, longest, weld, loose }
     }
 
-    /// This face and another, if each has corners on both sides of the other's plane.
-    fn meet<'a>(&self, space: &Space, faces: &'a Faces, other: u32) -> Option<Pair<'a>> {
+    /// What this face and another have in common, if each has corners on both sides of the other's plane.
+    fn meet(&self, space: &Space, faces: &Faces, other: u32) -> Option<Found> {
         let numbers = faces.triangles[other as usize];
         let mut shared = None;
         let mut shared_count = 0;
@@ -124,10 +177,14 @@ impl Plate {
             return None;
         }
         let other = Self::new(space, faces, other);
-        let contact = CONTACT * self.longest.min(other.longest) + self.weld.min(other.weld) + 4.0 * space.noise;
-        // A face no higher than what counts as touching is a line, and has no plane.
-        if [self, &other].iter().any(|plate| plate.normal_length <= contact * plate.longest) {
-            return None;
+        let contact = self.contact(space, &other);
+        // A face no higher than what counts as touching is a line and has no plane, but may still pass through a face.
+        let is_needle = |plate: &Self| plate.normal_length <= contact * plate.longest;
+        match (is_needle(self), is_needle(&other)) {
+            (true, true) => return None,
+            (true, false) => return self.needle_through(faces, &other, contact),
+            (false, true) => return other.needle_through(faces, self, contact),
+            (false, false) => {}
         }
         let second = Sides::of(raw, own, contact * self.normal_length);
         if !second.straddle {
@@ -139,19 +196,49 @@ impl Plate {
         if !first.straddle || !(first.clearly || second.clearly) {
             return None;
         }
-        let in_order = faces.numbers[self.place as usize] < faces.numbers[other.place as usize];
-        let (plates, distances) = match in_order {
+        let (plates, distances) = match faces.in_order(self.place, other.place) {
             true => ([self, &other], [first.distances, second.distances]),
             false => ([&other, self], [second.distances, first.distances]),
         };
-        Some(Pair {
+        Pair {
             faces,
             places: plates.map(|plate| plate.place),
             distances,
             direction: plates[0].normal.cross(plates[1].normal),
-            shared: if in_order { shared } else { shared.map(|[i, j]| [j, i]) },
+            shared: if plates[0].place == self.place { shared } else { shared.map(|[i, j]| [j, i]) },
             shortest: contact,
-        })
+        }
+        .common()
+    }
+
+    /// Where the sides of this face, too thin to have a plane, pass through another.
+    fn needle_through(&self, faces: &Faces, other: &Self, contact: f64) -> Option<Found> {
+        let distances = Sides::of(other.raw_distances(self.corners), None, contact * other.normal_length).distances;
+        let (places, kept) = match faces.in_order(self.place, other.place) {
+            true => ([self.place, other.place], [distances, [0.0; 3]]),
+            false => ([other.place, self.place], [[0.0; 3], distances]),
+        };
+        let face = usize::from(places[1] == self.place);
+        let pair = Pair { faces, places, distances: kept, direction: DVec3::ZERO, shared: None, shortest: contact };
+        let mut piercings = (0..3)
+            .filter_map(|corner| pair.crossing(face, corner, (corner + 1) % 3))
+            .map(|crossing| crossing.piercing)
+            .filter(|piercing| other.contains(piercing.point));
+        let piercings = [piercings.next(), piercings.next()];
+        let point = piercings[0]?.point;
+        Some(Found { faces: places, ends: [point; 2], is_line: false, piercings, touch: None })
+    }
+
+    /// Whether a point of the plane lies in the face, or so near its rim that a cut too many is all that comes of it.
+    fn contains(&self, point: DVec3) -> bool {
+        let [a, b, c] = self.corners;
+        let least = -CONTACT * self.normal_length * self.normal_length;
+        [(a, b), (b, c), (c, a)].iter().all(|(from, to)| (*to - *from).cross(point - *from).dot(self.normal) >= least)
+    }
+
+    /// Distance below which this face and another touch, file units.
+    fn contact(&self, space: &Space, other: &Self) -> f64 {
+        CONTACT * self.longest.min(other.longest) + self.weld.min(other.weld) + 4.0 * space.noise
     }
 
     /// Points' distances from the plane, times the normal's length.
@@ -189,7 +276,8 @@ impl Sides {
 }
 
 impl Pair<'_> {
-    fn intersection(&self) -> Option<(Intersection, [Option<Piercing>; 2])> {
+    /// The line both have in common, if their parts of it overlap.
+    fn common(&self) -> Option<Found> {
         let (low, high) = match self.shared {
             None => {
                 let [first, second] = [self.both_crossings(0)?, self.both_crossings(1)?];
@@ -215,11 +303,20 @@ impl Pair<'_> {
                 (at_corner, nearer.piercing)
             }
         };
-        if low.point.distance(high.point) <= self.shortest {
-            return None;
-        }
         let piercings = [low, high].map(|piercing| (piercing.edge[0] != u32::MAX).then_some(piercing));
-        Some((Intersection { faces: self.places, ends: [low.point, high.point] }, piercings))
+        let is_line = low.point.distance(high.point) > self.shortest;
+        Some(Found { faces: self.places, ends: [low.point, high.point], is_line, piercings, touch: self.touch() })
+    }
+
+    /// The edge of one face that touches the other all along, if there is one.
+    fn touch(&self) -> Option<([u32; 2], u32)> {
+        (0..2).find_map(|face| {
+            let zeros: Vec<usize> = (0..3).filter(|corner| self.distances[face][*corner] == 0.0).collect();
+            let &[first, second] = zeros.as_slice() else { return None };
+            let numbers = self.faces.triangles[self.places[face] as usize];
+            let (first, second) = (numbers[first], numbers[second]);
+            Some(([first.min(second), first.max(second)], self.places[1 - face]))
+        })
     }
 
     /// Where a face's rim passes the other's plane: the lower place along the common line first.

@@ -9,7 +9,7 @@
 
 use super::boxes::{Box3, BoxTree};
 use crate::edges::{EdgeList, Incidence};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, NONE};
 use crate::tolerances::{CONTACT, WELD};
 use glam::DVec3;
 use std::collections::{BTreeMap, HashSet};
@@ -50,15 +50,21 @@ fn keep_faces(mesh: &Mesh, keep: impl Fn(u32) -> bool) -> Mesh {
     with_faces(mesh, kept.iter().map(|face| (*face, mesh.triangles[*face])).collect())
 }
 
-/// The mesh with these faces, each with the number of the one whose normals, texture and material it has.
+/// The mesh with these faces, each with the number of the one whose normals, texture and material it has; corners that one
+/// does not have get none.
 fn with_faces(mesh: &Mesh, faces: Vec<(usize, [u32; 3])>) -> Mesh {
-    fn picked<T: Copy>(list: &[T], faces: &[(usize, [u32; 3])]) -> Vec<T> {
-        faces.iter().filter_map(|(face, _)| list.get(*face).copied()).collect()
-    }
+    let of_corners = |list: &[[u32; 3]]| -> Vec<[u32; 3]> {
+        let of_face = |(face, corners): &(usize, [u32; 3])| {
+            let values = list.get(*face)?;
+            let place = |corner: &u32| mesh.triangles[*face].iter().position(|old| old == corner);
+            Some(corners.map(|corner| place(&corner).map_or(NONE, |place| values[place])))
+        };
+        faces.iter().filter_map(of_face).collect()
+    };
     Mesh {
-        triangle_normals: picked(&mesh.triangle_normals, &faces),
-        triangle_texture_coordinates: picked(&mesh.triangle_texture_coordinates, &faces),
-        triangle_materials: picked(&mesh.triangle_materials, &faces),
+        triangle_normals: of_corners(&mesh.triangle_normals),
+        triangle_texture_coordinates: of_corners(&mesh.triangle_texture_coordinates),
+        triangle_materials: faces.iter().filter_map(|(face, _)| mesh.triangle_materials.get(*face).copied()).collect(),
         triangles: faces.into_iter().map(|(_, corners)| corners).collect(),
         ..mesh.clone()
     }

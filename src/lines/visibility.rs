@@ -152,7 +152,7 @@ impl<'a> Lines<'a> {
             let other_index = self.numbers[place as usize];
             let other = &self.features[other_index as usize];
             let comes_first = other.class.is_some() && (other.class, other_index as usize) < (feature.class, index);
-            if !comes_first || feature.own.meets(other.own) {
+            if !comes_first || (feature.own.meets(other.own) && !run_the_same_way(feature.ends, other.ends)) {
                 return false;
             }
             let Some(image) = self.images[other_index as usize] else { return false };
@@ -330,6 +330,21 @@ impl Image {
         let (low, high) = (first.min(second) - margin, first.max(second) + margin);
         Box3::new(low.extend(keys[0].min(keys[1])), high.extend(keys[0].max(keys[1])))
     }
+}
+
+/// Whether two lines with a common end go the same way from there.
+fn run_the_same_way([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> bool {
+    let (first, second) = if a == c {
+        (b - a, d - c)
+    } else if a == d {
+        (b - a, c - d)
+    } else if b == c {
+        (a - b, d - c)
+    } else {
+        (a - b, c - d)
+    };
+    let lengths = first.length() * second.length();
+    first.dot(second) > 0.0 && first.cross(second).length() <= CONTACT * lengths
 }
 
 impl Own {

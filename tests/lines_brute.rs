@@ -1,0 +1,468 @@
+//! Visible lines of random scenes against brute force: every edge classified, clipped and looked at point by point, with
+//! formulas of their own in world space.
+
+use crate::lines_support::{length, lines};
+use crate::shapes::{Random, cuboid, icosphere, mesh};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use tinta::camera::Projection;
+use tinta::edges::Class;
+use tinta::lines::{LineSegment, VisibleLines};
+use tinta::tolerances::CONTACT;
+use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
+
+/// An edge of an object: the object's number and two positions, the lower first.
+type EdgeKey = (u32, [u32; 2]);
+
+/// The scene as a list of triangles in world space.
+struct Brute<'a> {
+    scene: &'a Scene,
+    clip_from_world: DMat4,
+    corners: Vec<[DVec3; 3]>,
+    /// Object and position numbers of each corner.
+    numbers: Vec<(u32, [u32; 3])>,
+    edges: BTreeMap<EdgeKey, Vec<usize>>,
+}
+
+/// Where two triangles pass through one another.
+struct Cut {
+    faces: [usize; 2],
+    ends: [DVec3; 2],
+    /// Whether a corner of either touches the other, so that by the rule there may be no line, or one that ends there.
+    touches: bool,
+}
+
+/// What the comparison found.
+#[derive(Debug, Default, Clone, Copy)]
+struct Agreement {
+    length_px: f64,
+    wrong_px: f64,
+    longest_wrong_px: f64,
+    segments: usize,
+    cuts: usize,
+}
+
+impl<'a> Brute<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let (mut corners, mut numbers) = (Vec::new(), Vec::new());
+        let mut edges: BTreeMap<EdgeKey, Vec<usize>> = BTreeMap::new();
+        for (number, object) in scene.objects.iter().enumerate() {
+            for triangle in &object.mesh.triangles {
+                for side in 0..3 {
+                    let (a, b) = (triangle[side], triangle[(side + 1) % 3]);
+                    edges.entry((number as u32, [a.min(b), a.max(b)])).or_default().push(corners.len());
+                }
+                corners.push(triangle.map(|corner| object.mesh.positions[corner as usize] + object.offset));
+                numbers.push((number as u32, *triangle));
+            }
+        }
+        let camera = &scene.camera;
+        let clip_from_world = camera.clip_from_view(scene.size.aspect()) * camera.view_from_world();
+        Self { scene, clip_from_world, corners, numbers, edges }
+    }
+
+    fn is_parallel(&self) -> bool {
+        matches!(self.scene.camera.projection, Projection::Parallel { .. })
+    }
+
+    /// From a point to the eye, with a length beyond which nothing hides it.
+    fn to_eye(&self, point: DVec3) -> DVec3 {
+        let backward = self.scene.camera.backward();
+        let from_point = self.scene.camera.eye - point;
+        if self.is_parallel() { backward * from_point.dot(backward) } else { from_point }
+    }
+
+    /// Whether anything lies between a point and the eye, behind the near plane, but for some faces; `None` where only a
+    /// face does that the point touches.
+    fn is_blocked(&self, point: DVec3, line_length: f64, skip: impl Fn(usize) -> bool) -> Option<bool> {
+        let mut touches = false;
+        let camera = &self.scene.camera;
+        let backward = camera.backward();
+        let ray = self.to_eye(point);
+        let nearest = 1e-7 * self.scene.radius / ray.length();
+        let is_between =
+            |share: f64| share > -nearest && (camera.eye - point - ray * share).dot(backward) >= camera.near;
+        for (face, corners) in self.corners.iter().enumerate() {
+            let Some(share) = pierce(point, ray, *corners).filter(|share| is_between(*share)) else { continue };
+            if !skip(face) {
+                let [a, b, c] = *corners;
+                let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+                let distance = (b - a).cross(c - a).normalize().dot(point - a).abs();
+                // A piece is judged in its middle: what touches there may be twice as far at its end.
+                if share > nearest && distance > 2.01 * CONTACT * longest.min(line_length) {
+                    return Some(true);
+                }
+                touches = true;
+            }
+        }
+        (!touches).then_some(false)
+    }
+
+    /// The class of an edge by the default settings, if it is wanted.
+    fn class(&self, faces: &[usize], [a, b]: [u32; 2]) -> Option<Class> {
+        let &[first, second] = faces else {
+            return Some(if faces.len() == 1 { Class::Boundary } else { Class::NonManifold });
+        };
+        let normal = |face: usize| {
+            let [a, b, c] = self.corners[face];
+            (b - a).cross(c - a).normalize()
+        };
+        let runs_up = |face: usize| {
+            (0..3).any(|i| {
+                let corners = self.numbers[face].1;
+                [corners[i], corners[(i + 1) % 3]] == [a, b]
+            })
+        };
+        let turned = if runs_up(first) == runs_up(second) { -1.0 } else { 1.0 };
+        let camera = &self.scene.camera;
+        let to_eye = |face: usize| match camera.projection {
+            Projection::Parallel { .. } => camera.backward(),
+            Projection::Perspective { .. } => camera.eye - self.corners[face][0],
+        };
+        let front = |face: usize, sign: f64| sign * normal(face).dot(to_eye(face)) > 0.0;
+        if front(first, 1.0) != front(second, turned) {
+            return Some(Class::Silhouette);
+        }
+        (normal(first).dot(normal(second)) * turned < 0.4).then_some(Class::Crease)
+    }
+
+    fn clip(&self, point: DVec3) -> DVec4 {
+        self.clip_from_world * point.extend(1.0)
+    }
+
+    fn px(&self, clip: DVec4) -> DVec2 {
+        let size = DVec2::new(f64::from(self.scene.size.width), f64::from(self.scene.size.height));
+        DVec2::new(1.0 + clip.x / clip.w, 1.0 - clip.y / clip.w) * 0.5 * size
+    }
+
+    /// The ends, in pixels, of what of a line is in the picture and between the planes.
+    fn clipped(&self, ends: [DVec3; 2]) -> Option<[DVec2; 2]> {
+        let [a, b] = ends.map(|end| self.clip(end));
+        let (mut from, mut to) = (0.0f64, 1.0f64);
+        for axis in 0..3 {
+            for sign in [-1.0, 1.0] {
+                let (start, end) = (a.w + sign * a[axis], b.w + sign * b[axis]);
+                let share = start / (start - end);
+                match (start < 0.0, end < 0.0) {
+                    (true, true) => return None,
+                    (true, false) => from = from.max(share),
+                    (false, true) => to = to.min(share),
+                    _ => {}
+                }
+            }
+        }
+        (from < to).then(|| [from, to].map(|share| self.px(a + (b - a) * share)))
+    }
+
+    /// The point of a line that is drawn at a pixel on its image.
+    fn point_at(&self, ends: [DVec3; 2], px: DVec2) -> DVec3 {
+        let size = DVec2::new(f64::from(self.scene.size.width), f64::from(self.scene.size.height));
+        let ndc = DVec2::new(px.x / size.x * 2.0 - 1.0, 1.0 - px.y / size.y * 2.0);
+        let [a, b] = ends.map(|end| self.clip(end));
+        let image = self.px(b) - self.px(a);
+        let axis = usize::from(image.y.abs() > image.x.abs());
+        let step = b - a;
+        let share = (ndc[axis] * a.w - a[axis]) / (step[axis] - ndc[axis] * step.w);
+        ends[0] + (ends[1] - ends[0]) * share
+    }
+
+    /// All places where triangles pass through one another.
+    fn cuts(&self) -> Vec<Cut> {
+        let mut cuts = Vec::new();
+        for first in 0..self.corners.len() {
+            for second in 0..first {
+                let (f, g) = (self.corners[first], self.corners[second]);
+                let shared: Vec<DVec3> = f.iter().filter(|corner| g.contains(corner)).copied().collect();
+                if shared.len() > 1 {
+                    continue;
+                }
+                let mut points = shared.clone();
+                for (own, other) in [(f, g), (g, f)] {
+                    for side in 0..3 {
+                        let (a, b) = (own[side], own[(side + 1) % 3]);
+                        if !shared.contains(&a) && !shared.contains(&b) {
+                            let share = pierce(a, b - a, other).filter(|share| (0.0..=1.0).contains(share));
+                            points.extend(share.map(|share| a + (b - a) * share));
+                        }
+                    }
+                }
+                if let [a, b] = points[..] {
+                    let touches = touch(f, g, &shared) || touch(g, f, &shared) || a.distance(b) < 2.0 * CONTACT;
+                    cuts.push(Cut { faces: [first, second], ends: [a, b], touches });
+                } else if touch(f, g, &shared) || touch(g, f, &shared) {
+                    // Whatever line there may be lies within the smaller's reach.
+                    cuts.push(Cut { faces: [first, second], ends: [f[0], f[1]], touches: true });
+                }
+            }
+        }
+        cuts
+    }
+
+    /// Compares the lines with the scene; panics where lines are missing, invented or of a wrong class.
+    fn compare(&self, found: &VisibleLines, random: &mut Random) -> Agreement {
+        let mut agreement = Agreement::default();
+        let mut by_edge: BTreeMap<EdgeKey, Vec<&LineSegment>> = BTreeMap::new();
+        let mut intersections: Vec<&LineSegment> = Vec::new();
+        for segment in &found.segments {
+            match segment.edge {
+                Some([a, b]) => by_edge.entry((segment.object, [a.min(b), a.max(b)])).or_default().push(segment),
+                None => intersections.push(segment),
+            }
+        }
+        for (key, faces) in &self.edges {
+            let ends = key.1.map(|end| self.scene.objects[key.0 as usize].mesh.positions[end as usize]);
+            let pieces = by_edge.remove(key).unwrap_or_default();
+            let class = self.class(faces, key.1);
+            let expected = class.and_then(|_| self.clipped(ends)).map_or(0.0, |[a, b]| a.distance(b));
+            let actual: f64 = pieces.iter().map(|piece| length(piece)).sum();
+            assert!(
+                (actual - expected).abs() <= 1e-4 + 1e-7 * expected,
+                "edge {key:?} {class:?}: {actual} px instead of {expected}"
+            );
+            for piece in pieces {
+                assert_eq!(Some(piece.class), class, "{piece:?}");
+                self.look(piece, ends, |face| faces.contains(&face), random, &mut agreement);
+            }
+        }
+        assert!(by_edge.is_empty(), "lines of no edge: {by_edge:?}");
+        let cuts = self.cuts();
+        agreement.cuts = cuts.len();
+        let images: Vec<Option<[DVec2; 2]>> = cuts.iter().map(|cut| self.clipped(cut.ends)).collect();
+        let sum = |touches: bool| -> f64 {
+            let of_these = images.iter().zip(&cuts).filter(|(_, cut)| cut.touches == touches);
+            of_these.filter_map(|(image, _)| *image).map(|[a, b]| a.distance(b)).sum()
+        };
+        let (expected, uncertain) = (sum(false), sum(true));
+        let on_image = |piece: &LineSegment, image: &[DVec2; 2]| {
+            let along = image[1] - image[0];
+            let of_end = |end: &DVec2| {
+                let share = ((*end - image[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+                (image[0] + along * share).distance(*end)
+            };
+            piece.ends_px.iter().map(of_end).fold(0.0, f64::max)
+        };
+        let actual: f64 = intersections.iter().map(|piece| length(piece)).sum();
+        assert!(
+            actual > expected * 0.998 - 1e-2 && (actual < expected + 1e-2 || uncertain > 0.0),
+            "intersections: {actual} px instead of {expected} and up to {uncertain}"
+        );
+        for piece in intersections {
+            let places = (0..cuts.len()).filter_map(|cut| Some((on_image(piece, &images[cut]?), cut)));
+            let (distance, cut) = places.min_by(|a, b| a.0.total_cmp(&b.0)).expect("an intersection");
+            if uncertain > 0.0 && distance > 1e-3 {
+                continue;
+            }
+            assert!(distance < 1e-3, "{piece:?} lies on no intersection: {distance} px");
+            let faces = cuts[cut].faces;
+            self.look(piece, cuts[cut].ends, |face| faces.contains(&face), random, &mut agreement);
+        }
+        agreement
+    }
+
+    /// Looks at points along a piece.
+    fn look(
+        &self,
+        piece: &LineSegment,
+        ends: [DVec3; 2],
+        is_own: impl Fn(usize) -> bool,
+        random: &mut Random,
+        agreement: &mut Agreement,
+    ) {
+        let [from, to] = piece.ends_px;
+        let length_px = from.distance(to);
+        let is_wrong = |place_px: f64| {
+            let point = self.point_at(ends, from + (to - from) * (place_px / length_px));
+            self.is_blocked(point, ends[0].distance(ends[1]), &is_own) == Some(piece.is_visible)
+        };
+        let count = (length_px * 0.7).clamp(6.0, 100.0).ceil();
+        let mut places: Vec<f64> =
+            (0..count as usize).map(|sample| (sample as f64 + random.number()) / count * length_px).collect();
+        let inner = places.len();
+        if length_px > 0.1 {
+            places.extend([0.03, length_px - 0.03]);
+        }
+        agreement.segments += 1;
+        agreement.length_px += length_px;
+        for (sample, place) in places.into_iter().enumerate() {
+            if is_wrong(place) {
+                if sample < inner {
+                    agreement.wrong_px += length_px / count;
+                }
+                let step = 0.004f64.min(length_px / 50.0);
+                let reach = |way: f64| {
+                    let on = |steps: &u32| {
+                        let at = place + way * step * f64::from(*steps);
+                        (0.0..=length_px).contains(&at) && is_wrong(at)
+                    };
+                    (1..=100).take_while(on).count() as f64 * step
+                };
+                agreement.longest_wrong_px = agreement.longest_wrong_px.max(reach(1.0) + reach(-1.0));
+            }
+        }
+    }
+}
+
+/// Where a line passes through a triangle, as a share of its direction (Möller and Trumbore 1997).
+fn pierce(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+    let (ab, ac) = (b - a, c - a);
+    let p = direction.cross(ac);
+    let determinant = ab.dot(p);
+    if determinant == 0.0 {
+        return None;
+    }
+    let from_a = origin - a;
+    let u = from_a.dot(p) / determinant;
+    let q = from_a.cross(ab);
+    let v = direction.dot(q) / determinant;
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| ac.dot(q) / determinant)
+}
+
+/// Whether a corner of one triangle, other than those they share, touches the plane of another.
+fn touch(one: [DVec3; 3], [a, b, c]: [DVec3; 3], shared: &[DVec3]) -> bool {
+    let normal = (b - a).cross(c - a).normalize();
+    let near = |corner: &DVec3| !shared.contains(corner) && normal.dot(*corner - a).abs() < 3.0 * CONTACT;
+    one.iter().any(near)
+}
+
+/// A vector with components from -1 to 1.
+fn vector(random: &mut Random) -> DVec3 {
+    DVec3::new(random.number(), random.number(), random.number()) * 2.0 - DVec3::ONE
+}
+
+/// A mesh turned anyhow, scaled and put somewhere.
+fn placed(mesh: Mesh, random: &mut Random) -> Mesh {
+    let turn = DMat3::from_axis_angle(random.direction(), random.number() * 6.0);
+    let (size, place) = (0.15 + 0.6 * random.number(), vector(random) * 0.7);
+    Mesh { positions: mesh.positions.iter().map(|point| turn * *point * size + place).collect(), ..mesh }
+}
+
+fn random_meshes(kind: u32, random: &mut Random) -> Vec<Mesh> {
+    match kind {
+        // Triangles by themselves, of all sizes, every third a needle.
+        0 => {
+            let count = 10 + (random.number() * 70.0) as u32;
+            let triangle = |number: u32| {
+                let size = 0.05 + 0.9 * random.number();
+                let a = vector(random);
+                let (u, v) = (random.direction() * size, random.direction() * size);
+                [a, a + u, a + if number % 3 == 0 { u * 0.4 + v * 0.02 } else { v }]
+            };
+            let positions = (0..count).flat_map(triangle).collect();
+            vec![mesh(positions, (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect())]
+        }
+        // Boxes through one another.
+        1 => (0..3 + (random.number() * 4.0) as u32)
+            .map(|_| placed(cuboid(-DVec3::ONE, DVec3::new(1.0, 0.2 + random.number(), random.number())), random))
+            .collect(),
+        // Spheres, most of them open.
+        2 => (0..2 + (random.number() * 3.0) as u32)
+            .map(|number| {
+                let mut sphere = icosphere(1 + number % 2);
+                let (side, limit) = (random.direction(), random.number() * 1.6);
+                sphere.triangles.retain(|corners| {
+                    corners.map(|corner| sphere.positions[corner as usize]).iter().any(|p| p.dot(side) < limit)
+                });
+                placed(sphere, random)
+            })
+            .collect(),
+        // Any three of some points: edges of many faces, faces that share corners and pass through one another.
+        _ => {
+            let count = 12 + (random.number() * 10.0) as u32;
+            let mut triangles: Vec<[u32; 3]> = Vec::new();
+            while triangles.len() < 2 * count as usize {
+                let mut corners = [(); 3].map(|()| (random.number() * f64::from(count)) as u32);
+                let is_known = |known: &[u32; 3]| corners.iter().all(|corner| known.contains(corner));
+                let [a, b, c] = corners;
+                if a != b && b != c && c != a && !triangles.iter().any(is_known) {
+                    corners.rotate_left(1);
+                    triangles.push(corners);
+                }
+            }
+            vec![mesh((0..count).map(|_| vector(random)).collect(), triangles)]
+        }
+    }
+}
+
+/// A scene seen from anywhere, now and then from within.
+fn random_scene(kind: u32, random: &mut Random) -> Scene {
+    let meshes = random_meshes(kind, random).into_iter().map(Arc::new).collect();
+    let distance = if random.number() < 0.4 { random.number() } else { 1.5 + 3.0 * random.number() };
+    let camera = CameraSettings {
+        eye: Some(random.direction() * distance),
+        target: Some(vector(random) * 0.2),
+        up: Some(random.direction()),
+        fov_y_degrees: 20.0 + 80.0 * random.number(),
+        parallel: random.number() < 0.4,
+        near: Some(0.01 + 0.3 * random.number().powi(2)),
+        far: Some(if random.number() < 0.3 { 0.8 + distance } else { 20.0 }),
+        ..CameraSettings::default()
+    };
+    let size = Size { width: 640, height: 400 };
+    Scene::new(meshes, &SceneSettings { camera, size, ..SceneSettings::default() }).unwrap()
+}
+
+fn check(kind: u32, seed: u64) -> Agreement {
+    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    (0..10).for_each(|_| {
+        random.number();
+    });
+    let scene = random_scene(kind, &mut random);
+    let agreement = Brute::new(&scene).compare(&lines(&scene), &mut random);
+    assert!(
+        agreement.longest_wrong_px <= 0.05 && agreement.wrong_px <= 1e-3 * agreement.length_px,
+        "kind {kind}, seed {seed}: {agreement:?}"
+    );
+    agreement
+}
+
+fn check_many(kind: u32) {
+    let cases = 60;
+    let mut all = Agreement::default();
+    let mut failures = Vec::new();
+    for seed in 1..=cases {
+        match std::panic::catch_unwind(|| check(kind, seed)) {
+            Ok(one) => {
+                all.length_px += one.length_px;
+                all.wrong_px += one.wrong_px;
+                all.longest_wrong_px = all.longest_wrong_px.max(one.longest_wrong_px);
+                all.segments += one.segments;
+                all.cuts += one.cuts;
+            }
+            Err(_) => failures.push(seed),
+        }
+    }
+    println!("kind {kind}: {all:?}");
+    assert!(failures.is_empty(), "kind {kind}: {} of {cases} scenes fail: {failures:?}", failures.len());
+    assert!(all.segments > 500, "{all:?}");
+}
+
+#[test]
+fn what_is_seen_of_loose_triangles_is_what_rays_see() {
+    check_many(0);
+}
+
+#[test]
+fn what_is_seen_of_boxes_through_one_another_is_what_rays_see() {
+    check_many(1);
+}
+
+#[test]
+fn what_is_seen_of_open_spheres_is_what_rays_see() {
+    check_many(2);
+}
+
+#[test]
+fn what_is_seen_of_faces_that_share_corners_anyhow_is_what_rays_see() {
+    check_many(3);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn what_is_seen_of_any_scene_is_what_rays_see(kind in 0u32..4, seed in any::<u64>()) {
+        check(kind, seed);
+    }
+}

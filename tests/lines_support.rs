@@ -1,0 +1,76 @@
+//! What the tests of the visible lines share: scenes of meshes, projections of their own, sums of lengths.
+
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
+use tinta::edges::{Class, ClassSet};
+use tinta::lines::{LineSegment, LineSettings, VisibleLines};
+use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
+
+/// A square picture of meshes, 512 pixels.
+pub fn scene_of(meshes: Vec<Mesh>, camera: CameraSettings) -> Scene {
+    let settings = SceneSettings { camera, size: Size { width: 512, height: 512 }, ..SceneSettings::default() };
+    Scene::new(meshes.into_iter().map(Arc::new).collect(), &settings).unwrap()
+}
+
+/// A named view or one by angles, in either projection.
+pub fn view(name: &str, parallel: bool) -> CameraSettings {
+    CameraSettings { view: name.parse().unwrap(), parallel, ..CameraSettings::default() }
+}
+
+/// The lines by the default settings, checked for what must hold of any.
+pub fn lines(scene: &Scene) -> VisibleLines {
+    lines_with(scene, &LineSettings::default())
+}
+
+/// As [`lines`] with settings.
+pub fn lines_with(scene: &Scene, settings: &LineSettings) -> VisibleLines {
+    let found = VisibleLines::of(scene, settings).unwrap();
+    let size = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height));
+    for segment in &found.segments {
+        for end in segment.ends_px {
+            let is_inside = end.cmpge(DVec2::splat(-1e-6)).all() && end.cmple(size + 1e-6).all();
+            assert!(end.is_finite() && is_inside, "{segment:?}");
+        }
+        assert!(segment.angle_degrees.is_none_or(f64::is_finite), "{segment:?}");
+        assert_eq!(segment.edge.is_none(), segment.class == Class::Intersection, "{segment:?}");
+    }
+    found
+}
+
+/// Settings for these classes.
+pub fn only(classes: &[Class]) -> LineSettings {
+    LineSettings { classes: ClassSet::of(classes), ..LineSettings::default() }
+}
+
+/// Where a point of the world is drawn, by the matrices that GL gets: pixels, y down.
+pub fn px(scene: &Scene, point: DVec3) -> DVec2 {
+    let ndc = (scene.camera.clip_from_view(scene.size.aspect()) * scene.camera.view_from_world()).project_point3(point);
+    let size = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height));
+    DVec2::new(ndc.x + 1.0, 1.0 - ndc.y) * 0.5 * size
+}
+
+/// The length of a line of the world in the picture.
+pub fn px_between(scene: &Scene, a: DVec3, b: DVec3) -> f64 {
+    px(scene, a).distance(px(scene, b))
+}
+
+/// A piece's length.
+pub fn length(segment: &LineSegment) -> f64 {
+    segment.ends_px[0].distance(segment.ends_px[1])
+}
+
+/// The length of all pieces of a class, visible or hidden.
+pub fn of_class(lines: &VisibleLines, class: Class, is_visible: bool) -> f64 {
+    lines.segments.iter().filter(|s| s.class == class && s.is_visible == is_visible).map(length).sum()
+}
+
+/// The length of all pieces, visible or hidden.
+pub fn total(lines: &VisibleLines, is_visible: bool) -> f64 {
+    lines.segments.iter().filter(|segment| segment.is_visible == is_visible).map(length).sum()
+}
+
+/// Asserts that two lengths or places are the same but for rounding.
+#[track_caller]
+pub fn assert_near(actual: f64, expected: f64, tolerance: f64, what: &str) {
+    assert!((actual - expected).abs() <= tolerance, "{what}: {actual} px instead of {expected}");
+}
