@@ -125,8 +125,14 @@ impl<'a> Pair<'a> {
                 let [first, second] = [self.both_crossings(0)?, self.both_crossings(1)?];
                 let low = if first.0.along >= second.0.along { first.0 } else { second.0 };
                 let high = if first.1.along <= second.1.along { first.1 } else { second.1 };
-                if low.along >= high.along {
+                if low.along - high.along > self.shortest * self.direction.length() {
                     return None;
+                }
+                if low.along >= high.along {
+                    // Edge through edge: rounding must not lose the cut. A line of no length is none.
+                    let ends = [low.piercing.point; 2];
+                    let piercings = [Some(low.piercing), Some(high.piercing)];
+                    return Some((Intersection { faces: self.numbers, ends }, piercings));
                 }
                 (low.piercing, high.piercing)
             }
