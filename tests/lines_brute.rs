@@ -1,7 +1,7 @@
 //! Visible lines of random scenes against brute force: every edge classified, clipped and looked at point by point, with
 //! formulas of their own in world space.
 
-use crate::lines_support::{length, lines};
+use crate::lines_support::{length, lines, scene_of};
 use crate::shapes::{Random, cuboid, icosphere, mesh};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use proptest::prelude::*;
@@ -11,7 +11,7 @@ use tinta::camera::Projection;
 use tinta::edges::Class;
 use tinta::lines::{LineSegment, VisibleLines};
 use tinta::tolerances::CONTACT;
-use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
+use tinta::{CameraSettings, LoadOptions, Mesh, Scene, SceneSettings, Size, load};
 
 /// An edge of an object: the object's number and two positions, the lower first.
 type EdgeKey = (u32, [u32; 2]);
@@ -456,6 +456,29 @@ fn what_is_seen_of_open_spheres_is_what_rays_see() {
 #[test]
 fn what_is_seen_of_faces_that_share_corners_anyhow_is_what_rays_see() {
     check_many(3);
+}
+
+#[test]
+fn what_is_seen_of_the_ant_and_the_gear_is_what_rays_see() {
+    for (name, view, parallel) in
+        [("ant", "33,17", false), ("ant", "33,17", true), ("gear", "30,15", false), ("gear", "front", false)]
+    {
+        let mesh = load(&format!("builtin:{name}"), &LoadOptions::default()).unwrap().mesh;
+        let scene = scene_of(vec![mesh], crate::lines_support::view(view, parallel));
+        let (brute, mesh) = (Brute::new(&scene), &scene.objects[0].mesh);
+        let mut agreement = Agreement::default();
+        for piece in &lines(&scene).segments {
+            let Some(edge) = piece.edge else { continue };
+            let number = |vertex: u32| mesh.file_vertices.iter().position(|known| *known == vertex).unwrap();
+            let numbers = edge.map(|vertex| number(vertex) as u32);
+            let is_own = |face: usize| numbers.iter().all(|number| mesh.triangles[face].contains(number));
+            let ends = numbers.map(|number| mesh.positions[number as usize]);
+            brute.look(piece, ends, is_own, &mut Random(9), &mut agreement);
+        }
+        println!("{name} {view}: {agreement:?}");
+        let share = agreement.wrong_px / agreement.length_px;
+        assert!(agreement.longest_wrong_px <= 0.05 && share < 1e-3, "{name} {view} {parallel}: {agreement:?}");
+    }
 }
 
 proptest! {
