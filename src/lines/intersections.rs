@@ -35,18 +35,23 @@ pub(super) fn intersections(space: &Space, faces: &Faces) -> (Vec<Intersection>,
         let mut found = Vec::new();
         faces.tree.pairs(groups, |first, second| {
             let pair = [first.min(second), first.max(second)];
-            found.extend(Pair::new(space, faces, pair).and_then(|pair| Some((pair.intersection()?, pair.shortest))));
+            found.extend(Pair::new(space, faces, pair).and_then(|pair| pair.meeting()));
         });
         found
     });
-    let mut found: Vec<((Intersection, [Option<Piercing>; 2]), f64)> = parts.concat();
-    found.sort_unstable_by_key(|((intersection, _), _)| intersection.faces);
-    let piercings = found.iter().flat_map(|((_, piercings), _)| *piercings).flatten().collect();
-    // Needles have no intersection worth a line, but their edges are cut all the same.
-    let is_line =
-        |intersection: &Intersection, shortest| intersection.ends[0].distance(intersection.ends[1]) > shortest;
-    let lines = found.into_iter().map(|((line, _), shortest)| (line, shortest));
-    (lines.filter(|(line, shortest)| is_line(line, *shortest)).map(|(line, _)| line).collect(), piercings)
+    let mut found: Vec<Meeting> = parts.concat();
+    found.sort_unstable_by_key(|meeting| meeting.intersection.faces);
+    let piercings = found.iter().flat_map(|meeting| meeting.piercings).flatten().collect();
+    (found.into_iter().filter(|meeting| meeting.is_line).map(|meeting| meeting.intersection).collect(), piercings)
+}
+
+/// Where two faces meet.
+#[derive(Clone, Copy)]
+struct Meeting {
+    intersection: Intersection,
+    /// Whether it is long enough to be a line: needles have no intersection worth one, but their edges are cut all the same.
+    is_line: bool,
+    piercings: [Option<Piercing>; 2],
 }
 
 /// Two faces of which each has corners on both sides of the other's plane.
@@ -119,21 +124,18 @@ impl<'a> Pair<'a> {
         Some(Self { faces, numbers, distances: [first, second], direction, shared, shortest: contact })
     }
 
-    fn intersection(&self) -> Option<(Intersection, [Option<Piercing>; 2])> {
+    fn meeting(&self) -> Option<Meeting> {
+        let mut is_line = true;
         let (low, high) = match self.shared {
             None => {
                 let [first, second] = [self.both_crossings(0)?, self.both_crossings(1)?];
                 let low = if first.0.along >= second.0.along { first.0 } else { second.0 };
                 let high = if first.1.along <= second.1.along { first.1 } else { second.1 };
+                // Where an edge passes through an edge, rounding must not lose the cut.
                 if low.along - high.along > self.shortest * self.direction.length() {
                     return None;
                 }
-                if low.along >= high.along {
-                    // Edge through edge: rounding must not lose the cut. A line of no length is none.
-                    let ends = [low.piercing.point; 2];
-                    let piercings = [Some(low.piercing), Some(high.piercing)];
-                    return Some((Intersection { faces: self.numbers, ends }, piercings));
-                }
+                is_line = low.along < high.along;
                 (low.piercing, high.piercing)
             }
             Some([i, j]) => {
@@ -152,7 +154,12 @@ impl<'a> Pair<'a> {
             }
         };
         let piercings = [low, high].map(|piercing| (piercing.edge[0] != u32::MAX).then_some(piercing));
-        Some((Intersection { faces: self.numbers, ends: [low.point, high.point] }, piercings))
+        is_line &= low.point.distance(high.point) > self.shortest;
+        Some(Meeting {
+            intersection: Intersection { faces: self.numbers, ends: [low.point, high.point] },
+            is_line,
+            piercings,
+        })
     }
 
     /// Where a face's rim passes the other's plane: the lower place along the common line first.
