@@ -274,7 +274,9 @@ fn of_a_torus_the_inner_contour_is_hidden_where_the_tube_lies_before_it() {
             let pieces: Vec<[DVec2; 2]> =
                 found.segments.iter().filter(|s| s.is_visible == is_visible).map(|s| s.ends_px).collect();
             let points = &smooth[usize::from(is_visible)];
-            let from_points = |p: DVec2| points.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min);
+            // Hidden folds lie along the visible contour too.
+            let places: Vec<DVec2> = smooth[0].iter().filter(|_| !is_visible).chain(&smooth[1]).copied().collect();
+            let from_points = |p: DVec2| places.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min);
             let from_pieces = |p: DVec2| pieces.iter().map(|ends| from_piece(p, *ends)).fold(f64::INFINITY, f64::min);
             let missed = points.iter().filter(|point| from_pieces(**point) > 0.5).count();
             let all: f64 = pieces.iter().map(|[a, b]| a.distance(*b)).sum();
@@ -282,10 +284,10 @@ fn of_a_torus_the_inner_contour_is_hidden_where_the_tube_lies_before_it() {
             let invented: f64 = invented.map(|[a, b]| a.distance(*b)).sum();
             let what = format!("{degrees} degrees, visible {is_visible}: of {} points", points.len());
             assert!(missed as f64 <= 0.01 * points.len() as f64, "{what} {missed} have no line");
-            // The hidden part folds most.
-            assert!(invented <= if is_visible { 0.03 } else { 0.1 } * all, "{what} {invented} of {all} px are none");
+            assert!(invented <= 0.05 * all, "{what} {invented} of {all} px are none");
         }
-        assert_eq!(smooth[0].is_empty(), degrees > 60.0, "from above all of both contours is seen");
+        // The ellipse in the middle of the tube has its smallest radius of curvature, 2 sin^2, above the tube's.
+        assert_eq!(smooth[0].is_empty(), ring * elevation.sin().powi(2) > tube, "it folds at {degrees}");
     }
 }
 

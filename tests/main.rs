@@ -13,6 +13,7 @@ mod licences;
 mod lines_brute;
 mod lines_degenerate;
 mod lines_invariance;
+mod lines_random;
 mod lines_rules;
 mod lines_shapes;
 mod lines_support;
