@@ -2,7 +2,7 @@
 //! formulas of their own in world space.
 
 use crate::lines_random::random_scene;
-use crate::lines_support::{length, lines, scene_of};
+use crate::lines_support::{length, lines, pierce, scene_of};
 use crate::shapes::Random;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use proptest::prelude::*;
@@ -302,21 +302,6 @@ impl<'a> Brute<'a> {
             }
         }
     }
-}
-
-/// Where a line passes through a triangle, as a share of its direction (Möller and Trumbore 1997).
-fn pierce(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
-    let (ab, ac) = (b - a, c - a);
-    let p = direction.cross(ac);
-    let determinant = ab.dot(p);
-    if determinant == 0.0 {
-        return None;
-    }
-    let from_a = origin - a;
-    let u = from_a.dot(p) / determinant;
-    let q = from_a.cross(ab);
-    let v = direction.dot(q) / determinant;
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| ac.dot(q) / determinant)
 }
 
 /// Whether a corner of one triangle, other than those they share, touches the plane of another.

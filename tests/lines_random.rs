@@ -26,7 +26,7 @@ fn random_meshes(kind: u32, random: &mut Random) -> Vec<Mesh> {
                 let size = 0.05 + 0.9 * random.number();
                 let a = vector(random);
                 let (u, v) = (random.direction() * size, random.direction() * size);
-                [a, a + u, a + if number % 3 == 0 { u * 0.4 + v * 0.02 } else { v }]
+                [a, a + u, a + if number.is_multiple_of(3) { u * 0.4 + v * 0.02 } else { v }]
             };
             let positions = (0..count).flat_map(triangle).collect();
             vec![mesh(positions, (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect())]
