@@ -7,6 +7,7 @@ mod models;
 mod options;
 mod progress;
 mod render;
+mod shell;
 mod textures;
 
 use clap::{Parser, Subcommand};

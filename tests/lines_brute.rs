@@ -1,17 +1,17 @@
 //! Visible lines of random scenes against brute force: every edge classified, clipped and looked at point by point, with
 //! formulas of their own in world space.
 
-use crate::lines_support::{length, lines};
-use crate::shapes::{Random, cuboid, icosphere, mesh};
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use crate::lines_random::random_scene;
+use crate::lines_support::{length, lines, pierce, scene_of};
+use crate::shapes::Random;
+use glam::{DMat4, DVec2, DVec3, DVec4};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use tinta::camera::Projection;
 use tinta::edges::Class;
 use tinta::lines::{LineSegment, VisibleLines};
 use tinta::tolerances::CONTACT;
-use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
+use tinta::{LoadOptions, Scene, load};
 
 /// An edge of an object: the object's number and two positions, the lower first.
 type EdgeKey = (u32, [u32; 2]);
@@ -304,103 +304,11 @@ impl<'a> Brute<'a> {
     }
 }
 
-/// Where a line passes through a triangle, as a share of its direction (Möller and Trumbore 1997).
-fn pierce(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
-    let (ab, ac) = (b - a, c - a);
-    let p = direction.cross(ac);
-    let determinant = ab.dot(p);
-    if determinant == 0.0 {
-        return None;
-    }
-    let from_a = origin - a;
-    let u = from_a.dot(p) / determinant;
-    let q = from_a.cross(ab);
-    let v = direction.dot(q) / determinant;
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| ac.dot(q) / determinant)
-}
-
 /// Whether a corner of one triangle, other than those they share, touches the plane of another.
 fn touch(one: [DVec3; 3], [a, b, c]: [DVec3; 3], shared: &[DVec3]) -> bool {
     let normal = (b - a).cross(c - a).normalize();
     let near = |corner: &DVec3| !shared.contains(corner) && normal.dot(*corner - a).abs() < 3.0 * CONTACT;
     one.iter().any(near)
-}
-
-/// A vector with components from -1 to 1.
-fn vector(random: &mut Random) -> DVec3 {
-    DVec3::new(random.number(), random.number(), random.number()) * 2.0 - DVec3::ONE
-}
-
-/// A mesh turned anyhow, scaled and put somewhere.
-fn placed(mesh: Mesh, random: &mut Random) -> Mesh {
-    let turn = DMat3::from_axis_angle(random.direction(), random.number() * 6.0);
-    let (size, place) = (0.15 + 0.6 * random.number(), vector(random) * 0.7);
-    Mesh { positions: mesh.positions.iter().map(|point| turn * *point * size + place).collect(), ..mesh }
-}
-
-fn random_meshes(kind: u32, random: &mut Random) -> Vec<Mesh> {
-    match kind {
-        // Triangles by themselves, of all sizes, every third a needle.
-        0 => {
-            let count = 10 + (random.number() * 70.0) as u32;
-            let triangle = |number: u32| {
-                let size = 0.05 + 0.9 * random.number();
-                let a = vector(random);
-                let (u, v) = (random.direction() * size, random.direction() * size);
-                [a, a + u, a + if number % 3 == 0 { u * 0.4 + v * 0.02 } else { v }]
-            };
-            let positions = (0..count).flat_map(triangle).collect();
-            vec![mesh(positions, (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect())]
-        }
-        // Boxes through one another.
-        1 => (0..3 + (random.number() * 4.0) as u32)
-            .map(|_| placed(cuboid(-DVec3::ONE, DVec3::new(1.0, 0.2 + random.number(), random.number())), random))
-            .collect(),
-        // Spheres, most of them open.
-        2 => (0..2 + (random.number() * 3.0) as u32)
-            .map(|number| {
-                let mut sphere = icosphere(1 + number % 2);
-                let (side, limit) = (random.direction(), random.number() * 1.6);
-                sphere.triangles.retain(|corners| {
-                    corners.map(|corner| sphere.positions[corner as usize]).iter().any(|p| p.dot(side) < limit)
-                });
-                placed(sphere, random)
-            })
-            .collect(),
-        // Any three of some points: edges of many faces, faces that share corners and pass through one another.
-        _ => {
-            let count = 12 + (random.number() * 10.0) as u32;
-            let mut triangles: Vec<[u32; 3]> = Vec::new();
-            while triangles.len() < 2 * count as usize {
-                let mut corners = [(); 3].map(|()| (random.number() * f64::from(count)) as u32);
-                let is_known = |known: &[u32; 3]| corners.iter().all(|corner| known.contains(corner));
-                let [a, b, c] = corners;
-                if a != b && b != c && c != a && !triangles.iter().any(is_known) {
-                    corners.rotate_left(1);
-                    triangles.push(corners);
-                }
-            }
-            vec![mesh((0..count).map(|_| vector(random)).collect(), triangles)]
-        }
-    }
-}
-
-/// A scene seen from anywhere, now and then from within.
-fn random_scene(kind: u32, random: &mut Random) -> Scene {
-    let meshes = random_meshes(kind, random).into_iter().map(Arc::new).collect();
-    let distance = if random.number() < 0.4 { random.number() } else { 1.5 + 3.0 * random.number() };
-    let camera = CameraSettings {
-        eye: Some(random.direction() * distance),
-        target: Some(vector(random) * 0.2),
-        up: Some(random.direction()),
-        fov_y_degrees: 20.0 + 80.0 * random.number(),
-        parallel: random.number() < 0.4,
-        near: Some(0.01 + 0.3 * random.number().powi(2)),
-        far: Some(if random.number() < 0.3 { 0.8 + distance } else { 20.0 }),
-        ..CameraSettings::default()
-    };
-    let size = Size { width: 640, height: 400 };
-    Scene::new(meshes, &SceneSettings { camera, size, ..SceneSettings::default() }).unwrap()
 }
 
 fn check(kind: u32, seed: u64) -> Agreement {
@@ -456,6 +364,29 @@ fn what_is_seen_of_open_spheres_is_what_rays_see() {
 #[test]
 fn what_is_seen_of_faces_that_share_corners_anyhow_is_what_rays_see() {
     check_many(3);
+}
+
+#[test]
+fn what_is_seen_of_the_ant_and_the_gear_is_what_rays_see() {
+    for (name, view, parallel) in
+        [("ant", "33,17", false), ("ant", "33,17", true), ("gear", "30,15", false), ("gear", "front", false)]
+    {
+        let mesh = load(&format!("builtin:{name}"), &LoadOptions::default()).unwrap().mesh;
+        let scene = scene_of(vec![mesh], crate::lines_support::view(view, parallel));
+        let (brute, mesh) = (Brute::new(&scene), &scene.objects[0].mesh);
+        let mut agreement = Agreement::default();
+        for piece in &lines(&scene).segments {
+            let Some(edge) = piece.edge else { continue };
+            let number = |vertex: u32| mesh.file_vertices.iter().position(|known| *known == vertex).unwrap();
+            let numbers = edge.map(|vertex| number(vertex) as u32);
+            let is_own = |face: usize| numbers.iter().all(|number| mesh.triangles[face].contains(number));
+            let ends = numbers.map(|number| mesh.positions[number as usize]);
+            brute.look(piece, ends, is_own, &mut Random(9), &mut agreement);
+        }
+        println!("{name} {view}: {agreement:?}");
+        let share = agreement.wrong_px / agreement.length_px;
+        assert!(agreement.longest_wrong_px <= 0.05 && share < 1e-3, "{name} {view} {parallel}: {agreement:?}");
+    }
 }
 
 proptest! {

@@ -74,3 +74,18 @@ pub fn total(lines: &VisibleLines, is_visible: bool) -> f64 {
 pub fn assert_near(actual: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((actual - expected).abs() <= tolerance, "{what}: {actual} px instead of {expected}");
 }
+
+/// Where a line passes through a triangle, as a share of its direction (Möller and Trumbore 1997).
+pub fn pierce(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+    let (ab, ac) = (b - a, c - a);
+    let p = direction.cross(ac);
+    let determinant = ab.dot(p);
+    if determinant == 0.0 {
+        return None;
+    }
+    let from_a = origin - a;
+    let u = from_a.dot(p) / determinant;
+    let q = from_a.cross(ab);
+    let v = direction.dot(q) / determinant;
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| ac.dot(q) / determinant)
+}

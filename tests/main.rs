@@ -15,6 +15,7 @@ mod lines_brute;
 mod lines_degenerate;
 mod lines_inking;
 mod lines_invariance;
+mod lines_random;
 mod lines_rules;
 mod lines_shapes;
 mod lines_support;

@@ -278,14 +278,17 @@ impl Sides {
 impl Pair<'_> {
     /// The line both have in common, if their parts of it overlap.
     fn common(&self) -> Option<Found> {
+        let mut overlap = true;
         let (low, high) = match self.shared {
             None => {
                 let [first, second] = [self.both_crossings(0)?, self.both_crossings(1)?];
                 let low = if first.0.along >= second.0.along { first.0 } else { second.0 };
                 let high = if first.1.along <= second.1.along { first.1 } else { second.1 };
-                if low.along >= high.along {
+                // Where an edge passes through an edge, rounding must not lose the cut.
+                if low.along - high.along > self.shortest * self.direction.length() {
                     return None;
                 }
+                overlap = low.along < high.along;
                 (low.piercing, high.piercing)
             }
             Some([i, j]) => {
@@ -304,7 +307,7 @@ impl Pair<'_> {
             }
         };
         let piercings = [low, high].map(|piercing| (piercing.edge[0] != u32::MAX).then_some(piercing));
-        let is_line = low.point.distance(high.point) > self.shortest;
+        let is_line = overlap && low.point.distance(high.point) > self.shortest;
         Some(Found { faces: self.places, ends: [low.point, high.point], is_line, piercings, touch: self.touch() })
     }
 

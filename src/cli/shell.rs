@@ -1,0 +1,15 @@
+//! Command lines as a shell takes them, for files that carry the command that made them.
+
+/// The program's name and its words, quoted where that is needed.
+pub fn command_line(words: impl Iterator<Item = String>) -> String {
+    words.fold("tinta".to_owned(), |text, word| text + " " + &quoted(&word))
+}
+
+/// A word as a shell takes it.
+pub fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_=+,.:/@%".contains(letter);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
