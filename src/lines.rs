@@ -175,18 +175,17 @@ impl VisibleLines {
         let topology_ms = milliseconds_since(clock);
 
         let clock = Instant::now();
-        let (mut lines, edges) = features::edge_features(scene, &faces, &parts, settings);
+        let (mut lines, mut edges) = features::edge_features(scene, &faces, &parts, settings);
         let silhouette_ms = milliseconds_since(clock);
 
         let clock = Instant::now();
         let (intersections, piercings) = intersections::intersections(&space, &faces);
         if settings.classes.contains(Class::Intersection) {
+            edges.intersection = intersections.len();
             lines.extend(features::intersection_features(&faces, &parts, &intersections));
         }
         lines.extend(features::near_plane_features(&space, &faces));
         let segments = Lines::new(&space, &faces, &lines, &piercings).segments(progress);
-        let mut edges = edges;
-        edges.intersection = intersections.len();
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms };
         Ok(Self { size: scene.size, segments, edges, times })

@@ -5,13 +5,17 @@ mod settings;
 use super::options::{CameraArguments, ModelArguments};
 use super::progress::Progress;
 use settings::settings;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use tinta::measure::{MeasureSettings, Setting, Subject, measure, steps};
+use tinta::measure::{MeasureSettings, Measured, Row, Setting, Subject, measure, steps};
 use tinta::mesh::load;
+use tinta::picture::PictureFormat;
 use tinta::renderer::milliseconds_since;
-use tinta::{Backend, Error, Mesh, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
+use tinta::report::{ReportInfo, ReportPicture, RowLog, read_rows};
+use tinta::{
+    Backend, Error, Mesh, Picture, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName, Target,
+};
 
 /// Measure every style's error against its run time; a table, plots and a page come out
 #[derive(clap::Args)]
@@ -81,4 +85,181 @@ fn parse_suite(text: &str) -> std::result::Result<Suite, String> {
         "all" => Ok(&["builtin:bust", "builtin:ant", "builtin:gear", "builtin:open-box"]),
         _ => Err("choose papers, solids or all".to_owned()),
     }
+}
+
+/// Timed frames of a setting.
+const FRAMES: [usize; 2] = [21, 7];
+
+/// How long a setting takes besides its frames, seconds: its pictures drawn and compared.
+const SECONDS_A_SETTING: f64 = 0.35;
+
+pub fn run(arguments: &Arguments) -> Result<()> {
+    if !arguments.merge.is_empty() {
+        return merge(arguments);
+    }
+    let how = MeasureSettings {
+        tolerance_px: tolerance(arguments)?,
+        frames: arguments.frames.map_or(FRAMES[usize::from(arguments.quick)], |frames| frames as usize),
+        machine: arguments.machine.clone().unwrap_or_else(|| MeasureSettings::default().machine),
+    };
+    let settings = settings(&arguments.styles, arguments.quick)?;
+    make_folder(&arguments.output)?;
+    let (mut log, mut rows) = match arguments.resume {
+        true => RowLog::resume(&arguments.output)?,
+        false => (RowLog::create(&arguments.output)?, Vec::new()),
+    };
+    let models: Vec<&str> = match arguments.suite {
+        Some(suite) => suite.iter().copied().chain(arguments.models.iter().map(String::as_str)).collect(),
+        None => arguments.models.iter().map(String::as_str).collect(),
+    };
+    let mut renderer = Renderer::new(arguments.backend)?;
+    let groups = groups(arguments, &models)?;
+    super::say(&format!(
+        "tinta: {} settings on {} models at {} sizes, {} frames each: about {}",
+        settings.len(),
+        models.len(),
+        arguments.size.len(),
+        how.frames,
+        in_words(expected(&mut renderer, &groups, settings.len(), how.frames)?)
+    ));
+    let progress = Progress::new("measuring", (groups.len() * steps(settings.len(), how.frames)) as u64);
+    let mut pictures = Vec::new();
+    for group in groups {
+        let subject = Subject::new(&group.model, group.scene, group.load_ms)?;
+        let is_known = |setting: &Setting| {
+            let Size { width, height } = subject.scene.size;
+            let is_it = |row: &Row| {
+                row.machine == how.machine
+                    && row.model == subject.model
+                    && row.size == [width, height]
+                    && row.options == setting.options
+            };
+            rows.iter().any(is_it)
+        };
+        let left: Vec<Setting> = settings.iter().filter(|setting| !is_known(setting)).cloned().collect();
+        let skipped = steps(settings.len(), how.frames) - steps(left.len(), how.frames);
+        (0..skipped).for_each(|_| progress.step());
+        let (measured, left_out) = measure(&mut renderer, &subject, &left, &how, || progress.step())?;
+        left_out.iter().for_each(|reason| super::say(&format!("tinta: {reason}")));
+        for Measured { row, error_picture } in measured {
+            log.append(&row)?;
+            if let Some(picture) = error_picture.filter(|_| row.is_faithful || row.style == "ink") {
+                pictures.push(error_page(arguments, &row, &picture)?);
+            }
+            rows.push(row);
+        }
+    }
+    drop(progress);
+    report(arguments, &rows, pictures, &renderer.context().renderer.clone())
+}
+
+fn tolerance(arguments: &Arguments) -> Result<f64> {
+    if arguments.tolerance > 0.0 && arguments.tolerance <= 1000.0 {
+        return Ok(arguments.tolerance);
+    }
+    Err(Error::Setting {
+        setting: format!("--tolerance {}", arguments.tolerance),
+        problem: "it is a number of pixels above 0 and at most 1000".to_owned(),
+    })
+}
+
+/// A model at a size.
+struct Group {
+    model: String,
+    scene: Scene,
+    load_ms: f64,
+}
+
+fn groups(arguments: &Arguments, models: &[&str]) -> Result<Vec<Group>> {
+    let mut groups = Vec::new();
+    for model in models {
+        let start = Instant::now();
+        let loaded = load(model, &arguments.model.options())?;
+        let load_ms = milliseconds_since(start);
+        loaded.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
+        let mesh: Arc<Mesh> = Arc::new(loaded.mesh);
+        for size in &arguments.size {
+            let settings =
+                SceneSettings { size: *size, camera: arguments.camera.settings(), ..SceneSettings::default() };
+            let scene = Scene::new(vec![mesh.clone()], &settings)?;
+            groups.push(Group { model: (*model).to_owned(), scene, load_ms });
+        }
+    }
+    Ok(groups)
+}
+
+/// How long all of it will take, by one frame of each group.
+fn expected(renderer: &mut Renderer, groups: &[Group], settings: usize, frames: usize) -> Result<Duration> {
+    let style = Style::named(StyleName::ThreePass);
+    let mut seconds = 0.0;
+    for group in groups {
+        let plan = style.plan(&group.scene, Show::Final)?;
+        let frame = renderer.time_frames(&group.scene, &plan, 1, 1)?.first().copied().unwrap_or_default() * 1e-3;
+        let pixels = group.scene.size.pixel_count() as f64 / (512.0 * 512.0);
+        seconds += settings as f64 * (SECONDS_A_SETTING * pixels.max(0.2) + frame * (frames as f64 * 1.4 + 10.0));
+    }
+    Ok(Duration::from_secs_f64(seconds))
+}
+
+fn in_words(time: Duration) -> String {
+    match time.as_secs() {
+        0..=90 => format!("{} seconds", time.as_secs().max(1)),
+        seconds => format!("{} minutes", seconds.div_ceil(60)),
+    }
+}
+
+fn make_folder(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).map_err(|error| Error::Output {
+        path: folder.display().to_string(),
+        problem: match folder.is_file() {
+            true => "this is a file; name a folder".to_owned(),
+            false => format!("the folder cannot be made ({error}); choose another"),
+        },
+    })
+}
+
+/// Writes a picture of the error and hands it over for the page.
+fn error_page(arguments: &Arguments, row: &Row, picture: &Picture) -> Result<ReportPicture> {
+    let folder = arguments.output.join("errors");
+    make_folder(&folder)?;
+    let model: String = row.model.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+    let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ','], "-");
+    let path = folder.join(format!("{}-{}x{}-{options}.png", model.trim_matches('-'), row.size[0], row.size[1]));
+    Target::File { path: path.clone(), format: PictureFormat::Png }.write(picture)?;
+    let png = std::fs::read(&path).map_err(|error| Error::Output {
+        path: path.display().to_string(),
+        problem: format!("it cannot be read again ({error}); choose another folder"),
+    })?;
+    let f1 = row.lines.as_ref().map(|lines| format!(", F1 {:.3}", lines.f1)).unwrap_or_default();
+    let caption = format!("{}, {}x{}: {}{f1}", row.model, row.size[0], row.size[1], row.options);
+    Ok(ReportPicture { caption, model: Some(row.model.clone()), png })
+}
+
+fn report(arguments: &Arguments, rows: &[Row], pictures: Vec<ReportPicture>, gl: &str) -> Result<()> {
+    let mut notes = vec![("Models".to_owned(), arguments.models.join(", "))];
+    notes.retain(|(_, value)| !value.is_empty());
+    if !gl.is_empty() {
+        notes.push(("OpenGL".to_owned(), gl.to_owned()));
+    }
+    let info = ReportInfo { command: command(), version: env!("CARGO_PKG_VERSION").to_owned(), notes, pictures };
+    tinta::report::write(&arguments.output, rows, &info)?;
+    super::print(&format!("{}\n", arguments.output.join("report.html").display()))
+}
+
+fn command() -> String {
+    super::shell::command_line(std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()))
+}
+
+/// Puts the rows of several files together.
+fn merge(arguments: &Arguments) -> Result<()> {
+    let mut rows: Vec<Row> = Vec::new();
+    for path in &arguments.merge {
+        for row in read_rows(path)? {
+            if rows.iter().all(|known| known.key() != row.key()) {
+                rows.push(row);
+            }
+        }
+    }
+    make_folder(&arguments.output)?;
+    report(arguments, &rows, Vec::new(), "")
 }

@@ -2,6 +2,7 @@
 
 use super::super::models::load_meshes;
 use super::super::progress::Progress;
+use super::super::shell::command_line;
 use super::{Arguments, model_records};
 use std::path::Path;
 use std::str::FromStr;
@@ -238,9 +239,8 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &Te
 /// The command line as a shell takes it, with `drawing` in the place of the output's own name: the same drawing is the same
 /// bytes wherever it is written.
 fn command(words: impl Iterator<Item = String>) -> String {
-    let mut text = "tinta".to_owned();
     let mut is_output = false;
-    for word in words {
+    command_line(words.map(|word| {
         let named = |prefix: &str| word.strip_prefix(prefix).map(|name| format!("{prefix}{}", without_name(name)));
         let plain = if is_output {
             without_name(&word)
@@ -252,10 +252,8 @@ fn command(words: impl Iterator<Item = String>) -> String {
             named("-o=").or_else(|| named("-o")).unwrap_or_else(|| word.clone())
         };
         is_output = !is_output && (word == "-o" || word == "--output");
-        text.push(' ');
-        text.push_str(&quoted(&plain));
-    }
-    text
+        plain
+    }))
 }
 
 fn without_name(output: &str) -> String {
@@ -263,14 +261,6 @@ fn without_name(output: &str) -> String {
         Some(extension) => format!("drawing.{}", extension.to_string_lossy()),
         None => output.to_owned(),
     }
-}
-
-fn quoted(word: &str) -> String {
-    let is_plain = |letter: char| letter.is_alphanumeric() || "-_=+,.:/@%".contains(letter);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 #[cfg(test)]
