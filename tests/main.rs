@@ -13,6 +13,8 @@ mod inking;
 mod licences;
 mod lines_inking;
 mod pipeline;
+mod report;
+mod report_page;
 mod shapes;
 mod shared_models;
 mod silhouettes;
