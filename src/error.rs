@@ -58,6 +58,16 @@ pub enum Error {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// Measured rows cannot be read.
+    #[error("{path}{}: {problem}", line.map(|line| format!(": line {line}")).unwrap_or_default())]
+    Rows {
+        /// The file as the user named it.
+        path: String,
+        /// The line at fault, 1-based; `None` for the file as a whole.
+        line: Option<u64>,
+        /// What is wrong and what to do.
+        problem: String,
+    },
     /// No way to an OpenGL 2.1 context worked.
     #[error(
         "no OpenGL 2.1 context could be made (tried {}); install Mesa's software renderer, on Debian: apt-get install libegl1 libgl1-mesa-dri libosmesa6",

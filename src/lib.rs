@@ -38,6 +38,7 @@ pub mod picture;
 pub mod plan;
 pub mod record;
 pub mod renderer;
+pub mod report;
 pub mod scene;
 pub mod sheet;
 pub mod styles;

@@ -21,6 +21,8 @@ mod lines_shapes;
 mod lines_support;
 mod measure;
 mod pipeline;
+mod report;
+mod report_page;
 mod shapes;
 mod shared_models;
 mod silhouettes;

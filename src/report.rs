@@ -1,0 +1,102 @@
+//! Reports on measured rows: `results.jsonl` row by row, then `results.csv`, plots of error against run time and one
+//! page that holds all of it.
+//!
+//! In: [`Row`]s of one machine or several, and [`ReportInfo`] about the run. Out: files in a folder, each written whole.
+//! Nothing here measures, draws models or looks at the clock. The plots are work-precision diagrams as numerical
+//! analysts draw them (Hairer, Nørsett, Wanner: Solving Ordinary Differential Equations I, section II.10).
+
+mod canvas;
+mod columns;
+mod html;
+mod labels;
+mod log;
+mod marks;
+mod plot;
+mod ratios;
+mod settings;
+
+pub use columns::{Column, columns};
+pub use html::html;
+pub use log::{ROWS_FILE, RowLog, read_rows};
+pub use plot::{Shape, plot};
+pub use settings::{Machine, Measure, Point, Points, machines, pareto, points};
+
+use crate::error::{Error, Result};
+use crate::measure::Row;
+use crate::output::write_whole;
+use columns::Value;
+use std::path::Path;
+
+/// What a report says besides its rows.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ReportInfo {
+    /// The command that made it, as typed.
+    pub command: String,
+    /// tinta's version.
+    pub version: String,
+    /// What is known of the machine: a name and a value each, such as "Processor".
+    pub notes: Vec<(String, String)>,
+    /// Pictures of the errors, in the order in which they are shown.
+    pub pictures: Vec<ReportPicture>,
+}
+
+/// A picture on the page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ReportPicture {
+    /// What is seen on it.
+    pub caption: String,
+    /// The model it belongs to: shown when that model is chosen; `None`: always.
+    pub model: Option<String>,
+    /// The whole PNG file.
+    pub png: Vec<u8>,
+}
+
+/// All rows with all their columns but the times of single frames, which `results.jsonl` has.
+///
+/// The first line names the columns of [`columns`], in their order; what a style does not have is empty.
+pub fn csv(rows: &[Row]) -> String {
+    let columns = columns();
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let cell = |value: Value| match value {
+        Value::Text(text) => text,
+        Value::Number(number) => number.to_string(),
+        Value::Missing => String::new(),
+    };
+    let header = columns.iter().map(|column| column.name.clone().into_owned()).collect();
+    let lines = rows.iter().map(|row| columns.iter().map(|column| cell(column.value(row))).collect());
+    for line in std::iter::once(header).chain(lines) {
+        let line: Vec<String> = line;
+        // Neither memory nor lines of one length fail.
+        writer.write_record(&line).unwrap_or_default();
+    }
+    writer.into_inner().map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
+}
+
+/// Writes `results.csv`, `plot-*.svg` and `report.html` into the folder, which must be there.
+///
+/// # Errors
+///
+/// [`Error::Output`] when a file cannot be written; [`Error::Rows`] without any row.
+pub fn write(folder: &Path, rows: &[Row], info: &ReportInfo) -> Result<()> {
+    if rows.is_empty() {
+        return Err(Error::Rows {
+            path: folder.display().to_string(),
+            line: None,
+            problem: "there is no row to report on; measure something first".to_owned(),
+        });
+    }
+    let write = |name: &str, text: &str| write_whole(&folder.join(name), text.as_bytes());
+    write("results.csv", &csv(rows))?;
+    let machines = machines(rows);
+    for (number, machine) in machines.iter().enumerate() {
+        // Machines have long names that files cannot have.
+        let suffix = if machines.len() > 1 { format!("-machine-{}", number + 1) } else { String::new() };
+        for (name, measure) in Measure::ALL {
+            let subtitle = plot::subtitle(machine, measure);
+            if let Some(svg) = plot(&points(&machine.rows, measure), measure, Shape::Wide, &subtitle)? {
+                write(&format!("plot-{name}{suffix}.svg"), &svg)?;
+            }
+        }
+    }
+    write("report.html", &html(rows, info)?)
+}

@@ -1,0 +1,139 @@
+//! `results.jsonl`: a row a line, on disk as soon as it is known, so that an interruption loses the row in the making at
+//! most.
+
+use crate::error::{Error, Result};
+use crate::measure::Row;
+use std::fs::{File, OpenOptions};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// The rows' file inside a report's folder.
+pub const ROWS_FILE: &str = "results.jsonl";
+
+/// The open file of rows.
+#[derive(Debug)]
+pub struct RowLog {
+    file: File,
+    path: PathBuf,
+}
+
+impl RowLog {
+    /// Starts a new file in the folder, which must be there.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Output`] where there is one already or the folder may not be written.
+    pub fn create(folder: &Path) -> Result<Self> {
+        let path = folder.join(ROWS_FILE);
+        match OpenOptions::new().append(true).create_new(true).open(&path) {
+            Ok(file) => Ok(Self { file, path }),
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Error::Output {
+                path: path.display().to_string(),
+                problem: "rows of an earlier run lie here; go on with them by --resume, or name another folder"
+                    .to_owned(),
+            }),
+            Err(error) => Err(cannot_write(&path, &error)),
+        }
+    }
+
+    /// Goes on with the folder's file and hands over its rows; begins one where there is none.
+    ///
+    /// A last line that was half written when a run was interrupted is cut off.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Rows`] for a whole line that is no row, [`Error::Output`] for a file that may not be written.
+    pub fn resume(folder: &Path) -> Result<(Self, Vec<Row>)> {
+        let path = folder.join(ROWS_FILE);
+        let open = OpenOptions::new().append(true).create(true).open(&path);
+        let mut file = open.map_err(|error| cannot_write(&path, &error))?;
+        let text = read(&path)?;
+        let (rows, sound_bytes) = parse(&path, &text)?;
+        let mend = |file: &mut File| {
+            file.set_len(sound_bytes as u64)?;
+            if sound_bytes > 0 && text[sound_bytes - 1] != b'\n' {
+                file.write_all(b"\n")?;
+            }
+            file.sync_data()
+        };
+        mend(&mut file).map_err(|error| cannot_write(&path, &error))?;
+        Ok((Self { file, path }, rows))
+    }
+
+    /// Writes one row, a line, and waits until it is on disk.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Rows`] for a row with a number that is not finite, [`Error::Output`] when the disk is full.
+    pub fn append(&mut self, row: &Row) -> Result<()> {
+        let problem = |problem: String| Error::Rows { path: self.path.display().to_string(), line: None, problem };
+        let mut line = serde_json::to_string(row).map_err(|error| problem(error.to_string()))?;
+        // JSON has no NaN and no infinity: they would come back as something else, or not at all.
+        if serde_json::from_str::<Row>(&line).ok().as_ref() != Some(row) {
+            let key = row.key();
+            return Err(problem(format!("the row of {key} holds a number that is not finite; please report this")));
+        }
+        line.push('\n');
+        let written = self.file.write_all(line.as_bytes()).and_then(|()| self.file.sync_data());
+        written.map_err(|error| cannot_write(&self.path, &error))
+    }
+}
+
+/// Reads all rows of a file; a half-written last line is left out.
+///
+/// # Errors
+///
+/// [`Error::Rows`] naming file and line.
+pub fn read_rows(path: &Path) -> Result<Vec<Row>> {
+    Ok(parse(path, &read(path)?)?.0)
+}
+
+fn read(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).map_err(|error| Error::Rows {
+        path: path.display().to_string(),
+        line: None,
+        problem: match error.kind() {
+            ErrorKind::NotFound => "there is no such file; name a results.jsonl of tinta measure".to_owned(),
+            ErrorKind::IsADirectory => "this is a folder; name the results.jsonl in it".to_owned(),
+            _ => format!("it cannot be read ({error})"),
+        },
+    })
+}
+
+/// The rows, and the bytes of the file that hold them.
+fn parse(path: &Path, text: &[u8]) -> Result<(Vec<Row>, usize)> {
+    let mut rows = Vec::new();
+    let mut sound_bytes = 0;
+    for (index, line) in text.split_inclusive(|byte| *byte == b'\n').enumerate() {
+        match serde_json::from_slice(line) {
+            Ok(row) => rows.push(row),
+            Err(_) if line.trim_ascii().is_empty() => {}
+            // Without its end this is the line that was being written.
+            Err(_) if !line.ends_with(b"\n") => break,
+            Err(error) => {
+                return Err(Error::Rows {
+                    path: path.display().to_string(),
+                    line: Some(index as u64 + 1),
+                    problem: format!("this is no row of this version ({}); remove the line", without_place(&error)),
+                });
+            }
+        }
+        sound_bytes += line.len();
+    }
+    Ok((rows, sound_bytes))
+}
+
+/// serde_json's message without its own count of lines, which is always 1 here.
+fn without_place(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    text.split(" at line ").next().unwrap_or(&text).to_owned()
+}
+
+fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
+    let problem = match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory => "its folder is not there; make it first".to_owned(),
+        ErrorKind::StorageFull => "the disk is full; free some space and go on by --resume".to_owned(),
+        _ => format!("it cannot be written ({error})"),
+    };
+    Error::Output { path: path.display().to_string(), problem }
+}

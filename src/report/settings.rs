@@ -1,0 +1,228 @@
+//! Rows brought together: by machine, and a setting's rows of several models into one point of a plot.
+
+use crate::measure::Row;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What a plot holds against time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// How far the ink is from the exact lines: 1 - F1.
+    Lines,
+    /// Share of pixels with another tone than a ray's.
+    Tones,
+    /// Mean difference from a ray's, of 255, where tones are continuous.
+    ContinuousTones,
+}
+
+impl Measure {
+    /// All of them, with the name a file gets.
+    pub const ALL: [(&'static str, Self); 3] =
+        [("lines", Self::Lines), ("tones", Self::Tones), ("continuous-tones", Self::ContinuousTones)];
+
+    /// The row's error; 0 is best.
+    pub fn error(self, row: &Row) -> Option<f64> {
+        match self {
+            // Cut at zero: rounding may take F1 past 1.
+            Self::Lines => row.lines.as_ref().map(|lines| (1.0 - lines.f1).max(0.0)),
+            Self::Tones => row.tones.as_ref().and_then(|tones| tones.inner_differing),
+            Self::ContinuousTones => {
+                row.tones.as_ref().filter(|tones| tones.inner_differing.is_none()).map(|tones| tones.mean_difference)
+            }
+        }
+    }
+
+    /// What the plot shows.
+    pub(super) fn title(self) -> &'static str {
+        match self {
+            Self::Lines => "Lines: error against time",
+            Self::Tones => "Tones: error against time",
+            Self::ContinuousTones => "Continuous tones: error against time",
+        }
+    }
+
+    /// The error's axis.
+    pub(super) fn axis(self) -> &'static str {
+        match self {
+            Self::Lines => "1 − F1 against the exact lines",
+            Self::Tones => "share of pixels with another tone",
+            Self::ContinuousTones => "mean difference of tones, of 255",
+        }
+    }
+}
+
+/// The rows of one machine and renderer.
+#[derive(Debug, Clone)]
+pub struct Machine<'a> {
+    /// The machine, and the renderer where the same machine has several.
+    pub name: String,
+    /// Its rows; those found without GL belong to each renderer of theirs.
+    pub rows: Vec<&'a Row>,
+}
+
+/// Machines in the order in which they first appear.
+pub fn machines(rows: &[Row]) -> Vec<Machine<'_>> {
+    const NONE: &str = "none";
+    let mut names: Vec<&str> = Vec::new();
+    for row in rows {
+        if !names.contains(&row.machine.as_str()) {
+            names.push(&row.machine);
+        }
+    }
+    let mut machines = Vec::new();
+    for name in names {
+        let mut renderers: Vec<&str> = Vec::new();
+        let of_machine = || rows.iter().filter(move |row| row.machine == name);
+        for row in of_machine().filter(|row| row.renderer != NONE) {
+            if !renderers.contains(&row.renderer.as_str()) {
+                renderers.push(&row.renderer);
+            }
+        }
+        match renderers[..] {
+            [] | [_] => machines.push(Machine { name: name.to_owned(), rows: of_machine().collect() }),
+            _ => machines.extend(renderers.into_iter().map(|renderer| Machine {
+                name: format!("{name}, {renderer}"),
+                rows: of_machine().filter(|row| row.renderer == renderer || row.renderer == NONE).collect(),
+            })),
+        }
+    }
+    machines
+}
+
+/// Models in the order in which they first appear.
+pub(super) fn models<'a>(rows: &[&'a Row]) -> Vec<&'a str> {
+    let mut models = Vec::new();
+    for row in rows {
+        if !models.contains(&row.model.as_str()) {
+            models.push(row.model.as_str());
+        }
+    }
+    models
+}
+
+/// A setting in a plot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Its short name.
+    pub name: String,
+    /// The style.
+    pub style: String,
+    /// Whether these are the published program's settings.
+    pub is_faithful: bool,
+    /// Geometric mean over models of the median time, milliseconds.
+    pub time_ms: f64,
+    /// Mean over models of the error.
+    pub error: f64,
+}
+
+/// A plot's points, and what they are means of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Points {
+    /// One for each setting measured on all of the models.
+    pub points: Vec<Point>,
+    /// The models.
+    pub models: Vec<String>,
+    /// Settings not measured on all of them, which a mean would compare unfairly.
+    pub left_out: usize,
+}
+
+/// A point for each setting of these rows, which are one machine's: the setting's mean over the models most settings share.
+pub fn points(rows: &[&Row], measure: Measure) -> Points {
+    let rows: Vec<&Row> = rows
+        .iter()
+        .copied()
+        .filter(|row| measure.error(row).is_some_and(f64::is_finite) && row.time.median_ms > 0.0)
+        .collect();
+    // Of a setting measured twice on a model the last row counts.
+    let mut by_setting: BTreeMap<SettingKey<'_>, BTreeMap<&str, &Row>> = BTreeMap::new();
+    let mut order = Vec::new();
+    for row in &rows {
+        let key = setting_key(row);
+        if !by_setting.contains_key(&key) {
+            order.push(key);
+        }
+        by_setting.entry(key).or_default().insert(&row.model, row);
+    }
+    let mut count_of_models: BTreeMap<BTreeSet<&str>, usize> = BTreeMap::new();
+    for of_setting in by_setting.values() {
+        *count_of_models.entry(of_setting.keys().copied().collect()).or_default() += 1;
+    }
+    let shared = count_of_models.iter().max_by_key(|(models, count)| (**count, models.len()));
+    let shared = shared.map(|(models, _)| models.clone()).unwrap_or_default();
+    let names = short_names(&rows);
+    let mut points = Vec::new();
+    for key in &order {
+        let of_models: Vec<&Row> = shared.iter().filter_map(|model| by_setting[key].get(model).copied()).collect();
+        let (Some(first), true) = (of_models.first(), of_models.len() == shared.len()) else { continue };
+        let count = of_models.len() as f64;
+        points.push(Point {
+            name: names[key].clone(),
+            style: first.style.clone(),
+            is_faithful: first.is_faithful,
+            time_ms: (of_models.iter().map(|row| row.time.median_ms.ln()).sum::<f64>() / count).exp(),
+            error: of_models.iter().filter_map(|row| measure.error(row)).sum::<f64>() / count,
+        });
+    }
+    let left_out = order.len() - points.len();
+    let models = models(&rows).into_iter().filter(|model| shared.contains(model)).map(str::to_owned).collect();
+    Points { points, models, left_out }
+}
+
+/// What tells settings apart on a machine.
+pub(super) type SettingKey<'a> = (&'a str, &'a str, [u32; 2]);
+
+pub(super) fn setting_key(row: &Row) -> SettingKey<'_> {
+    (&row.style, &row.options, row.size)
+}
+
+/// Short names: the style and the options without dashes, what all settings share left out.
+pub(super) fn short_names<'a>(rows: &[&'a Row]) -> BTreeMap<SettingKey<'a>, String> {
+    let keys: BTreeSet<SettingKey<'_>> = rows.iter().map(|row| setting_key(row)).collect();
+    let mut count_of_option: BTreeMap<String, usize> = BTreeMap::new();
+    for (_, options, _) in &keys {
+        for option in options_of(options).into_iter().collect::<BTreeSet<_>>() {
+            *count_of_option.entry(option).or_default() += 1;
+        }
+    }
+    let has_sizes = keys.iter().map(|(.., size)| size).collect::<BTreeSet<_>>().len() > 1;
+    let name = |(style, options, size): &SettingKey<'_>| {
+        let tells_apart = |option: &String| count_of_option[option] < keys.len() || keys.len() == 1;
+        let is_said_already = |option: &String| {
+            let size = format!("size {}x{}", size[0], size[1]);
+            *option == format!("style {style}") || *option == *style || *option == size
+        };
+        let mut parts = vec![(*style).to_owned()];
+        parts.extend(options_of(options).into_iter().filter(|option| tells_apart(option) && !is_said_already(option)));
+        if has_sizes {
+            parts.push(format!("{}×{}", size[0], size[1]));
+        }
+        if parts.len() == 1 { parts.remove(0) } else { format!("{}: {}", parts.remove(0), parts.join(", ")) }
+    };
+    keys.iter().map(|key| (*key, name(key))).collect()
+}
+
+/// `--filter sobel --cull=back` as "filter sobel" and "cull back".
+fn options_of(options: &str) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for word in options.split_whitespace() {
+        match (word.strip_prefix("--"), all.last_mut()) {
+            (Some(option), _) => all.push(option.replacen('=', " ", 1)),
+            (None, Some(option)) => {
+                option.push(' ');
+                option.push_str(word);
+            }
+            (None, None) => all.push(word.to_owned()),
+        }
+    }
+    all
+}
+
+/// Which points no other one beats: none is at least as fast and as right, and better in one of both.
+///
+/// In: time and error of each. A point with a NaN is never on the front.
+pub fn pareto(points: &[(f64, f64)]) -> Vec<bool> {
+    let beats = |a: &(f64, f64), b: &(f64, f64)| a.0 <= b.0 && a.1 <= b.1 && (a.0 < b.0 || a.1 < b.1);
+    points
+        .iter()
+        .map(|point| !point.0.is_nan() && !point.1.is_nan() && !points.iter().any(|other| beats(other, point)))
+        .collect()
+}

@@ -1,0 +1,147 @@
+//! The report's page in a browser: nothing fails, headers sort, choices choose, nothing is wider than a phone.
+
+use crate::report::{info, made_up_rows};
+use crate::support::skip;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use std::path::Path;
+use std::process::Command;
+use tinta::report::{html, write};
+
+/// Run inside the page; hands its findings to the page around it.
+const CHECK: &str = r##"
+(width) => {
+  const frame = document.getElementById("w" + width);
+  const inside = frame.contentDocument;
+  const view = frame.contentWindow;
+  const all = (selector) => Array.from(inside.querySelectorAll(selector));
+  const shown = (selector) => all(selector).filter((element) => element.getClientRects().length > 0);
+  const column = (title) => all("#rows th").findIndex((head) => head.textContent === title);
+  const values = (index) => shown("#rows tbody tr").map((row) => row.cells[index].dataset.value ?? row.cells[index].textContent);
+  const sorted = (title) => {
+    const index = column(title);
+    const head = all("#rows th")[index];
+    const states = [];
+    for (let press = 0; press < 2; press += 1) {
+      head.querySelector("button").click();
+      states.push({ state: head.getAttribute("aria-sort"), values: values(index) });
+    }
+    return states;
+  };
+  const choose = (id, value) => {
+    const select = inside.getElementById(id);
+    select.value = value;
+    select.dispatchEvent(new view.Event("change", { bubbles: true }));
+  };
+  const found = {
+    inner: view.innerWidth, scroll: inside.documentElement.scrollWidth, problems: view.problems,
+    wider: shown("main *").filter((element) => !element.closest(".scroll > *, svg")
+      && element.getBoundingClientRect().right > view.innerWidth + 0.5).map((element) => element.outerHTML.slice(0, 80)),
+    smallestText: Math.min(...shown(".plot svg").flatMap((svg) => Array.from(svg.querySelectorAll("text")).map((text) =>
+      parseFloat(text.getAttribute("font-size")) * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width))),
+    rows: shown("#rows tbody tr").length, plots: shown(".plot svg").length,
+    headers: shown("#rows th").length, time: sorted("Time, ms"), model: sorted("Model"), f1: sorted("Lines F1"),
+  };
+  choose("choose-model", "fandisk.obj");
+  choose("choose-style", "inking");
+  found.chosenRows = shown("#rows tbody tr").map((row) => row.dataset.model + " " + row.dataset.style);
+  found.chosenPlots = shown(".plot").map((plot) => plot.dataset.model);
+  found.chosenPictures = shown(".pictures img").length;
+  found.count = inside.getElementById("count").textContent;
+  inside.querySelector("#all-columns input").click();
+  found.allHeaders = shown("#rows th").length;
+  found.scrollAfter = inside.documentElement.scrollWidth;
+  return found;
+}"##;
+
+/// The findings at each width, or `None` where no browser is installed.
+fn in_browser(page: &str, widths: [u32; 2]) -> Option<serde_json::Value> {
+    let browser = ["chromium", "chromium-browser", "google-chrome"]
+        .into_iter()
+        .find(|name| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success()))?;
+    let folder = tempfile::tempdir().unwrap();
+    let watch = "<script>var problems = []; addEventListener('error', (event) => problems.push(event.message));
+        addEventListener('securitypolicyviolation', (event) => problems.push(event.violatedDirective));
+        for (const name of ['error', 'warn']) console[name] = (...words) => problems.push(words.join(' '));</script>";
+    let page = page.replacen("<head>", &format!("<head>{watch}"), 1);
+    // A window is never as narrow as a phone, a frame is.
+    let escaped = page.replace('&', "&amp;").replace('"', "&quot;");
+    let frames = widths.map(|width| {
+        format!(
+            "<iframe id=\"w{width}\" style=\"width:{width}px;height:800px;border:0\" srcdoc=\"{escaped}\"></iframe>"
+        )
+    });
+    let around = format!(
+        "<!DOCTYPE html><meta charset=\"utf-8\"><title>check</title>{}<pre id=\"found\"></pre><script>
+         const check = {CHECK};
+         addEventListener('load', () => {{
+           let found;
+           try {{ found = {{ 'w{}': check({0}), 'w{}': check({1}) }}; }} catch (error) {{ found = {{ failed: String(error.stack) }}; }}
+           document.getElementById('found').textContent = 'FOUND' + btoa(unescape(encodeURIComponent(JSON.stringify(found)))) + 'END';
+         }});</script>",
+        frames.concat(),
+        widths[0],
+        widths[1]
+    );
+    let path = folder.path().join("check.html");
+    std::fs::write(&path, around).unwrap();
+    let output = Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--window-size=1400,900"])
+        .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
+        .args(["--virtual-time-budget=10000", "--dump-dom"])
+        .arg(&path)
+        .output()
+        .unwrap();
+    let talk = String::from_utf8_lossy(&output.stderr);
+    let console: Vec<&str> = talk.lines().filter(|line| line.contains("CONSOLE")).collect();
+    assert!(console.is_empty(), "the console says {console:?}");
+    let dom = String::from_utf8_lossy(&output.stdout);
+    let found = dom.rsplit("FOUND").next().and_then(|rest| rest.split("END").next());
+    let found = found.unwrap_or_else(|| panic!("{browser} found nothing: {talk}"));
+    let json = BASE64_STANDARD.decode(found).unwrap_or_else(|_| panic!("{browser}: {talk}"));
+    Some(serde_json::from_slice(&json).unwrap())
+}
+
+#[test]
+fn the_page_sorts_and_chooses_and_fits_phones_and_screens() {
+    let widths = [360, 1280];
+    let rows = made_up_rows("a machine with a rather long name, x86_64, 2 threads", 1.0);
+    // Kept, so that it can be looked at.
+    let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report");
+    std::fs::create_dir_all(&kept).unwrap();
+    write(&kept, &rows, &info()).unwrap();
+    let Some(found) = in_browser(&html(&rows, &info()).unwrap(), widths) else {
+        return skip("the page in a browser: no chromium; on Debian: apt-get install chromium");
+    };
+    assert!(found["failed"].is_null(), "{}", found["failed"]);
+    let with_lines = rows.iter().filter(|row| row.lines.is_some()).count();
+    for width in widths {
+        let found = &found[format!("w{width}")];
+        assert_eq!(found["problems"], serde_json::json!([]));
+        assert_eq!(found["inner"], width);
+        assert_eq!(found["wider"], serde_json::json!([]), "at {width}");
+        for scroll in ["scroll", "scrollAfter"] {
+            assert!(found[scroll].as_u64().unwrap() <= width.into(), "{scroll} {} at {width}", found[scroll]);
+        }
+        assert!(found["smallestText"].as_f64().unwrap() > 10.0, "{} at {width}", found["smallestText"]);
+        assert_eq!((found["rows"].as_u64(), found["plots"].as_u64()), (Some(rows.len() as u64), Some(3)));
+        assert!(found["allHeaders"].as_u64() > found["headers"].as_u64());
+        for (column, with_value) in [("time", rows.len()), ("f1", with_lines)] {
+            for (press, state) in ["ascending", "descending"].into_iter().enumerate() {
+                let sorted = &found[column][press];
+                assert_eq!(sorted["state"], state);
+                let texts: Vec<&str> =
+                    sorted["values"].as_array().unwrap().iter().map(|text| text.as_str().unwrap()).collect();
+                let numbers: Vec<f64> = texts.iter().take(with_value).map(|text| text.parse().unwrap()).collect();
+                let is_sorted = if press == 0 { numbers.is_sorted() } else { numbers.iter().rev().is_sorted() };
+                assert!(is_sorted, "{column} {state}: {numbers:?}");
+                assert!(texts[with_value..].iter().all(|text| text.is_empty()), "what is missing comes last");
+            }
+        }
+        assert_eq!(found["model"][0]["values"][0], "builtin:bust");
+        assert_eq!(found["model"][1]["values"][0], "models/stanford-bunny.obj");
+        assert_eq!(found["chosenRows"], serde_json::json!(vec!["fandisk.obj inking"; 4]));
+        assert_eq!(found["chosenPlots"], serde_json::json!(vec!["fandisk.obj"; 3]));
+        assert_eq!((found["chosenPictures"].as_u64(), found["count"].as_str()), (Some(1), Some("4 of 105 rows")));
+    }
+}
