@@ -3,6 +3,7 @@
 mod compare;
 mod edges;
 mod info;
+mod measure;
 mod models;
 mod options;
 mod progress;
@@ -24,6 +25,7 @@ Examples:
   tinta render cow.obj -o cow.gif --turntable 60 a turn around it
   tinta compare builtin:gear -o both.png         two styles' lines, what both drew and what only one
   tinta edges cow.obj                            its edges, counted by class
+  tinta measure cow.obj -o cow --quick           every style's error against its run time
   tinta textures -o textures                     a charcoal drawing's grain, noise and paper
   tinta info                                     which OpenGL is there
 
@@ -38,6 +40,7 @@ enum Command {
     Render(Box<render::Arguments>),
     Compare(Box<compare::Arguments>),
     Edges(Box<edges::Arguments>),
+    Measure(Box<measure::Arguments>),
     Textures(textures::Arguments),
     Info(info::Arguments),
 }
@@ -55,6 +58,7 @@ pub fn run() -> Result<()> {
         Command::Render(arguments) => render::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Edges(arguments) => edges::run(&arguments),
+        Command::Measure(arguments) => measure::run(&arguments),
         Command::Textures(arguments) => textures::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }

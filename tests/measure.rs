@@ -104,7 +104,8 @@ fn no_ink_finds_nothing_and_invents_nothing() {
 fn more_tolerance_finds_more_and_more_ink_never_less() {
     let reference = reference(&triangle());
     // Every third pixel of a band around the lines, faint ones among them.
-    let mut sparse = ink(|middle| reference.distance_px(middle) <= 6.0 && ((middle.x + middle.y) as u32).is_multiple_of(3));
+    let mut sparse =
+        ink(|middle| reference.distance_px(middle) <= 6.0 && ((middle.x + middle.y) as u32).is_multiple_of(3));
     sparse.darkness.iter_mut().enumerate().filter(|(index, _)| index % 2 == 0).for_each(|(_, ink)| *ink /= 5);
     let mut last = (0.0, 0.0);
     for tolerance in [0.5, 1.0, 2.0, 4.0, 8.0] {
