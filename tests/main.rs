@@ -6,6 +6,7 @@ mod charcoal_twin;
 mod cli;
 mod cli_ink;
 mod cli_lines;
+mod cli_measure;
 mod docs;
 mod edges;
 mod goldens;
