@@ -85,7 +85,9 @@ impl<'a> Canvas<'a> {
         // The backend divides sizes by this.
         let font = FontDesc::new(FontFamily::SansSerif, size_px * 1.24, style);
         let style = font.color(&INK).pos(Pos::new(horizontal, VPos::Center));
-        drawn(self.area.draw(&Text::new(text.to_owned(), pixel(at), style)))
+        // plotters escapes what XML writes otherwise, but not what XML cannot hold.
+        let text = text.replace(super::html::is_unprintable, "\u{FFFD}");
+        drawn(self.area.draw(&Text::new(text, pixel(at), style)))
     }
 }
 
