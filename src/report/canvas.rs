@@ -28,16 +28,21 @@ pub(super) fn text_width(text: &str, size_px: f64) -> f64 {
     text.chars().count() as f64 * size_px * 0.56
 }
 
-/// Lines of a text that is wider than the room, broken at spaces.
+/// Lines of a text that is wider than the room, broken at spaces, in a word only where it has no room by itself.
 pub(super) fn wrapped(text: &str, size_px: f64, room_px: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    let longest = ((room_px / text_width("m", size_px)) as usize).max(1);
+    let words = text.split_whitespace().flat_map(|word| {
+        let characters: Vec<char> = word.chars().collect();
+        characters.chunks(longest).map(|part| part.iter().collect::<String>()).collect::<Vec<_>>()
+    });
+    for word in words {
         match lines.last_mut() {
-            Some(line) if text_width(line, size_px) + text_width(word, size_px) + size_px / 2.0 <= room_px => {
+            Some(line) if text_width(line, size_px) + text_width(&word, size_px) + size_px / 2.0 <= room_px => {
                 line.push(' ');
-                line.push_str(word);
+                line.push_str(&word);
             }
-            _ => lines.push(word.to_owned()),
+            _ => lines.push(word),
         }
     }
     lines

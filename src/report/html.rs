@@ -246,10 +246,10 @@ fn pictures(info: &ReportInfo) -> String {
             .to_owned();
     for picture in &info.pictures {
         let caption = escaped(&picture.caption);
-        let _ = write!(
+        let _ = writeln!(
             text,
             "<figure data-model=\"{}\"><button type=\"button\" class=\"picture\" aria-pressed=\"false\">\
-             <img alt=\"{caption}\" src=\"data:image/png;base64,{}\"/></button><figcaption>{caption}</figcaption></figure>\n",
+             <img alt=\"{caption}\" src=\"data:image/png;base64,{}\"/></button><figcaption>{caption}</figcaption></figure>",
             escaped(picture.model.as_deref().unwrap_or_default()),
             BASE64_STANDARD.encode(&picture.png),
         );
