@@ -6,6 +6,7 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use std::path::Path;
 use std::process::Command;
+use tinta::measure::Row;
 use tinta::report::{html, write};
 
 /// Run inside the page; hands its findings to the page around it.
@@ -72,16 +73,16 @@ fn in_browser(page: &str, widths: [u32; 2]) -> Option<serde_json::Value> {
         )
     });
     let around = format!(
-        "<!DOCTYPE html><meta charset=\"utf-8\"><title>check</title>{}<pre id=\"found\"></pre><script>
+        "<!DOCTYPE html><meta charset=\"utf-8\"><title>check</title>{2}<pre id=\"found\"></pre><script>
          const check = {CHECK};
          addEventListener('load', () => {{
            let found;
-           try {{ found = {{ 'w{}': check({0}), 'w{}': check({1}) }}; }} catch (error) {{ found = {{ failed: String(error.stack) }}; }}
-           document.getElementById('found').textContent = 'FOUND' + btoa(unescape(encodeURIComponent(JSON.stringify(found)))) + 'END';
+           try {{ found = {{ 'w{0}': check({0}), 'w{1}': check({1}) }}; }} catch (error) {{ found = {{ failed: String(error.stack) }}; }}
+           document.getElementById('found').textContent = btoa(unescape(encodeURIComponent(JSON.stringify(found))));
          }});</script>",
-        frames.concat(),
         widths[0],
-        widths[1]
+        widths[1],
+        frames.concat(),
     );
     let path = folder.path().join("check.html");
     std::fs::write(&path, around).unwrap();
@@ -93,27 +94,32 @@ fn in_browser(page: &str, widths: [u32; 2]) -> Option<serde_json::Value> {
         .output()
         .unwrap();
     let talk = String::from_utf8_lossy(&output.stderr);
-    let console: Vec<&str> = talk.lines().filter(|line| line.contains("CONSOLE")).collect();
+    let console: Vec<&str> = talk.lines().filter(|line| line.contains("CONSOLE")).take(5).collect();
     assert!(console.is_empty(), "the console says {console:?}");
     let dom = String::from_utf8_lossy(&output.stdout);
-    let found = dom.rsplit("FOUND").next().and_then(|rest| rest.split("END").next());
+    let found = dom.split("<pre id=\"found\">").nth(1).and_then(|rest| rest.split('<').next());
     let found = found.unwrap_or_else(|| panic!("{browser} found nothing: {talk}"));
     let json = BASE64_STANDARD.decode(found).unwrap_or_else(|_| panic!("{browser}: {talk}"));
     Some(serde_json::from_slice(&json).unwrap())
+}
+
+/// Leaves a report in `target/tmp`, so that it can be looked at.
+fn keep(name: &str, rows: &[Row]) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    write(&folder, rows, &info()).unwrap();
 }
 
 #[test]
 fn the_page_sorts_and_chooses_and_fits_phones_and_screens() {
     let widths = [360, 1280];
     let rows = made_up_rows("a machine with a rather long name, x86_64, 2 threads", 1.0);
-    // Kept, so that it can be looked at.
-    let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report");
-    std::fs::create_dir_all(&kept).unwrap();
-    write(&kept, &rows, &info()).unwrap();
+    keep("report", &rows);
     let Some(found) = in_browser(&html(&rows, &info()).unwrap(), widths) else {
         return skip("the page in a browser: no chromium; on Debian: apt-get install chromium");
     };
     assert!(found["failed"].is_null(), "{}", found["failed"]);
+    let count = format!("4 of {} rows", rows.len());
     let with_lines = rows.iter().filter(|row| row.lines.is_some()).count();
     for width in widths {
         let found = &found[format!("w{width}")];
@@ -142,6 +148,27 @@ fn the_page_sorts_and_chooses_and_fits_phones_and_screens() {
         assert_eq!(found["model"][1]["values"][0], "models/stanford-bunny.obj");
         assert_eq!(found["chosenRows"], serde_json::json!(vec!["fandisk.obj inking"; 4]));
         assert_eq!(found["chosenPlots"], serde_json::json!(vec!["fandisk.obj"; 3]));
-        assert_eq!((found["chosenPictures"].as_u64(), found["count"].as_str()), (Some(1), Some("4 of 105 rows")));
+        assert_eq!((found["chosenPictures"].as_u64(), found["count"].as_str()), (Some(1), Some(&*count)));
+    }
+}
+
+#[test]
+fn the_page_of_two_machines_fits_and_shows_the_plots_of_each() {
+    let mut rows = made_up_rows("this machine, linux x86_64, 2 threads", 1.0);
+    rows.extend(made_up_rows("another_machine_whose_name_has_no_space_to_break_at_and_goes_on", 0.61));
+    keep("report-machines", &rows);
+    let Some(found) = in_browser(&html(&rows, &info()).unwrap(), [360, 1280]) else {
+        return skip("the page of two machines in a browser: no chromium; on Debian: apt-get install chromium");
+    };
+    assert!(found["failed"].is_null(), "{}", found["failed"]);
+    for width in [360, 1280] {
+        let found = &found[format!("w{width}")];
+        assert_eq!(
+            (&found["problems"], &found["wider"]),
+            (&serde_json::json!([]), &serde_json::json!([])),
+            "at {width}"
+        );
+        assert!(found["scroll"].as_u64().unwrap() <= width, "{} at {width}", found["scroll"]);
+        assert_eq!((found["plots"].as_u64(), found["rows"].as_u64()), (Some(6), Some(rows.len() as u64)));
     }
 }

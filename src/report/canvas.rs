@@ -28,16 +28,21 @@ pub(super) fn text_width(text: &str, size_px: f64) -> f64 {
     text.chars().count() as f64 * size_px * 0.56
 }
 
-/// Lines of a text that is wider than the room, broken at spaces.
+/// Lines of a text that is wider than the room, broken at spaces, in a word only where it has no room by itself.
 pub(super) fn wrapped(text: &str, size_px: f64, room_px: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    let longest = ((room_px / text_width("m", size_px)) as usize).max(1);
+    let words = text.split_whitespace().flat_map(|word| {
+        let characters: Vec<char> = word.chars().collect();
+        characters.chunks(longest).map(|part| part.iter().collect::<String>()).collect::<Vec<_>>()
+    });
+    for word in words {
         match lines.last_mut() {
-            Some(line) if text_width(line, size_px) + text_width(word, size_px) + size_px / 2.0 <= room_px => {
+            Some(line) if text_width(line, size_px) + text_width(&word, size_px) + size_px / 2.0 <= room_px => {
                 line.push(' ');
-                line.push_str(word);
+                line.push_str(&word);
             }
-            _ => lines.push(word.to_owned()),
+            _ => lines.push(word),
         }
     }
     lines
@@ -85,7 +90,9 @@ impl<'a> Canvas<'a> {
         // The backend divides sizes by this.
         let font = FontDesc::new(FontFamily::SansSerif, size_px * 1.24, style);
         let style = font.color(&INK).pos(Pos::new(horizontal, VPos::Center));
-        drawn(self.area.draw(&Text::new(text.to_owned(), pixel(at), style)))
+        // plotters escapes what XML writes otherwise, but not what XML cannot hold.
+        let text = text.replace(super::html::is_unprintable, "\u{FFFD}");
+        drawn(self.area.draw(&Text::new(text, pixel(at), style)))
     }
 }
 

@@ -60,13 +60,16 @@ pub(super) fn escaped(text: &str) -> String {
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
             '\'' => escaped.push_str("&#39;"),
-            '\n' | '\t' => escaped.push(character),
-            '\u{FFFE}' | '\u{FFFF}' => escaped.push('\u{FFFD}'),
-            _ if character.is_control() => escaped.push('\u{FFFD}'),
+            _ if is_unprintable(character) => escaped.push('\u{FFFD}'),
             _ => escaped.push(character),
         }
     }
     escaped
+}
+
+/// What neither HTML nor XML can hold.
+pub(super) fn is_unprintable(character: char) -> bool {
+    (character.is_control() && !matches!(character, '\n' | '\t')) || matches!(character, '\u{FFFE}' | '\u{FFFF}')
 }
 
 /// "1 model", "3 models".
@@ -185,14 +188,19 @@ fn table(name: &str, heads: &[Head<'_>], rows: impl Iterator<Item = (String, Vec
         let _ = write!(text, "<tr{attributes}>");
         for (head, cell) in heads.iter().zip(cells) {
             let value = cell.number.map(|number| format!(" data-value=\"{number}\"")).unwrap_or_default();
-            let shown = escaped(&cell.text);
-            let shown = if cell.is_code { format!("<code>{shown}</code>") } else { shown };
+            let shown = if cell.is_code { options(&cell.text) } else { escaped(&cell.text) };
             let _ = write!(text, "<td{}{value}>{shown}</td>", class(head));
         }
         text.push_str("</tr>\n");
     }
     text.push_str("</tbody>\n</table>\n</div>\n");
     text
+}
+
+/// Options that break between one another only, not at their hyphens.
+fn options(text: &str) -> String {
+    let parts: Vec<String> = text.split(" --").map(|part| format!("<span>{}</span>", escaped(part))).collect();
+    format!("<code>{}</code>", parts.join(" <span>--").replace("<span>--<span>", "<span>--"))
 }
 
 /// Times on every machine beside each other; nothing for one machine.
@@ -238,10 +246,10 @@ fn pictures(info: &ReportInfo) -> String {
             .to_owned();
     for picture in &info.pictures {
         let caption = escaped(&picture.caption);
-        let _ = write!(
+        let _ = writeln!(
             text,
             "<figure data-model=\"{}\"><button type=\"button\" class=\"picture\" aria-pressed=\"false\">\
-             <img alt=\"{caption}\" src=\"data:image/png;base64,{}\"/></button><figcaption>{caption}</figcaption></figure>\n",
+             <img alt=\"{caption}\" src=\"data:image/png;base64,{}\"/></button><figcaption>{caption}</figcaption></figure>",
             escaped(picture.model.as_deref().unwrap_or_default()),
             BASE64_STANDARD.encode(&picture.png),
         );

@@ -37,7 +37,7 @@ impl Shape {
     fn layout(self) -> Layout {
         match self {
             Self::Wide => Layout { width: 880.0, height: 420.0, left: 64.0, text: 13.0, title: 17.0 },
-            Self::Narrow => Layout { width: 360.0, height: 300.0, left: 50.0, text: 12.0, title: 15.0 },
+            Self::Narrow => Layout { width: 360.0, height: 300.0, left: 56.0, text: 12.0, title: 15.0 },
         }
     }
 }
@@ -47,14 +47,14 @@ pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
     let Points { models, left_out, .. } = points(&machine.rows, measure);
     let what = match &models[..] {
         [model] => model.clone(),
-        _ => format!("mean over {} models: {}", models.len(), models.join(", ")),
+        _ => format!("Mean over {} models: {}", models.len(), models.join(", ")),
     };
     let missing = match left_out {
         0 => String::new(),
         1 => "; 1 setting not measured on all of them is left out".to_owned(),
         count => format!("; {count} settings not measured on all of them are left out"),
     };
-    format!("{what}{missing}. {}", machine.name)
+    format!("{what}{missing}; on {}", machine.name)
 }
 
 /// Draws the points; `None` without any.
