@@ -11,6 +11,7 @@ mod cast;
 mod chain;
 mod faces;
 mod features;
+mod image;
 mod intersections;
 mod mend;
 mod pen;
@@ -25,6 +26,7 @@ pub use svg::{ClassWidths, Hidden, PaperSize, SvgSettings, svg, svg_of_paths};
 
 use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, MeshEdges};
 use crate::error::{Error, Result};
+use crate::mesh::Mesh;
 use crate::renderer::milliseconds_since;
 use crate::scene::{Scene, Size};
 use crate::threads::both;
@@ -33,6 +35,7 @@ use features::{Edges, Part};
 use glam::DVec2;
 use serde::Serialize;
 use space::Space;
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
@@ -194,15 +197,15 @@ impl VisibleLines {
 
 /// The scene's objects with their edges, mended where that is needed; objects of one mesh share them.
 fn parts(scene: &Scene) -> Vec<Part<'_>> {
-    let part = |object| {
-        let edges = scene.edges(object);
-        match mend::mended(&object.mesh, edges.list()) {
-            None => Part { object, mesh: object.mesh.clone(), edges: Edges::OfScene(edges) },
-            Some(mesh) => {
-                let mesh = Arc::new(mesh);
-                Part { object, mesh: mesh.clone(), edges: Edges::Mended(Box::new(MeshEdges::new(mesh))) }
-            }
-        }
-    };
-    scene.objects.iter().map(part).collect()
+    let mut known: HashMap<*const Mesh, Option<Arc<MeshEdges>>> = HashMap::new();
+    let mut parts = Vec::with_capacity(scene.objects.len());
+    for object in &scene.objects {
+        let (mesh, edges) = (&object.mesh, scene.edges(object));
+        let mend = || mend::mended(mesh, edges.list()).map(|mesh| Arc::new(MeshEdges::new(Arc::new(mesh))));
+        parts.push(match known.entry(Arc::as_ptr(mesh)).or_insert_with(mend) {
+            None => Part { object, mesh: mesh.clone(), edges: Edges::OfScene(edges) },
+            Some(edges) => Part { object, mesh: edges.mesh().clone(), edges: Edges::Mended(edges.clone()) },
+        });
+    }
+    parts
 }

@@ -82,7 +82,7 @@ fn what_cannot_be_measured_is_refused() {
     let folder = Folder::new();
     let out = folder.path("out");
     let file = folder.path("file");
-    std::fs::write(&file, "text").unwrap();
+    std::fs::write(&file, "text\n").unwrap();
     for (arguments, words) in [
         (&["measure", "-o", &out][..], &["MODEL"][..]),
         (&["measure", "no-such.obj", "-o", &out], &["no-such.obj"]),

@@ -22,6 +22,11 @@ impl MeshEdges {
         Self { mesh, list, silhouettes: OnceLock::new(), cones: OnceLock::new(), classes: Mutex::new(None) }
     }
 
+    /// The mesh.
+    pub fn mesh(&self) -> &Arc<Mesh> {
+        &self.mesh
+    }
+
     /// The list.
     pub fn list(&self) -> &EdgeList {
         &self.list

@@ -37,7 +37,7 @@ pub(super) struct Part<'a> {
 /// The edges of the scene's own mesh, or of a mended one.
 pub(super) enum Edges<'a> {
     OfScene(&'a MeshEdges),
-    Mended(Box<MeshEdges>),
+    Mended(Arc<MeshEdges>),
 }
 
 impl Edges<'_> {

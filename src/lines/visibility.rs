@@ -1,8 +1,9 @@
 //! Which parts of the lines are seen: cuts wherever that can change, then one ray for each piece.
 
-use super::boxes::{Box3, BoxTree};
+use super::boxes::Box3;
 use super::faces::{Faces, Own, Probe};
 use super::features::Feature;
+use super::image::{FLAT, Image, LineParts, LineTree};
 use super::intersections::Piercing;
 use super::space::Space;
 use super::{LineSegment, Progress};
@@ -10,14 +11,6 @@ use crate::threads::{cores, in_chunks};
 use crate::tolerances::{CONTACT, SHORTEST_LINE, TOUCH};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
-
-/// A line's image: straight, its key linear along it.
-#[derive(Debug, Clone, Copy)]
-struct Image {
-    a: DVec2,
-    b: DVec2,
-    keys: [f64; 2],
-}
 
 /// All lines with their images, ready to be decided one by one.
 pub(super) struct Lines<'a> {
@@ -28,9 +21,10 @@ pub(super) struct Lines<'a> {
     images: Vec<Option<Image>>,
     /// Where edges pass through faces.
     piercings: HashMap<[u32; 2], Vec<DVec3>>,
-    /// Parts of the lines, and each one's line.
-    tree: BoxTree,
-    numbers: Vec<u32>,
+    /// Where surfaces end: what any line may be crossed by.
+    rims: LineTree,
+    /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
+    beside: LineTree,
     touch_px: f64,
     shortest_px: f64,
 }
@@ -39,25 +33,27 @@ pub(super) struct Lines<'a> {
 /// ask for everything in its box.
 const PARTS_OF_PICTURE: f64 = 16.0;
 
-/// Keys of boxes whose depth does not matter: it is compared where lines cross.
-const FLAT: [f64; 2] = [0.0; 2];
-
 impl<'a> Lines<'a> {
     pub fn new(space: &'a Space, faces: &'a Faces, features: &'a [Feature], piercings: &[Piercing]) -> Self {
         let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
         let side = space.size.max_element();
-        let (mut boxes, mut numbers) = (Vec::new(), Vec::new());
-        for (index, image) in images.iter().enumerate() {
+        let touch_px = TOUCH * side;
+        let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
+        for (index, (feature, image)) in features.iter().zip(&images).enumerate() {
             let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
                 continue;
             };
             for part in image.parts(range, side / PARTS_OF_PICTURE) {
-                boxes.push(image.part_box(part, 0.0, FLAT));
-                numbers.push(index as u32);
+                if feature.occludes {
+                    rims.add(image.part_box(part, 0.0, FLAT), index);
+                }
+                if feature.class.is_some() {
+                    for directions in image.directions(touch_px) {
+                        beside.add(image.part_box(part, 0.0, directions), index);
+                    }
+                }
             }
         }
-        let (tree, order) = BoxTree::new(&boxes);
-        let numbers = order.iter().map(|index| numbers[*index as usize]).collect();
         let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
         for piercing in piercings {
             pierced.entry(piercing.edge).or_default().push(piercing.point);
@@ -68,9 +64,9 @@ impl<'a> Lines<'a> {
             features,
             images,
             piercings: pierced,
-            tree,
-            numbers,
-            touch_px: TOUCH * side,
+            rims: rims.tree(),
+            beside: beside.tree(),
+            touch_px,
             shortest_px: SHORTEST_LINE * side,
         }
     }
@@ -138,24 +134,26 @@ impl<'a> Lines<'a> {
         let (px, key) = (image.at(place), image.key(place));
         let view = self.space.point(px, key);
         let line_length = feature.ends[0].distance(feature.ends[1]);
-        if self.is_repeated(index, feature, px, -view.z, line_length) {
+        if self.is_repeated(index, image, px, -view.z) {
             return None;
         }
         let probe = Probe { view, px, key, line_length, weld: feature.weld, own: feature.own };
         Some(!self.faces.hide(self.space, &probe))
     }
 
-    /// Whether another line of an earlier class, or of the same and an earlier number, passes through the same place in space.
-    fn is_repeated(&self, index: usize, feature: &Feature, px: DVec2, depth: f64, length: f64) -> bool {
-        let here = Box3::new((px - self.touch_px).extend(0.0), (px + self.touch_px).extend(0.0));
-        self.tree.any(&here, |place| {
-            let other_index = self.numbers[place as usize];
-            let other = &self.features[other_index as usize];
-            let comes_first = other.class.is_some() && (other.class, other_index as usize) < (feature.class, index);
+    /// Whether another line of an earlier class, or of the same and an earlier number, runs through the same place in space.
+    fn is_repeated(&self, index: usize, image: &Image, px: DVec2, depth: f64) -> bool {
+        let feature = &self.features[index];
+        let length = feature.ends[0].distance(feature.ends[1]);
+        let [low, high] = image.directions(self.touch_px)[0];
+        let here = Box3::new((px - self.touch_px).extend(low), (px + self.touch_px).extend(high));
+        self.beside.any(&here, |other_index| {
+            let other = &self.features[other_index];
+            let comes_first = (other.class, other_index) < (feature.class, index);
             if !comes_first || (feature.own.meets(other.own) && !run_the_same_way(feature.ends, other.ends)) {
                 return false;
             }
-            let Some(image) = self.images[other_index as usize] else { return false };
+            let Some(image) = self.images[other_index] else { return false };
             let place = image.place_of(px).clamp(0.0, 1.0);
             let other_depth = self.space.depth_of_key(image.key(place));
             let contact = CONTACT * length.min(other.ends[0].distance(other.ends[1]))
@@ -169,17 +167,22 @@ impl<'a> Lines<'a> {
     fn add_cuts(&self, index: usize, image: &Image, inside: [f64; 2], cuts: &mut Vec<f64>) {
         let feature = &self.features[index];
         for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
-            self.tree.any(&image.part_box(part, self.touch_px, FLAT), |place| {
-                let other_index = self.numbers[place as usize];
-                let other = &self.features[other_index as usize];
-                if other_index as usize != index
-                    && !feature.own.meets(other.own)
-                    && let Some(other_image) = self.images[other_index as usize]
-                {
-                    self.add_crossings(image, &other_image, other.occludes, cuts);
-                }
-                false
-            });
+            let others = [
+                (&self.rims, FLAT, true),
+                // Lines that lie on this one have its direction.
+                (&self.beside, image.directions(self.touch_px)[0], false),
+            ];
+            for (tree, third, cross) in others {
+                tree.any(&image.part_box(part, self.touch_px, third), |other_index| {
+                    if other_index != index
+                        && !feature.own.meets(self.features[other_index].own)
+                        && let Some(other) = self.images[other_index]
+                    {
+                        self.add_crossings(image, &other, cross, cuts);
+                    }
+                    false
+                });
+            }
             if let Own::Faces(own) = feature.own {
                 let keys = part.map(|place| image.key(place));
                 self.faces.tree.any(&image.part_box(part, self.touch_px, keys), |face| {
@@ -240,95 +243,6 @@ impl<'a> Lines<'a> {
         let scale = -1e-9 * normal.length_squared();
         let is_left = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) >= scale;
         (is_left(a, b) && is_left(b, c) && is_left(c, a)).then_some(point)
-    }
-}
-
-impl Image {
-    /// The image of what of a line is between the planes.
-    fn of(space: &Space, ends: [DVec3; 2]) -> Option<Self> {
-        let depths = ends.map(|end| -end.z);
-        let mut range = [0.0f64, 1.0f64];
-        for (start, end) in
-            [(depths[0] - space.near, depths[1] - space.near), (space.far - depths[0], space.far - depths[1])]
-        {
-            if start < 0.0 && end < 0.0 {
-                return None;
-            }
-            if start < 0.0 {
-                range[0] = range[0].max(start / (start - end));
-            } else if end < 0.0 {
-                range[1] = range[1].min(start / (start - end));
-            }
-        }
-        if range[0] >= range[1] {
-            return None;
-        }
-        // The ends themselves as they are, so that lines that meet there meet in the picture.
-        let point = |share: f64| match share {
-            0.0 => ends[0],
-            1.0 => ends[1],
-            _ => ends[0] + (ends[1] - ends[0]) * share,
-        };
-        let ((a, first), (b, second)) = (space.project(point(range[0])), space.project(point(range[1])));
-        Some(Self { a, b, keys: [first, second] })
-    }
-
-    fn length(&self) -> f64 {
-        self.a.distance(self.b)
-    }
-
-    /// The pixel at a place from 0 to 1.
-    fn at(&self, place: f64) -> DVec2 {
-        match place {
-            0.0 => self.a,
-            1.0 => self.b,
-            _ => self.a + (self.b - self.a) * place,
-        }
-    }
-
-    fn key(&self, place: f64) -> f64 {
-        self.keys[0] + (self.keys[1] - self.keys[0]) * place
-    }
-
-    /// The place nearest to a pixel.
-    fn place_of(&self, px: DVec2) -> f64 {
-        let along = self.b - self.a;
-        let square = along.length_squared();
-        if square > 0.0 { (px - self.a).dot(along) / square } else { 0.0 }
-    }
-
-    /// From where to where a line is inside the picture with a margin around it (Liang and Barsky 1984).
-    fn inside(&self, size: DVec2, margin: f64) -> Option<[f64; 2]> {
-        let along = self.b - self.a;
-        let mut range = [0.0f64, 1.0f64];
-        for (start, step, limit) in [(self.a.x, along.x, size.x), (self.a.y, along.y, size.y)] {
-            let (low, high) = (-margin - start, limit + margin - start);
-            if step == 0.0 {
-                if low > 0.0 || high < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            let (enter, leave) = if step > 0.0 { (low / step, high / step) } else { (high / step, low / step) };
-            range = [range[0].max(enter), range[1].min(leave)];
-        }
-        (range[0] <= range[1]).then_some(range)
-    }
-
-    /// A range of places in parts no longer than so many pixels.
-    fn parts(&self, [from, to]: [f64; 2], longest_px: f64) -> impl Iterator<Item = [f64; 2]> + use<> {
-        let count = ((to - from) * self.length() / longest_px).ceil().max(1.0);
-        (0..count as usize).map(move |part| {
-            let place = |part: usize| from + (to - from) * (part as f64 / count);
-            [place(part), place(part + 1)]
-        })
-    }
-
-    /// The box around a part, wider by a margin in pixels, between two keys.
-    fn part_box(&self, part: [f64; 2], margin: f64, keys: [f64; 2]) -> Box3 {
-        let [first, second] = part.map(|place| self.at(place));
-        let (low, high) = (first.min(second) - margin, first.max(second) + margin);
-        Box3::new(low.extend(keys[0].min(keys[1])), high.extend(keys[0].max(keys[1])))
     }
 }
 
