@@ -7,6 +7,7 @@
 //! | `two-pass` | Evangelista et al. 2005, section 4.2 and appendix 2 |
 //! | `inking` | Dachsbacher, edge list and painting |
 //! | `dietrich` | the hardware's outline that Dachsbacher names as the alternative |
+//! | `ink` | of this project: Evangelista's passes with a map and a filter that answer to geometry |
 //! | `charcoal` | Valente 2007 |
 //! | `sand` | Valente 2007, section 4 |
 
@@ -14,9 +15,12 @@ mod border;
 mod cartoon;
 mod charcoal;
 mod dietrich;
+mod ink;
 mod inking;
+mod lens;
 mod phong;
 mod ramp;
+mod supersample;
 mod tones;
 
 pub use border::{Border, Filter};
@@ -25,9 +29,11 @@ pub use charcoal::{
     CetCoordinate, CetFilter, Charcoal, CharcoalPictures, ContrastOperator, Improvements, Noise, Paper, Recipe,
 };
 pub use dietrich::Dietrich;
+pub use ink::{Ink, Quality};
 pub use inking::{ClassColors, Inking, LightOn, PaintMode};
 pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
+pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
 
 use crate::error::Result;
@@ -51,6 +57,8 @@ pub enum Style {
     Inking(Inking),
     /// Ink where the surface is seen at a grazing angle.
     Dietrich(Dietrich),
+    /// Ink where the surface ends or turns, found by its planes.
+    Ink(Ink),
     /// Grain by tone, on paper.
     Charcoal(Charcoal),
     /// The same mixed with the model's own texture in sepia.
@@ -93,6 +101,7 @@ impl Style {
             StyleName::TwoPass => Self::TwoPass(Cartoon::default()),
             StyleName::Inking => Self::Inking(Inking::default()),
             StyleName::Dietrich => Self::Dietrich(Dietrich::default()),
+            StyleName::Ink => Self::Ink(Ink::default()),
             StyleName::Charcoal => Self::Charcoal(Charcoal::default()),
             StyleName::Sand => Self::Sand(Charcoal::default()),
         }
@@ -110,6 +119,7 @@ impl Style {
             Self::TwoPass(cartoon) => cartoon.two_pass(scene, show),
             Self::Inking(inking) => inking.plan(scene, show),
             Self::Dietrich(dietrich) => dietrich.plan(scene, show),
+            Self::Ink(ink) => ink.plan(scene, show),
             Self::Charcoal(charcoal) => charcoal.charcoal(scene, show),
             Self::Sand(charcoal) => charcoal.sand(scene, show),
         }
@@ -129,6 +139,8 @@ pub enum StyleName {
     Inking,
     /// `dietrich`
     Dietrich,
+    /// `ink`
+    Ink,
     /// `charcoal`
     Charcoal,
     /// `sand`
@@ -137,12 +149,13 @@ pub enum StyleName {
 
 impl StyleName {
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 7] = [
+    pub const ALL: [(&'static str, Self); 8] = [
         ("phong", Self::Phong),
         ("three-pass", Self::ThreePass),
         ("two-pass", Self::TwoPass),
         ("inking", Self::Inking),
         ("dietrich", Self::Dietrich),
+        ("ink", Self::Ink),
         ("charcoal", Self::Charcoal),
         ("sand", Self::Sand),
     ];

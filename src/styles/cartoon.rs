@@ -93,7 +93,7 @@ impl Cartoon {
             let program = Program { vertex: "evangelista/two-pass.vert", fragments };
             Draw { uniforms, textures, ..self.draw(Geometry::Objects(Paint::Materials), program) }
         });
-        let pass = Pass { name: "tones-and-border", steps };
+        let pass = Pass::new("tones-and-border", steps);
         Ok(self.finish(vec![self.map_pass(scene, true), pass], show))
     }
 
@@ -132,7 +132,7 @@ impl Cartoon {
             .iter()
             .flat_map(|pass| &pass.steps)
             .any(|step| matches!(step, Step::Draw(draw) if draw.textures.iter().any(|(name, _)| *name == "toneTable")));
-        Plan { passes, tone_table: self.tones.table().filter(|_| reads_table), pictures: Vec::new(), output }
+        Plan { tone_table: self.tones.table().filter(|_| reads_table), output, ..Plan::new(passes) }
     }
 
     /// Step 1: normals and depth into the framebuffer and, to be read later, into a texture.
@@ -148,7 +148,7 @@ impl Cartoon {
         if copy {
             steps.push(Step::CopyFramebuffer);
         }
-        Pass { name: "map", steps }
+        Pass::new("map", steps)
     }
 
     /// Step 2: uniform shading.
@@ -166,7 +166,7 @@ impl Cartoon {
                 ..self.draw(Geometry::Objects(Paint::Materials), program)
             }
         });
-        Pass { name: "tones", steps }
+        Pass::new("tones", steps)
     }
 
     fn draw(&self, geometry: Geometry, program: Program) -> Draw {
@@ -208,7 +208,7 @@ fn border_pass(border: &Border, scene: &Scene, alone: bool) -> Pass {
         steps.push(Step::Clear { color });
     }
     steps.push(Step::Draw(square));
-    Pass { name: "border", steps }
+    Pass::new("border", steps)
 }
 
 fn shows_map(show: Show) -> bool {

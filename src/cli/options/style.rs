@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use tinta::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use tinta::plan::LineDrawing;
 use tinta::styles::{
-    Border, Cartoon, ClassColors, Dietrich, Filter, Inking, LightOn, PaintMode, Phong, Ramp, RampRow, ToneLookup, Tones,
+    Border, Cartoon, ClassColors, Dietrich, Filter, Ink, Inking, LightOn, PaintMode, Phong, Quality, Ramp, RampRow,
+    ToneLookup, Tones,
 };
 use tinta::{Result, Show, Style, StyleName};
 
@@ -36,6 +37,9 @@ pub struct StyleArguments {
 
     #[command(flatten)]
     dietrich: DietrichArguments,
+
+    #[command(flatten)]
+    ink: InkArguments,
 
     #[command(flatten)]
     charcoal: CharcoalArguments,
@@ -146,6 +150,14 @@ struct DietrichArguments {
     ink_threshold: f32,
 }
 
+#[derive(clap::Args)]
+#[command(next_help_heading = "Style ink (tones as three-pass, --crease-angle as inking)")]
+struct InkArguments {
+    /// Time for the ink: standard (no more than three-pass) or best (drawn larger, and shrunk) [default: standard]
+    #[arg(long, value_name = "QUALITY", default_value = "standard", hide_default_value = true)]
+    quality: Quality,
+}
+
 impl StyleArguments {
     /// The style of this name with these settings; what belongs to other styles is left alone.
     pub fn style(&self, name: StyleName) -> Result<Style> {
@@ -159,6 +171,7 @@ impl StyleArguments {
                 cull_back_faces: self.cull,
                 ..Dietrich::default()
             }),
+            StyleName::Ink => Style::Ink(self.ink.settings(self)?),
             StyleName::Charcoal => Style::Charcoal(self.charcoal.settings(self.cull)?),
             StyleName::Sand => Style::Sand(self.charcoal.settings(self.cull)?),
         })
@@ -166,21 +179,38 @@ impl StyleArguments {
 }
 
 impl CartoonArguments {
-    fn settings(&self, common: &StyleArguments) -> Cartoon {
+    fn tones(&self) -> Tones {
         let [diffuse_threshold, specular_threshold] = self.tone_thresholds;
+        Tones {
+            count: self.tones,
+            diffuse_threshold,
+            specular_threshold,
+            levels: self.tone_levels,
+            lookup: self.tone_lookup,
+        }
+    }
+
+    fn settings(&self, common: &StyleArguments) -> Cartoon {
         let border = Border { filter: self.filter, detection_factor: self.detection_factor };
         Cartoon {
-            tones: Tones {
-                count: self.tones,
-                diffuse_threshold,
-                specular_threshold,
-                levels: self.tone_levels,
-                lookup: self.tone_lookup,
-            },
+            tones: self.tones(),
             border: (!common.no_borders).then_some(border),
             background_square: self.background_quad,
             cull_back_faces: common.cull,
         }
+    }
+}
+
+impl InkArguments {
+    fn settings(&self, common: &StyleArguments) -> Result<Ink> {
+        Ok(Ink {
+            quality: self.quality,
+            is_inked: !common.no_borders,
+            crease_angle: common.crease.crease_angle()?,
+            tones: common.cartoon.tones(),
+            cull_back_faces: common.cull,
+            ..Ink::default()
+        })
     }
 }
 
