@@ -18,6 +18,7 @@ mod dietrich;
 mod ink;
 mod inking;
 mod lens;
+mod map;
 mod phong;
 mod ramp;
 mod supersample;
@@ -31,6 +32,7 @@ pub use charcoal::{
 pub use dietrich::Dietrich;
 pub use ink::{Ink, Quality};
 pub use inking::{ClassColors, Inking, LightOn, PaintMode};
+pub use map::MapEncoding;
 pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
 pub use supersample::Supersample;
@@ -265,7 +267,10 @@ picture: the framebuffer
         assert_eq!(toned[3..], ["toon-settings.frag+tone-steps.frag", "border.frag"]);
         cartoon.border = Some(Border { filter: Filter::Sobel, ..Border::default() });
         let both = shaders(&plan(&Style::TwoPass(cartoon), Show::Final));
-        assert_eq!(both[3], "two-pass-settings.frag+tone-steps.frag+filter-sobel.frag");
+        assert_eq!(
+            both[3],
+            "two-pass-settings.frag+tone-steps.frag+filter-sobel.frag+tap-next.frag+texel-map.frag+depth-as-filtered.frag"
+        );
     }
 
     #[test]

@@ -5,6 +5,7 @@
 // In:  planeMap, of plane-map.frag; textureUnit, 1 / picture size in pixels; footprint, as there;
 //      pixelAngle: tangent of the angle from pixel to pixel at the picture's middle, 0 in parallel projection;
 //      middle: the middle of the picture, pixels;
+//      reach: how many pixels away neighbours are, to the left or below and to the right or above: the lines' width;
 //      gapThreshold: x the least gap between two surfaces that is a line, in widths of a pixel; y what is added for each
 //      unit of slope; creaseCosine: cosine of the crease angle, above 0.
 // Out: gl_FragColor, black with the ink as alpha, 0 or 1.
@@ -14,6 +15,7 @@ uniform vec2 textureUnit;
 uniform vec2 footprint;
 uniform float pixelAngle;
 uniform vec2 middle;
+uniform vec2 reach;
 uniform vec2 gapThreshold;
 uniform float creaseCosine;
 
@@ -25,10 +27,10 @@ vec2 decodedSlope(vec4 texel) {
 void main() {
     vec2 place = gl_FragCoord.xy * textureUnit;
     vec4 here = texture2D(planeMap, place);
-    vec4 right = texture2D(planeMap, place + vec2(textureUnit.x, 0.0));
-    vec4 left = texture2D(planeMap, place - vec2(textureUnit.x, 0.0));
-    vec4 above = texture2D(planeMap, place + vec2(0.0, textureUnit.y));
-    vec4 below = texture2D(planeMap, place - vec2(0.0, textureUnit.y));
+    vec4 right = texture2D(planeMap, place + vec2(reach.y * textureUnit.x, 0.0));
+    vec4 left = texture2D(planeMap, place - vec2(reach.x * textureUnit.x, 0.0));
+    vec4 above = texture2D(planeMap, place + vec2(0.0, reach.y * textureUnit.y));
+    vec4 below = texture2D(planeMap, place - vec2(0.0, reach.x * textureUnit.y));
     // Only the background is the same everywhere.
     if (here.r + right.r + left.r + above.r + below.r == 0.0) discard;
     vec4 taken = vec4(right.r, left.r, above.r, below.r);
@@ -41,8 +43,8 @@ void main() {
     vec4 away = vec4(dot(right.ba, weights), dot(left.ba, weights), dot(above.ba, weights), dot(below.ba, weights)) - depth;
     away /= footprint.x - footprint.y * depth;
     // What this pixel's plane and the neighbour's own expect the step in depth to be.
-    vec4 mine = vec4(s.x, -s.x, s.y, -s.y);
-    vec4 theirs = vec4(sRight.x, -sLeft.x, sAbove.y, -sBelow.y);
+    vec4 mine = vec4(s.x, -s.x, s.y, -s.y) * reach.yxyx;
+    vec4 theirs = vec4(sRight.x, -sLeft.x, sAbove.y, -sBelow.y) * reach.yxyx;
     vec4 a = away - mine;
     vec4 b = away - theirs;
     // The planes meet between the pixels where the two expectations lie on either side of the step.

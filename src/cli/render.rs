@@ -25,7 +25,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: String,
 
-    /// Style: phong, three-pass, two-pass, inking, dietrich, charcoal, sand [default: three-pass]
+    /// Style: phong, three-pass, two-pass, inking, dietrich, ink, charcoal, sand [default: three-pass]
     #[arg(long, value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
     style: StyleName,
 

@@ -317,8 +317,7 @@ fn load_functions(platform: &Platform, backend: &'static str, device: String) ->
         || glow.supported_extensions().contains("GL_ARB_timer_query")
         || glow.supported_extensions().contains("GL_EXT_timer_query");
     let has = |name: &str| glow.supported_extensions().contains(name);
-    let float_targets =
-        version >= (3, 0) || (has("GL_ARB_framebuffer_object") && has("GL_ARB_texture_float"));
+    let float_targets = version >= (3, 0) || (has("GL_ARB_framebuffer_object") && has("GL_ARB_texture_float"));
     let info = ContextInfo {
         backend,
         device,

@@ -281,7 +281,8 @@ impl Resources {
         let copied = if is_depth { self.targets.depth_map() } else { self.targets.border_map() };
         let Some(texture) = copied else { return };
         texture.bind(0);
-        let (format, bytes) = if is_depth { (glow::DEPTH_COMPONENT, size.pixel_count()) } else { (glow::RGBA, pixels.len()) };
+        let (format, bytes) =
+            if is_depth { (glow::DEPTH_COMPONENT, size.pixel_count()) } else { (glow::RGBA, pixels.len()) };
         let target = glow::PixelPackData::Slice(Some(&mut pixels[..bytes]));
         // SAFETY: the context is current, the bound texture was copied from a framebuffer of this size; rows are packed
         // without gaps and the memory has one byte a pixel for depth, four for colour.

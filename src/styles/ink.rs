@@ -3,6 +3,7 @@
 //! Evangelista's three passes with another map and another filter: the map holds each pixel's own plane, the filter asks
 //! whether neighbouring planes meet. What was measured is in `docs/ink.md`.
 
+use super::border::{check_width, reach};
 use super::{Show, Supersample, Tones, lens, supersample};
 use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
@@ -17,13 +18,18 @@ use std::str::FromStr;
 pub struct Ink {
     /// How much time the picture may take. Default standard.
     pub quality: Quality,
+    /// How much larger than the picture it is drawn, to be shrunk; `None` is as the quality has it. Default none.
+    pub supersample: Option<Supersample>,
     /// Whether lines are drawn at all. Default yes.
     pub is_inked: bool,
     /// From which angle between planes there is a crease. Default a cosine of 0.4; more degrees draw fewer lines.
     pub crease_angle: CreaseAngle,
+    /// Width of the lines, pixels, 1 to 64. Default 2; more also joins what lies near each other.
+    pub line_width_px: u32,
     /// The least step from one surface to another that is a line, in widths of a pixel. Default 1.5; more draws fewer lines.
     pub least_gap_px: f32,
     /// What is added to it for each unit of a surface's slope towards the eye, which the map knows less exactly the steeper.
+    /// Default 0.3; more draws fewer lines near outlines.
     pub gap_per_slope: f32,
     /// The tones below. Default those of the three passes.
     pub tones: Tones,
@@ -67,10 +73,12 @@ impl Default for Ink {
     fn default() -> Self {
         Self {
             quality: Quality::Standard,
+            supersample: None,
             is_inked: true,
             crease_angle: CreaseAngle::default(),
             least_gap_px: 1.5,
-            gap_per_slope: 0.1,
+            gap_per_slope: 0.3,
+            line_width_px: 2,
             tones: Tones::default(),
             cull_back_faces: false,
         }
@@ -81,7 +89,7 @@ impl Ink {
     /// Map, tones, ink on top.
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
         self.check(show)?;
-        let sampling = if show == Show::Map { Supersample::One } else { self.quality.supersample() };
+        let sampling = if show == Show::Map { Supersample::One } else { self.supersample() };
         let surface = sampling.surface(scene.size);
         let mut passes = Vec::new();
         if show != Show::Tones && self.is_inked {
@@ -97,6 +105,10 @@ impl Ink {
         Ok(sampling.finish(plan, scene.size))
     }
 
+    fn supersample(&self) -> Supersample {
+        self.supersample.unwrap_or(self.quality.supersample())
+    }
+
     fn check(&self, show: Show) -> Result<()> {
         if !matches!(show, Show::Final | Show::Tones | Show::Borders | Show::Map) {
             return Err(Error::setting("--show", "the style ink has final, tones, borders and map; show one of these"));
@@ -104,6 +116,7 @@ impl Ink {
         if !self.is_inked && matches!(show, Show::Borders | Show::Map) {
             return Err(Error::setting("--show", "there is no ink with --no-borders; leave out one of the two"));
         }
+        check_width(Some(self.line_width_px))?;
         self.tones.check()
     }
 
@@ -142,12 +155,14 @@ impl Ink {
     /// The filter over the whole picture; `alone` on a white ground.
     fn ink_pass(&self, scene: &Scene, surface: Size, alone: bool) -> Pass {
         let float = |name, value: f64| Uniform { name, value: Value::Float(value as f32) };
-        let gap = [self.least_gap_px, self.gap_per_slope];
+        let scale = self.supersample().factor();
+        let gap = [self.least_gap_px * scale as f32, self.gap_per_slope];
         let mut uniforms = vec![
             supersample::texture_unit(surface),
             lens::footprint(scene, surface),
             Uniform { name: "gapThreshold", value: Value::Vec2(gap) },
             float("creaseCosine", self.crease_angle.cosine),
+            reach(Some(self.line_width_px), scale, false),
         ];
         uniforms.extend(lens::rays(scene, surface));
         let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/plane-ink.frag"] };

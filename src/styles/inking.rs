@@ -9,8 +9,7 @@ use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::names::find;
 use crate::plan::{
-    Depth, Draw, EdgeRun, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
-    Texture,
+    Depth, Draw, EdgeRun, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture,
 };
 use crate::scene::{Background, Color, Scene};
 use serde::Serialize;

@@ -6,15 +6,15 @@ use std::path::PathBuf;
 use tinta::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use tinta::plan::LineDrawing;
 use tinta::styles::{
-    Border, Cartoon, ClassColors, Dietrich, Filter, Ink, Inking, LightOn, PaintMode, Phong, Quality, Ramp, RampRow,
-    ToneLookup, Tones,
+    Border, Cartoon, ClassColors, Dietrich, Filter, Ink, Inking, LightOn, MapEncoding, PaintMode, Phong, Quality, Ramp,
+    RampRow, Supersample, ToneLookup, Tones,
 };
 use tinta::{Result, Show, Style, StyleName};
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "All styles")]
 pub struct StyleArguments {
-    /// Which picture: final, borders, tones; three-pass and two-pass also normals, depth, map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
+    /// Which picture: final, borders, tones; three-pass and two-pass also normals, depth, map, ink also map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
     #[arg(long, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
     pub show: Show,
 
@@ -37,6 +37,9 @@ pub struct StyleArguments {
 
     #[command(flatten)]
     dietrich: DietrichArguments,
+
+    #[command(flatten)]
+    image_space: ImageSpaceArguments,
 
     #[command(flatten)]
     ink: InkArguments,
@@ -75,7 +78,32 @@ struct CartoonArguments {
     /// Draw a square behind the scene, on or off; off loses outer borders [default: on]
     #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
     background_quad: bool,
+
+    /// How normals and depth are kept: paper, biased (0.5 n + 0.5), float16, float, depth-texture (biased, depth from the depth buffer) [default: paper]
+    #[arg(long, value_name = "ENCODING", default_value = "paper", hide_default_value = true)]
+    map_encoding: MapEncoding,
+
+    /// Let depth answer by a threshold that knows the surface's slope, on or off; off: by the filter [default: off]
+    #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "off", hide_default_value = true)]
+    slope_threshold: bool,
 }
+
+/// What three-pass, two-pass and ink share.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Styles three-pass, two-pass and ink")]
+struct ImageSpaceArguments {
+    /// Width of the borders, pixels, 1 to 64; paper is as the filter draws them, about 2; ink has 2 [default: paper]
+    #[arg(long, value_name = "PIXELS", value_parser = parse_border_width, default_value = "paper", hide_default_value = true)]
+    border_width: BorderWidth,
+
+    /// Draw 1, 2 or 4 times as wide and high and shrink; the largest picture shrinks by as much (tinta info has it) [default: 1; ink --quality best 2]
+    #[arg(long, value_name = "N")]
+    supersample: Option<Supersample>,
+}
+
+/// A width in pixels, or the published one.
+#[derive(Clone, Copy)]
+struct BorderWidth(Option<u32>);
 
 /// What the edge list is asked.
 #[derive(clap::Args)]
@@ -191,12 +219,19 @@ impl CartoonArguments {
     }
 
     fn settings(&self, common: &StyleArguments) -> Cartoon {
-        let border = Border { filter: self.filter, detection_factor: self.detection_factor };
+        let border = Border {
+            filter: self.filter,
+            detection_factor: self.detection_factor,
+            width_px: common.image_space.border_width.0,
+            slope_threshold: self.slope_threshold,
+        };
         Cartoon {
             tones: self.tones(),
             border: (!common.no_borders).then_some(border),
             background_square: self.background_quad,
             cull_back_faces: common.cull,
+            map_encoding: self.map_encoding,
+            supersample: common.image_space.supersample.unwrap_or_default(),
         }
     }
 }
@@ -209,6 +244,8 @@ impl InkArguments {
             crease_angle: common.crease.crease_angle()?,
             tones: common.cartoon.tones(),
             cull_back_faces: common.cull,
+            line_width_px: common.image_space.border_width.0.unwrap_or(Ink::default().line_width_px),
+            supersample: common.image_space.supersample,
             ..Ink::default()
         })
     }
@@ -256,6 +293,13 @@ fn parse_cull(text: &str) -> std::result::Result<bool, String> {
         "none" => Ok(false),
         "back" => Ok(true),
         _ => Err("choose none or back".to_owned()),
+    }
+}
+
+fn parse_border_width(text: &str) -> std::result::Result<BorderWidth, String> {
+    match text {
+        "paper" => Ok(BorderWidth(None)),
+        _ => text.parse().map(|width| BorderWidth(Some(width))).map_err(|_| "give whole pixels, or paper".to_owned()),
     }
 }
 
