@@ -8,6 +8,7 @@ mod cli_ink;
 mod docs;
 mod edges;
 mod goldens;
+mod improved;
 mod inking;
 mod licences;
 mod pipeline;
