@@ -267,26 +267,24 @@ impl PlaneInk<'_> {
     }
 
     fn at(&self, x: i64, y: i64) -> (bool, bool) {
-        let taps = [(1, 0), (-1, 0), (0, 1), (0, -1)];
         // Beyond the rim the map is that of the rim.
         let (width, height) = (i64::from(self.map.size.width) - 1, i64::from(self.map.size.height) - 1);
-        let texels = taps.map(|(dx, dy)| self.texel((x + dx).clamp(0, width), (y - dy).clamp(0, height)));
-        let here = self.texel(x, y);
-        let Some(([sx, sy], depth)) = here else { return (texels.iter().any(Option::is_some), false) };
-        let ray = [(x as f64 + 0.5 - (width + 1) as f64 * 0.5), (height - y) as f64 + 0.5 - (height + 1) as f64 * 0.5]
-            .map(|offset| offset * self.angle);
+        let texel = |dx: i64, dy: i64| self.texel((x + dx).clamp(0, width), (y - dy).clamp(0, height));
+        let ray = [x as f64 - width as f64 * 0.5, height as f64 * 0.5 - y as f64].map(|offset| offset * self.angle);
         let along = |[a, b]: [f64; 2]| 1.0 + ray[0] * a + ray[1] * b;
         let (mut is_line, mut is_close) = (false, false);
-        for ((dx, dy), texel) in taps.into_iter().zip(texels) {
-            let Some(([tx, ty], other)) = texel else { return (true, false) };
-            let (dx, dy) = (dx as f64, dy as f64);
+        for (axis, pair) in [[texel(-1, 0), texel(1, 0)], [texel(0, -1), texel(0, 1)]].into_iter().enumerate() {
+            let [Some((s, depth)), Some((t, other))] = pair else {
+                is_line |= pair[0].is_some() != pair[1].is_some();
+                continue;
+            };
             let away = (other - depth) / (self.footprint[0] - self.footprint[1] * depth);
-            let (mine, theirs) = (sx * dx + sy * dy, tx * dx + ty * dy);
-            let (a, b) = (away - mine, away - theirs);
+            let (near, far) = (2.0 * s[axis], 2.0 * t[axis]);
+            let (a, b) = (away - near, away - far);
             let gap = if a * b >= 0.0 { a.abs().min(b.abs()) } else { 0.0 };
-            let limit = self.gap[0] + self.gap[1] * mine.abs().min(theirs.abs());
-            let (m, n) = (along([sx, sy]), along([tx, ty]));
-            let cosine = (m * n + sx * tx + sy * ty) / (sx.hypot(sy).hypot(m) * tx.hypot(ty).hypot(n));
+            let limit = self.gap[0] + self.gap[1] * near.abs().min(far.abs());
+            let (m, n) = (along(s), along(t));
+            let cosine = (m * n + s[0] * t[0] + s[1] * t[1]) / (s[0].hypot(s[1]).hypot(m) * t[0].hypot(t[1]).hypot(n));
             is_line |= gap > limit || cosine < self.cosine;
             is_close |= (gap - limit).abs() < 1e-3 || (cosine - self.cosine).abs() < 1e-4 || (a * b).abs() < 1e-3;
         }
