@@ -8,7 +8,7 @@ use std::str::FromStr;
 
 /// How many times as wide and high as the picture it is drawn.
 ///
-/// The largest picture shrinks by the same factor: a driver that draws 16384 x 16384 pixels makes pictures of up to
+/// The largest picture shrinks by the same factor: a driver that draws 16384 x 16384 pixels at most makes pictures of up to
 /// 4096 x 4096 with [`Supersample::Four`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(into = "u32")]
