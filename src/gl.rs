@@ -13,6 +13,7 @@ mod legacy;
 mod meshes;
 mod objects;
 mod quads;
+mod targets;
 mod textures;
 
 pub use context::{Attempt, Backend, ContextInfo};

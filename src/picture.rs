@@ -180,6 +180,9 @@ impl Target {
             return Ok(Self::Stdout);
         }
         let file = PathBuf::from(path);
+        if file.is_dir() {
+            return Err(refuse("this is a directory; name a file in it".to_owned()));
+        }
         let known = || PictureFormat::EXTENSIONS.map(|(extension, _)| extension).join(", ");
         let format = match (PictureFormat::of(&file), file.extension()) {
             (Some(format), _) => format,

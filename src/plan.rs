@@ -2,10 +2,11 @@
 //!
 //! A style makes it from a scene, `gl` carries it out, and anybody can print, compare or check it without a GPU.
 
+mod display;
+
 use crate::names::find;
 use crate::picture::Picture;
 use serde::Serialize;
-use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
@@ -18,6 +19,9 @@ pub struct Plan {
     pub tone_table: Option<ToneTable>,
     /// The pictures that [`Texture::Picture`] numbers.
     pub pictures: Vec<PlanPicture>,
+    /// How many times as wide and high as the picture it is drawn, from 1. Above 1 the plan itself ends by drawing
+    /// [`Geometry::PictureSquare`], which fills the picture.
+    pub supersample: u32,
     /// What of the framebuffer is the picture.
     pub output: Output,
 }
@@ -27,8 +31,29 @@ pub struct Plan {
 pub struct Pass {
     /// `map`, `tones`, `border` …
     pub name: &'static str,
+    /// What it draws into.
+    pub target: Target,
     /// In order.
     pub steps: Vec<Step>,
+}
+
+/// What a pass draws into.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Target {
+    /// The framebuffer, 8 bits a channel.
+    #[default]
+    Framebuffer,
+    /// The texture [`Texture::FloatMap`], RGBA, with a depth buffer of its own; not clamped to [0, 1].
+    FloatMap(FloatBits),
+}
+
+/// How large a channel of a floating-point texture is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FloatBits {
+    /// 16 bits, 11 of them for the digits.
+    Half,
+    /// 32 bits.
+    Single,
 }
 
 /// One thing for GL to do.
@@ -43,6 +68,8 @@ pub enum Step {
     Draw(Draw),
     /// glCopyTexImage2D: the framebuffer becomes the texture [`Texture::BorderMap`], RGBA.
     CopyFramebuffer,
+    /// glCopyTexImage2D: the depth buffer becomes the texture [`Texture::DepthMap`].
+    CopyDepth,
 }
 
 /// One draw with all the state it needs.
@@ -108,6 +135,8 @@ pub enum Geometry {
     },
     /// A square over the whole picture at the near plane, its vertices in clip space.
     ScreenSquare,
+    /// The same over the lower left corner that is the picture of a supersampled plan.
+    PictureSquare,
 }
 
 /// The colour of the objects' vertices.
@@ -204,6 +233,10 @@ pub enum Value {
 pub enum Texture {
     /// The framebuffer as the last [`Step::CopyFramebuffer`] left it; NEAREST, CLAMP_TO_EDGE (errata E12).
     BorderMap,
+    /// What the last pass into [`Target::FloatMap`] drew; NEAREST, CLAMP_TO_EDGE.
+    FloatMap,
+    /// The depth buffer as the last [`Step::CopyDepth`] left it, window z in red; NEAREST, CLAMP_TO_EDGE.
+    DepthMap,
     /// The plan's [`ToneTable`], one-dimensional; NEAREST, CLAMP_TO_EDGE.
     ToneTable,
     /// The plan's picture of this number.
@@ -264,9 +297,21 @@ pub enum Output {
 }
 
 impl Plan {
+    /// A plan of these passes that reads neither tones nor pictures, drawn at its own size.
+    pub fn new(passes: Vec<Pass>) -> Self {
+        Self { passes, tone_table: None, pictures: Vec::new(), supersample: 1, output: Output::Rgba }
+    }
+
     /// All steps with the name of their pass.
     pub fn steps(&self) -> impl Iterator<Item = (&'static str, &Step)> {
         self.passes.iter().flat_map(|pass| pass.steps.iter().map(|step| (pass.name, step)))
+    }
+}
+
+impl Pass {
+    /// Steps into the framebuffer.
+    pub fn new(name: &'static str, steps: Vec<Step>) -> Self {
+        Self { name, target: Target::Framebuffer, steps }
     }
 }
 
@@ -276,111 +321,15 @@ impl Step {
         match self {
             Self::Clear { .. } => "clear",
             Self::CopyFramebuffer => "copy",
+            Self::CopyDepth => "copy-depth",
             Self::Draw(draw) => match draw.geometry {
                 Geometry::Objects(_) => "objects",
                 Geometry::Edges { mark: Mark::Lines, .. } => "lines",
                 Geometry::Edges { mark: Mark::Points, .. } => "points",
                 Geometry::BackgroundSquare { .. } => "background",
                 Geometry::ScreenSquare => "square",
+                Geometry::PictureSquare => "shrink",
             },
         }
     }
-}
-
-impl fmt::Display for Plan {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (number, pass) in self.passes.iter().enumerate() {
-            writeln!(out, "pass {}: {}", number + 1, pass.name)?;
-            for step in &pass.steps {
-                writeln!(out, "  {step}")?;
-            }
-        }
-        let output = match self.output {
-            Output::Rgba => "the framebuffer",
-            Output::Rgb => "the framebuffer's red, green and blue",
-            Output::AlphaAsGrey => "the framebuffer's alpha as grey",
-        };
-        writeln!(out, "picture: {output}")
-    }
-}
-
-impl fmt::Display for Step {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Clear { color: [r, g, b, a] } => write!(out, "clear to ({r}, {g}, {b}, {a}), depth to 1"),
-            Self::CopyFramebuffer => write!(out, "copy the framebuffer into the texture BorderMap"),
-            Self::Draw(draw) => draw.fmt(out),
-        }
-    }
-}
-
-impl fmt::Display for Draw {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.geometry {
-            Geometry::Objects(Paint::Materials) => write!(out, "draw the objects")?,
-            Geometry::Objects(Paint::Uniform([r, g, b, a])) => write!(out, "draw the objects in ({r}, {g}, {b}, {a})")?,
-            Geometry::Objects(Paint::Coordinates(_)) => write!(out, "draw the objects by texture coordinates")?,
-            Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
-                let mark = if *mark == Mark::Lines { "lines" } else { "points" };
-                let smooth = if *is_smooth { "smooth " } else { "" };
-                let quads = if *line_drawing == LineDrawing::Quads { " as quads" } else { "" };
-                write!(out, "draw {smooth}{mark} of {width_px} px{quads} at")?;
-                write_runs(out, runs)?;
-            }
-            Geometry::BackgroundSquare { color: [r, g, b, a] } => {
-                write!(out, "draw the background square in ({r}, {g}, {b}, {a})")?;
-            }
-            Geometry::ScreenSquare => write!(out, "draw the screen square")?,
-        }
-        match &self.program {
-            None => write!(out, " without shaders")?,
-            Some(Program { vertex, fragments }) if fragments.is_empty() => write!(out, " with {vertex}")?,
-            Some(Program { vertex, fragments }) => write!(out, " with {vertex} + {}", fragments.join(" + "))?,
-        }
-        for uniform in &self.uniforms {
-            match uniform.value {
-                Value::Float(x) => write!(out, ", {} = {x}", uniform.name)?,
-                Value::Int(x) => write!(out, ", {} = {x}", uniform.name)?,
-                Value::Vec2([x, y]) => write!(out, ", {} = ({x}, {y})", uniform.name)?,
-                Value::Vec3([x, y, z]) => write!(out, ", {} = ({x}, {y}, {z})", uniform.name)?,
-            }
-        }
-        for (sampler, texture) in &self.textures {
-            write!(out, ", {sampler} = {texture:?}")?;
-        }
-        match self.depth {
-            Depth::TestAndWrite => {}
-            Depth::TestOnly => write!(out, ", depth not written")?,
-            Depth::Ignore => write!(out, ", no depth test")?,
-        }
-        if self.cull_back_faces {
-            write!(out, ", back faces left out")?;
-        }
-        if let Some([factor, units]) = self.polygon_offset {
-            write!(out, ", pushed back by ({factor}, {units})")?;
-        }
-        if self.blend {
-            write!(out, ", blended")?;
-        }
-        Ok(())
-    }
-}
-
-/// How many edges of each name and colour.
-fn write_runs(out: &mut fmt::Formatter<'_>, runs: &[EdgeRun]) -> fmt::Result {
-    let mut sums: Vec<(&str, [f32; 4], usize)> = Vec::new();
-    for run in runs {
-        match sums.iter_mut().find(|(name, color, _)| *name == run.name && *color == run.color) {
-            Some((.., count)) => *count += run.ends.len(),
-            None => sums.push((run.name, run.color, run.ends.len())),
-        }
-    }
-    if sums.is_empty() {
-        write!(out, " no edges")?;
-    }
-    for (index, (name, [r, g, b, a], count)) in sums.iter().enumerate() {
-        let comma = if index > 0 { "," } else { "" };
-        write!(out, "{comma} {count} {name} edges in ({r}, {g}, {b}, {a})")?;
-    }
-    Ok(())
 }

@@ -7,7 +7,7 @@ use crate::gl::execute::Resources;
 use crate::gl::{Backend, ContextInfo};
 use crate::mesh::Mesh;
 use crate::picture::Picture;
-use crate::plan::{Draw, Geometry, LineDrawing, Output, Plan, Step};
+use crate::plan::{Draw, Geometry, LineDrawing, Output, Plan, Step, Target};
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use serde::Serialize;
@@ -19,7 +19,8 @@ pub struct Renderer {
     // Dropped with the context current: see `Drop`.
     resources: Resources,
     context: Context,
-    size: Option<Size>,
+    /// Of the context's surface: the picture's size times the plan's supersampling.
+    surface: Option<Size>,
     pixels: Vec<u8>,
 }
 
@@ -53,7 +54,7 @@ impl Renderer {
     /// [`Error::NoContext`] with every attempt when none of this backend's ways works.
     pub fn new(backend: Backend) -> Result<Self> {
         let context = Context::open(backend)?;
-        Ok(Self { resources: Resources::new(context.gl()), context, size: None, pixels: Vec::new() })
+        Ok(Self { resources: Resources::new(context.gl()), context, surface: None, pixels: Vec::new() })
     }
 
     /// What the context says about itself.
@@ -161,6 +162,7 @@ impl Renderer {
                     let timer = if has_timers { Some(frame.resources.timer()?) } else { None };
                     let start = Instant::now();
                     timer.iter().for_each(|timer| timer.begin());
+                    frame.resources.begin(pass.target)?;
                     for step in &pass.steps {
                         frame.resources.step(scene, step)?;
                     }
@@ -187,16 +189,23 @@ impl Renderer {
     pub fn step_pictures(&mut self, scene: &Scene, plan: &Plan) -> Result<Vec<StepPicture>> {
         self.with_context(scene, plan, |frame| {
             let mut pictures = Vec::new();
-            for (pass, step) in plan.steps() {
-                frame.resources.step(scene, step)?;
-                // Before reading: a copy that failed leaves a texture of another size.
-                frame.resources.check(pass)?;
-                match step {
-                    Step::CopyFramebuffer => frame.resources.read_border_map(scene.size, frame.pixels),
-                    Step::Clear { .. } | Step::Draw(_) => frame.resources.read_framebuffer(scene.size, frame.pixels),
+            for pass in &plan.passes {
+                for step in &pass.steps {
+                    frame.resources.begin(pass.target)?;
+                    frame.resources.step(scene, step)?;
+                    // Before reading: a copy that failed leaves a texture of another size.
+                    frame.resources.check(pass.name)?;
+                    let is_final = matches!(step, Step::Draw(Draw { geometry: Geometry::PictureSquare, .. }));
+                    let size = if is_final { scene.size } else { scene.size.times(plan.supersample) };
+                    let pixels = &mut frame.pixels[..size.pixel_count() * 4];
+                    match step {
+                        Step::CopyFramebuffer | Step::CopyDepth => frame.resources.read_copy(step, size, pixels),
+                        Step::Clear { .. } | Step::Draw(_) => frame.resources.read_framebuffer(size, pixels),
+                    }
+                    let picture = Picture::from_bottom_up(size, pixels);
+                    frame.resources.check(pass.name)?;
+                    pictures.push(StepPicture { pass: pass.name, step: step.name(), picture });
                 }
-                frame.resources.check(pass)?;
-                pictures.push(StepPicture { pass, step: step.name(), picture: frame.picture(Output::Rgba) });
             }
             Ok(pictures)
         })
@@ -231,21 +240,36 @@ impl Renderer {
         }
     }
 
+    fn resize(&mut self, surface: Size, supersample: u32) -> Result<()> {
+        let limit = self.context.info().largest_picture;
+        if supersample > 1 && (surface.width > limit.width || surface.height > limit.height) {
+            let largest = Size { width: limit.width / supersample, height: limit.height / supersample };
+            let problem = format!(
+                "{} draws {limit} pixels at most, which is {largest} with this; ask for a smaller --size or less of it",
+                self.context.info().renderer
+            );
+            return Err(Error::setting(format!("--supersample {supersample}"), problem));
+        }
+        self.context.resize(surface)?;
+        let bytes = surface.pixel_count() * 4;
+        self.pixels = Vec::new();
+        self.pixels
+            .try_reserve_exact(bytes)
+            .map_err(|_| Error::gl("reading the picture back", "there is not enough memory"))?;
+        self.pixels.resize(bytes, 0);
+        self.surface = Some(surface);
+        Ok(())
+    }
+
     fn with_context<T>(
         &mut self,
         scene: &Scene,
         plan: &Plan,
         work: impl FnOnce(&mut Frame<'_>) -> Result<T>,
     ) -> Result<T> {
-        if self.size != Some(scene.size) {
-            self.context.resize(scene.size)?;
-            let bytes = scene.size.pixel_count() * 4;
-            self.pixels = Vec::new();
-            self.pixels
-                .try_reserve_exact(bytes)
-                .map_err(|_| Error::gl("reading the picture back", "there is not enough memory"))?;
-            self.pixels.resize(bytes, 0);
-            self.size = Some(scene.size);
+        let surface = scene.size.times(plan.supersample);
+        if self.surface != Some(surface) {
+            self.resize(surface, plan.supersample)?;
         }
         let current: Current<'_> = self.context.enter()?;
         self.resources.prepare(scene, plan)?;
@@ -268,16 +292,22 @@ struct Frame<'a> {
 
 impl Frame<'_> {
     fn all_steps(&mut self) -> Result<()> {
-        self.plan.steps().try_for_each(|(_, step)| self.resources.step(self.scene, step))
+        for pass in &self.plan.passes {
+            self.resources.begin(pass.target)?;
+            pass.steps.iter().try_for_each(|step| self.resources.step(self.scene, step))?;
+        }
+        Ok(())
     }
 
     fn read_back(&mut self) -> Result<()> {
-        self.resources.read_framebuffer(self.scene.size, self.pixels);
+        let size = self.scene.size;
+        self.resources.begin(Target::Framebuffer)?;
+        self.resources.read_framebuffer(size, &mut self.pixels[..size.pixel_count() * 4]);
         self.resources.check("drawing")
     }
 
     fn picture(&self, output: Output) -> Picture {
-        let picture = Picture::from_bottom_up(self.scene.size, self.pixels);
+        let picture = Picture::from_bottom_up(self.scene.size, &self.pixels[..self.scene.size.pixel_count() * 4]);
         match output {
             Output::Rgba => picture,
             Output::Rgb => picture.opaque(),

@@ -7,6 +7,7 @@
 //! | `two-pass` | Evangelista et al. 2005, section 4.2 and appendix 2 |
 //! | `inking` | Dachsbacher, edge list and painting |
 //! | `dietrich` | the hardware's outline that Dachsbacher names as the alternative |
+//! | `ink` | of this project: Evangelista's passes with a map and a filter that answer to geometry |
 //! | `charcoal` | Valente 2007 |
 //! | `sand` | Valente 2007, section 4 |
 
@@ -14,9 +15,13 @@ mod border;
 mod cartoon;
 mod charcoal;
 mod dietrich;
+mod ink;
 mod inking;
+mod lens;
+mod map;
 mod phong;
 mod ramp;
+mod supersample;
 mod tones;
 
 pub use border::{Border, Filter};
@@ -25,9 +30,12 @@ pub use charcoal::{
     CetCoordinate, CetFilter, Charcoal, CharcoalPictures, ContrastOperator, Improvements, Noise, Paper, Recipe,
 };
 pub use dietrich::Dietrich;
+pub use ink::{Ink, Quality};
 pub use inking::{ClassColors, Inking, LightOn, PaintMode};
+pub use map::MapEncoding;
 pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
+pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
 
 use crate::error::Result;
@@ -51,6 +59,8 @@ pub enum Style {
     Inking(Inking),
     /// Ink where the surface is seen at a grazing angle.
     Dietrich(Dietrich),
+    /// Ink where the surface ends or turns, found by its planes.
+    Ink(Ink),
     /// Grain by tone, on paper.
     Charcoal(Charcoal),
     /// The same mixed with the model's own texture in sepia.
@@ -93,6 +103,7 @@ impl Style {
             StyleName::TwoPass => Self::TwoPass(Cartoon::default()),
             StyleName::Inking => Self::Inking(Inking::default()),
             StyleName::Dietrich => Self::Dietrich(Dietrich::default()),
+            StyleName::Ink => Self::Ink(Ink::default()),
             StyleName::Charcoal => Self::Charcoal(Charcoal::default()),
             StyleName::Sand => Self::Sand(Charcoal::default()),
         }
@@ -106,6 +117,7 @@ impl Style {
             Self::TwoPass(_) => "two-pass",
             Self::Inking(_) => "inking",
             Self::Dietrich(_) => "dietrich",
+            Self::Ink(_) => "ink",
             Self::Charcoal(_) => "charcoal",
             Self::Sand(_) => "sand",
         }
@@ -116,6 +128,7 @@ impl Style {
         match self {
             Self::ThreePass(cartoon) | Self::TwoPass(cartoon) => cartoon.border.is_some(),
             Self::Inking(inking) => inking.is_inked,
+            Self::Ink(ink) => ink.is_inked,
             Self::Dietrich(_) => true,
             Self::Phong(_) | Self::Charcoal(_) | Self::Sand(_) => false,
         }
@@ -125,6 +138,7 @@ impl Style {
     pub fn tones(&self) -> Option<&Tones> {
         match self {
             Self::ThreePass(cartoon) | Self::TwoPass(cartoon) => Some(&cartoon.tones),
+            Self::Ink(ink) => Some(&ink.tones),
             _ => None,
         }
     }
@@ -141,6 +155,7 @@ impl Style {
             Self::TwoPass(cartoon) => cartoon.two_pass(scene, show),
             Self::Inking(inking) => inking.plan(scene, show),
             Self::Dietrich(dietrich) => dietrich.plan(scene, show),
+            Self::Ink(ink) => ink.plan(scene, show),
             Self::Charcoal(charcoal) => charcoal.charcoal(scene, show),
             Self::Sand(charcoal) => charcoal.sand(scene, show),
         }
@@ -160,6 +175,8 @@ pub enum StyleName {
     Inking,
     /// `dietrich`
     Dietrich,
+    /// `ink`
+    Ink,
     /// `charcoal`
     Charcoal,
     /// `sand`
@@ -168,12 +185,13 @@ pub enum StyleName {
 
 impl StyleName {
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 7] = [
+    pub const ALL: [(&'static str, Self); 8] = [
         ("phong", Self::Phong),
         ("three-pass", Self::ThreePass),
         ("two-pass", Self::TwoPass),
         ("inking", Self::Inking),
         ("dietrich", Self::Dietrich),
+        ("ink", Self::Ink),
         ("charcoal", Self::Charcoal),
         ("sand", Self::Sand),
     ];
@@ -283,7 +301,10 @@ picture: the framebuffer
         assert_eq!(toned[3..], ["toon-settings.frag+tone-steps.frag", "border.frag"]);
         cartoon.border = Some(Border { filter: Filter::Sobel, ..Border::default() });
         let both = shaders(&plan(&Style::TwoPass(cartoon), Show::Final));
-        assert_eq!(both[3], "two-pass-settings.frag+tone-steps.frag+filter-sobel.frag");
+        assert_eq!(
+            both[3],
+            "two-pass-settings.frag+tone-steps.frag+filter-sobel.frag+tap-next.frag+texel-map.frag+depth-as-filtered.frag"
+        );
     }
 
     #[test]

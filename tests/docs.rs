@@ -16,7 +16,7 @@ fn documents() -> Vec<(PathBuf, String)> {
 
 /// The words of a document that stand in backquotes and begin like a path of this project.
 fn quoted_paths(text: &str) -> Vec<&str> {
-    const FOLDERS: [&str; 12] = [
+    const FOLDERS: [&str; 13] = [
         "src/",
         "glsl/",
         "models/",
@@ -25,6 +25,7 @@ fn quoted_paths(text: &str) -> Vec<&str> {
         "scripts/",
         "benches/",
         "evangelista/",
+        "improved/",
         "phong/",
         "dachsbacher/",
         "dietrich/",

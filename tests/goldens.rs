@@ -5,7 +5,9 @@
 use crate::support::{BACKENDS, failure_folder, renderer, root, scene_with, side_by_side};
 use tinta::edges::SilhouetteRule;
 use tinta::picture::write_rgba_png;
-use tinta::styles::{Border, Cartoon, Charcoal, ClassColors, Filter, Inking, PaintMode, Recipe, Tones};
+use tinta::styles::{
+    Border, Cartoon, Charcoal, ClassColors, Filter, Ink, Inking, MapEncoding, PaintMode, Quality, Recipe, Tones,
+};
 use tinta::{Picture, SceneSettings, Show, Size, Style, StyleName};
 
 /// A pixel counts as different beyond this, in 1/255: what another version of Mesa may round differently.
@@ -33,6 +35,11 @@ fn cases() -> Vec<Case> {
     // As large as the picture, so that every driver reads noise and paper in the middle of their texels.
     let texture_size = Size { width: 160, height: 160 };
     let charcoal = |recipe| Style::Charcoal(Charcoal { texture_size, ..Charcoal::recipe(recipe) });
+    let encoded = |map_encoding, slope_threshold| {
+        three(Cartoon { map_encoding, border: Some(Border { slope_threshold, ..Border::default() }), ..paper() })
+    };
+    let wide = three(Cartoon { border: Some(Border { width_px: Some(5), ..Border::default() }), ..paper() });
+    let best = Ink { quality: Quality::Best, ..Ink::default() };
     let case = |name, model, style, show| Case { name, model, style, show };
     let (bust, gear, ant, open_box) = ("builtin:bust", "builtin:gear", "builtin:ant", "builtin:open-box");
     vec![
@@ -60,6 +67,13 @@ fn cases() -> Vec<Case> {
         case("bust-charcoal-darker", bust, charcoal(Recipe::Darker), Show::Final),
         case("bust-charcoal-closure", bust, charcoal(Recipe::Closure), Show::Final),
         case("gear-charcoal-cet", gear, charcoal(Recipe::Published), Show::Cet),
+        case("gear-biased", gear, encoded(MapEncoding::Biased, false), Show::Borders),
+        case("gear-slope-threshold", gear, encoded(MapEncoding::DepthTexture, true), Show::Borders),
+        case("gear-float", gear, encoded(MapEncoding::Float, false), Show::Borders),
+        case("gear-wide", gear, wide, Show::Borders),
+        case("bust-ink", bust, Style::named(StyleName::Ink), Show::Final),
+        case("open-box-ink", open_box, Style::named(StyleName::Ink), Show::Borders),
+        case("ant-ink-best", ant, Style::Ink(best), Show::Final),
         case("bust-dietrich", bust, Style::named(StyleName::Dietrich), Show::Final),
     ]
 }

@@ -1,6 +1,7 @@
 //! Memory and GL objects over many frames; in a process of its own, because other tests' memory would count too.
 
 use std::sync::{Arc, Mutex};
+use tinta::styles::{Cartoon, Ink, MapEncoding, Quality};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
 
 /// Growth allowed over 1,000 frames, KiB. The allocator's own level moves by about 1,000 once, after 1,000 frames as after
@@ -18,7 +19,8 @@ fn a_thousand_frames_leave_memory_and_objects_as_they_were() {
     let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
     // Made once, as an animation does: charcoal keeps its textures in them. Sand needs a model with a texture.
     let names = StyleName::ALL.into_iter().filter(|(_, name)| *name != StyleName::Sand);
-    let styles: Vec<Style> = names.map(|(_, name)| Style::named(name)).collect();
+    let mut styles: Vec<Style> = names.map(|(_, name)| Style::named(name)).collect();
+    styles.extend(improved());
     for backend in [Backend::Egl, Backend::OsMesa] {
         let mut renderer = Renderer::new(backend).unwrap_or_else(|error| panic!("{error}"));
         let mut frames = |count| {
@@ -50,9 +52,19 @@ fn a_renderer_deletes_every_object_it_made() {
     for backend in [Backend::Egl, Backend::OsMesa] {
         let mut renderer = Renderer::new(backend).unwrap_or_else(|error| panic!("{error}"));
         renderer.render(&scene, &Style::named(StyleName::ThreePass)).unwrap();
+        for style in improved() {
+            renderer.render(&scene, &style).unwrap();
+        }
         assert!(renderer.live_objects() >= 6, "a mesh's two buffers, the squares, the map, three programs");
         assert_eq!(renderer.close(), 0);
     }
+}
+
+/// What needs objects of its own: a floating-point target, a copy of the depth, a larger surface.
+fn improved() -> [Style; 3] {
+    let cartoon = |map_encoding| Style::ThreePass(Cartoon { map_encoding, ..Cartoon::default() });
+    let best = Style::Ink(Ink { quality: Quality::Best, ..Ink::default() });
+    [cartoon(MapEncoding::Float), cartoon(MapEncoding::DepthTexture), best]
 }
 
 /// Resident memory of this process.

@@ -10,6 +10,7 @@ mod cli_measure;
 mod docs;
 mod edges;
 mod goldens;
+mod improved;
 mod inking;
 mod licences;
 mod lines_brute;

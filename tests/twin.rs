@@ -57,7 +57,7 @@ fn every_filter_and_both_styles_agree_with_the_twin_within_one_step_of_255_every
             let scene = scene(model, 160, 120);
             for (name, filter) in Filter::ALL {
                 for detection_factor in [0.2, 0.7] {
-                    let border = Border { filter, detection_factor };
+                    let border = Border { filter, detection_factor, ..Border::default() };
                     let cartoon = Cartoon { border: Some(border), ..Cartoon::default() };
                     let mut show =
                         |style: &Style, show| renderer.draw(&scene, &style.plan(&scene, show).unwrap()).unwrap();
@@ -115,7 +115,7 @@ fn the_twin_notices_a_filter_that_is_not_the_one_drawn() {
 }
 
 fn with(filter: Filter) -> Border {
-    Border { filter, detection_factor: 1.0 }
+    Border { filter, detection_factor: 1.0, ..Border::default() }
 }
 
 #[test]

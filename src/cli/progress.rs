@@ -10,17 +10,34 @@ impl Progress {
     pub fn new(what: &'static str, count: u64) -> Self {
         // Draws nothing unless standard error is a terminal.
         let bar = ProgressBar::with_draw_target(Some(count), ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:32}] {pos}/{len}, {eta} left") {
-            bar.set_style(style.progress_chars("=> "));
-        }
         bar.set_message(what);
-        Self(bar)
+        let progress = Self(bar);
+        progress.show_share();
+        progress
+    }
+
+    fn show_share(&self) {
+        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:32}] {pos}/{len}, {eta} left") {
+            self.0.set_style(style.progress_chars("=> "));
+        }
     }
 
     /// So many steps are done of so many.
     pub fn set(&self, done: u64, count: u64) {
-        self.0.set_length(count);
+        if self.0.length() != Some(count) {
+            self.show_share();
+            self.0.set_length(count);
+        }
         self.0.set_position(done);
+    }
+
+    /// Nothing is known yet of how much there is to do.
+    pub fn wait(&self) {
+        self.0.set_length(u64::MAX);
+        if let Ok(style) = ProgressStyle::with_template("{msg}, {elapsed} so far") {
+            self.0.set_style(style);
+        }
+        self.0.tick();
     }
 
     /// One step more is done.

@@ -26,7 +26,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: String,
 
-    /// Style: phong, three-pass, two-pass, inking, dietrich, charcoal, sand, lines [default: three-pass; into .svg and .json: lines]
+    /// Style: phong, three-pass, two-pass, inking, dietrich, ink, charcoal, sand, lines [default: three-pass; into .svg and .json: lines]
     #[arg(long, value_name = "STYLE")]
     style: Option<lines::StyleChoice>,
 
@@ -94,6 +94,7 @@ const PASS_FRAMES: usize = 21;
 
 /// Draws what the arguments say.
 pub fn run(arguments: &Arguments) -> Result<()> {
+    keep_the_models(arguments)?;
     if let Some(format) = lines::format(arguments)? {
         return lines::run(arguments, format);
     }
@@ -221,6 +222,18 @@ fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style) ->
     let start = Instant::now();
     let plan = style.plan(&scene, arguments.styles.show)?;
     Ok(Loaded { scene, plan, load_ms, plan_ms: milliseconds_since(start) })
+}
+
+/// Refuses to write over a model that is to be read.
+fn keep_the_models(arguments: &Arguments) -> Result<()> {
+    let Ok(output) = Path::new(&arguments.output).canonicalize() else { return Ok(()) };
+    match arguments.models.iter().any(|model| Path::new(model).canonicalize().is_ok_and(|model| model == output)) {
+        true => Err(Error::Output {
+            path: arguments.output.clone(),
+            problem: "this is the model itself; name another file".to_owned(),
+        }),
+        false => Ok(()),
+    }
 }
 
 fn make_dump_folder(arguments: &Arguments) -> Result<()> {

@@ -77,6 +77,8 @@ pub struct ContextInfo {
     pub texture_units: u32,
     /// Largest picture, pixels: the smallest of viewport, texture and surface limits.
     pub largest_picture: Size,
+    /// Whether passes can draw into floating-point textures.
+    pub float_targets: bool,
     /// Whether passes can be timed on the device.
     pub timer_queries: bool,
 }
@@ -314,6 +316,8 @@ fn load_functions(platform: &Platform, backend: &'static str, device: String) ->
     let timer_queries = version >= (3, 3)
         || glow.supported_extensions().contains("GL_ARB_timer_query")
         || glow.supported_extensions().contains("GL_EXT_timer_query");
+    let has = |name: &str| glow.supported_extensions().contains(name);
+    let float_targets = version >= (3, 0) || (has("GL_ARB_framebuffer_object") && has("GL_ARB_texture_float"));
     let info = ContextInfo {
         backend,
         device,
@@ -330,6 +334,7 @@ fn load_functions(platform: &Platform, backend: &'static str, device: String) ->
         largest_texture: texture.max(0) as u32,
         texture_units: integer(glow::MAX_TEXTURE_IMAGE_UNITS).max(0) as u32,
         largest_picture: Size { width: limit(viewport[0], surface.width), height: limit(viewport[1], surface.height) },
+        float_targets,
         timer_queries,
     };
     let gl = Gl { glow, legacy, info, live_objects: Cell::new(0) };

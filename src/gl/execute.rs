@@ -4,10 +4,11 @@ use super::Gl;
 use super::edges::EdgeIndices;
 use super::legacy::{self, MODELVIEW, PROJECTION};
 use super::meshes::MeshBuffers;
-use super::objects::{Buffer, Program, Shader, Texture, TimerQuery};
+use super::objects::{Buffer, Program, Shader, TimerQuery};
+use super::targets::Targets;
 use super::textures::Textures;
 use crate::error::{Error, Result};
-use crate::plan::{self, Depth, Draw, Geometry, LineDrawing, Plan, Sampling, Step};
+use crate::plan::{self, Depth, Draw, Geometry, LineDrawing, Plan, Step, Target};
 use crate::scene::{Scene, Size};
 use crate::tolerances::BACKGROUND_DISTANCE;
 use glam::{Mat4, Vec3, Vec4};
@@ -21,7 +22,9 @@ pub struct Resources {
     programs: HashMap<plan::Program, Program>,
     pub(super) meshes: Vec<MeshBuffers>,
     squares: Option<Buffer>,
-    border_map: Option<Texture>,
+    /// The size of what is drawn into: the picture's, or a multiple of it.
+    surface: Size,
+    targets: Targets,
     pub(super) textures: Textures,
     /// The edges last drawn as lines and as points, as indices on the device.
     pub(super) edges: [Option<EdgeIndices>; 2],
@@ -46,7 +49,8 @@ impl Resources {
             programs: HashMap::new(),
             meshes: Vec::new(),
             squares: None,
-            border_map: None,
+            surface: Size { width: 1, height: 1 },
+            targets: Targets::default(),
             textures: Textures::default(),
             edges: [None, None],
         }
@@ -57,7 +61,6 @@ impl Resources {
         let gl = self.gl.clone();
         // SAFETY: the context is current; these are state calls of GL 2.1 with valid names.
         unsafe {
-            gl.glow.viewport(0, 0, scene.size.width as i32, scene.size.height as i32);
             gl.glow.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
             gl.glow.pixel_store_i32(glow::UNPACK_ALIGNMENT, 1);
             for capability in [glow::DITHER, glow::SCISSOR_TEST] {
@@ -65,6 +68,8 @@ impl Resources {
             }
             gl.glow.color_mask(true, true, true, true);
         }
+        self.surface = scene.size.times(plan.supersample);
+        self.targets.prepare(&gl, plan, self.surface)?;
         self.upload_meshes(scene)?;
         if self.squares.is_none() {
             self.squares = Some(Buffer::new(&gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&SQUARES))?);
@@ -90,6 +95,11 @@ impl Resources {
         gl.check("setting up")
     }
 
+    /// What the steps that follow draw into, of a prepared plan.
+    pub fn begin(&self, target: Target) -> Result<()> {
+        self.targets.begin(&self.gl, target)
+    }
+
     /// Carries out one step of a prepared plan.
     pub fn step(&mut self, scene: &Scene, step: &Step) -> Result<()> {
         match step {
@@ -104,24 +114,15 @@ impl Resources {
                 Ok(())
             }
             Step::Draw(draw) => self.draw(scene, draw),
-            Step::CopyFramebuffer => self.copy_framebuffer(scene.size),
+            Step::CopyFramebuffer => self.targets.copy_color(&self.gl, self.surface),
+            Step::CopyDepth => self.targets.copy_depth(&self.gl, self.surface),
         }
-    }
-
-    fn copy_framebuffer(&mut self, size: Size) -> Result<()> {
-        if self.border_map.is_none() {
-            self.border_map = Some(Texture::new(&self.gl, glow::TEXTURE_2D, Sampling::NearestClamped)?);
-        }
-        if let Some(texture) = &self.border_map {
-            texture.bind(0);
-            let (width, height) = (size.width as i32, size.height as i32);
-            // SAFETY: the context is current and the texture bound; the rectangle is the whole framebuffer.
-            unsafe { self.gl.glow.copy_tex_image_2d(glow::TEXTURE_2D, 0, legacy::RGBA, 0, 0, width, height, 0) };
-        }
-        Ok(())
     }
 
     fn draw(&mut self, scene: &Scene, draw: &Draw) -> Result<()> {
+        let size = if draw.geometry == Geometry::PictureSquare { scene.size } else { self.surface };
+        // SAFETY: the context is current; the size is within its limits, as it was made that large.
+        unsafe { self.gl.glow.viewport(0, 0, size.width as i32, size.height as i32) };
         self.set_state(draw);
         self.bind_textures(draw)?;
         self.bind_program(draw)?;
@@ -147,7 +148,9 @@ impl Resources {
                 let flat = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::ZERO, Vec4::new(0.0, 0.0, 1.0, 1.0));
                 self.draw_square(0, *color, &far_away, &flat);
             }
-            Geometry::ScreenSquare => self.draw_square(4, [1.0; 4], &Mat4::IDENTITY, &Mat4::IDENTITY),
+            Geometry::ScreenSquare | Geometry::PictureSquare => {
+                self.draw_square(4, [1.0; 4], &Mat4::IDENTITY, &Mat4::IDENTITY);
+            }
         }
         Ok(())
     }
@@ -155,7 +158,9 @@ impl Resources {
     fn bind_textures(&self, draw: &Draw) -> Result<()> {
         for (unit, (_, texture)) in draw.textures.iter().enumerate() {
             let texture = match texture {
-                plan::Texture::BorderMap => self.border_map.as_ref(),
+                plan::Texture::BorderMap => self.targets.border_map(),
+                plan::Texture::FloatMap => self.targets.float_map(),
+                plan::Texture::DepthMap => self.targets.depth_map(),
                 plan::Texture::ToneTable => self.textures.tone_table(),
                 plan::Texture::Picture(number) => self.textures.picture(*number),
                 plan::Texture::Material => self.textures.white(),
@@ -269,14 +274,24 @@ impl Resources {
         unsafe { self.gl.glow.read_pixels(0, 0, width, height, glow::RGBA, glow::UNSIGNED_BYTE, target) };
     }
 
-    /// Reads the texture the framebuffer was last copied to, as [`Resources::read_framebuffer`] does.
-    pub fn read_border_map(&self, size: Size, pixels: &mut [u8]) {
+    /// Reads the texture that this copying step filled, as [`Resources::read_framebuffer`] does; of depth as grey.
+    pub fn read_copy(&self, step: &Step, size: Size, pixels: &mut [u8]) {
         assert_eq!(pixels.len(), size.pixel_count() * 4, "memory for {size} pixels");
-        if let Some(texture) = &self.border_map {
-            texture.bind(0);
-            let target = glow::PixelPackData::Slice(Some(pixels));
-            // SAFETY: the context is current, the bound texture was copied from a framebuffer of this size.
-            unsafe { self.gl.glow.get_tex_image(glow::TEXTURE_2D, 0, glow::RGBA, glow::UNSIGNED_BYTE, target) };
+        let is_depth = *step == Step::CopyDepth;
+        let copied = if is_depth { self.targets.depth_map() } else { self.targets.border_map() };
+        let Some(texture) = copied else { return };
+        texture.bind(0);
+        let (format, bytes) =
+            if is_depth { (glow::DEPTH_COMPONENT, size.pixel_count()) } else { (glow::RGBA, pixels.len()) };
+        let target = glow::PixelPackData::Slice(Some(&mut pixels[..bytes]));
+        // SAFETY: the context is current, the bound texture was copied from a framebuffer of this size; rows are packed
+        // without gaps and the memory has one byte a pixel for depth, four for colour.
+        unsafe { self.gl.glow.get_tex_image(glow::TEXTURE_2D, 0, format, glow::UNSIGNED_BYTE, target) };
+        if is_depth {
+            for pixel in (0..bytes).rev() {
+                let grey = pixels[pixel];
+                pixels[pixel * 4..][..4].copy_from_slice(&[grey, grey, grey, u8::MAX]);
+            }
         }
     }
 

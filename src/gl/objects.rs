@@ -8,12 +8,16 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 /// Counts an object in, and out again when dropped.
-struct Live(Rc<Gl>);
+pub(super) struct Live(Rc<Gl>);
 
 impl Live {
-    fn new(gl: &Rc<Gl>) -> Self {
+    pub(super) fn new(gl: &Rc<Gl>) -> Self {
         gl.live_objects.set(gl.live_objects.get() + 1);
         Self(gl.clone())
+    }
+
+    pub(super) fn gl(&self) -> &glow::Context {
+        &self.0.glow
     }
 }
 
@@ -23,7 +27,7 @@ impl Drop for Live {
     }
 }
 
-fn out_of_names(error: String) -> Error {
+pub(super) fn out_of_names(error: String) -> Error {
     Error::gl("making a GL object", error)
 }
 
@@ -95,6 +99,11 @@ impl Texture {
             }
             Ok(texture)
         }
+    }
+
+    /// Its name, for what it is attached to.
+    pub(super) fn id(&self) -> glow::Texture {
+        self.id
     }
 
     pub fn bind(&self, unit: u32) {

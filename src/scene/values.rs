@@ -19,6 +19,11 @@ impl Size {
         f64::from(self.width) / f64::from(self.height)
     }
 
+    /// A size this many times as wide and high.
+    pub fn times(self, factor: u32) -> Self {
+        Self { width: self.width.saturating_mul(factor), height: self.height.saturating_mul(factor) }
+    }
+
     /// Number of pixels.
     pub fn pixel_count(self) -> usize {
         self.width as usize * self.height as usize

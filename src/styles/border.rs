@@ -1,9 +1,11 @@
 //! The border of the cartoon styles: which filter finds it in the map, and how strongly (section 4.1).
 
+use super::supersample::texture_unit;
+use super::{MapEncoding, lens};
 use crate::error::{Error, Result};
 use crate::names::find;
-use crate::plan::{Texture, Uniform, Value};
-use crate::scene::Size;
+use crate::plan::{Uniform, Value};
+use crate::scene::{Scene, Size};
 use serde::Serialize;
 use std::str::FromStr;
 
@@ -14,7 +16,19 @@ pub struct Border {
     pub filter: Filter,
     /// What its response is multiplied by. Default 0.2; more makes fainter edges darker.
     pub detection_factor: f32,
+    /// Width of a line in pixels of the picture, where the map has a step; `None` leaves the filter's taps where the listing
+    /// has them, 2 pixels (1 with Roberts' cross). Default none; more pixels also join what lies near each other.
+    pub width_px: Option<u32>,
+    /// Whether depth answers by a threshold that knows the surface's slope instead of by the filter. Default no.
+    pub slope_threshold: bool,
 }
+
+/// Widest line, pixels: beyond it taps miss whatever is narrower.
+const WIDEST: u32 = 64;
+
+/// The least step in depth that is a line: widths of a picture's pixel on the surface, and steps of the map's rounding,
+/// by 2 of which a second difference can be off.
+const LEAST_GAP: [f32; 2] = [1.5, 2.0];
 
 /// The edge filters, each over the four channels of the map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -53,7 +67,7 @@ impl FromStr for Filter {
 
 impl Default for Border {
     fn default() -> Self {
-        Self { filter: Filter::Laplacian4, detection_factor: 0.2 }
+        Self { filter: Filter::Laplacian4, detection_factor: 0.2, width_px: None, slope_threshold: false }
     }
 }
 
@@ -64,39 +78,71 @@ impl Border {
     }
 
     pub(super) fn check(&self) -> Result<()> {
-        if self.detection_factor.is_finite() {
-            return Ok(());
+        if !self.detection_factor.is_finite() {
+            let setting = format!("--detection-factor {}", self.detection_factor);
+            return Err(Error::setting(setting, "it must be a finite number"));
         }
-        Err(Error::setting(format!("--detection-factor {}", self.detection_factor), "it must be a finite number"))
+        check_width(self.width_px)
     }
 
-    /// The fragment shader that holds the filter with its factor as a uniform.
-    pub(super) fn shader(&self) -> &'static str {
-        match self.filter {
+    /// The fragment shader that holds the filter with its factor as a uniform, and its parts.
+    pub(super) fn shaders(&self, encoding: MapEncoding) -> [&'static str; 4] {
+        let filter = match self.filter {
             Filter::Laplacian4 => "evangelista/filter-laplacian4.frag",
             Filter::Laplacian8 => "evangelista/filter-laplacian8.frag",
             Filter::Mitchell => "evangelista/filter-mitchell.frag",
             Filter::Sobel => "evangelista/filter-sobel.frag",
             Filter::Roberts => "evangelista/filter-roberts.frag",
-        }
+        };
+        let tap = if self.width_px.is_some() { "improved/tap-apart.frag" } else { "evangelista/tap-next.frag" };
+        let depth = match self.slope_threshold {
+            true => "improved/slope-threshold.frag",
+            false => "evangelista/depth-as-filtered.frag",
+        };
+        [filter, tap, encoding.shader(), depth]
     }
 
     /// The uniforms of the listing: how far apart texels are.
-    pub(super) fn published_uniforms(size: Size) -> Vec<Uniform> {
-        let unit = [1.0 / size.width as f32, 1.0 / size.height as f32];
-        vec![Uniform { name: "textureUnit", value: Value::Vec2(unit) }]
+    pub(super) fn published_uniforms(surface: Size) -> Vec<Uniform> {
+        vec![texture_unit(surface)]
     }
 
-    /// The uniforms of the filters with settings.
-    pub(super) fn uniforms(&self, size: Size) -> Vec<Uniform> {
-        let factor = Uniform { name: "detectionFactor", value: Value::Float(self.detection_factor) };
-        let mut uniforms = Self::published_uniforms(size);
-        uniforms.push(factor);
+    /// The uniforms of the filters with settings, for a map of this size.
+    pub(super) fn uniforms(&self, scene: &Scene, surface: Size, encoding: MapEncoding) -> Vec<Uniform> {
+        let scale = surface.width / scene.size.width;
+        let mut uniforms = Self::published_uniforms(surface);
+        uniforms.push(Uniform { name: "detectionFactor", value: Value::Float(self.detection_factor) });
+        if self.width_px.is_some() || self.slope_threshold {
+            let one_sided = self.filter == Filter::Roberts;
+            uniforms.push(reach(self.width_px, scale, one_sided));
+        }
+        if self.slope_threshold {
+            let gap = [LEAST_GAP[0] * scale as f32, LEAST_GAP[1] * encoding.depth_step()];
+            uniforms.push(lens::footprint(scene, surface));
+            uniforms.push(Uniform { name: "leastGap", value: Value::Vec2(gap) });
+        }
         uniforms
     }
+}
 
-    /// The textures all of them read.
-    pub(super) fn textures() -> Vec<(&'static str, Texture)> {
-        vec![("borderMap", Texture::BorderMap)]
+/// Refuses widths no filter can draw.
+pub(super) fn check_width(width_px: Option<u32>) -> Result<()> {
+    match width_px {
+        Some(width) if !(1..=WIDEST).contains(&width) => Err(Error::setting(
+            format!("--border-width {width}"),
+            format!("a border is 1 to {WIDEST} pixels wide; --style inking draws wider lines"),
+        )),
+        _ => Ok(()),
     }
+}
+
+/// `reach`: how many pixels taps reach to the left or below and to the right or above for a line of this width in a map so
+/// many times the picture's size; a one-sided filter has taps to the right and above only.
+pub(super) fn reach(width_px: Option<u32>, scale: u32, one_sided: bool) -> Uniform {
+    let reach = match width_px.map(|width| width * scale) {
+        None => [1, 1],
+        Some(width) if one_sided => [0, width],
+        Some(width) => [width / 2, width - width / 2],
+    };
+    Uniform { name: "reach", value: Value::Vec2(reach.map(|pixels| pixels as f32)) }
 }

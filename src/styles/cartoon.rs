@@ -3,9 +3,9 @@
 //! With the paper's settings the published shaders run; any other setting runs their twins in which the constants are
 //! uniforms (`*-settings.frag`). A test shows that the twins draw the same picture.
 
-use super::{Border, Show, Tones};
+use super::{Border, MapEncoding, Show, Supersample, Tones};
 use crate::error::{Error, Result};
-use crate::plan::{Depth, Draw, Geometry, Output, Paint, Pass, Plan, Program, Step};
+use crate::plan::{Depth, Draw, Geometry, Output, Paint, Pass, Plan, Program, Step, Target};
 use crate::scene::{Background, Scene};
 use serde::Serialize;
 
@@ -21,6 +21,11 @@ pub struct Cartoon {
     pub background_square: bool,
     /// Whether faces turned away from the eye are left out: faster, and the same picture of closed models. Default no.
     pub cull_back_faces: bool,
+    /// How normals and depth are stored between the passes. Default as in the listing.
+    pub map_encoding: MapEncoding,
+    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge and makes lines finer.
+    /// Pictures of the map itself are drawn at their own size.
+    pub supersample: Supersample,
 }
 
 impl Default for Cartoon {
@@ -30,17 +35,11 @@ impl Default for Cartoon {
             border: Some(Border::default()),
             background_square: true,
             cull_back_faces: false,
+            map_encoding: MapEncoding::Paper,
+            supersample: Supersample::One,
         }
     }
 }
-
-/// The normals and the depth become colours.
-fn map_program() -> Program {
-    Program { vertex: "evangelista/map.vert", fragments: vec!["evangelista/map.frag"] }
-}
-
-/// What a pixel of the map holds where nothing is drawn and no square either: no normal, farthest depth.
-const EMPTY_MAP: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// Borders alone are drawn on white, as in figure 12.
 const WHITE: [f32; 4] = [1.0; 4];
@@ -59,10 +58,10 @@ impl Cartoon {
                 passes.push(self.tone_pass(scene));
             }
             if let Some(border) = border {
-                passes.push(border_pass(&border, scene, show == Show::Borders));
+                passes.push(self.border_pass(&border, scene, show == Show::Borders));
             }
         }
-        Ok(self.finish(passes, show))
+        Ok(self.finish(scene, passes, show))
     }
 
     /// Map, then tones and border in one program (section 4.2, appendix 2).
@@ -81,20 +80,22 @@ impl Cartoon {
             ));
         }
         let steps = self.scene_steps(scene, |background| {
-            let published = border.is_published() && self.tones.are_published();
-            let (mut uniforms, mut textures) = (Border::published_uniforms(scene.size), Border::textures());
+            let surface = self.supersample.surface(scene.size);
+            let published = self.runs_the_listing(&border) && self.tones.are_published();
+            let (mut uniforms, mut textures) = (Border::published_uniforms(surface), self.map_encoding.textures());
             let mut fragments = vec!["evangelista/two-pass.frag"];
             if !published {
-                fragments = vec!["evangelista/two-pass-settings.frag", self.tones.shader(), border.shader()];
-                uniforms = border.uniforms(scene.size);
+                fragments = vec!["evangelista/two-pass-settings.frag", self.tones.shader()];
+                fragments.extend(border.shaders(self.map_encoding));
+                uniforms = border.uniforms(scene, surface, self.map_encoding);
                 uniforms.extend(self.tones.uniforms(background));
                 textures.extend(self.tones.textures());
             }
             let program = Program { vertex: "evangelista/two-pass.vert", fragments };
             Draw { uniforms, textures, ..self.draw(Geometry::Objects(Paint::Materials), program) }
         });
-        let pass = Pass { name: "tones-and-border", steps };
-        Ok(self.finish(vec![self.map_pass(scene, true), pass], show))
+        let pass = Pass::new("tones-and-border", steps);
+        Ok(self.finish(scene, vec![self.map_pass(scene, true), pass], show))
     }
 
     fn check(&self, scene: &Scene, show: Show) -> Result<()> {
@@ -122,7 +123,7 @@ impl Cartoon {
         Ok(())
     }
 
-    fn finish(&self, passes: Vec<Pass>, show: Show) -> Plan {
+    fn finish(&self, scene: &Scene, passes: Vec<Pass>, show: Show) -> Plan {
         let output = match show {
             Show::Normals => Output::Rgb,
             Show::Depth => Output::AlphaAsGrey,
@@ -132,23 +133,35 @@ impl Cartoon {
             .iter()
             .flat_map(|pass| &pass.steps)
             .any(|step| matches!(step, Step::Draw(draw) if draw.textures.iter().any(|(name, _)| *name == "toneTable")));
-        Plan { passes, tone_table: self.tones.table().filter(|_| reads_table), pictures: Vec::new(), output }
+        let plan = Plan { tone_table: self.tones.table().filter(|_| reads_table), output, ..Plan::new(passes) };
+        if shows_map(show) { plan } else { self.supersample.finish(plan, scene.size) }
+    }
+
+    /// Whether the border's listing can run as printed.
+    fn runs_the_listing(&self, border: &Border) -> bool {
+        border.is_published() && self.map_encoding == MapEncoding::Paper
     }
 
     /// Step 1: normals and depth into the framebuffer and, to be read later, into a texture.
-    fn map_pass(&self, scene: &Scene, copy: bool) -> Pass {
-        let draw = |geometry| self.draw(geometry, map_program());
-        let mut steps = vec![Step::Clear { color: EMPTY_MAP }];
+    fn map_pass(&self, scene: &Scene, is_read: bool) -> Pass {
+        let encoding = self.map_encoding;
+        let draw = |geometry| self.draw(geometry, encoding.program());
+        let mut steps = vec![Step::Clear { color: encoding.empty() }];
         if self.background_square {
             let [red, green, blue, _] = scene.background.clear_color();
             let square = draw(Geometry::BackgroundSquare { color: [red, green, blue, 1.0] });
             steps.push(Step::Draw(Draw { depth: Depth::Ignore, ..square }));
         }
         steps.push(Step::Draw(draw(Geometry::Objects(Paint::Materials))));
-        if copy {
+        // The picture of a map is the framebuffer's.
+        let target = if is_read { encoding.target() } else { Target::Framebuffer };
+        if is_read && target == Target::Framebuffer {
             steps.push(Step::CopyFramebuffer);
         }
-        Pass { name: "map", steps }
+        if is_read && encoding == MapEncoding::DepthTexture {
+            steps.push(Step::CopyDepth);
+        }
+        Pass { name: "map", target, steps }
     }
 
     /// Step 2: uniform shading.
@@ -166,7 +179,7 @@ impl Cartoon {
                 ..self.draw(Geometry::Objects(Paint::Materials), program)
             }
         });
-        Pass { name: "tones", steps }
+        Pass::new("tones", steps)
     }
 
     fn draw(&self, geometry: Geometry, program: Program) -> Draw {
@@ -185,30 +198,33 @@ impl Cartoon {
         steps.push(Step::Draw(draw(false)));
         steps
     }
-}
 
-/// Step 3: the filter over the whole picture, blended; `alone` on a white ground.
-fn border_pass(border: &Border, scene: &Scene, alone: bool) -> Pass {
-    let published = border.is_published();
-    let fragments = match published {
-        true => vec!["evangelista/border.frag"],
-        false => vec!["evangelista/border-settings.frag", border.shader()],
-    };
-    let program = Program { vertex: "evangelista/border.vert", fragments };
-    let square = Draw {
-        uniforms: if published { Border::published_uniforms(scene.size) } else { border.uniforms(scene.size) },
-        textures: Border::textures(),
-        depth: Depth::Ignore,
-        blend: true,
-        ..Draw::new(Geometry::ScreenSquare, Some(program))
-    };
-    let mut steps = Vec::new();
-    if alone {
-        let color = if scene.background == Background::Transparent { [0.0; 4] } else { WHITE };
-        steps.push(Step::Clear { color });
+    /// Step 3: the filter over the whole picture, blended; `alone` on a white ground.
+    fn border_pass(&self, border: &Border, scene: &Scene, alone: bool) -> Pass {
+        let surface = self.supersample.surface(scene.size);
+        let published = self.runs_the_listing(border);
+        let mut fragments = vec!["evangelista/border.frag"];
+        let mut uniforms = Border::published_uniforms(surface);
+        if !published {
+            fragments = vec!["evangelista/border-settings.frag"];
+            fragments.extend(border.shaders(self.map_encoding));
+            uniforms = border.uniforms(scene, surface, self.map_encoding);
+        }
+        let square = Draw {
+            uniforms,
+            textures: self.map_encoding.textures(),
+            depth: Depth::Ignore,
+            blend: true,
+            ..Draw::new(Geometry::ScreenSquare, Some(Program { vertex: "evangelista/border.vert", fragments }))
+        };
+        let mut steps = Vec::new();
+        if alone {
+            let color = if scene.background == Background::Transparent { [0.0; 4] } else { WHITE };
+            steps.push(Step::Clear { color });
+        }
+        steps.push(Step::Draw(square));
+        Pass::new("border", steps)
     }
-    steps.push(Step::Draw(square));
-    Pass { name: "border", steps }
 }
 
 fn shows_map(show: Show) -> bool {

@@ -14,7 +14,7 @@ use super::Show;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::plan::{
-    Depth, Draw, Geometry, Output, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
+    Depth, Draw, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
 };
 use crate::scene::{Background, Scene, Size};
 use serde::Serialize;
@@ -160,8 +160,8 @@ impl Charcoal {
         if show != Show::Paper {
             steps.push(Step::Draw(self.objects(scene, show, is_sand)));
         }
-        let pass = Pass { name: if is_sand { "sand" } else { "charcoal" }, steps };
-        Ok(Plan { passes: vec![pass], tone_table: None, pictures, output: Output::Rgba })
+        let pass = Pass::new(if is_sand { "sand" } else { "charcoal" }, steps);
+        Ok(Plan { pictures, ..Plan::new(vec![pass]) })
     }
 
     /// The drawing itself.

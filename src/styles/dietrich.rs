@@ -3,7 +3,7 @@
 
 use super::Show;
 use crate::error::{Error, Result};
-use crate::plan::{Draw, Geometry, Output, Paint, Pass, Plan, Program, Step, Uniform, Value};
+use crate::plan::{Draw, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::{Background, Color, Scene};
 use serde::Serialize;
 
@@ -57,11 +57,6 @@ impl Dietrich {
             ..Draw::new(Geometry::Objects(paint), Some(program))
         };
         let steps = vec![Step::Clear { color: ground }, Step::Draw(draw)];
-        Ok(Plan {
-            passes: vec![Pass { name: "dietrich", steps }],
-            tone_table: None,
-            pictures: Vec::new(),
-            output: Output::Rgba,
-        })
+        Ok(Plan::new(vec![Pass::new("dietrich", steps)]))
     }
 }

@@ -9,8 +9,7 @@ use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::names::find;
 use crate::plan::{
-    Depth, Draw, EdgeRun, Geometry, LineDrawing, Mark, Output, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
-    Texture,
+    Depth, Draw, EdgeRun, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture,
 };
 use crate::scene::{Background, Color, Scene};
 use serde::Serialize;
@@ -173,7 +172,7 @@ impl Inking {
         self.check(scene, show)?;
         let (fill, pictures) = self.fill(scene, show);
         let ground = if show == Show::Borders { blank(scene) } else { scene.background.clear_color() };
-        let paint = Pass { name: "paint", steps: vec![Step::Clear { color: ground }, Step::Draw(fill)] };
+        let paint = Pass::new("paint", vec![Step::Clear { color: ground }, Step::Draw(fill)]);
         let mut passes = vec![paint];
         if self.is_inked && show != Show::Tones {
             let runs = Arc::new(self.runs(scene));
@@ -188,9 +187,9 @@ impl Inking {
                 let depth = if self.writes_depth { Depth::TestAndWrite } else { Depth::TestOnly };
                 Step::Draw(Draw { blend: self.is_smooth, depth, ..Draw::new(geometry, None) })
             };
-            passes.push(Pass { name: "ink", steps: vec![mark(Mark::Lines), mark(Mark::Points)] });
+            passes.push(Pass::new("ink", vec![mark(Mark::Lines), mark(Mark::Points)]));
         }
-        Ok(Plan { passes, tone_table: None, pictures, output: Output::Rgba })
+        Ok(Plan { pictures, ..Plan::new(passes) })
     }
 
     fn check(&self, scene: &Scene, show: Show) -> Result<()> {

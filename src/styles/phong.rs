@@ -2,7 +2,7 @@
 
 use super::Show;
 use crate::error::{Error, Result};
-use crate::plan::{Draw, Geometry, Output, Paint, Pass, Plan, Program, Step, Uniform, Value};
+use crate::plan::{Draw, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::Scene;
 use serde::Serialize;
 
@@ -46,11 +46,6 @@ impl Phong {
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
         let steps = vec![Step::Clear { color: scene.background.clear_color() }, Step::Draw(draw)];
-        Ok(Plan {
-            passes: vec![Pass { name: "phong", steps }],
-            tone_table: None,
-            pictures: Vec::new(),
-            output: Output::Rgba,
-        })
+        Ok(Plan::new(vec![Pass::new("phong", steps)]))
     }
 }

@@ -19,7 +19,10 @@ struct Options {
 const FAITHFUL: [&str; 7] = ["three-pass", "two-pass", "inking", "dietrich", "phong", "charcoal", "sand"];
 
 /// What is measured besides even when it has to be quick.
-const QUICK: [&str; 5] = [
+const QUICK: [&str; 8] = [
+    "--style ink",
+    "--style ink --quality best",
+    "--style three-pass --map-encoding float --slope-threshold on",
     "--style three-pass --filter sobel",
     "--style three-pass --detection-factor 1",
     "--style inking --silhouette exact",
@@ -28,7 +31,17 @@ const QUICK: [&str; 5] = [
 ];
 
 /// What is measured besides when there is time.
-const FULL: [&str; 14] = [
+const FULL: [&str; 24] = [
+    "--style three-pass --map-encoding biased",
+    "--style three-pass --map-encoding float16",
+    "--style three-pass --map-encoding float",
+    "--style three-pass --map-encoding depth-texture",
+    "--style three-pass --slope-threshold on",
+    "--style three-pass --map-encoding biased --filter sobel",
+    "--style three-pass --border-width 1",
+    "--style three-pass --supersample 2 --border-width 2",
+    "--style three-pass --supersample 4 --border-width 2",
+    "--style two-pass --map-encoding float --slope-threshold on",
     "--style three-pass --filter laplacian8",
     "--style three-pass --filter mitchell",
     "--style three-pass --filter roberts",

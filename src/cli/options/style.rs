@@ -6,14 +6,15 @@ use std::path::PathBuf;
 use tinta::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use tinta::plan::LineDrawing;
 use tinta::styles::{
-    Border, Cartoon, ClassColors, Dietrich, Filter, Inking, LightOn, PaintMode, Phong, Ramp, RampRow, ToneLookup, Tones,
+    Border, Cartoon, ClassColors, Dietrich, Filter, Ink, Inking, LightOn, MapEncoding, PaintMode, Phong, Quality, Ramp,
+    RampRow, Supersample, ToneLookup, Tones,
 };
 use tinta::{Error, LineSettings, Result, Show, Style, StyleName};
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "All styles")]
 pub struct StyleArguments {
-    /// Which picture: final, borders, tones; three-pass and two-pass also normals, depth, map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
+    /// Which picture: final, borders, tones; three-pass and two-pass also normals, depth, map, ink also map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
     #[arg(long, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
     pub show: Show,
 
@@ -36,6 +37,12 @@ pub struct StyleArguments {
 
     #[command(flatten)]
     dietrich: DietrichArguments,
+
+    #[command(flatten)]
+    image_space: ImageSpaceArguments,
+
+    #[command(flatten)]
+    ink: InkArguments,
 
     #[command(flatten)]
     charcoal: CharcoalArguments,
@@ -71,7 +78,32 @@ struct CartoonArguments {
     /// Draw a square behind the scene, on or off; off loses outer borders [default: on]
     #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
     background_quad: bool,
+
+    /// How normals and depth are kept: paper, biased (0.5 n + 0.5), float16, float, depth-texture (biased, depth from the depth buffer) [default: paper]
+    #[arg(long, value_name = "ENCODING", default_value = "paper", hide_default_value = true)]
+    map_encoding: MapEncoding,
+
+    /// Let depth answer by a threshold that knows the surface's slope, on or off; off: by the filter [default: off]
+    #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "off", hide_default_value = true)]
+    slope_threshold: bool,
 }
+
+/// What three-pass, two-pass and ink share.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Styles three-pass, two-pass and ink")]
+struct ImageSpaceArguments {
+    /// Width of the borders, pixels, 1 to 64; paper is as the filter draws them, about 2; ink has 2 [default: paper]
+    #[arg(long, value_name = "PIXELS", value_parser = parse_border_width, default_value = "paper", hide_default_value = true)]
+    border_width: BorderWidth,
+
+    /// Draw 1, 2 or 4 times as wide and high and shrink; the largest picture shrinks by as much (tinta info has it) [default: 1; ink --quality best 2]
+    #[arg(long, value_name = "N")]
+    supersample: Option<Supersample>,
+}
+
+/// A width in pixels, or the published one.
+#[derive(Clone, Copy)]
+struct BorderWidth(Option<u32>);
 
 /// What the edge list is asked.
 #[derive(clap::Args)]
@@ -146,6 +178,14 @@ struct DietrichArguments {
     ink_threshold: f32,
 }
 
+#[derive(clap::Args)]
+#[command(next_help_heading = "Style ink (tones as three-pass, --crease-angle as inking)")]
+struct InkArguments {
+    /// Time for the ink: standard (no more than three-pass) or best (drawn larger, and shrunk) [default: standard]
+    #[arg(long, value_name = "QUALITY", default_value = "standard", hide_default_value = true)]
+    quality: Quality,
+}
+
 impl StyleArguments {
     /// The style of this name with these settings; what belongs to other styles is left alone.
     pub fn style(&self, name: StyleName) -> Result<Style> {
@@ -159,6 +199,7 @@ impl StyleArguments {
                 cull_back_faces: self.cull,
                 ..Dietrich::default()
             }),
+            StyleName::Ink => Style::Ink(self.ink.settings(self)?),
             StyleName::Charcoal => Style::Charcoal(self.charcoal.settings(self.cull)?),
             StyleName::Sand => Style::Sand(self.charcoal.settings(self.cull)?),
         })
@@ -191,21 +232,47 @@ impl StyleArguments {
 }
 
 impl CartoonArguments {
-    fn settings(&self, common: &StyleArguments) -> Cartoon {
+    fn tones(&self) -> Tones {
         let [diffuse_threshold, specular_threshold] = self.tone_thresholds;
-        let border = Border { filter: self.filter, detection_factor: self.detection_factor };
+        Tones {
+            count: self.tones,
+            diffuse_threshold,
+            specular_threshold,
+            levels: self.tone_levels,
+            lookup: self.tone_lookup,
+        }
+    }
+
+    fn settings(&self, common: &StyleArguments) -> Cartoon {
+        let border = Border {
+            filter: self.filter,
+            detection_factor: self.detection_factor,
+            width_px: common.image_space.border_width.0,
+            slope_threshold: self.slope_threshold,
+        };
         Cartoon {
-            tones: Tones {
-                count: self.tones,
-                diffuse_threshold,
-                specular_threshold,
-                levels: self.tone_levels,
-                lookup: self.tone_lookup,
-            },
+            tones: self.tones(),
             border: (!common.no_borders).then_some(border),
             background_square: self.background_quad,
             cull_back_faces: common.cull,
+            map_encoding: self.map_encoding,
+            supersample: common.image_space.supersample.unwrap_or_default(),
         }
+    }
+}
+
+impl InkArguments {
+    fn settings(&self, common: &StyleArguments) -> Result<Ink> {
+        Ok(Ink {
+            quality: self.quality,
+            is_inked: !common.no_borders,
+            crease_angle: common.crease.crease_angle()?,
+            tones: common.cartoon.tones(),
+            cull_back_faces: common.cull,
+            line_width_px: common.image_space.border_width.0.unwrap_or(Ink::default().line_width_px),
+            supersample: common.image_space.supersample,
+            ..Ink::default()
+        })
     }
 }
 
@@ -267,6 +334,13 @@ fn parse_cull(text: &str) -> std::result::Result<bool, String> {
         "none" => Ok(false),
         "back" => Ok(true),
         _ => Err("choose none or back".to_owned()),
+    }
+}
+
+fn parse_border_width(text: &str) -> std::result::Result<BorderWidth, String> {
+    match text {
+        "paper" => Ok(BorderWidth(None)),
+        _ => text.parse().map(|width| BorderWidth(Some(width))).map_err(|_| "give whole pixels, or paper".to_owned()),
     }
 }
 

@@ -32,13 +32,15 @@ impl FromStr for StyleChoice {
 }
 
 #[derive(clap::Args)]
-#[command(next_help_heading = "Style lines: exact visible lines as vectors, into FILE.svg or FILE.json")]
+#[command(
+    next_help_heading = "Style lines: exact visible lines, into FILE.svg or FILE.json; also --classes, --class-colors, --line-width, --crease-angle"
+)]
 pub struct LineArguments {
-    /// Hidden lines: none, dashed, ghost (faint), each in layers below the visible ones [default: none]
+    /// Hidden lines: none, dashed, ghost (faint; with --pen thin as all), in layers below the visible ones [default: none]
     #[arg(long, value_name = "HOW")]
     hidden: Option<Hidden>,
 
-    /// Widths of single classes of lines: CLASS=PIXELS with commas between [default: all of --line-width]
+    /// Widths of single classes of lines: CLASS=PIXELS with commas between; pixels of --size [default: all of --line-width]
     #[arg(long, value_name = "WIDTHS", allow_hyphen_values = true)]
     class_widths: Option<ClassWidths>,
 
@@ -110,8 +112,21 @@ pub fn format(arguments: &Arguments) -> Result<Option<Format>> {
             "style {} draws pixels; leave out --style to write lines, or name a picture such as drawing.png",
             name.name()
         )),
-        (_, None) => Ok(None),
+        // What is no picture either is refused with all there is to choose from.
+        (_, None) if output == "-" || Path::new(output).is_dir() => Ok(None),
+        (_, None) => match extension {
+            Some(extension) if !is_of_a_picture(extension) => refuse(format!(
+                "nothing is written as .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg or .json for lines, \
+                 .gif or .apng for an animation"
+            )),
+            _ => Ok(None),
+        },
     }
+}
+
+fn is_of_a_picture(extension: &str) -> bool {
+    let extension = extension.to_ascii_lowercase();
+    ["png", "jpg", "jpeg", "bmp", "tga", "ppm", "gif", "apng"].contains(&extension.as_str())
 }
 
 /// Finds the lines and writes them.
@@ -126,6 +141,9 @@ pub fn run(arguments: &Arguments, format: Format) -> Result<()> {
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()))?;
     let lines = find(&scene, &settings)?;
+    if !lines.segments.iter().any(|segment| segment.is_visible) {
+        super::super::say("tinta: no line of these classes is seen in this picture; see --classes, --eye and --target");
+    }
 
     let start = Instant::now();
     let paths = if format == Format::Svg || arguments.run.json { chain(&lines.segments) } else { Vec::new() };
@@ -177,7 +195,9 @@ fn find(scene: &Scene, settings: &LineSettings) -> Result<VisibleLines> {
                 Ok(lines) => return lines,
                 Err(RecvTimeoutError::Timeout) => {
                     let (done, total) = state.state();
-                    bar.get_or_insert_with(|| Progress::new("finding lines", 0)).set(done as u64, total as u64);
+                    let bar = bar.get_or_insert_with(|| Progress::new("finding lines", 0));
+                    // Until the lines are known there is nothing to count.
+                    if total == 0 { bar.wait() } else { bar.set(done as u64, total as u64) }
                 }
                 // The thread has panicked; the scope passes that on.
                 Err(RecvTimeoutError::Disconnected) => return VisibleLines::of(scene, settings),

@@ -1,0 +1,114 @@
+//! Plans as text, for `--explain` and for tests.
+
+use super::{
+    Depth, Draw, EdgeRun, FloatBits, Geometry, LineDrawing, Mark, Output, Paint, Plan, Program, Step, Target, Value,
+};
+use std::fmt;
+
+impl fmt::Display for Plan {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.supersample > 1 {
+            writeln!(out, "everything drawn {} times as wide and high as the picture", self.supersample)?;
+        }
+        for (number, pass) in self.passes.iter().enumerate() {
+            write!(out, "pass {}: {}", number + 1, pass.name)?;
+            match pass.target {
+                Target::Framebuffer => writeln!(out)?,
+                Target::FloatMap(FloatBits::Half) => writeln!(out, ", into the texture FloatMap, 16 bits a channel")?,
+                Target::FloatMap(FloatBits::Single) => writeln!(out, ", into the texture FloatMap, 32 bits a channel")?,
+            }
+            for step in &pass.steps {
+                writeln!(out, "  {step}")?;
+            }
+        }
+        let output = match self.output {
+            Output::Rgba => "the framebuffer",
+            Output::Rgb => "the framebuffer's red, green and blue",
+            Output::AlphaAsGrey => "the framebuffer's alpha as grey",
+        };
+        writeln!(out, "picture: {output}")
+    }
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Clear { color: [r, g, b, a] } => write!(out, "clear to ({r}, {g}, {b}, {a}), depth to 1"),
+            Self::CopyFramebuffer => write!(out, "copy the framebuffer into the texture BorderMap"),
+            Self::CopyDepth => write!(out, "copy the depth buffer into the texture DepthMap"),
+            Self::Draw(draw) => draw.fmt(out),
+        }
+    }
+}
+
+impl fmt::Display for Draw {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.geometry {
+            Geometry::Objects(Paint::Materials) => write!(out, "draw the objects")?,
+            Geometry::Objects(Paint::Uniform([r, g, b, a])) => write!(out, "draw the objects in ({r}, {g}, {b}, {a})")?,
+            Geometry::Objects(Paint::Coordinates(_)) => write!(out, "draw the objects by texture coordinates")?,
+            Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
+                let mark = if *mark == Mark::Lines { "lines" } else { "points" };
+                let smooth = if *is_smooth { "smooth " } else { "" };
+                let quads = if *line_drawing == LineDrawing::Quads { " as quads" } else { "" };
+                write!(out, "draw {smooth}{mark} of {width_px} px{quads} at")?;
+                write_runs(out, runs)?;
+            }
+            Geometry::BackgroundSquare { color: [r, g, b, a] } => {
+                write!(out, "draw the background square in ({r}, {g}, {b}, {a})")?;
+            }
+            Geometry::ScreenSquare => write!(out, "draw the screen square")?,
+            Geometry::PictureSquare => write!(out, "draw the screen square over the picture")?,
+        }
+        match &self.program {
+            None => write!(out, " without shaders")?,
+            Some(Program { vertex, fragments }) if fragments.is_empty() => write!(out, " with {vertex}")?,
+            Some(Program { vertex, fragments }) => write!(out, " with {vertex} + {}", fragments.join(" + "))?,
+        }
+        for uniform in &self.uniforms {
+            match uniform.value {
+                Value::Float(x) => write!(out, ", {} = {x}", uniform.name)?,
+                Value::Int(x) => write!(out, ", {} = {x}", uniform.name)?,
+                Value::Vec2([x, y]) => write!(out, ", {} = ({x}, {y})", uniform.name)?,
+                Value::Vec3([x, y, z]) => write!(out, ", {} = ({x}, {y}, {z})", uniform.name)?,
+            }
+        }
+        for (sampler, texture) in &self.textures {
+            write!(out, ", {sampler} = {texture:?}")?;
+        }
+        match self.depth {
+            Depth::TestAndWrite => {}
+            Depth::TestOnly => write!(out, ", depth not written")?,
+            Depth::Ignore => write!(out, ", no depth test")?,
+        }
+        if self.cull_back_faces {
+            write!(out, ", back faces left out")?;
+        }
+        if let Some([factor, units]) = self.polygon_offset {
+            write!(out, ", pushed back by ({factor}, {units})")?;
+        }
+        if self.blend {
+            write!(out, ", blended")?;
+        }
+        Ok(())
+    }
+}
+
+/// How many edges of each name and colour.
+fn write_runs(out: &mut fmt::Formatter<'_>, runs: &[EdgeRun]) -> fmt::Result {
+    let mut sums: Vec<(&str, [f32; 4], usize)> = Vec::new();
+    for run in runs {
+        match sums.iter_mut().find(|(name, color, _)| *name == run.name && *color == run.color) {
+            Some((.., count)) => *count += run.ends.len(),
+            None => sums.push((run.name, run.color, run.ends.len())),
+        }
+    }
+    if sums.is_empty() {
+        write!(out, " no edges")?;
+    }
+    for (index, (name, [r, g, b, a], count)) in sums.iter().enumerate() {
+        let comma = if index > 0 { "," } else { "" };
+        write!(out, "{comma} {count} {name} edges in ({r}, {g}, {b}, {a})")?;
+    }
+    Ok(())
+}

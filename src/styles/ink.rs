@@ -1,0 +1,183 @@
+//! `ink`: the best ink an image-space filter was found to draw at no more than the faithful three passes' time.
+//!
+//! Evangelista's three passes with another map and another filter: the map holds each pixel's own plane, the filter asks
+//! whether neighbouring planes meet. What was measured is in `docs/ink.md`.
+
+use super::border::{check_width, reach};
+use super::{Show, Supersample, Tones, lens, supersample};
+use crate::edges::CreaseAngle;
+use crate::error::{Error, Result};
+use crate::names::find;
+use crate::plan::{Depth, Draw, Geometry, Paint, Pass, Plan, Program, Step, Texture, Uniform, Value};
+use crate::scene::{Background, Scene, Size};
+use serde::Serialize;
+use std::str::FromStr;
+
+/// Settings of `ink`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Ink {
+    /// How much time the picture may take. Default standard.
+    pub quality: Quality,
+    /// How much larger than the picture it is drawn, to be shrunk; `None` is as the quality has it. Default none.
+    pub supersample: Option<Supersample>,
+    /// Whether lines are drawn at all. Default yes.
+    pub is_inked: bool,
+    /// From which angle between planes there is a crease. Default a cosine of 0.4; more degrees draw fewer lines.
+    pub crease_angle: CreaseAngle,
+    /// Width of the lines, pixels, 1 to 64. Default 2; more also joins what lies near each other.
+    pub line_width_px: u32,
+    /// The least step from one surface to another that is a line, in widths of a pixel. Default 1.5; more draws fewer lines.
+    pub least_gap_px: f32,
+    /// What is added to it for each unit of a surface's slope towards the eye, which the map knows less exactly the steeper.
+    /// Default 0.3; more draws fewer lines near outlines.
+    pub gap_per_slope: f32,
+    /// The tones below. Default those of the three passes.
+    pub tones: Tones,
+    /// Whether faces turned away from the eye are left out. Default no.
+    pub cull_back_faces: bool,
+}
+
+/// How much time a picture may take.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quality {
+    /// No more than the faithful three passes.
+    #[default]
+    Standard,
+    /// As much as helps: drawn larger, and shrunk.
+    Best,
+}
+
+impl Quality {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("standard", Self::Standard), ("best", Self::Best)];
+
+    /// How much larger than the picture it is drawn.
+    fn supersample(self) -> Supersample {
+        match self {
+            Self::Standard => Supersample::One,
+            Self::Best => Supersample::Two,
+        }
+    }
+}
+
+impl FromStr for Quality {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+impl Default for Ink {
+    fn default() -> Self {
+        Self {
+            quality: Quality::Standard,
+            supersample: None,
+            is_inked: true,
+            crease_angle: CreaseAngle::default(),
+            least_gap_px: 1.5,
+            gap_per_slope: 0.3,
+            line_width_px: 2,
+            tones: Tones::default(),
+            cull_back_faces: false,
+        }
+    }
+}
+
+impl Ink {
+    /// Map, tones, ink on top.
+    pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
+        self.check(show)?;
+        let sampling = if show == Show::Map { Supersample::One } else { self.supersample() };
+        let surface = sampling.surface(scene.size);
+        let mut passes = Vec::new();
+        if show != Show::Tones && self.is_inked {
+            passes.push(self.map_pass(scene, surface, show != Show::Map));
+        }
+        if matches!(show, Show::Final | Show::Tones) {
+            passes.push(self.tone_pass(scene));
+        }
+        if matches!(show, Show::Final | Show::Borders) && self.is_inked {
+            passes.push(self.ink_pass(scene, surface, show == Show::Borders));
+        }
+        let plan = Plan { tone_table: self.tones.table().filter(|_| show != Show::Borders), ..Plan::new(passes) };
+        Ok(sampling.finish(plan, scene.size))
+    }
+
+    fn supersample(&self) -> Supersample {
+        self.supersample.unwrap_or(self.quality.supersample())
+    }
+
+    fn check(&self, show: Show) -> Result<()> {
+        if !matches!(show, Show::Final | Show::Tones | Show::Borders | Show::Map) {
+            return Err(Error::setting("--show", "the style ink has final, tones, borders and map; show one of these"));
+        }
+        if !self.is_inked && matches!(show, Show::Borders | Show::Map) {
+            return Err(Error::setting("--show", "there is no ink with --no-borders; leave out one of the two"));
+        }
+        check_width(Some(self.line_width_px))?;
+        self.tones.check()
+    }
+
+    /// Each pixel's plane.
+    fn map_pass(&self, scene: &Scene, surface: Size, copy: bool) -> Pass {
+        let program = Program { vertex: "improved/plane-map.vert", fragments: vec!["improved/plane-map.frag"] };
+        let objects = Draw {
+            uniforms: vec![lens::footprint(scene, surface)],
+            cull_back_faces: self.cull_back_faces,
+            ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
+        };
+        let mut steps = vec![Step::Clear { color: [0.0; 4] }, Step::Draw(objects)];
+        if copy {
+            steps.push(Step::CopyFramebuffer);
+        }
+        Pass::new("map", steps)
+    }
+
+    /// The published tones; the background is cleared and needs no square.
+    fn tone_pass(&self, scene: &Scene) -> Pass {
+        let published = self.tones.are_published();
+        let fragments = match published {
+            true => vec!["evangelista/toon.frag"],
+            false => vec!["evangelista/toon-settings.frag", self.tones.shader()],
+        };
+        let program = Program { vertex: "evangelista/toon.vert", fragments };
+        let objects = Draw {
+            uniforms: if published { Vec::new() } else { self.tones.uniforms(false) },
+            textures: if published { Vec::new() } else { self.tones.textures() },
+            cull_back_faces: self.cull_back_faces,
+            ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
+        };
+        Pass::new("tones", vec![Step::Clear { color: scene.background.clear_color() }, Step::Draw(objects)])
+    }
+
+    /// The filter over the whole picture; `alone` on a white ground.
+    fn ink_pass(&self, scene: &Scene, surface: Size, alone: bool) -> Pass {
+        let float = |name, value: f64| Uniform { name, value: Value::Float(value as f32) };
+        let scale = self.supersample().factor();
+        let gap = [self.least_gap_px * scale as f32, self.gap_per_slope];
+        let mut uniforms = vec![
+            supersample::texture_unit(surface),
+            lens::footprint(scene, surface),
+            Uniform { name: "gapThreshold", value: Value::Vec2(gap) },
+            float("creaseCosine", self.crease_angle.cosine),
+            reach(Some(self.line_width_px), scale, false),
+        ];
+        uniforms.extend(lens::rays(scene, surface));
+        let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/plane-ink.frag"] };
+        let square = Draw {
+            uniforms,
+            textures: vec![("planeMap", Texture::BorderMap)],
+            depth: Depth::Ignore,
+            ..Draw::new(Geometry::ScreenSquare, Some(program))
+        };
+        let mut steps = Vec::new();
+        if alone {
+            let color = if scene.background == Background::Transparent { [0.0; 4] } else { [1.0; 4] };
+            steps.push(Step::Clear { color });
+        }
+        steps.push(Step::Draw(square));
+        Pass::new("ink", steps)
+    }
+}

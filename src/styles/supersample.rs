@@ -1,0 +1,82 @@
+//! Drawing larger than the picture and taking the mean: edges are smooth, lines finer than a pixel.
+
+use crate::names::find;
+use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Texture, Uniform, Value};
+use crate::scene::Size;
+use serde::Serialize;
+use std::str::FromStr;
+
+/// How many times as wide and high as the picture it is drawn.
+///
+/// The largest picture shrinks by the same factor: a driver that draws 16384 x 16384 pixels at most makes pictures of up to
+/// 4096 x 4096 with [`Supersample::Four`].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(into = "u32")]
+pub enum Supersample {
+    /// As large as the picture, as published.
+    #[default]
+    One,
+    /// 4 samples a pixel.
+    Two,
+    /// 16 samples a pixel.
+    Four,
+}
+
+impl Supersample {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 3] = [("1", Self::One), ("2", Self::Two), ("4", Self::Four)];
+
+    /// The factor.
+    pub fn factor(self) -> u32 {
+        match self {
+            Self::One => 1,
+            Self::Two => 2,
+            Self::Four => 4,
+        }
+    }
+
+    /// The size of what is drawn for a picture of this size.
+    pub(super) fn surface(self, picture: Size) -> Size {
+        picture.times(self.factor())
+    }
+
+    /// Makes of a plan drawn at [`Supersample::surface`]'s size one of the picture.
+    pub(super) fn finish(self, plan: Plan, picture: Size) -> Plan {
+        if self == Self::One {
+            return plan;
+        }
+        let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/box-filter.frag"] };
+        let square = Draw {
+            uniforms: vec![
+                texture_unit(self.surface(picture)),
+                Uniform { name: "count", value: Value::Int(self.factor() as i32) },
+            ],
+            textures: vec![("samples", Texture::BorderMap)],
+            depth: Depth::Ignore,
+            ..Draw::new(Geometry::PictureSquare, Some(program))
+        };
+        let mut plan = Plan { supersample: self.factor(), ..plan };
+        plan.passes.push(Pass::new("shrink", vec![Step::CopyFramebuffer, Step::Draw(square)]));
+        plan
+    }
+}
+
+impl From<Supersample> for u32 {
+    fn from(supersample: Supersample) -> Self {
+        supersample.factor()
+    }
+}
+
+impl FromStr for Supersample {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+/// How far apart the texels of a texture of this size are.
+pub(super) fn texture_unit(size: Size) -> Uniform {
+    let unit = [1.0 / size.width as f32, 1.0 / size.height as f32];
+    Uniform { name: "textureUnit", value: Value::Vec2(unit) }
+}
