@@ -169,10 +169,7 @@ fn command_lines_that_are_not_understood_are_answered_in_one_line() {
 #[test]
 fn outputs_are_checked_before_the_work_and_kept_when_it_fails() {
     let folder = Folder::new();
-    refused_in_one_line(
-        &["render", "no-such.obj", "-o", "drawing.xyz"],
-        &["drawing.xyz: pictures are not written as .xyz"],
-    );
+    refused_in_one_line(&["render", "no-such.obj", "-o", "drawing.xyz"], &["drawing.xyz: nothing is written as .xyz"]);
     refused_in_one_line(
         &["render", "builtin:ant", "-o", "no/such/a.png"],
         &["no/such/a.png: the folder no/such is not there"],

@@ -132,3 +132,15 @@ fn lines_need_no_driver() {
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(std::fs::read_to_string(&out).unwrap().ends_with("</svg>\n"));
 }
+
+#[test]
+fn a_model_is_not_written_over_and_an_empty_drawing_is_said() {
+    let folder = Folder::new();
+    let model = folder.file("model.svg", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    refused_in_one_line(&["render", &model, "-o", &model], &["model.svg", "the model itself"]);
+    assert!(std::fs::read_to_string(&model).unwrap().starts_with("v 0 0 0"));
+    let output = tinta(&["render", &model, "-o", &folder.path("empty.svg"), "--classes", "crease"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no line of these classes is seen"));
+    refused_in_one_line(&["render", &model, "-o", &folder.path("a.svgz")], &[".svgz", ".svg or .json for lines"]);
+}
