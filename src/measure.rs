@@ -7,6 +7,7 @@ mod ink;
 mod reference;
 mod row;
 mod run;
+mod shading;
 mod tones;
 
 pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};

@@ -134,13 +134,9 @@ impl Style {
         }
     }
 
-    /// The tones of a style whose tones are the first paper's.
-    pub fn tones(&self) -> Option<&Tones> {
-        match self {
-            Self::ThreePass(cartoon) | Self::TwoPass(cartoon) => Some(&cartoon.tones),
-            Self::Ink(ink) => Some(&ink.tones),
-            _ => None,
-        }
+    /// Whether its tones can be shown by themselves.
+    pub fn has_tones(&self) -> bool {
+        matches!(self, Self::ThreePass(_) | Self::TwoPass(_) | Self::Ink(_) | Self::Inking(_) | Self::Dietrich(_))
     }
 
     /// What GL has to do for this scene.

@@ -183,12 +183,13 @@ fn contestant(
         true => Some(Ink::on_white(&renderer.draw(scene, &style.plan(scene, Show::Borders)?)?)),
         false => None,
     };
-    let tones = match style.tones() {
-        Some(tones) => {
-            let picture = renderer.draw(scene, &style.plan(scene, Show::Tones)?)?;
-            Some(subject.light.error(&picture, tones, &subject.reference))
+    let shown = if style.has_tones() { Show::Tones } else { Show::Final };
+    let tones = match style {
+        Style::Inking(_) | Style::Dietrich(_) => None,
+        _ => {
+            let picture = renderer.draw(scene, &style.plan(scene, shown)?)?;
+            subject.light.error(&picture, style, scene, &subject.reference)?
         }
-        None => None,
     };
     let Size { width, height } = scene.size;
     let row = Row {

@@ -72,6 +72,11 @@ pub(super) struct Made {
 }
 
 impl CharcoalPictures {
+    /// Noise, contrast-enhanced texture and paper of these settings.
+    pub(crate) fn all(&self, charcoal: &Charcoal) -> Result<(Arc<Picture>, Arc<Picture>, Arc<Picture>)> {
+        self.of(charcoal).map(|Made { noise, cet, paper }| (noise, cet, paper))
+    }
+
     /// The textures of these settings: those kept, or else made now.
     pub(super) fn of(&self, charcoal: &Charcoal) -> Result<Made> {
         let (size, seed) = (charcoal.texture_size, charcoal.seed);
