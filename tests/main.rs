@@ -8,6 +8,7 @@ mod cli_ink;
 mod cli_lines;
 mod docs;
 mod edges;
+mod figures;
 mod goldens;
 mod inking;
 mod licences;

@@ -6,10 +6,9 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tinta::figures::page::{FigureRecord, PictureRecord, page};
-use tinta::figures::plot::{PLOT_SIZE, plot};
+use tinta::figures::plot::{PLOT_SIZE, plot, title};
 use tinta::figures::{
-    Artist, Content, Drawing, Figure, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel, TRIANGLES, figures, measure,
-    only, steps,
+    Artist, Content, Drawing, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel, TRIANGLES, figures, measure, only, steps,
 };
 use tinta::{Backend, Error, LoadOptions, Mesh, Picture, Renderer, Result, Size, Target, TextTarget};
 
@@ -109,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn plot_record(file: String, tones: u8) -> PictureRecord {
-    let label = if tones == 1 { "one tone".to_owned() } else { format!("{tones} tones") };
+    let label = title(tones).to_owned();
     let (width, height) = PLOT_SIZE;
     PictureRecord { file, label, size: Size { width, height }, command: None, style: None, show: None }
 }
@@ -217,8 +216,9 @@ mod tests {
 
     #[test]
     fn every_figure_has_its_own_files_and_id() {
-        let all: Vec<Figure> = figures(Size { width: 64, height: 64 });
-        let mut files: Vec<&str> = all.iter().flat_map(Figure::panels).map(|panel| panel.file.as_str()).collect();
+        let all: Vec<tinta::figures::Figure> = figures(Size { width: 64, height: 64 });
+        let mut files: Vec<&str> =
+            all.iter().flat_map(tinta::figures::Figure::panels).map(|panel| panel.file.as_str()).collect();
         let count = files.len();
         files.sort_unstable();
         files.dedup();

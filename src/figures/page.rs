@@ -66,9 +66,9 @@ nav a { display: inline-block; margin: 0 .9rem .4rem 0; } a { color: #1d5aa6; }
 .pictures { display: flex; flex-wrap: wrap; gap: 1rem; margin: .8rem 0; }
 figure { margin: 0; max-width: 100%; } img { max-width: 100%; height: auto; display: block; border: 1px solid #ddd; }
 .four figure { flex: 1 1 14rem; max-width: 22rem; } figcaption { font-size: .9rem; color: #444; }
-pre { background: #f3f3f3; padding: .5rem .7rem; overflow-x: auto; font-size: .8rem; margin: .5rem 0; }
+pre { background: #f3f3f3; padding: .5rem .7rem; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; margin: .5rem 0; }
 .table { overflow-x: auto; } table { border-collapse: collapse; font-size: .9rem; margin: .6rem 0; }
-th, td { padding: .2rem .6rem; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; } td.name, th.name { text-align: left; }
+th, td { padding: .2rem .6rem; border-bottom: 1px solid #ddd; text-align: right; } td { white-space: nowrap; } th { vertical-align: bottom; } td.name, th.name { text-align: left; }
 p { max-width: 48rem; } .left-out { color: #8a3a00; } .hint { color: #555; }";
 
 /// The page.

@@ -23,6 +23,7 @@ pub fn plot(numbers: &Numbers, tones: u8) -> Result<String> {
     if all().next().is_none() || all().any(|(_, rate)| !rate.is_finite()) {
         return Err(failed("there are no times to plot".to_owned()));
     }
+    let triangles: Vec<f64> = numbers.scenes.iter().map(|scene| scene.mix.triangles as f64).collect();
     let range = |values: &mut dyn Iterator<Item = f64>| {
         let (low, high) = values.fold((f64::INFINITY, 0.0f64), |(low, high), x| (low.min(x), high.max(x)));
         (low * 0.75)..(high * 1.35)
@@ -31,7 +32,7 @@ pub fn plot(numbers: &Numbers, tones: u8) -> Result<String> {
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, PLOT_SIZE).into_drawing_area();
-        draw(&area, [x, y], [rates(3).collect(), rates(2).collect()], tones)
+        draw(&area, [x, y], triangles, [rates(3).collect(), rates(2).collect()], tones)
             .map_err(|error| failed(error.to_string()))?;
     }
     Ok(text)
@@ -42,19 +43,19 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 fn draw(
     area: &Area<'_>,
     [x, y]: [std::ops::Range<f64>; 2],
+    triangles: Vec<f64>,
     curves: [Vec<(f64, f64)>; 2],
     tones: u8,
 ) -> std::result::Result<(), Box<dyn std::error::Error>> {
     let font = |size: i32| ("sans-serif", size).into_font();
     area.fill(&WHITE)?;
-    let title = if tones == 1 { "1 tone".to_owned() } else { format!("{tones} tones") };
     let mut chart = ChartBuilder::on(area)
-        .caption(title, font(20))
+        .caption(title(tones), font(20))
         .margin(12)
         .x_label_area_size(46)
         .y_label_area_size(58)
-        .build_cartesian_2d(x.log_scale(), y.log_scale())?;
-    let thousands = |x: &f64| if *x >= 1000.0 { format!("{:.0} k", x / 1000.0) } else { format!("{x:.0}") };
+        .build_cartesian_2d(x.log_scale().with_key_points(triangles), y.log_scale().with_key_points(ticks()))?;
+    let thousands = |x: &f64| if *x < 1e4 { format!("{:.1} k", x / 1e3) } else { format!("{:.0} k", x / 1e3) };
     chart
         .configure_mesh()
         .x_desc("triangles")
@@ -62,9 +63,9 @@ fn draw(
         .axis_desc_style(font(16))
         .label_style(font(14))
         .x_label_formatter(&thousands)
-        .y_label_formatter(&|y| format!("{y:.0}"))
-        .x_labels(6)
-        .y_labels(8)
+        .y_label_formatter(&|y| format!("{y}"))
+        .x_labels(12)
+        .y_labels(24)
         .light_line_style(RGBColor(238, 238, 238))
         .bold_line_style(RGBColor(215, 215, 215))
         .draw()?;
@@ -90,6 +91,16 @@ fn draw(
         .draw()?;
     area.present()?;
     Ok(())
+}
+
+/// How many tones, in words.
+pub fn title(tones: u8) -> &'static str {
+    ["no tones", "one tone", "two tones", "three tones"][usize::from(tones.min(3))]
+}
+
+/// 1, 2 and 5 times the powers of ten that frame rates have.
+fn ticks() -> Vec<f64> {
+    (-2..6).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power))).collect()
 }
 
 fn mark_style(color: RGBColor, is_filled: bool) -> ShapeStyle {

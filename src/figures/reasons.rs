@@ -112,7 +112,7 @@ fn passes(numbers: &Numbers) -> Option<String> {
         "unlike in the paper, which finds them slower throughout"
     };
     Some(format!(
-        "Two passes give {least:+.0} to {most:+.0} % of the frames a second of three, faster by more than {EQUAL_PERCENT:.0} \
+        "Two passes change the frames a second of three by {least:+.0} to {most:+.0} %, faster by more than {EQUAL_PERCENT:.0} \
          % in {faster} and slower in {slower} of {} cases, {verdict}; both forms draw every triangle twice, and what remains \
          between them is a filter over the whole picture, blended, against one joined to the tones.",
         gains.len()
@@ -131,7 +131,7 @@ fn tones(numbers: &Numbers) -> Option<String> {
     spread.is_finite().then(|| {
         format!(
             "Within a scene the number of tones changes a frame by {spread:.0} % at most: fewer tones are the same shader \
-             with its thresholds out of reach, so that all light is computed all the same; how the paper's own shaders of \
+             with its thresholds out of reach, which spares no light's computation; how the paper's own shaders of \
              one and two tones looked it does not print."
         )
     })
@@ -249,29 +249,4 @@ fn count(gains: &[f64], is: impl Fn(f64) -> bool) -> usize {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn renderers_are_told_apart_by_their_names() {
-        for software in ["llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe", "Google SwiftShader", "Software Rasterizer"] {
-            assert!(is_software(software), "{software}");
-        }
-        for hardware in ["NVIDIA GeForce RTX 3060/PCIe/SSE2", "Mesa Intel(R) UHD Graphics 620", "AMD Radeon Graphics"] {
-            assert!(!is_software(hardware), "{hardware}");
-        }
-    }
-
-    #[test]
-    fn hardware_is_never_called_a_program() {
-        let host = |renderer: &str| Host {
-            renderer: renderer.to_owned(),
-            version: String::new(),
-            threads: 1,
-            is_software: is_software(renderer),
-        };
-        let (software, hardware) = (drawn_by(&host("llvmpipe")), drawn_by(&host("NVIDIA GeForce RTX 3060")));
-        assert!(software.contains("llvmpipe draws, a program on 1 thread of"));
-        assert!(hardware.contains("RTX 3060 draws") && !hardware.contains("program") && !hardware.contains("cores"));
-    }
-}
+mod tests;

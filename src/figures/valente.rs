@@ -102,7 +102,8 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "valente-9",
             "Figure 9",
             "Sand",
-            "A Quake 2 character whose own texture, turned to sepia, is mixed with the charcoal drawing.",
+            "A Quake 2 character whose own texture, turned to sepia, is mixed with the charcoal drawing; ours is the model \
+             that --model names.",
             vec![
                 panel("valente-9", "sand", "", Shot::whole(), Style::Sand(base.clone()), &options("sand", ""))
                     .textured(),
@@ -142,5 +143,5 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
 
 /// The bust's eyes and nose.
 fn close() -> Shot {
-    Shot::eye([1.6, 4.7, 4.2], [0.1, 4.4, 0.4], 28.0, "--eye 1.6,4.7,4.2 --target 0.1,4.4,0.4 --fov 28")
+    Shot::eye([1.6, 4.7, 4.2], [0.1, 4.1, 0.4], 30.0, "--eye 1.6,4.7,4.2 --target 0.1,4.1,0.4 --fov 30")
 }
