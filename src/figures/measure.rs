@@ -172,9 +172,11 @@ impl Numbers {
     }
 }
 
-/// How much more frames a second `one` gives than `other`, percent.
-fn gain_percent(one: &Series, other: &Series) -> f64 {
-    (other.median_ms / one.median_ms - 1.0) * 100.0
+/// How much more frames a second `one` gives than `other`, percent: the median of the ratios within a turn, which a busy
+/// moment's frames, slow for both, do not move.
+pub(super) fn gain_percent(one: &Series, other: &Series) -> f64 {
+    let ratios = other.frames_ms.iter().zip(&one.frames_ms).map(|(other, one)| other / one);
+    (median(ratios.collect()).unwrap_or(1.0) - 1.0) * 100.0
 }
 
 /// A plan that takes its turns.
@@ -198,9 +200,6 @@ impl Contestant {
     }
 }
 
-/// Frames of a setting that follow one another before the next one's turn.
-const FRAMES_A_TURN: usize = 3;
-
 /// Distances of the eye from the bust, of that at which it fills the picture.
 const DISTANCES: [f64; 4] = [0.35, 0.6, 1.0, 3.0];
 
@@ -209,7 +208,7 @@ const CURVES: [(u8, u8); 6] = [(1, 2), (1, 3), (2, 2), (2, 3), (3, 2), (3, 3)];
 
 /// How many steps [`measure`] reports.
 pub fn steps(how: &HowToMeasure) -> usize {
-    how.frames.div_ceil(FRAMES_A_TURN) * 2
+    how.frames * 2
 }
 
 /// Measures; `step` is called as often as [`steps`] says.
@@ -298,18 +297,21 @@ pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut
     Ok(numbers)
 }
 
-/// All contestants' frames, a few of each at a time.
+/// All contestants' frames, one of each at a time.
 fn take_turns(
     renderer: &mut Renderer,
     contestants: &mut [Contestant],
     frames: usize,
     step: &mut impl FnMut(),
 ) -> Result<()> {
-    for turn in 0..frames.div_ceil(FRAMES_A_TURN) {
-        let frames = FRAMES_A_TURN.min(frames - turn * FRAMES_A_TURN);
+    for _ in 0..frames {
+        let mut last: Option<Arc<Scene>> = None;
         for Contestant { scene, plan, times } in contestants.iter_mut() {
             // The first frame after another scene's also loads this one's models.
-            times.extend(renderer.time_frames(scene, plan, 1, frames)?);
+            let is_new = !last.as_ref().is_some_and(|last| Arc::ptr_eq(last, scene));
+            let warm_up = usize::from(is_new || times.is_empty());
+            times.extend(renderer.time_frames(scene, plan, warm_up, 1)?);
+            last = Some(scene.clone());
         }
         step();
     }

@@ -54,7 +54,10 @@ fn draw(
         .margin(12)
         .x_label_area_size(46)
         .y_label_area_size(58)
-        .build_cartesian_2d(x.log_scale().with_key_points(triangles), y.log_scale().with_key_points(ticks()))?;
+        .build_cartesian_2d(
+            x.log_scale().with_key_points(triangles),
+            y.clone().log_scale().with_key_points(ticks(&y)),
+        )?;
     let thousands = |x: &f64| if *x < 1e4 { format!("{:.1} k", x / 1e3) } else { format!("{:.0} k", x / 1e3) };
     chart
         .configure_mesh()
@@ -98,9 +101,10 @@ pub fn title(tones: u8) -> &'static str {
     ["no tones", "one tone", "two tones", "three tones"][usize::from(tones.min(3))]
 }
 
-/// 1, 2 and 5 times the powers of ten that frame rates have.
-fn ticks() -> Vec<f64> {
-    (-2..6).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power))).collect()
+/// 1, 2 and 5 times the powers of ten within a range; plotters would draw those beyond it too.
+fn ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
+    let all = (-3..7).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)));
+    all.filter(|tick| range.contains(tick)).collect()
 }
 
 fn mark_style(color: RGBColor, is_filled: bool) -> ShapeStyle {

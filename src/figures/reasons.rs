@@ -1,6 +1,6 @@
 //! Why our numbers are not the paper's: sentences that follow from what was measured and from what GL says it is.
 
-use super::measure::{Numbers, Reason, Series};
+use super::measure::{FrameRow, Numbers, Reason, gain_percent};
 use super::throughput::ShaderRow;
 use crate::gl::ContextInfo;
 use serde::Serialize;
@@ -97,7 +97,7 @@ fn passes(numbers: &Numbers) -> Option<String> {
     let mut gains = Vec::new();
     for row in numbers.frames.iter().filter(|row| row.passes == 2) {
         let three = numbers.curve(row.tones, 3).find(|other| other.triangles == row.triangles)?;
-        gains.push(percent_faster(&row.series, &three.series));
+        gains.push(gain_percent(&row.series, &three.series));
     }
     gains.sort_by(f64::total_cmp);
     let (least, most) = (*gains.first()?, *gains.last()?);
@@ -112,9 +112,11 @@ fn passes(numbers: &Numbers) -> Option<String> {
         "unlike in the paper, which finds them slower throughout"
     };
     Some(format!(
-        "Two passes change the frames a second of three by {least:+.0} to {most:+.0} %, faster by more than {EQUAL_PERCENT:.0} \
+        "Two passes change the frames a second of three by {} to {}, faster by more than {EQUAL_PERCENT:.0} \
          % in {faster} and slower in {slower} of {} cases, {verdict}; both forms draw every triangle twice, and what remains \
          between them is a filter over the whole picture, blended, against one joined to the tones.",
+        signed(least),
+        signed(most),
         gains.len()
     ))
 }
@@ -123,14 +125,13 @@ fn passes(numbers: &Numbers) -> Option<String> {
 fn tones(numbers: &Numbers) -> Option<String> {
     let mut spread: f64 = 0.0;
     for row in &numbers.frames {
-        let same = |other: &&super::FrameRow| other.triangles == row.triangles && other.passes == row.passes;
-        let rates = numbers.frames.iter().filter(same).map(|other| other.series.median_ms);
-        let (low, high) = rates.fold((f64::INFINITY, 0.0f64), |(low, high), ms| (low.min(ms), high.max(ms)));
-        spread = spread.max((high / low - 1.0) * 100.0);
+        let same = |other: &&FrameRow| other.triangles == row.triangles && other.passes == row.passes;
+        let gains = numbers.frames.iter().filter(same).map(|other| gain_percent(&row.series, &other.series));
+        spread = gains.fold(spread, f64::max);
     }
     spread.is_finite().then(|| {
         format!(
-            "Within a scene the number of tones changes a frame by {spread:.0} % at most: fewer tones are the same shader \
+            "Within a scene the number of tones changes the frames a second by {spread:.0} % at most: fewer tones are the same shader \
              with its thresholds out of reach, which spares no light's computation; how the paper's own shaders of \
              one and two tones looked it does not print."
         )
@@ -148,16 +149,19 @@ fn filter(numbers: &Numbers) -> Option<String> {
     if !(alone.is_finite() && share.is_finite()) {
         return Some("The filters' squares took no measurable time here.".to_owned());
     }
-    let why = if share < 50.0 {
+    let why = if alone <= EQUAL_PERCENT {
+        "and four reads fewer spare nothing there"
+    } else if share < 50.0 {
         "so that most of a frame does not depend on the filter"
     } else {
         "so that the filter is most of a frame here too"
     };
     Some(format!(
-        "The filter of five reads in place of nine changes the frames a second by {frame:+.0} %, the border's square alone by \
-         {alone:+.0} % (paper: {:+.0} % for its scene); in our smallest scene the border's shading is about {share:.0} % of \
-         the frame, {why}.",
-        numbers.paper.filter_gain_percent
+        "The filter of five reads in place of nine changes the frames a second by {}, the border's square alone by {} (paper: \
+         {} for its scene); in our smallest scene the border's shading is about {share:.0} % of the frame, {why}.",
+        signed(frame),
+        signed(alone),
+        signed(numbers.paper.filter_gain_percent)
     ))
 }
 
@@ -173,13 +177,13 @@ fn background(numbers: &Numbers) -> Option<String> {
         "not where least of the picture is covered, as the paper finds"
     };
     Some(format!(
-        "Against three passes the gain is largest, {:+.0} %, where the bust covers {:.0} % of the picture, {as_in_paper}, and \
-         smallest, {:+.0} %, where it covers {:.0} % (paper: up to {:+.0} %).",
-        best.gain_percent(),
+        "Against three passes the gain is largest, {}, where the bust covers {:.0} % of the picture, {as_in_paper}, and \
+         smallest, {}, where it covers {:.0} % (paper: up to {}).",
+        signed(best.gain_percent()),
         best.covered * 100.0,
-        worst.gain_percent(),
+        signed(worst.gain_percent()),
         worst.covered * 100.0,
-        numbers.paper.background_gain_percent
+        signed(numbers.paper.background_gain_percent)
     ))
 }
 
@@ -240,8 +244,10 @@ fn joint(numbers: &Numbers) -> Option<String> {
     })
 }
 
-fn percent_faster(one: &Series, other: &Series) -> f64 {
-    (other.median_ms / one.median_ms - 1.0) * 100.0
+/// A whole number of per cent with its sign, nothing without one.
+pub(super) fn signed(percent: f64) -> String {
+    let whole = percent.round();
+    if whole == 0.0 { "0 %".to_owned() } else { format!("{whole:+} %") }
 }
 
 fn count(gains: &[f64], is: impl Fn(f64) -> bool) -> usize {

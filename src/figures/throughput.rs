@@ -65,7 +65,7 @@ pub struct ShaderRow {
     pub paper_mpixels: Option<f64>,
     /// Ours; `None` where the square took no measurable time.
     pub mpixels: Option<f64>,
-    /// Milliseconds of the square alone: the difference of both medians.
+    /// Milliseconds of the square alone: the median of the differences within a turn.
     pub square_ms: f64,
     /// The frames with the square.
     pub with_square: Series,
@@ -102,10 +102,10 @@ fn frame(square: Option<Step>) -> Plan {
 /// The rows of what [`contestants`] measured.
 pub(super) fn rows(contestants: &[Contestant]) -> Vec<ShaderRow> {
     let Some((without, with)) = contestants.split_last() else { return Vec::new() };
-    let without_ms = median(without.times.clone()).unwrap_or_default();
     let row = |(shader, contestant): (Shader, &Contestant)| {
         let with_square = Series::new(contestant.times.clone());
-        let square_ms = with_square.median_ms - without_ms;
+        let differences = with_square.frames_ms.iter().zip(&without.times).map(|(with, without)| with - without);
+        let square_ms = median(differences.collect()).unwrap_or_default();
         let mpixels = contestant.scene.size.pixel_count() as f64 / square_ms * 1e-3;
         let draws = contestant.plan.steps().filter_map(|(_, step)| match step {
             Step::Draw(draw) => draw.program.as_ref(),

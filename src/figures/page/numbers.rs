@@ -2,6 +2,7 @@
 
 use super::escape;
 use crate::figures::measure::{Numbers, Series};
+use crate::figures::reasons::signed;
 use crate::styles::Filter;
 use std::fmt::{Result, Write};
 
@@ -10,7 +11,7 @@ pub fn summary(numbers: &Numbers) -> String {
     let frames = numbers.empty.frames_ms.len();
     format!(
         "Times are medians of {frames} {} of each setting, the settings taking turns, the picture read back each time, on {} \
-         with {} processor {}. figures.json holds every raw time.",
+         with {} processor {}; gains are medians of the ratios within a turn. figures.json holds every raw time.",
         if frames == 1 { "frame" } else { "frames" },
         numbers.host.renderer,
         numbers.host.threads,
@@ -70,8 +71,8 @@ fn filter(out: &mut String, numbers: &Numbers) -> Result {
     let name = |filter| if filter == Filter::Laplacian4 { "five reads (the paper's)" } else { "nine reads" };
     let mut rows: Vec<Vec<String>> =
         numbers.filters.iter().map(|row| vec![name(row.filter).to_owned(), rate(&row.series), String::new()]).collect();
-    let gain = numbers.filter_gain_percent().map(percent).unwrap_or_default();
-    rows.push(vec!["gain".to_owned(), gain, percent(numbers.paper.filter_gain_percent)]);
+    let gain = numbers.filter_gain_percent().map(signed).unwrap_or_default();
+    rows.push(vec!["gain".to_owned(), gain, signed(numbers.paper.filter_gain_percent)]);
     table(out, &["filter", "frames per second", "paper"], &rows)?;
     why(out, numbers, "filter")
 }
@@ -88,7 +89,7 @@ fn background(out: &mut String, numbers: &Numbers) -> Result {
                 rate(&row.three_pass),
                 rate(&row.two_pass),
                 rate(&row.two_pass_without),
-                percent(row.gain_percent()),
+                signed(row.gain_percent()),
             ]
         })
         .collect();
@@ -97,7 +98,7 @@ fn background(out: &mut String, numbers: &Numbers) -> Result {
     writeln!(
         out,
         "<p class=\"hint\">Frames per second of the bust; the paper: up to {}.</p>",
-        percent(numbers.paper.background_gain_percent)
+        signed(numbers.paper.background_gain_percent)
     )?;
     why(out, numbers, "background")
 }
@@ -143,10 +144,6 @@ fn table(out: &mut String, heads: &[&str], rows: &[Vec<String>]) -> Result {
 fn rate(series: &Series) -> String {
     let rate = series.frames_per_second();
     if rate >= 100.0 { format!("{rate:.0}") } else { format!("{rate:.1}") }
-}
-
-fn percent(value: f64) -> String {
-    format!("{value:+.0} %")
 }
 
 fn grouped(number: usize) -> String {

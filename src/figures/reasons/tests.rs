@@ -1,7 +1,7 @@
 //! The sentences about made-up measurements.
 
 use super::*;
-use crate::figures::measure::{BackgroundRow, FilterRow, FrameRow, MixRow, PAPER};
+use crate::figures::measure::{BackgroundRow, FilterRow, MixRow, PAPER, Series};
 use crate::figures::mix::Mix;
 use crate::styles::Filter;
 
@@ -88,7 +88,7 @@ fn the_verdict_on_two_passes_follows_the_times() {
     let verdict = |ratio| sentences(&numbers(ratio, 1e-3, [3.0, 2.0]), "frames");
     assert!(verdict(1.25).contains("slower in 2 of 2 cases, as in the paper"), "{}", verdict(1.25));
     assert!(
-        verdict(0.8).contains("by +25 to +25 %") && verdict(0.8).contains("unlike in the paper"),
+        verdict(0.8).contains("by +25 % to +25 %") && verdict(0.8).contains("unlike in the paper"),
         "{}",
         verdict(0.8)
     );
@@ -100,6 +100,15 @@ fn what_a_triangle_costs_follows_the_times() {
     let growth = |cost| sentences(&numbers(1.0, cost, [3.0, 2.0]), "frames");
     assert!(growth(1e-3).contains("75 % of the last scene's time comes with its triangles, 1000 ms for a million"));
     assert!(growth(0.0).contains("triangles cost nothing that could be measured"));
+}
+
+#[test]
+fn a_filter_that_spares_nothing_is_said_to() {
+    let mut numbers = numbers(1.0, 1e-3, [4.0, 2.0]);
+    numbers.shaders[5].square_ms = 2.9;
+    let filter = sentences(&numbers, "filter");
+    assert!(filter.contains("alone by -3 %") && filter.contains("spare nothing"), "{filter}");
+    assert_eq!([-0.3, 0.4, 12.5, -7.0].map(signed), ["0 %", "0 %", "+13 %", "-7 %"]);
 }
 
 #[test]
