@@ -2,6 +2,7 @@
 
 mod compare;
 mod edges;
+mod figures;
 mod info;
 mod measure;
 mod models;
@@ -13,6 +14,7 @@ mod textures;
 
 use clap::{Parser, Subcommand};
 use std::io::Write;
+use std::path::Path;
 use tinta::{Error, Result};
 
 /// Cartoon drawings of 3D models, drawn the way a paper of 2005 drew them.
@@ -27,6 +29,7 @@ Examples:
   tinta edges cow.obj                            its edges, counted by class
   tinta measure cow.obj -o cow --quick           every style's error against its run time
   tinta textures -o textures                     a charcoal drawing's grain, noise and paper
+  tinta figures -o figures                       the three texts' figures, drawn and measured again
   tinta info                                     which OpenGL is there
 
 Exit codes: 0 done, 2 could not be done; the reason is one sentence on standard error.")]
@@ -42,6 +45,7 @@ enum Command {
     Edges(Box<edges::Arguments>),
     Measure(Box<measure::Arguments>),
     Textures(textures::Arguments),
+    Figures(figures::Arguments),
     Info(info::Arguments),
 }
 
@@ -60,6 +64,7 @@ pub fn run() -> Result<()> {
         Command::Edges(arguments) => edges::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
         Command::Textures(arguments) => textures::run(&arguments),
+        Command::Figures(arguments) => figures::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
 }
@@ -91,6 +96,18 @@ fn print(text: &str) -> Result<()> {
         }),
         _ => Ok(()),
     }
+}
+
+/// Makes the folder that `-o` names, if it is not there.
+fn make_folder(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).map_err(|error| Error::Output {
+        path: format!("-o {}", folder.display()),
+        problem: if folder.is_file() {
+            "this is a file; name a folder".to_owned()
+        } else {
+            format!("the folder cannot be made ({error}); choose another")
+        },
+    })
 }
 
 /// Writes a value as JSON to standard output.

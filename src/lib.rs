@@ -28,6 +28,7 @@ pub mod camera;
 pub mod compare;
 pub mod edges;
 pub mod error;
+pub mod figures;
 pub mod gl;
 pub mod glsl;
 pub mod lines;

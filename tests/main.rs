@@ -9,6 +9,7 @@ mod cli_lines;
 mod cli_measure;
 mod docs;
 mod edges;
+mod figures;
 mod goldens;
 mod improved;
 mod inking;

@@ -136,6 +136,12 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             };
             rows.iter().any(is_it)
         };
+        for row in rows.iter().filter(|row| row.machine == how.machine && row.model == subject.model) {
+            let Size { width, height } = subject.scene.size;
+            if row.size == [width, height] && is_shown(row) {
+                pictures.extend(known_picture(arguments, row));
+            }
+        }
         let left: Vec<Setting> = settings.iter().filter(|setting| !is_known(setting)).cloned().collect();
         let skipped = steps(settings.len(), how.frames) - steps(left.len(), how.frames);
         (0..skipped).for_each(|_| progress.step());
@@ -143,7 +149,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         left_out.iter().for_each(|reason| super::say(&format!("tinta: {reason}")));
         for Measured { row, error_picture } in measured {
             log.append(&row)?;
-            if let Some(picture) = error_picture.filter(|_| row.is_faithful || row.style == "ink") {
+            if let Some(picture) = error_picture.filter(|_| is_shown(&row)) {
                 pictures.push(error_page(arguments, &row, &picture)?);
             }
             rows.push(row);
@@ -218,21 +224,36 @@ fn make_folder(folder: &Path) -> Result<()> {
     })
 }
 
-/// Writes a picture of the error and hands it over for the page.
-fn error_page(arguments: &Arguments, row: &Row, picture: &Picture) -> Result<ReportPicture> {
-    let folder = arguments.output.join("errors");
-    make_folder(&folder)?;
+/// Whether the page shows where a row's errors lie: of each style's published settings, and of the best.
+fn is_shown(row: &Row) -> bool {
+    row.lines.is_some() && (row.is_faithful || row.style == "ink" || row.options.ends_with("--silhouette exact"))
+}
+
+/// Where the picture of a row's errors lies.
+fn error_path(arguments: &Arguments, row: &Row) -> PathBuf {
     let model: String = row.model.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ','], "-");
-    let path = folder.join(format!("{}-{}x{}-{options}.png", model.trim_matches('-'), row.size[0], row.size[1]));
+    let name = format!("{}-{}x{}-{options}.png", model.trim_matches('-'), row.size[0], row.size[1]);
+    arguments.output.join("errors").join(name)
+}
+
+/// Writes a picture of the error and hands it over for the page.
+fn error_page(arguments: &Arguments, row: &Row, picture: &Picture) -> Result<ReportPicture> {
+    make_folder(&arguments.output.join("errors"))?;
+    let path = error_path(arguments, row);
     Target::File { path: path.clone(), format: PictureFormat::Png }.write(picture)?;
-    let png = std::fs::read(&path).map_err(|error| Error::Output {
+    known_picture(arguments, row).ok_or_else(|| Error::Output {
         path: path.display().to_string(),
-        problem: format!("it cannot be read again ({error}); choose another folder"),
-    })?;
+        problem: "it cannot be read again; choose another folder".to_owned(),
+    })
+}
+
+/// The picture of a row's errors for the page, if it is there.
+fn known_picture(arguments: &Arguments, row: &Row) -> Option<ReportPicture> {
+    let png = std::fs::read(error_path(arguments, row)).ok()?;
     let f1 = row.lines.as_ref().map(|lines| format!(", F1 {:.3}", lines.f1)).unwrap_or_default();
     let caption = format!("{}, {}x{}: {}{f1}", row.model, row.size[0], row.size[1], row.options);
-    Ok(ReportPicture { caption, model: Some(row.model.clone()), png })
+    Some(ReportPicture { caption, model: Some(row.model.clone()), png })
 }
 
 fn report(arguments: &Arguments, rows: &[Row], pictures: Vec<ReportPicture>, gl: &str) -> Result<()> {

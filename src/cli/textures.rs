@@ -2,12 +2,12 @@
 
 use super::options::GrainArguments;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 use tinta::renderer::milliseconds_since;
 use tinta::styles::Ramp;
 use tinta::textures::{ContrastTexture, NoiseTexture, PaperTexture};
-use tinta::{Error, Picture, Result, Size, Target};
+use tinta::{Picture, Result, Size, Target};
 
 /// Write the textures that styles draw with: a charcoal drawing's grain, noise and paper, and the paint's ramp
 #[derive(clap::Args)]
@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             made.push(Made::new(&name, &texture, ContrastTexture::picture)?);
         }
     }
-    make_folder(&arguments.output)?;
+    super::make_folder(&arguments.output)?;
     let targets = made.iter().map(|texture| {
         let path = arguments.output.join(&texture.name);
         Target::check(&path.to_string_lossy(), false)
@@ -83,17 +83,6 @@ impl Made {
         let picture = make(texture)?;
         Ok(Self { name: name.to_owned(), settings: json!(texture), picture, ms: milliseconds_since(start) })
     }
-}
-
-fn make_folder(folder: &Path) -> Result<()> {
-    std::fs::create_dir_all(folder).map_err(|error| Error::Output {
-        path: format!("-o {}", folder.display()),
-        problem: if folder.is_file() {
-            "this is a file; name a folder".to_owned()
-        } else {
-            format!("the folder cannot be made ({error}); choose another")
-        },
-    })
 }
 
 impl Arguments {

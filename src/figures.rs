@@ -1,0 +1,283 @@
+//! The three texts' figures that show a result, drawn again: a list of them as plain data, and what draws, measures and
+//! shows them.
+//!
+//! In: a picture size and a renderer. Out: pictures, measured numbers ([`Numbers`]) and a page with both
+//! ([`page::page`]). The list knows neither GL nor clap: a panel is a scene's settings and a style, and beside them the
+//! words that make `tinta` draw the same, which a test holds against each other.
+
+mod dachsbacher;
+mod draw;
+mod evangelista;
+mod measure;
+mod mix;
+pub mod page;
+pub mod plot;
+mod reasons;
+mod throughput;
+mod valente;
+
+pub use draw::Artist;
+pub use measure::{
+    BackgroundRow, FilterRow, FrameRow, HowToMeasure, MixRow, Numbers, PAPER, Paper, Reason, measure, steps,
+};
+pub use mix::{Mix, TRIANGLES};
+pub use reasons::{Host, is_software};
+pub use throughput::{SHADERS, ShaderRow};
+
+use crate::camera::CameraSettings;
+use crate::error::{Error, Result};
+use crate::scene::Size;
+use crate::styles::{Show, Style};
+use crate::textures::ContrastTexture;
+
+/// Which of the three texts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Text {
+    /// Evangelista, Silva, Nery, Mota 2005.
+    Evangelista,
+    /// Valente 2007.
+    Valente,
+    /// Dachsbacher, *Beethoven aus Bits und Bytes*.
+    Dachsbacher,
+}
+
+impl Text {
+    /// All three, in the page's order.
+    pub const ALL: [Self; 3] = [Self::Evangelista, Self::Valente, Self::Dachsbacher];
+
+    /// Authors and year, as a heading.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Evangelista => "Evangelista et al. 2005",
+            Self::Valente => "Valente 2007",
+            Self::Dachsbacher => "Dachsbacher",
+        }
+    }
+
+    /// The text's own title.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Evangelista => {
+                "Renderização de cenas tridimensionais não-fotorealistas explorando hardware programável"
+            }
+            Self::Valente => "Explorando “Charcoal Rendering”",
+            Self::Dachsbacher => "Beethoven aus Bits und Bytes",
+        }
+    }
+}
+
+/// A figure of a text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// What `--only` takes, and how its files' names begin.
+    pub id: &'static str,
+    /// Where it stands.
+    pub text: Text,
+    /// The text's own number, or what takes its place where the text has none.
+    pub number: &'static str,
+    /// What it is of, a few words.
+    pub title: &'static str,
+    /// What the text's figure shows and what ours shows in its stead.
+    pub caption: &'static str,
+    /// What is drawn or measured.
+    pub content: Content,
+}
+
+/// What a figure is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Content {
+    /// Pictures side by side.
+    Pictures(Vec<Panel>),
+    /// Figure 13: frames per second over triangles.
+    Frames,
+    /// The numbers the text prints outside its figures.
+    OtherNumbers,
+}
+
+/// One picture of a figure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// The file's name.
+    pub file: String,
+    /// What tells it from its neighbours.
+    pub label: &'static str,
+    /// How it is drawn.
+    pub drawing: Drawing,
+}
+
+/// How a picture is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Drawing {
+    /// A model in a style.
+    Scene(Box<SceneDrawing>),
+    /// A texture of grains.
+    Grains {
+        /// Its settings.
+        texture: ContrastTexture,
+        /// The file `tinta textures` writes it to.
+        name: &'static str,
+    },
+    /// The built-in ramp.
+    Ramp,
+}
+
+/// A model in a style.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneDrawing {
+    /// What is drawn.
+    pub model: Model,
+    /// How often.
+    pub copies: u32,
+    /// From where.
+    pub camera: CameraSettings,
+    /// How.
+    pub style: Style,
+    /// Which of the style's pictures.
+    pub show: Show,
+    /// The options of `tinta render` that say all this.
+    pub options: String,
+}
+
+/// What a panel draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Model {
+    /// A built-in model by its whole name, `builtin:…`.
+    Builtin(&'static str),
+    /// The user's model with a picture on it; there is none built in.
+    Textured,
+}
+
+/// All figures, for pictures of this size.
+pub fn figures(size: Size) -> Vec<Figure> {
+    [evangelista::figures(), valente::figures(size), dachsbacher::figures()].concat()
+}
+
+/// Those of these ids, in the list's order; all of them for none.
+///
+/// # Errors
+///
+/// [`Error::Setting`] for an id that no figure has.
+pub fn only(figures: Vec<Figure>, ids: &[String]) -> Result<Vec<Figure>> {
+    let known: Vec<&str> = figures.iter().map(|figure| figure.id).collect();
+    if let Some(unknown) = ids.iter().find(|id| !known.contains(&id.as_str())) {
+        return Err(Error::setting(
+            format!("--only {unknown}"),
+            format!("there is no such figure; choose from {}", known.join(", ")),
+        ));
+    }
+    Ok(figures.into_iter().filter(|figure| ids.is_empty() || ids.iter().any(|id| id == figure.id)).collect())
+}
+
+impl Figure {
+    /// Its pictures; none where it is measured.
+    pub fn panels(&self) -> &[Panel] {
+        match &self.content {
+            Content::Pictures(panels) => panels,
+            Content::Frames | Content::OtherNumbers => &[],
+        }
+    }
+}
+
+impl Panel {
+    /// The command that draws this picture by itself; `textured` is the user's model and its skin.
+    pub fn command(&self, size: Size, textured: Option<&str>) -> String {
+        match &self.drawing {
+            Drawing::Scene(scene) => {
+                let model = scene.model.name(textured);
+                format!("tinta render {model} -o {} --size {size} {}", self.file, scene.options).trim_end().to_owned()
+            }
+            Drawing::Grains { name, .. } => format!("tinta textures -o textures --size {size}  # textures/{name}"),
+            Drawing::Ramp => "tinta textures -o textures  # textures/ramp.png".to_owned(),
+        }
+    }
+
+    /// Whether it needs a model with a picture on it, which the user must bring.
+    pub fn needs_texture(&self) -> bool {
+        matches!(&self.drawing, Drawing::Scene(scene) if scene.model == Model::Textured)
+    }
+}
+
+impl Model {
+    fn name(self, textured: Option<&str>) -> &str {
+        match self {
+            Self::Builtin(name) => name,
+            Self::Textured => textured.unwrap_or("MODEL"),
+        }
+    }
+}
+
+/// Why panels that need a texture are left out.
+pub const NO_TEXTURED_MODEL: &str =
+    "it shows a game's character with its own texture, and no built-in model has one; name one with --model FILE";
+
+/// A panel of a built-in model seen as `shot` says.
+fn panel(file: &str, label: &'static str, model: &'static str, shot: Shot, style: Style, options: &str) -> Panel {
+    let shown = SceneDrawing {
+        model: Model::Builtin(model),
+        copies: 1,
+        camera: shot.camera,
+        style,
+        show: Show::Final,
+        options: [shot.options, options].iter().filter(|part| !part.is_empty()).copied().collect::<Vec<_>>().join(" "),
+    };
+    Panel { file: format!("{file}.png"), label, drawing: Drawing::Scene(Box::new(shown)) }
+}
+
+impl Panel {
+    /// The same scene, another of its style's pictures; `option` is what `--show` says.
+    fn showing(mut self, show: Show, option: &str) -> Self {
+        if let Drawing::Scene(scene) = &mut self.drawing {
+            scene.show = show;
+            scene.options.push_str(&format!(" --show {option}"));
+        }
+        self
+    }
+
+    /// So many of the model.
+    fn times(mut self, copies: u32) -> Self {
+        if let Drawing::Scene(scene) = &mut self.drawing {
+            scene.copies = copies;
+            scene.options.push_str(&format!(" --copies {copies}"));
+        }
+        self
+    }
+
+    /// The user's textured model instead.
+    fn textured(mut self) -> Self {
+        if let Drawing::Scene(scene) = &mut self.drawing {
+            scene.model = Model::Textured;
+        }
+        self
+    }
+}
+
+/// A camera and the options that say it.
+#[derive(Debug, Clone)]
+struct Shot {
+    camera: CameraSettings,
+    options: &'static str,
+}
+
+impl Shot {
+    /// The default camera.
+    fn whole() -> Self {
+        Self { camera: CameraSettings::default(), options: "" }
+    }
+
+    /// By its angles.
+    fn view(azimuth_degrees: f64, elevation_degrees: f64, options: &'static str) -> Self {
+        let view = crate::camera::View { azimuth_degrees, elevation_degrees };
+        Self { camera: CameraSettings { view, ..CameraSettings::default() }, options }
+    }
+
+    /// By its eye, target and field of view.
+    fn eye(eye: [f64; 3], target: [f64; 3], fov_y_degrees: f64, options: &'static str) -> Self {
+        let (eye, target) = (Some(eye.into()), Some(target.into()));
+        Self { camera: CameraSettings { eye, target, fov_y_degrees, ..CameraSettings::default() }, options }
+    }
+
+    /// The bust's head and shoulders.
+    fn face() -> Self {
+        Self::eye([3.2, 5.0, 6.4], [0.1, 4.0, 0.0], 34.0, "--eye 3.2,5.0,6.4 --target 0.1,4.0,0 --fov 34")
+    }
+}

@@ -1,0 +1,59 @@
+//! A figure's panels as pictures.
+
+use super::{Drawing, Model, Panel, SceneDrawing};
+use crate::error::Result;
+use crate::mesh::{LoadOptions, Mesh, load};
+use crate::picture::Picture;
+use crate::renderer::Renderer;
+use crate::scene::{Scene, SceneSettings, Size};
+use crate::styles::Ramp;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Draws panels; reads each built-in model once.
+#[derive(Default)]
+pub struct Artist {
+    builtin: HashMap<&'static str, Arc<Mesh>>,
+    textured: Option<Arc<Mesh>>,
+}
+
+impl Artist {
+    /// An artist who has this model for the panels that need a texture.
+    pub fn new(textured: Option<Arc<Mesh>>) -> Self {
+        Self { textured, ..Self::default() }
+    }
+
+    /// Whether this panel can be drawn: all can but those of a textured model where there is none.
+    pub fn can_draw(&self, panel: &Panel) -> bool {
+        !panel.needs_texture() || self.textured.is_some()
+    }
+
+    /// Draws a panel; `None` where [`Artist::can_draw`] says no.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::draw`]; [`crate::Error::Setting`] for a model that has no texture.
+    pub fn draw(&mut self, renderer: &mut Renderer, panel: &Panel, size: Size) -> Result<Option<Picture>> {
+        match &panel.drawing {
+            Drawing::Grains { texture, .. } => texture.picture().map(Some),
+            Drawing::Ramp => Ok(Some(Picture::clone(&Ramp::default().picture))),
+            Drawing::Scene(drawing) => {
+                let Some(mesh) = self.mesh(drawing.model)? else { return Ok(None) };
+                let scene = Scene::new(vec![mesh], &settings(drawing, size))?;
+                renderer.draw(&scene, &drawing.style.plan(&scene, drawing.show)?).map(Some)
+            }
+        }
+    }
+
+    fn mesh(&mut self, model: Model) -> Result<Option<Arc<Mesh>>> {
+        let Model::Builtin(name) = model else { return Ok(self.textured.clone()) };
+        if !self.builtin.contains_key(name) {
+            self.builtin.insert(name, Arc::new(load(name, &LoadOptions::default())?.mesh));
+        }
+        Ok(self.builtin.get(name).cloned())
+    }
+}
+
+fn settings(drawing: &SceneDrawing, size: Size) -> SceneSettings {
+    SceneSettings { copies: drawing.copies, camera: drawing.camera.clone(), size, ..SceneSettings::default() }
+}
