@@ -3,7 +3,7 @@
 
 use super::measure::{Contestant, Series};
 use crate::error::Result;
-use crate::plan::{Geometry, Output, Plan, Step};
+use crate::plan::{Geometry, Plan, Step};
 use crate::renderer::median;
 use crate::scene::Scene;
 use crate::styles::{Border, Cartoon, Filter, Show, Style};

@@ -31,7 +31,11 @@ const QUICK: [&str; 8] = [
 ];
 
 /// What is measured besides when there is time.
-const FULL: [&str; 24] = [
+const FULL: [&str; 28] = [
+    "--style inking --silhouette exact --polygon-offset 0,0",
+    "--style inking --silhouette exact --classes boundary,non-manifold,silhouette,crease,material",
+    "--style inking --light vertex-shader",
+    "--style charcoal --improve all",
     "--style three-pass --map-encoding biased",
     "--style three-pass --map-encoding float16",
     "--style three-pass --map-encoding float",
