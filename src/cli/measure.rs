@@ -103,17 +103,18 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         machine: arguments.machine.clone().unwrap_or_else(|| MeasureSettings::default().machine),
     };
     let settings = settings(&arguments.styles, arguments.quick)?;
-    make_folder(&arguments.output)?;
-    let (mut log, mut rows) = match arguments.resume {
-        true => RowLog::resume(&arguments.output)?,
-        false => (RowLog::create(&arguments.output)?, Vec::new()),
-    };
     let models: Vec<&str> = match arguments.suite {
         Some(suite) => suite.iter().copied().chain(arguments.models.iter().map(String::as_str)).collect(),
         None => arguments.models.iter().map(String::as_str).collect(),
     };
     let mut renderer = Renderer::new(arguments.backend)?;
     let groups = groups(arguments, &models)?;
+    // Once nothing but the measuring can go wrong.
+    make_folder(&arguments.output)?;
+    let (mut log, mut rows) = match arguments.resume {
+        true => RowLog::resume(&arguments.output)?,
+        false => (RowLog::create(&arguments.output)?, Vec::new()),
+    };
     super::say(&format!(
         "tinta: {} settings on {} models at {} sizes, {} frames each: about {}",
         settings.len(),
