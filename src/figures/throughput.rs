@@ -141,8 +141,8 @@ mod tests {
             "toon.frag",
             "border.frag",
             "two-pass.frag",
-            "border-settings.frag+filter-laplacian4.frag",
-            "border-settings.frag+filter-laplacian8.frag",
+            "border-settings.frag+filter-laplacian4.frag+tap-next.frag+texel-map.frag+depth-as-filtered.frag",
+            "border-settings.frag+filter-laplacian8.frag+tap-next.frag+texel-map.frag+depth-as-filtered.frag",
         ];
         assert_eq!(fragments, expected);
         assert!(rows.iter().all(|row| row.mpixels.is_none()), "nothing was timed");
