@@ -1,10 +1,11 @@
 //! tinta: historical non-photorealistic pipelines as their authors published them, on OpenGL 2.1: the cartoon of
-//! Evangelista et al. 2005, ink and paint of Dachsbacher.
+//! Evangelista et al. 2005, ink and paint of Dachsbacher, charcoal of Valente 2007; and their error against their run time.
 //!
 //! Data flows one way, and every arrow is a plain value:
 //!
 //! ```text
-//! model file ─► Mesh ─► EdgeList ─► Scene ─► Style::plan ─► Plan ─► Renderer (gl::execute) ─► Picture
+//! model file ─► Mesh ─► EdgeList ─► Scene ─┬─► Style::plan ─► Plan ─► Renderer (gl::execute) ─► Picture ─┐
+//!                                          └─► VisibleLines (exact, f64) ─► SVG, reference ──────────────┴─► Row ─► report
 //! ```
 //!
 //! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`].
@@ -47,6 +48,7 @@ pub mod textures;
 pub mod tolerances;
 
 mod bytes;
+mod markup;
 mod names;
 mod threads;
 

@@ -2,6 +2,7 @@
 
 use super::models::load_meshes;
 use super::progress::Progress;
+use super::shell::quoted;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -180,16 +181,6 @@ impl Arguments {
             problem: format!("the record cannot be written as JSON ({error}); report this"),
         })?;
         Ok(text + "\n")
-    }
-}
-
-/// A word for a shell: as it is where that is safe, else in quotes.
-fn quoted(word: &str) -> String {
-    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "/._-+,=".contains(letter);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
 

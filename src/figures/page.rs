@@ -5,6 +5,7 @@
 mod numbers;
 
 use super::{Figure, Numbers, Text};
+use crate::markup::escaped;
 use crate::scene::Size;
 use crate::styles::{Show, Style};
 use serde::Serialize;
@@ -99,10 +100,10 @@ fn write(
         out,
         "<p>Every figure that shows a result of its authors, by their number, in pictures and plots of our own. Drawn by \
          tinta {version} at {size} pixels on {}.</p>",
-        escape(gl)
+        escaped(gl)
     )?;
     if let Some(numbers) = numbers {
-        writeln!(out, "<p>{}</p>", escape(&numbers::summary(numbers)))?;
+        writeln!(out, "<p>{}</p>", escaped(&numbers::summary(numbers)))?;
     }
     writeln!(out, "<nav>")?;
     for record in records {
@@ -125,13 +126,19 @@ fn write(
 
 fn section(out: &mut String, record: &FigureRecord, numbers: Option<&Numbers>) -> std::fmt::Result {
     writeln!(out, "<section id=\"{}\">", record.id)?;
-    writeln!(out, "<h3>{}. {}</h3>\n<p>{}</p>", escape(record.number), escape(record.title), escape(record.caption))?;
+    writeln!(
+        out,
+        "<h3>{}. {}</h3>\n<p>{}</p>",
+        escaped(record.number),
+        escaped(record.title),
+        escaped(record.caption)
+    )?;
     if !record.pictures.is_empty() {
         let class = if record.pictures.len() > 2 { "pictures four" } else { "pictures" };
         writeln!(out, "<div class=\"{class}\">")?;
         for picture in &record.pictures {
-            let (file, label, Size { width, height }) = (escape(&picture.file), escape(&picture.label), picture.size);
-            let alt = format!("{}: {label}", escape(record.title));
+            let (file, label, Size { width, height }) = (escaped(&picture.file), escaped(&picture.label), picture.size);
+            let alt = format!("{}: {label}", escaped(record.title));
             writeln!(
                 out,
                 "<figure><img src=\"{file}\" width=\"{width}\" height=\"{height}\" alt=\"{alt}\" />\
@@ -141,34 +148,19 @@ fn section(out: &mut String, record: &FigureRecord, numbers: Option<&Numbers>) -
         writeln!(out, "</div>")?;
     }
     for line in &record.left_out {
-        writeln!(out, "<p class=\"left-out\">Left out: {}.</p>", escape(line))?;
+        writeln!(out, "<p class=\"left-out\">Left out: {}.</p>", escaped(line))?;
     }
     if let Some(measured) = numbers {
         numbers::tables(out, record.id, measured)?;
     }
     let commands: Vec<String> = record.pictures.iter().filter_map(|picture| picture.command.clone()).collect();
     let text = if commands.is_empty() { record.command.clone() } else { commands.join("\n") };
-    writeln!(out, "<pre>{}</pre>\n</section>", escape(&text))
+    writeln!(out, "<pre>{}</pre>\n</section>", escaped(&text))
 }
 
 fn lower_first(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
-}
-
-/// Text for XML, in elements and attributes; control characters, which XML has none of, are left out.
-fn escape(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for letter in text.chars().filter(|letter| !letter.is_control() || *letter == '\n') {
-        match letter {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            _ => safe.push(letter),
-        }
-    }
-    safe
 }
 
 #[cfg(test)]
@@ -177,7 +169,6 @@ mod tests {
 
     #[test]
     fn names_of_files_and_drivers_cannot_break_the_page() {
-        assert_eq!(escape("a<b>&\"c\"\u{7}"), "a&lt;b&gt;&amp;&quot;c&quot;");
         let page = page(&[], None, "<script>", Size { width: 4, height: 3 });
         assert!(page.contains("&lt;script&gt;") && !page.contains("<script"));
     }

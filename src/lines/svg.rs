@@ -15,9 +15,10 @@ use super::simplify::simplified;
 use super::{LineSegment, VisibleLines};
 use crate::edges::Class;
 use crate::error::{Error, Result};
+use crate::markup::escaped;
 use crate::scene::{Background, Size};
 use std::fmt::Write;
-use text::{escaped, hexadecimal, number, path_data};
+use text::{hexadecimal, number, path_data};
 
 /// Opacity of hidden lines drawn as ghosts.
 const GHOST_OPACITY: &str = "0.3";

@@ -91,7 +91,7 @@ impl<'a> Canvas<'a> {
         let font = FontDesc::new(FontFamily::SansSerif, size_px * 1.24, style);
         let style = font.color(&INK).pos(Pos::new(horizontal, VPos::Center));
         // plotters escapes what XML writes otherwise, but not what XML cannot hold.
-        let text = text.replace(super::html::is_unprintable, "\u{FFFD}");
+        let text = text.replace(crate::markup::is_unprintable, "\u{FFFD}");
         drawn(self.area.draw(&Text::new(text, pixel(at), style)))
     }
 }

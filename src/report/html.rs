@@ -9,6 +9,7 @@ use super::plot::{Shape, plot, subtitle};
 use super::ratios::ratios;
 use super::settings::{Machine, Measure, machines, models, points};
 use crate::error::Result;
+use crate::markup::escaped;
 use crate::measure::Row;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -48,28 +49,6 @@ pub fn html(rows: &[Row], info: &ReportInfo) -> Result<String> {
     page.push_str(SCRIPT);
     page.push_str("/*]]>*/\n</script>\n</body>\n</html>\n");
     Ok(page)
-}
-
-/// Text for an element or an attribute; characters that no page may hold become the replacement character.
-pub(super) fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&#39;"),
-            _ if is_unprintable(character) => escaped.push('\u{FFFD}'),
-            _ => escaped.push(character),
-        }
-    }
-    escaped
-}
-
-/// What neither HTML nor XML can hold.
-pub(super) fn is_unprintable(character: char) -> bool {
-    (character.is_control() && !matches!(character, '\n' | '\t')) || matches!(character, '\u{FFFE}' | '\u{FFFF}')
 }
 
 /// "1 model", "3 models".

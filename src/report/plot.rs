@@ -144,7 +144,7 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
         }
     }
     canvas.finish()?;
-    let what = format!("<svg role=\"img\" aria-label=\"{}. {}\" ", measure.title(), super::html::escaped(subtitle));
+    let what = format!("<svg role=\"img\" aria-label=\"{}. {}\" ", measure.title(), crate::markup::escaped(subtitle));
     Ok(Some(svg.replacen("<svg ", &what, 1)))
 }
 

@@ -1,8 +1,8 @@
 //! The measured numbers as tables, the paper's beside ours, and why they differ.
 
-use super::escape;
 use crate::figures::measure::{Numbers, Series};
 use crate::figures::reasons::signed;
+use crate::markup::escaped;
 use crate::styles::Filter;
 use std::fmt::{Result, Write};
 
@@ -118,7 +118,7 @@ fn throughput(out: &mut String, numbers: &Numbers) -> Result {
 
 fn why(out: &mut String, numbers: &Numbers, about: &str) -> Result {
     for reason in numbers.reasons.iter().filter(|reason| reason.about == about) {
-        writeln!(out, "<p>{}</p>", escape(&reason.sentence))?;
+        writeln!(out, "<p>{}</p>", escaped(&reason.sentence))?;
     }
     Ok(())
 }
@@ -127,14 +127,14 @@ fn table(out: &mut String, heads: &[&str], rows: &[Vec<String>]) -> Result {
     let class = |column: usize| if column == 0 { " class=\"name\"" } else { "" };
     writeln!(out, "<div class=\"table\"><table>\n<tr>")?;
     for (column, head) in heads.iter().enumerate() {
-        writeln!(out, "<th{}>{}</th>", class(column), escape(head))?;
+        writeln!(out, "<th{}>{}</th>", class(column), escaped(head))?;
     }
     writeln!(out, "</tr>")?;
     for row in rows {
         let cells: Vec<String> = row
             .iter()
             .enumerate()
-            .map(|(column, cell)| format!("<td{}>{}</td>", class(column), escape(cell)))
+            .map(|(column, cell)| format!("<td{}>{}</td>", class(column), escaped(cell)))
             .collect();
         writeln!(out, "<tr>{}</tr>", cells.concat())?;
     }

@@ -54,25 +54,6 @@ pub fn hexadecimal(Color(channels): Color) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// A text for an element or an attribute. What XML 1.0 cannot hold, most control characters, becomes U+FFFD.
-pub fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '&' => escaped.push_str("&amp;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&apos;"),
-            // As they are, a reader would take them for blanks or other line ends.
-            '\t' | '\n' | '\r' => escaped.push_str(&format!("&#{};", letter as u32)),
-            '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => escaped.push(char::REPLACEMENT_CHARACTER),
-            _ => escaped.push(letter),
-        }
-    }
-    escaped
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -107,9 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn no_text_breaks_the_xml() {
-        assert_eq!(escaped("a<b>&\"c\"'é→🖋"), "a&lt;b&gt;&amp;&quot;c&quot;&apos;é→🖋");
-        assert_eq!(escaped("\u{1}\u{0}\n\t\u{ffff}]]>"), "\u{fffd}\u{fffd}&#10;&#9;\u{fffd}]]&gt;");
+    fn colours_are_six_digits() {
         assert_eq!(hexadecimal(Color([1.0, 0.5, 0.0])), "#ff8000");
     }
 }
