@@ -59,6 +59,17 @@ fn an_interrupted_run_goes_on_and_a_finished_one_is_not_overwritten() {
     let resumed = rows(&out);
     assert_eq!(resumed.len(), first.len());
     assert_eq!(resumed[0], first[0], "a row that was there is not measured again");
+    // Another yardstick would mix rows that cannot be compared; another view is another row.
+    refused_in_one_line(
+        &["measure", "builtin:open-box", "-o", &out, "--size", "64", "--frames", "3", "--resume"],
+        &["2 frames", "--tolerance"],
+    );
+    assert_eq!(
+        run(&out, &["--styles", "dietrich", "--resume", "--view", "front", "--parallel"]).status.code(),
+        Some(0)
+    );
+    let last = rows(&out).pop().unwrap();
+    assert_eq!(last.options, "--style dietrich --view=front --parallel");
 }
 
 #[test]
@@ -75,6 +86,8 @@ fn runs_of_two_machines_are_put_together() {
     assert!(page.contains("this one") && page.contains("that one"));
     let table = std::fs::read_to_string(format!("{both}/results.csv")).unwrap();
     assert_eq!(table.lines().count(), 1 + rows(&left).len() + rows(&right).len());
+    assert_eq!(rows(&both).len(), rows(&left).len() + rows(&right).len());
+    refused_in_one_line(&["measure", "--merge", &files[0], "-o", &both], &["results.jsonl", "another folder"]);
 }
 
 #[test]
@@ -94,6 +107,8 @@ fn what_cannot_be_measured_is_refused() {
         (&["measure", "--suite", "everything", "-o", &out], &["everything", "papers"]),
         (&["measure", "--merge", &file, "-o", &out], &["file", "line 1"]),
         (&["measure", "--merge", "no-such.jsonl", "-o", &out], &["no-such.jsonl"]),
+        (&["measure", "--merge", "/dev/null", "-o", &out], &["/dev/null", "no row"]),
+        (&["measure", "builtin:gear", "--styles", "sand", "-o", &folder.path("sand")], &["--styles"]),
         (&["measure", "builtin:gear", "--merge", &file, "-o", &out], &["--merge"]),
     ] {
         refused_in_one_line(arguments, words);

@@ -58,6 +58,12 @@ const PLOTS: [u8; 3] = [1, 2, 3];
 
 pub fn run(arguments: &Arguments) -> Result<()> {
     let chosen = only(figures(arguments.size), &arguments.only)?;
+    if arguments.output.join("figures.json").exists() {
+        return Err(Error::Output {
+            path: arguments.output.display().to_string(),
+            problem: "figures of an earlier run and their times lie here; name another folder".to_owned(),
+        });
+    }
     super::make_folder(&arguments.output)?;
     let folder = Folder(&arguments.output);
     // A folder that cannot be written is found before the work.

@@ -90,6 +90,9 @@ fn parse_suite(text: &str) -> std::result::Result<Suite, String> {
 /// Timed frames of a setting.
 const FRAMES: [usize; 2] = [21, 7];
 
+/// Settings whose frames are timed in turns.
+const SETTINGS_IN_TURN: usize = 8;
+
 /// How long a setting takes besides its frames, seconds: its pictures drawn and compared.
 const SECONDS_A_SETTING: f64 = 0.35;
 
@@ -100,28 +103,37 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let how = MeasureSettings {
         tolerance_px: tolerance(arguments)?,
         frames: arguments.frames.map_or(FRAMES[usize::from(arguments.quick)], |frames| frames as usize),
-        machine: arguments.machine.clone().unwrap_or_else(|| MeasureSettings::default().machine),
+        machine: arguments
+            .machine
+            .clone()
+            .filter(|name| !name.trim().is_empty())
+            .unwrap_or_else(|| MeasureSettings::default().machine),
     };
-    let settings = settings(&arguments.styles, arguments.quick)?;
+    let of_scene = scene_options(words());
+    let mut settings = settings(&arguments.styles, arguments.quick)?;
+    settings.iter_mut().for_each(|setting| setting.options.push_str(&of_scene));
     let models: Vec<&str> = match arguments.suite {
         Some(suite) => suite.iter().copied().chain(arguments.models.iter().map(String::as_str)).collect(),
         None => arguments.models.iter().map(String::as_str).collect(),
     };
     let mut renderer = Renderer::new(arguments.backend)?;
     let groups = groups(arguments, &models)?;
+    let expected = expected(&mut renderer, &groups, settings.len(), how.frames)?;
     // Once nothing but the measuring can go wrong.
     make_folder(&arguments.output)?;
     let (mut log, mut rows) = match arguments.resume {
         true => RowLog::resume(&arguments.output)?,
         false => (RowLog::create(&arguments.output)?, Vec::new()),
     };
+    refuse_other_terms(arguments, &rows, &how)?;
     super::say(&format!(
-        "tinta: {} settings on {} models at {} sizes, {} frames each: about {}",
-        settings.len(),
-        models.len(),
-        arguments.size.len(),
-        how.frames,
-        in_words(expected(&mut renderer, &groups, settings.len(), how.frames)?)
+        "tinta: {}, {}, {}, {} each: about {}{}",
+        counted(settings.len(), "setting"),
+        counted(models.len(), "model"),
+        counted(arguments.size.len(), "size"),
+        counted(how.frames, "frame"),
+        in_words(expected),
+        if rows.is_empty() { "" } else { ", less what is there already" }
     ));
     let progress = Progress::new("measuring", (groups.len() * steps(settings.len(), how.frames)) as u64);
     let mut pictures = Vec::new();
@@ -146,18 +158,81 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         let left: Vec<Setting> = settings.iter().filter(|setting| !is_known(setting)).cloned().collect();
         let skipped = steps(settings.len(), how.frames) - steps(left.len(), how.frames);
         (0..skipped).for_each(|_| progress.step());
-        let (measured, left_out) = measure(&mut renderer, &subject, &left, &how, || progress.step())?;
-        left_out.iter().for_each(|reason| super::say(&format!("tinta: {reason}")));
-        for Measured { row, error_picture } in measured {
-            log.append(&row)?;
-            if let Some(picture) = error_picture.filter(|_| is_shown(&row)) {
-                pictures.push(error_page(arguments, &row, &picture)?);
+        // Settings take turns in groups, so that rows are on disk soon and an interruption costs little.
+        for some in left.chunks(SETTINGS_IN_TURN) {
+            let (measured, left_out) = measure(&mut renderer, &subject, some, &how, || progress.step())?;
+            left_out.iter().for_each(|reason| super::say(&format!("tinta: {reason}")));
+            for Measured { row, error_picture } in measured {
+                log.append(&row)?;
+                if let Some(picture) = error_picture.filter(|_| is_shown(&row)) {
+                    pictures.push(error_page(arguments, &row, &picture)?);
+                }
+                rows.push(row);
             }
-            rows.push(row);
         }
     }
     drop(progress);
-    report(arguments, &rows, pictures, &renderer.context().renderer.clone())
+    if rows.is_empty() {
+        return Err(Error::Setting {
+            setting: "--styles".to_owned(),
+            problem: "none of these settings can be drawn with these models; choose others".to_owned(),
+        });
+    }
+    report(arguments, &rows, pictures)
+}
+
+/// Rows of one folder are measured by one yardstick.
+fn refuse_other_terms(arguments: &Arguments, rows: &[Row], how: &MeasureSettings) -> Result<()> {
+    let differs = |row: &Row| {
+        let tolerance = row.lines.as_ref().map(|lines| lines.tolerance_px);
+        tolerance.is_some_and(|tolerance| tolerance != how.tolerance_px) || row.time.frames_ms.len() != how.frames
+    };
+    match rows.iter().find(|row| differs(row)) {
+        None => Ok(()),
+        Some(row) => Err(Error::Output {
+            path: arguments.output.display().to_string(),
+            problem: format!(
+                "its rows were measured with {} and perhaps another tolerance; give the same --frames, --quick and \
+                 --tolerance, or name another folder",
+                counted(row.time.frames_ms.len(), "frame")
+            ),
+        }),
+    }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Camera and model as the user asked for them: without these a row could not be drawn again.
+fn scene_options(words: impl Iterator<Item = String>) -> String {
+    const WITH_VALUE: [&str; 13] = [
+        "--view",
+        "--fov",
+        "--eye",
+        "--target",
+        "--up",
+        "--near",
+        "--far",
+        "--up-axis",
+        "--weld",
+        "--normals",
+        "--smooth-angle",
+        "--skin",
+        "--model-frame",
+    ];
+    let mut words = words;
+    let mut options = String::new();
+    while let Some(word) = words.next() {
+        let name = word.split('=').next().unwrap_or_default();
+        if name == "--parallel" || (WITH_VALUE.contains(&name) && name != word) {
+            options = options + " " + &super::shell::quoted(&word);
+        } else if WITH_VALUE.contains(&name) {
+            let value = words.next().unwrap_or_default();
+            options = options + " " + &super::shell::quoted(&format!("{word}={value}"));
+        }
+    }
+    options
 }
 
 fn tolerance(arguments: &Arguments) -> Result<f64> {
@@ -210,7 +285,7 @@ fn expected(renderer: &mut Renderer, groups: &[Group], settings: usize, frames: 
 
 fn in_words(time: Duration) -> String {
     match time.as_secs() {
-        0..=90 => format!("{} seconds", time.as_secs().max(1)),
+        0..=90 => counted(time.as_secs().max(1) as usize, "second"),
         seconds => format!("{} minutes", seconds.div_ceil(60)),
     }
 }
@@ -227,7 +302,9 @@ fn make_folder(folder: &Path) -> Result<()> {
 
 /// Whether the page shows where a row's errors lie: of each style's published settings, and of the best.
 fn is_shown(row: &Row) -> bool {
-    row.lines.is_some() && (row.is_faithful || row.style == "ink" || row.options.ends_with("--silhouette exact"))
+    let is_exact = row.options.starts_with("--style inking --silhouette exact")
+        && !["smooth", "line-", "polygon", "classes", "ink-depth"].iter().any(|other| row.options.contains(other));
+    row.lines.is_some() && (row.is_faithful || row.style == "ink" || is_exact)
 }
 
 /// Where the picture of a row's errors lies.
@@ -257,31 +334,49 @@ fn known_picture(arguments: &Arguments, row: &Row) -> Option<ReportPicture> {
     Some(ReportPicture { caption, model: Some(row.model.clone()), png })
 }
 
-fn report(arguments: &Arguments, rows: &[Row], pictures: Vec<ReportPicture>, gl: &str) -> Result<()> {
-    let mut notes = vec![("Models".to_owned(), arguments.models.join(", "))];
-    notes.retain(|(_, value)| !value.is_empty());
-    if !gl.is_empty() {
-        notes.push(("OpenGL".to_owned(), gl.to_owned()));
-    }
-    let info = ReportInfo { command: command(), version: env!("CARGO_PKG_VERSION").to_owned(), notes, pictures };
+fn report(arguments: &Arguments, rows: &[Row], pictures: Vec<ReportPicture>) -> Result<()> {
+    let info =
+        ReportInfo { command: command(), version: env!("CARGO_PKG_VERSION").to_owned(), notes: Vec::new(), pictures };
     tinta::report::write(&arguments.output, rows, &info)?;
     super::print(&format!("{}\n", arguments.output.join("report.html").display()))
 }
 
 fn command() -> String {
-    super::shell::command_line(std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()))
+    super::shell::command_line(words())
+}
+
+/// The command line's words after the program's name.
+fn words() -> impl Iterator<Item = String> {
+    std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned())
 }
 
 /// Puts the rows of several files together.
 fn merge(arguments: &Arguments) -> Result<()> {
     let mut rows: Vec<Row> = Vec::new();
     for path in &arguments.merge {
-        for row in read_rows(path)? {
-            if rows.iter().all(|known| known.key() != row.key()) {
-                rows.push(row);
+        let of_file = read_rows(path)?;
+        if of_file.is_empty() {
+            return Err(Error::Output {
+                path: path.display().to_string(),
+                problem: "it holds no row; name a results.jsonl of `tinta measure`".to_owned(),
+            });
+        }
+        for row in of_file {
+            if let Some(known) = rows.iter().find(|known| known.key() == row.key() && **known != row) {
+                return Err(Error::Output {
+                    path: path.display().to_string(),
+                    problem: format!(
+                        "{} was measured in another file on a machine of the same name; measure one of them with another \
+                         --machine",
+                        known.options
+                    ),
+                });
             }
+            rows.push(row);
         }
     }
     make_folder(&arguments.output)?;
-    report(arguments, &rows, Vec::new(), "")
+    let mut log = RowLog::create(&arguments.output)?;
+    rows.iter().try_for_each(|row| log.append(row))?;
+    report(arguments, &rows, Vec::new())
 }

@@ -129,6 +129,7 @@ impl Ink {
             ink_px: self.pixels(INK_FROM).map(|(index, _)| f64::from(self.darkness[index]) / 255.0).sum(),
             recall: recall_here,
             precision: precision_here,
+            precision_of_all: precision(1),
             f1: if sum > 0.0 { 2.0 * recall_here * precision_here / sum } else { 0.0 },
             average_precision: average_precision(recall, precision),
             reference_to_ink_px: if has_ink { mean_and_95th(to_ink) } else { None },

@@ -57,9 +57,11 @@ pub struct LineError {
     pub ink_px: f64,
     /// Share of the reference's length with ink within the tolerance.
     pub recall: f64,
-    /// Share of the ink, weighted by its darkness, within the tolerance of the reference; 1 without any ink.
+    /// Share of the ink from that darkness on, weighted by it, within the tolerance of the reference; 1 without any ink.
     pub precision: f64,
-    /// Harmonic mean of both.
+    /// The same share of all ink, however faint: what a threshold does not see.
+    pub precision_of_all: f64,
+    /// Harmonic mean of recall and precision.
     pub f1: f64,
     /// Precision averaged over recall, over all thresholds of ink.
     pub average_precision: f64,

@@ -209,9 +209,16 @@ fn line_columns() -> Vec<Column> {
             "Precision",
             3,
             |row| line(row, |lines| Some(lines.precision)),
-            "Share of the ink, weighted by darkness, within the tolerance of an exact line; the rest is invented.",
+            "Share of the ink from the threshold (Ink from) on, weighted by darkness, within the tolerance of an exact line; the rest is invented.",
         )
         .main(),
+        column(
+            "precision_of_all",
+            "Precision of all ink",
+            3,
+            |row| line(row, |lines| Some(lines.precision_of_all)),
+            "The same of all ink, however faint: nets of faint lines that the threshold does not see count here.",
+        ),
         column(
             "recall",
             "Recall",

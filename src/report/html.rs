@@ -220,7 +220,7 @@ fn pictures(info: &ReportInfo) -> String {
         return String::new();
     }
     let mut text =
-        "<section id=\"pictures\">\n<h2>Where the errors lie</h2>\n<p>Black is ink on a line, red a line without ink, blue ink without a line, grey ink that does not count (soft creases). Press a picture to see it in full size.</p>\n\
+        "<section id=\"pictures\">\n<h2>Where the errors lie</h2>\n<p>Black is ink on a line, red a line without ink, blue ink without a line, grey ink that does not count (soft creases). Shown are each style's published settings and the best. Press a picture to see it in full size.</p>\n\
                     <div class=\"pictures\">\n"
             .to_owned();
     for picture in &info.pictures {

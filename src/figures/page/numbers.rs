@@ -16,8 +16,14 @@ pub fn summary(numbers: &Numbers) -> String {
         numbers.host.renderer,
         numbers.host.threads,
         if numbers.host.threads == 1 { "thread" } else { "threads" }
-    )
+    ) + if frames < ENOUGH_FRAMES { TOO_FEW } else { "" }
 }
+
+/// Frames from which medians and ratios begin to agree on a busy machine.
+const ENOUGH_FRAMES: usize = 11;
+
+const TOO_FEW: &str = " So few frames say little: times, gains and what is concluded from them below may contradict each \
+                       other; more frames settle it.";
 
 /// What belongs to this figure.
 pub fn tables(out: &mut String, id: &str, numbers: &Numbers) -> Result {
