@@ -25,13 +25,16 @@ impl RowLog {
     /// [`Error::Output`] where there is one already or the folder may not be written.
     pub fn create(folder: &Path) -> Result<Self> {
         let path = folder.join(ROWS_FILE);
-        match OpenOptions::new().append(true).create_new(true).open(&path) {
-            Ok(file) => Ok(Self { file, path }),
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Error::Output {
+        // A run that ended before its first row left nothing that could be lost.
+        if path.metadata().is_ok_and(|file| file.len() > 0) {
+            return Err(Error::Output {
                 path: path.display().to_string(),
                 problem: "rows of an earlier run lie here; go on with them by --resume, or name another folder"
                     .to_owned(),
-            }),
+            });
+        }
+        match OpenOptions::new().append(true).create(true).open(&path) {
+            Ok(file) => Ok(Self { file, path }),
             Err(error) => Err(cannot_write(&path, &error)),
         }
     }
