@@ -136,7 +136,7 @@ impl VisibleLines {
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] when no class is wanted, or the scene has more than 2^32 faces or positions.
+    /// [`crate::Error::Setting`] when no class is wanted, or the scene has more than 2^30 faces or positions.
     pub fn of(scene: &Scene, settings: &LineSettings) -> Result<Self> {
         Self::with_progress(scene, settings, &Progress::default())
     }
