@@ -32,7 +32,7 @@ Examples:
   tinta figures -o figures                       the three texts' figures, drawn and measured again
   tinta info                                     which OpenGL is there
 
-Exit codes: 0 done, 2 could not be done; the reason is one sentence on standard error.")]
+Exit codes: 0 done, 1 a check found a difference, 2 could not be done; the reason is one sentence on standard error.")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -49,8 +49,17 @@ enum Command {
     Info(info::Arguments),
 }
 
+/// How something that was done came out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Well.
+    Good,
+    /// Two pictures that should be equal differ.
+    Different,
+}
+
 /// Parses the command line and does what it says.
-pub fn run() -> Result<()> {
+pub fn run() -> Result<Verdict> {
     let arguments = Arguments::try_parse().map_err(|error| {
         use clap::error::ErrorKind::{DisplayHelp, DisplayHelpOnMissingArgumentOrSubcommand, DisplayVersion};
         if matches!(error.kind(), DisplayHelp | DisplayVersion | DisplayHelpOnMissingArgumentOrSubcommand) {
@@ -59,7 +68,7 @@ pub fn run() -> Result<()> {
         Error::CommandLine { problem: in_one_sentence(&error) }
     })?;
     match arguments.command {
-        Command::Render(arguments) => render::run(&arguments),
+        Command::Render(arguments) => return render::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Edges(arguments) => edges::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
@@ -67,6 +76,7 @@ pub fn run() -> Result<()> {
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
+    .map(|()| Verdict::Good)
 }
 
 /// clap's message without its usage lines and hints, which `--help` has.

@@ -47,6 +47,8 @@ sources![
     "improved/tap-apart.frag",
     "improved/texel-biased.frag",
     "improved/texel-depth-texture.frag",
+    "improved/tone-diffuse.frag",
+    "improved/tone-one.frag",
     "phong/phong.frag",
     "phong/phong.vert",
     "valente/charcoal-object.vert",

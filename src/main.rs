@@ -6,7 +6,8 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     match cli::run() {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(cli::Verdict::Good) => ExitCode::SUCCESS,
+        Ok(cli::Verdict::Different) => ExitCode::FAILURE,
         Err(error) => {
             cli::say(&format!("tinta: {error}"));
             ExitCode::from(2)

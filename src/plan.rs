@@ -3,9 +3,12 @@
 //! A style makes it from a scene, `gl` carries it out, and anybody can print, compare or check it without a GPU.
 
 mod display;
+pub mod prune;
 
+use crate::mesh::Part;
 use crate::names::find;
 use crate::picture::Picture;
+use crate::scene::Rectangle;
 use serde::Serialize;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -61,8 +64,10 @@ pub enum FloatBits {
 pub enum Step {
     /// Clear colour and depth.
     Clear {
-        /// Red, green, blue, alpha.
-        color: [f32; 4],
+        /// Red, green, blue, alpha; `None` leaves the colour.
+        color: Option<[f32; 4]>,
+        /// Whether depth is cleared, to the farthest.
+        depth: bool,
     },
     /// Draw something.
     Draw(Draw),
@@ -92,6 +97,30 @@ pub struct Draw {
     pub cull_back_faces: bool,
     /// glPolygonOffset's factor and units: how far faces are pushed back, by their slope and in steps of depth.
     pub polygon_offset: Option<[f32; 2]>,
+    /// The pixels it may change; `None` for all.
+    pub scissor: Option<Rectangle>,
+    /// Which faces of [`Geometry::Objects`] are drawn, an entry for each of the scene's objects; `None` for all.
+    pub faces: Option<Arc<Vec<Faces>>>,
+}
+
+/// Which faces of an object are drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Faces {
+    /// All.
+    All,
+    /// None.
+    None,
+    /// These.
+    Listed(Arc<FaceList>),
+}
+
+/// Some of an object's faces, in the order all of them are drawn in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FaceList {
+    /// Three indices a face, into the object's [`crate::mesh::VertexArrays::vertices`].
+    pub indices: Vec<u32>,
+    /// The runs of faces that share a material.
+    pub parts: Vec<Part>,
 }
 
 impl Draw {
@@ -106,6 +135,8 @@ impl Draw {
             blend: false,
             cull_back_faces: false,
             polygon_offset: None,
+            scissor: None,
+            faces: None,
         }
     }
 }
@@ -316,6 +347,11 @@ impl Pass {
 }
 
 impl Step {
+    /// Clear all of it: colour, to red, green, blue, alpha, and depth.
+    pub fn clear(color: [f32; 4]) -> Self {
+        Self::Clear { color: Some(color), depth: true }
+    }
+
     /// A short name for files and tables.
     pub fn name(&self) -> &'static str {
         match self {

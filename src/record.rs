@@ -9,6 +9,7 @@ use crate::compare::AgreementNumbers;
 use crate::edges::{ClassCounts, SilhouetteRule};
 use crate::gl::ContextInfo;
 use crate::mesh::{Defects, LoadOptions, Mesh};
+use crate::plan::prune::{Kept, Omission};
 use crate::renderer::{PassTime, median};
 use crate::scene::{Background, Color, Scene, Size};
 use crate::styles::{Show, Style};
@@ -47,6 +48,10 @@ pub struct Record {
     pub gl: ContextInfo,
     /// Each pass's median times.
     pub passes: Vec<PassTime>,
+    /// What of the published plan was left out, and why.
+    pub omissions: Vec<Omission>,
+    /// What was not, and why.
+    pub kept: Vec<Kept>,
     /// What the renderer had to say of the plan: lines drawn otherwise than asked for.
     pub remarks: Vec<String>,
     /// Reading the models and making meshes of them.

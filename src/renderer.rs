@@ -7,6 +7,7 @@ use crate::gl::execute::Resources;
 use crate::gl::{Backend, ContextInfo};
 use crate::mesh::Mesh;
 use crate::picture::Picture;
+use crate::plan::prune::{Pruning, prune};
 use crate::plan::{Draw, Geometry, LineDrawing, Output, Plan, Step, Target};
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
@@ -89,27 +90,37 @@ impl Renderer {
         remarks
     }
 
-    /// Draws one triangle the way `style` will draw at this size, so that the driver compiles its shaders now: worth it while
-    /// a large model is still being read on another thread.
+    /// Draws one triangle the way `style` will draw at this size, pruned or not, so that the driver compiles its shaders
+    /// now: worth it while a large model is still being read on another thread.
     ///
     /// # Errors
     ///
     /// As [`Renderer::render`].
-    pub fn warm_up(&mut self, settings: &SceneSettings, style: &Style, show: Show) -> Result<()> {
+    pub fn warm_up(
+        &mut self,
+        settings: &SceneSettings,
+        style: &Style,
+        show: Show,
+        pruning: Option<&Pruning>,
+    ) -> Result<()> {
         let camera = CameraSettings::default();
         let scene =
             Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings { copies: 1, camera, ..settings.clone() })?;
         // What a triangle cannot be drawn with, a texture say, the models may have.
-        style.plan(&scene, show).map_or(Ok(()), |plan| self.draw(&scene, &plan).map(drop))
+        let Ok(plan) = style.plan(&scene, show) else { return Ok(()) };
+        // Only the shaders that will be drawn with.
+        let plan = pruning.map_or_else(|| plan.clone(), |pruning| prune(&plan, &scene, pruning).plan);
+        self.draw(&scene, &plan).map(drop)
     }
 
-    /// Draws a scene in a style.
+    /// Draws a scene in a style, without what cannot change the picture.
     ///
     /// # Errors
     ///
     /// [`Error::Setting`] from the style, [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
     pub fn render(&mut self, scene: &Scene, style: &Style) -> Result<Picture> {
-        self.draw(scene, &style.plan(scene, Show::Final)?)
+        let plan = style.plan(scene, Show::Final)?;
+        self.draw(scene, &prune(&plan, scene, &Pruning::default()).plan)
     }
 
     /// Carries out a plan made for this scene.

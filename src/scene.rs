@@ -4,10 +4,11 @@
 //! lies and however large it is, and so that the papers' light, given in eye space without a unit, always stands at the
 //! same place relative to what it lights (errata E11). Scene space only moves and scales world space; nothing turns.
 
+mod extent;
 mod turntable;
 mod values;
 
-pub use values::{Background, Color, Size};
+pub use values::{Background, Color, Rectangle, Size};
 
 use crate::camera::{Camera, CameraSettings, Projection};
 use crate::edges::{Eye, MeshEdges, SilhouetteRule};
@@ -15,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::mesh::{Material, Mesh, NONE, VertexArrays, bounds};
 use crate::picture::Picture;
 use crate::tolerances::{LARGEST_DISTANCE, SCENE_RADIUS};
-use glam::{DMat4, DVec3, Mat4};
+use glam::{DMat4, DVec3, Mat4, Vec3};
 use std::sync::{Arc, OnceLock};
 
 /// A mesh at a place.
@@ -27,6 +28,8 @@ pub struct Object {
     pub offset: DVec3,
     /// What GL draws of the mesh, made when first asked for, shared between copies.
     arrays: Arc<OnceLock<VertexArrays>>,
+    /// Boxes around them, likewise.
+    boxes: Arc<OnceLock<Vec<[Vec3; 2]>>>,
     /// Its edges, likewise.
     edges: Arc<OnceLock<MeshEdges>>,
     /// Its materials' pictures, likewise.
@@ -167,6 +170,11 @@ impl Scene {
         object.arrays.get_or_init(|| VertexArrays::new(&object.mesh, self.radius))
     }
 
+    /// Boxes around an object's vertices, as its arrays have them.
+    fn boxes<'a>(&self, object: &'a Object) -> &'a [[Vec3; 2]] {
+        object.boxes.get_or_init(|| extent::boxes(self.arrays(object)))
+    }
+
     /// Makes every object's arrays now, on the thread that has the time.
     pub fn make_arrays(&self) {
         self.objects.iter().for_each(|object| {
@@ -264,6 +272,7 @@ fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
         mesh: mesh.clone(),
         offset: DVec3::ZERO,
         arrays: Arc::default(),
+        boxes: Arc::default(),
         edges: Arc::default(),
         pictures: Arc::default(),
     };

@@ -74,3 +74,17 @@ pub const EDGE_ON: f64 = 1e-9;
 
 /// How far a drawn line may pass by a point it leaves out, pixels: one step of the numbers in an SVG, which have three decimals.
 pub const STRAIGHT_PX: f64 = 1e-3;
+
+/// How far beyond the picture or between the planes a point must be, as a share of its distance, before f32 matrices agree
+/// that it is: some hundred of f32's last places.
+pub const CLIP_ROUNDING: f64 = 1e-5;
+
+/// How far a vertex can be drawn from where its coordinates say, pixels: f32 in the largest pictures is off by a hundredth, and
+/// GL's own sub-pixels may be sixteenths.
+pub const WINDOW_ROUNDING_PX: f64 = 0.125;
+
+/// Light that no surface reaches: diffuse and specular values are cosines of unit vectors, which rounding leaves below it.
+pub const UNREACHED_LIGHT: f32 = 1.001;
+
+/// How far from the middle between two steps of 8 bits a colour must be, steps, before every driver rounds it to the same one.
+pub const EIGHT_BIT_TIE: f64 = 0.02;

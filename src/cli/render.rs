@@ -2,7 +2,9 @@
 
 mod animate;
 mod lines;
+mod prune;
 
+use super::Verdict;
 use super::models::load_meshes;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
 use std::path::{Path, PathBuf};
@@ -10,6 +12,7 @@ use std::time::Instant;
 use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
 use tinta::plan::Plan;
+use tinta::plan::prune::Pruned;
 use tinta::record::{CameraRecord, ModelRecord, Record, Summary};
 use tinta::renderer::{PassTime, milliseconds_since};
 use tinta::{Backend, Error, Renderer, Result, Scene, SceneSettings, Style, StyleName, Target};
@@ -47,6 +50,9 @@ pub struct Arguments {
 
     #[command(flatten)]
     animation: animate::AnimationArguments,
+
+    #[command(flatten)]
+    prune: prune::PruneArguments,
 
     #[command(flatten)]
     run: RunArguments,
@@ -93,14 +99,15 @@ const WARM_UP: usize = 2;
 const PASS_FRAMES: usize = 21;
 
 /// Draws what the arguments say.
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub fn run(arguments: &Arguments) -> Result<Verdict> {
     keep_the_models(arguments)?;
     if let Some(format) = lines::format(arguments)? {
-        return lines::run(arguments, format);
+        arguments.prune.refuse()?;
+        return lines::run(arguments, format).map(|()| Verdict::Good);
     }
     arguments.lines.refuse("only style lines has this; leave it out, or write a .svg")?;
     if let Some(target) = arguments.animation.target(&arguments.output, arguments.scene.transparent)? {
-        return animate::run(arguments, target);
+        return animate::run(arguments, &target);
     }
     let target = Target::check(&arguments.output, arguments.scene.transparent)?;
     if target == Target::Stdout && (arguments.run.json || arguments.run.explain) {
@@ -126,7 +133,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             Err(panic) => std::panic::resume_unwind(panic),
         }
     });
-    let Loaded { scene, plan, load_ms, plan_ms } = loaded?;
+    let Loaded { scene, published, plan: Pruned { plan, omissions, kept }, load_ms, plan_ms } = loaded?;
     let Opened { mut renderer, context_ms, warm_up_ms } = renderer?;
     let remarks = renderer.remarks(&plan);
     remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
@@ -141,14 +148,22 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             write_rgba_png(&step.picture, &folder.join(name))?;
         }
     }
+    let verdict = match arguments.prune.verify {
+        true => prune::verify(arguments, &mut renderer, &scene, &published, &picture)?,
+        false => Verdict::Good,
+    };
     if !arguments.run.json && !arguments.run.explain {
-        return Ok(());
+        return Ok(verdict);
     }
     let frames = arguments.run.frames as usize;
     let times = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?);
     let passes = renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?;
     if arguments.run.explain {
-        return super::print(&explanation(&plan, &passes, &times, frames));
+        let mut text = explanation(&plan, &passes, &times, frames);
+        if let Some(pruning) = arguments.prune.pruning(arguments.run.frames) {
+            text.push_str(&prune::explanation(&mut renderer, &scene, &published, &pruning, frames)?);
+        }
+        return super::print(&text).map(|()| verdict);
     }
     let models = model_records(&scene, arguments.models.len());
     super::print_json(&Record {
@@ -167,6 +182,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         camera: CameraRecord::new(&scene),
         gl: renderer.context().clone(),
         passes,
+        omissions,
+        kept,
         remarks,
         load_ms,
         plan_ms,
@@ -175,6 +192,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         first_frame_ms,
         frame_ms: times,
     })
+    .map(|()| verdict)
 }
 
 /// A renderer and how long it took to get ready.
@@ -198,7 +216,8 @@ fn open_renderer(
         None
     } else {
         let start = Instant::now();
-        renderer.warm_up(settings, style, arguments.styles.show)?;
+        let pruning = arguments.prune.pruning(arguments.run.frames);
+        renderer.warm_up(settings, style, arguments.styles.show, pruning.as_ref())?;
         Some(milliseconds_since(start))
     };
     Ok(Opened { renderer, context_ms, warm_up_ms })
@@ -207,7 +226,10 @@ fn open_renderer(
 /// A scene ready to be drawn, what is to be done for it, and how long both took.
 struct Loaded {
     scene: Scene,
-    plan: Plan,
+    /// As the style has it.
+    published: Plan,
+    /// As it is drawn.
+    plan: Pruned,
     load_ms: f64,
     plan_ms: f64,
 }
@@ -220,8 +242,9 @@ fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style) ->
     let scene = Scene::new(meshes, settings)?;
     scene.make_arrays();
     let start = Instant::now();
-    let plan = style.plan(&scene, arguments.styles.show)?;
-    Ok(Loaded { scene, plan, load_ms, plan_ms: milliseconds_since(start) })
+    let published = style.plan(&scene, arguments.styles.show)?;
+    let plan = arguments.prune.pruned(&published, &scene, arguments.run.frames);
+    Ok(Loaded { scene, published, plan, load_ms, plan_ms: milliseconds_since(start) })
 }
 
 /// Refuses to write over a model that is to be read.

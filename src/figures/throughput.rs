@@ -94,7 +94,7 @@ pub(super) fn contestants(scene: &Arc<Scene>) -> Result<Vec<Contestant>> {
 
 /// A frame of a cleared map and perhaps a square.
 fn frame(square: Option<Step>) -> Plan {
-    let mut steps = vec![Step::Clear { color: [0.0, 0.0, 0.0, 1.0] }, Step::CopyFramebuffer];
+    let mut steps = vec![Step::clear([0.0, 0.0, 0.0, 1.0]), Step::CopyFramebuffer];
     steps.extend(square);
     let pass = crate::plan::Pass::new("square", steps);
     Plan::new(vec![pass])

@@ -84,6 +84,11 @@ pub struct ContextInfo {
 }
 
 impl ContextInfo {
+    /// Whether it draws on the processor: then work done here before drawing takes from drawing's own time.
+    pub fn is_software(&self) -> bool {
+        ["llvmpipe", "softpipe", "SWR"].iter().any(|name| self.renderer.contains(name))
+    }
+
     /// Whether GL draws lines, and points to join them, this wide; what is narrower or wider it draws at the nearest width it
     /// can.
     pub fn draws_edges(&self, width_px: f32, is_smooth: bool) -> bool {

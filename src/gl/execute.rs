@@ -3,13 +3,13 @@
 use super::Gl;
 use super::edges::EdgeIndices;
 use super::legacy::{self, MODELVIEW, PROJECTION};
-use super::meshes::MeshBuffers;
+use super::meshes::{Coordinates, FaceIndices, MeshBuffers};
 use super::objects::{Buffer, Program, Shader, TimerQuery};
 use super::targets::Targets;
 use super::textures::Textures;
 use crate::error::{Error, Result};
 use crate::plan::{self, Depth, Draw, Geometry, LineDrawing, Plan, Step, Target};
-use crate::scene::{Scene, Size};
+use crate::scene::{Rectangle, Scene, Size};
 use crate::tolerances::BACKGROUND_DISTANCE;
 use glam::{Mat4, Vec3, Vec4};
 use glow::HasContext;
@@ -21,6 +21,10 @@ pub struct Resources {
     pub(super) gl: Rc<Gl>,
     programs: HashMap<plan::Program, Program>,
     pub(super) meshes: Vec<MeshBuffers>,
+    /// The lists of faces of this plan's draws.
+    pub(super) faces: Vec<FaceIndices>,
+    /// The texture coordinates they paint by.
+    pub(super) coordinates: Vec<Coordinates>,
     squares: Option<Buffer>,
     /// The size of what is drawn into: the picture's, or a multiple of it.
     surface: Size,
@@ -48,6 +52,8 @@ impl Resources {
             gl: gl.clone(),
             programs: HashMap::new(),
             meshes: Vec::new(),
+            faces: Vec::new(),
+            coordinates: Vec::new(),
             squares: None,
             surface: Size { width: 1, height: 1 },
             targets: Targets::default(),
@@ -71,6 +77,8 @@ impl Resources {
         self.surface = scene.size.times(plan.supersample);
         self.targets.prepare(&gl, plan, self.surface)?;
         self.upload_meshes(scene)?;
+        self.upload_faces(scene, plan)?;
+        self.upload_coordinates(plan)?;
         if self.squares.is_none() {
             self.squares = Some(Buffer::new(&gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&SQUARES))?);
         }
@@ -103,13 +111,21 @@ impl Resources {
     /// Carries out one step of a prepared plan.
     pub fn step(&mut self, scene: &Scene, step: &Step) -> Result<()> {
         match step {
-            Step::Clear { color: [red, green, blue, alpha] } => {
-                // SAFETY: the context is current. Clearing obeys the masks, so both are opened.
+            Step::Clear { color, depth } => {
+                let mut buffers = 0;
+                // SAFETY: the context is current. Clearing obeys the depth mask and the scissor, so both are opened.
                 unsafe {
-                    self.gl.glow.depth_mask(true);
-                    self.gl.glow.clear_color(*red, *green, *blue, *alpha);
-                    self.gl.glow.clear_depth_f64(1.0);
-                    self.gl.glow.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
+                    if let Some([red, green, blue, alpha]) = *color {
+                        self.gl.glow.clear_color(red, green, blue, alpha);
+                        buffers |= glow::COLOR_BUFFER_BIT;
+                    }
+                    if *depth {
+                        self.gl.glow.depth_mask(true);
+                        self.gl.glow.clear_depth_f64(1.0);
+                        buffers |= glow::DEPTH_BUFFER_BIT;
+                    }
+                    self.gl.glow.disable(glow::SCISSOR_TEST);
+                    self.gl.glow.clear(buffers);
                 }
                 Ok(())
             }
@@ -132,7 +148,7 @@ impl Resources {
                 if material_unit.is_some_and(|unit| unit as u32 >= legacy::FIXED_UNITS) {
                     return Err(Error::gl("drawing", "a plan reads the models' own pictures by a third unit"));
                 }
-                self.draw_objects(scene, paint, material_unit.map(|unit| unit as u32))?;
+                self.draw_objects(scene, paint, draw.faces.as_deref(), material_unit.map(|unit| unit as u32))?;
             }
             Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
                 let as_quads = *line_drawing == LineDrawing::Quads || !self.gl.info.draws_edges(*width_px, *is_smooth);
@@ -231,6 +247,13 @@ impl Resources {
                     gl.polygon_offset(factor, units);
                 }
                 None => gl.disable(glow::POLYGON_OFFSET_FILL),
+            }
+            match draw.scissor {
+                Some(Rectangle { x, y, width, height }) => {
+                    gl.enable(glow::SCISSOR_TEST);
+                    gl.scissor(x as i32, y as i32, width as i32, height as i32);
+                }
+                None => gl.disable(glow::SCISSOR_TEST),
             }
             if draw.blend {
                 gl.enable(glow::BLEND);

@@ -1,8 +1,10 @@
 //! Plans as text, for `--explain` and for tests.
 
 use super::{
-    Depth, Draw, EdgeRun, FloatBits, Geometry, LineDrawing, Mark, Output, Paint, Plan, Program, Step, Target, Value,
+    Depth, Draw, EdgeRun, Faces, FloatBits, Geometry, LineDrawing, Mark, Output, Paint, Plan, Program, Step, Target,
+    Value,
 };
+use crate::scene::Rectangle;
 use std::fmt;
 
 impl fmt::Display for Plan {
@@ -33,7 +35,17 @@ impl fmt::Display for Plan {
 impl fmt::Display for Step {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Clear { color: [r, g, b, a] } => write!(out, "clear to ({r}, {g}, {b}, {a}), depth to 1"),
+            Self::Clear { color, depth } => {
+                write!(out, "clear")?;
+                if let Some([r, g, b, a]) = color {
+                    write!(out, " to ({r}, {g}, {b}, {a})")?;
+                }
+                if *depth {
+                    let comma = if color.is_some() { "," } else { "" };
+                    write!(out, "{comma} depth to 1")?;
+                }
+                Ok(())
+            }
             Self::CopyFramebuffer => write!(out, "copy the framebuffer into the texture BorderMap"),
             Self::CopyDepth => write!(out, "copy the depth buffer into the texture DepthMap"),
             Self::Draw(draw) => draw.fmt(out),
@@ -90,7 +102,29 @@ impl fmt::Display for Draw {
         if self.blend {
             write!(out, ", blended")?;
         }
+        if let Some(Rectangle { x, y, width, height }) = self.scissor {
+            write!(out, ", only {width} x {height} pixels from ({x}, {y})")?;
+        }
+        if let Some(faces) = &self.faces {
+            write_faces(out, faces)?;
+        }
         Ok(())
+    }
+}
+
+/// How many objects are drawn, and how many faces of those that are not drawn whole.
+fn write_faces(out: &mut fmt::Formatter<'_>, faces: &[Faces]) -> fmt::Result {
+    let drawn = faces.iter().filter(|faces| **faces != Faces::None).count();
+    if drawn < faces.len() {
+        write!(out, ", {drawn} of {} objects", faces.len())?;
+    }
+    let lists: Vec<usize> = faces
+        .iter()
+        .filter_map(|faces| if let Faces::Listed(list) = faces { Some(list.indices.len() / 3) } else { None })
+        .collect();
+    match lists.as_slice() {
+        [] => Ok(()),
+        lists => write!(out, ", {} faces of those that can hide some", lists.iter().sum::<usize>()),
     }
 }
 

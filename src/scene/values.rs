@@ -48,6 +48,37 @@ impl FromStr for Size {
     }
 }
 
+/// Some pixels of a picture, counted from its lower left corner as GL does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rectangle {
+    /// Columns to its left.
+    pub x: u32,
+    /// Rows below it.
+    pub y: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl Rectangle {
+    /// This and so many pixels more on every side, within a surface of this size.
+    pub fn grown(self, pixels: u32, surface: Size) -> Self {
+        let (x, y) = (self.x.saturating_sub(pixels), self.y.saturating_sub(pixels));
+        Self {
+            x,
+            y,
+            width: (self.x + self.width).saturating_add(pixels).min(surface.width) - x,
+            height: (self.y + self.height).saturating_add(pixels).min(surface.height) - y,
+        }
+    }
+
+    /// Number of pixels.
+    pub fn pixel_count(self) -> usize {
+        self.width as usize * self.height as usize
+    }
+}
+
 /// Red, green, blue in [0, 1], as GL gets them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Color(pub [f32; 3]);

@@ -50,8 +50,9 @@ impl Cartoon {
         self.check(scene, show)?;
         let mut passes = Vec::new();
         let border = self.border.filter(|_| show != Show::Tones);
-        if border.is_some() || shows_map(show) {
-            passes.push(self.map_pass(scene, border.is_some() && !shows_map(show)));
+        // Made and copied without a border too: the published pipeline has it, and `prune` finds that nothing reads it.
+        if show != Show::Tones {
+            passes.push(self.map_pass(scene, !shows_map(show)));
         }
         if !shows_map(show) {
             if show != Show::Borders {
@@ -146,7 +147,7 @@ impl Cartoon {
     fn map_pass(&self, scene: &Scene, is_read: bool) -> Pass {
         let encoding = self.map_encoding;
         let draw = |geometry| self.draw(geometry, encoding.program());
-        let mut steps = vec![Step::Clear { color: encoding.empty() }];
+        let mut steps = vec![Step::clear(encoding.empty())];
         if self.background_square {
             let [red, green, blue, _] = scene.background.clear_color();
             let square = draw(Geometry::BackgroundSquare { color: [red, green, blue, 1.0] });
@@ -189,7 +190,7 @@ impl Cartoon {
     /// Clear, background square, objects; `draw` makes the draw for the background (true) or the objects (false).
     fn scene_steps(&self, scene: &Scene, draw: impl Fn(bool) -> Draw) -> Vec<Step> {
         let color = scene.background.clear_color();
-        let mut steps = vec![Step::Clear { color }];
+        let mut steps = vec![Step::clear(color)];
         if self.background_square && scene.background != Background::Transparent {
             let geometry = Geometry::BackgroundSquare { color };
             // It follows the clear and is behind everything, so it needs no depth.
@@ -220,7 +221,7 @@ impl Cartoon {
         let mut steps = Vec::new();
         if alone {
             let color = if scene.background == Background::Transparent { [0.0; 4] } else { WHITE };
-            steps.push(Step::Clear { color });
+            steps.push(Step::clear(color));
         }
         steps.push(Step::Draw(square));
         Pass::new("border", steps)

@@ -147,7 +147,7 @@ impl Charcoal {
             _ if scene.background == Background::Transparent => [0.0; 4],
             _ => WHITE,
         };
-        let mut steps = vec![Step::Clear { color }];
+        let mut steps = vec![Step::clear(color)];
         if has_paper {
             let program = Program { vertex: "valente/paper.vert", fragments: vec!["valente/paper.frag"] };
             // The text draws it in 2D over the whole screen; what follows is nearer, so it needs no depth.

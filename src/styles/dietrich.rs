@@ -56,7 +56,7 @@ impl Dietrich {
             cull_back_faces: self.cull_back_faces,
             ..Draw::new(Geometry::Objects(paint), Some(program))
         };
-        let steps = vec![Step::Clear { color: ground }, Step::Draw(draw)];
+        let steps = vec![Step::clear(ground), Step::Draw(draw)];
         Ok(Plan::new(vec![Pass::new("dietrich", steps)]))
     }
 }

@@ -92,7 +92,7 @@ impl Ink {
         let sampling = if show == Show::Map { Supersample::One } else { self.supersample() };
         let surface = sampling.surface(scene.size);
         let mut passes = Vec::new();
-        if show != Show::Tones && self.is_inked {
+        if show != Show::Tones {
             passes.push(self.map_pass(scene, surface, show != Show::Map));
         }
         if matches!(show, Show::Final | Show::Tones) {
@@ -128,7 +128,7 @@ impl Ink {
             cull_back_faces: self.cull_back_faces,
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
-        let mut steps = vec![Step::Clear { color: [0.0; 4] }, Step::Draw(objects)];
+        let mut steps = vec![Step::clear([0.0; 4]), Step::Draw(objects)];
         if copy {
             steps.push(Step::CopyFramebuffer);
         }
@@ -149,7 +149,7 @@ impl Ink {
             cull_back_faces: self.cull_back_faces,
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
-        Pass::new("tones", vec![Step::Clear { color: scene.background.clear_color() }, Step::Draw(objects)])
+        Pass::new("tones", vec![Step::clear(scene.background.clear_color()), Step::Draw(objects)])
     }
 
     /// The filter over the whole picture; `alone` on a white ground.
@@ -175,7 +175,7 @@ impl Ink {
         let mut steps = Vec::new();
         if alone {
             let color = if scene.background == Background::Transparent { [0.0; 4] } else { [1.0; 4] };
-            steps.push(Step::Clear { color });
+            steps.push(Step::clear(color));
         }
         steps.push(Step::Draw(square));
         Pass::new("ink", steps)

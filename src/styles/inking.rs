@@ -172,7 +172,7 @@ impl Inking {
         self.check(scene, show)?;
         let (fill, pictures) = self.fill(scene, show);
         let ground = if show == Show::Borders { blank(scene) } else { scene.background.clear_color() };
-        let paint = Pass::new("paint", vec![Step::Clear { color: ground }, Step::Draw(fill)]);
+        let paint = Pass::new("paint", vec![Step::clear(ground), Step::Draw(fill)]);
         let mut passes = vec![paint];
         if self.is_inked && show != Show::Tones {
             let runs = Arc::new(self.runs(scene));

@@ -45,7 +45,7 @@ impl Phong {
             cull_back_faces: self.cull_back_faces,
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
-        let steps = vec![Step::Clear { color: scene.background.clear_color() }, Step::Draw(draw)];
+        let steps = vec![Step::clear(scene.background.clear_color()), Step::Draw(draw)];
         Ok(Plan::new(vec![Pass::new("phong", steps)]))
     }
 }

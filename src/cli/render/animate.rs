@@ -1,7 +1,7 @@
 //! `tinta render` with an animation for its output: a turn around the models, or an animated model's frames.
 
 use super::super::progress::Progress;
-use super::{Arguments, Loaded, load_scene, model_records};
+use super::{Arguments, Loaded, Verdict, load_scene, model_records, prune};
 use serde_json::json;
 use std::sync::Arc;
 use std::time::Instant;
@@ -51,7 +51,7 @@ impl AnimationArguments {
 }
 
 /// Draws the animation that the arguments describe; encoding goes on beside the drawing.
-pub fn run(arguments: &Arguments, target: AnimationTarget) -> Result<()> {
+pub fn run(arguments: &Arguments, target: &AnimationTarget) -> Result<Verdict> {
     let start = Instant::now();
     refuse_what_is_for_one_picture(arguments)?;
     let style = arguments.styles.style(arguments.style_name())?;
@@ -62,23 +62,28 @@ pub fn run(arguments: &Arguments, target: AnimationTarget) -> Result<()> {
     let context_ms = milliseconds_since(context);
 
     let progress = Progress::new("drawing", scenes.len() as u64);
-    let mut writer = AnimationWriter::new(target, scenes.len() as u32, delay_ms)?;
+    let mut writer = AnimationWriter::new(target.clone(), scenes.len() as u32, delay_ms)?;
     let mut frame_ms = Vec::new();
+    let mut verdict = Verdict::Good;
     for (number, scene) in scenes.iter().enumerate() {
         let frame = Instant::now();
-        let plan = style.plan(scene, arguments.styles.show)?;
+        let published = style.plan(scene, arguments.styles.show)?;
+        let plan = arguments.prune.pruned(&published, scene, scenes.len() as u32).plan;
         if number == 0 {
             renderer.remarks(&plan).iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
         }
         let picture = renderer.draw(scene, &plan)?;
         frame_ms.push(milliseconds_since(frame));
+        if arguments.prune.verify && verdict == Verdict::Good {
+            verdict = prune::verify(arguments, &mut renderer, scene, &published, &picture)?;
+        }
         writer.add(picture)?;
         progress.step();
     }
     let written = writer.finish()?;
     drop(progress);
     if !arguments.run.json {
-        return Ok(());
+        return Ok(verdict);
     }
     let models = model_records(&scenes[0], arguments.models.len());
     super::super::print_json(&json!({
@@ -98,6 +103,7 @@ pub fn run(arguments: &Arguments, target: AnimationTarget) -> Result<()> {
         "encode_ms": Summary::new(written.encode_ms),
         "whole_ms": milliseconds_since(start),
     }))
+    .map(|()| verdict)
 }
 
 fn refuse_what_is_for_one_picture(arguments: &Arguments) -> Result<()> {

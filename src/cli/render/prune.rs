@@ -1,0 +1,158 @@
+//! `tinta render` without what a scene does not need: which rules are applied, what they saved, whether the picture is the same.
+
+use super::super::Verdict;
+use super::Arguments;
+use std::path::{Path, PathBuf};
+use tinta::plan::Plan;
+use tinta::plan::prune::{Omission, Pruned, Pruning, Rule, prune};
+use tinta::renderer::median;
+use tinta::{Error, Picture, Renderer, Result, Scene, Target};
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "Leaving out what the scene does not need")]
+pub struct PruneArguments {
+    /// Draw everything as published, needed or not [default: off, what cannot change the picture is left out]
+    #[arg(long)]
+    full: bool,
+
+    /// Leave these in: border, outside-objects, hidden-faces, unused-light, background-square, empty-pixels, unread-map, overwritten-clear, unread-textures [default: none]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "full")]
+    keep: Vec<Rule>,
+
+    /// Draw it in full too and compare byte for byte; if a pixel differs, exit with 1 and write OUTPUT-difference.png [default: off]
+    #[arg(long, conflicts_with = "full")]
+    pub verify: bool,
+}
+
+/// Pictures that make every rule worth its time.
+const ALL_WORTH_IT: u32 = u32::MAX;
+
+/// Least rounds by which what an omission saved is timed.
+const LEAST_ROUNDS: usize = 5;
+
+/// Most of them.
+const MOST_ROUNDS: usize = 101;
+
+impl PruneArguments {
+    /// How to prune for so many pictures; `None` for not at all.
+    pub fn pruning(&self, pictures: u32) -> Option<Pruning> {
+        let pictures = if self.verify { ALL_WORTH_IT } else { pictures };
+        (!self.full).then(|| Pruning { keep: self.keep.clone(), pictures })
+    }
+
+    /// The plan that is drawn.
+    pub fn pruned(&self, published: &Plan, scene: &Scene, pictures: u32) -> Pruned {
+        match self.pruning(pictures) {
+            Some(pruning) => prune(published, scene, &pruning),
+            None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
+        }
+    }
+
+    /// Refuses these options where there is no plan.
+    pub fn refuse(&self) -> Result<()> {
+        let given = [("--full", self.full), ("--keep", !self.keep.is_empty()), ("--verify", self.verify)];
+        match given.iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(Error::Setting {
+                setting: (*option).to_owned(),
+                problem: "style lines is computed, not drawn by passes; leave it out here".to_owned(),
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Draws the published plan and compares it with the picture of the shorter one.
+pub fn verify(
+    arguments: &Arguments,
+    renderer: &mut Renderer,
+    scene: &Scene,
+    published: &Plan,
+    picture: &Picture,
+) -> Result<Verdict> {
+    let full = renderer.draw(scene, published)?;
+    if full.pixels == picture.pixels {
+        return Ok(Verdict::Good);
+    }
+    let path = difference_path(&arguments.output);
+    let target = Target::check(&path.display().to_string(), false)?;
+    let mut count = 0;
+    let mut different = full.clone();
+    for (pixel, other) in different.pixels.chunks_exact_mut(4).zip(picture.pixels.chunks_exact(4)) {
+        let is_different = *pixel != *other;
+        count += usize::from(is_different);
+        pixel.copy_from_slice(if is_different { &[0, 0, 0, u8::MAX] } else { &[u8::MAX; 4] });
+    }
+    target.write(&different)?;
+    super::super::say(&format!(
+        "tinta: {count} of {} pixels differ from the full drawing, black in {}; --full draws as published, please report this",
+        scene.size.pixel_count(),
+        path.display()
+    ));
+    Ok(Verdict::Different)
+}
+
+/// `a/b.png` becomes `a/b-difference.png`, and so does `a/b-%04d.png`.
+fn difference_path(output: &str) -> PathBuf {
+    let path = Path::new(output);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let stem = stem.split('%').next().unwrap_or_default().trim_end_matches('-');
+    let stem = if stem.is_empty() { "tinta" } else { stem };
+    path.with_file_name(format!("{stem}-difference.png"))
+}
+
+/// What was left out and what that saved, timed by drawing with and without each; and what was not left out.
+pub fn explanation(
+    renderer: &mut Renderer,
+    scene: &Scene,
+    published: &Plan,
+    pruning: &Pruning,
+    frames: usize,
+) -> Result<String> {
+    let Pruned { plan, omissions, kept } = prune(published, scene, pruning);
+    // Each is put back by itself, for they build on one another.
+    let with = |omission: &Omission| {
+        let keep = pruning.keep.iter().copied().chain([omission.rule]).collect();
+        prune(published, scene, &Pruning { keep, ..pruning.clone() }).plan
+    };
+    let mut plans = vec![published.clone(), plan];
+    plans.extend(omissions.iter().map(with));
+    let mut times = vec![Vec::new(); plans.len()];
+    for _ in 0..frames.clamp(LEAST_ROUNDS, MOST_ROUNDS) {
+        for (plan, times) in plans.iter().zip(&mut times) {
+            times.extend(renderer.time_frames(scene, plan, 1, 1)?);
+        }
+    }
+    let mut medians = times.into_iter().map(|times| median(times).unwrap_or_default());
+    let (full_ms, pruned_ms) = (medians.next().unwrap_or_default(), medians.next().unwrap_or_default());
+    let mut text = format!("\n{:<50}{full_ms:>10.3}\n", "whole picture as published (--full)");
+    for (omission, with_ms) in omissions.iter().zip(medians) {
+        let Omission { rule, what, reason, facts } = omission;
+        text.push_str(&format!(
+            "left out {rule}: {what}\n  saved {:.3} ms; {reason}; {}\n",
+            with_ms - pruned_ms,
+            facts.join("; ")
+        ));
+    }
+    for one in kept {
+        text.push_str(&format!("left in {}: {}\n", one.rule, one.reason));
+    }
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::difference_path;
+    use std::path::Path;
+
+    #[test]
+    fn the_difference_lies_beside_the_picture() {
+        for (output, expected) in [
+            ("a/b.png", "a/b-difference.png"),
+            ("b.gif", "b-difference.png"),
+            ("a/b-%04d.png", "a/b-difference.png"),
+            ("%04d.png", "tinta-difference.png"),
+        ] {
+            assert_eq!(difference_path(output), Path::new(expected));
+        }
+    }
+}

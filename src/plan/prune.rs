@@ -1,0 +1,206 @@
+//! Leaving out what a scene does not need: from facts about the scene to a shorter plan that draws the same picture.
+//!
+//! In: a [`Plan`] as published and the [`Scene`] it was made for. Out: [`Pruned`], the plan without what cannot change a
+//! byte of the picture, and of each [`Rule`] either the [`Omission`] it led to, with its reason and the facts it rests on,
+//! or why it left everything in. Every rule has to be exact on every driver, not nearly so; what is only nearly exact is an
+//! option of a style. `Pruning::default` is for one picture: what takes longer to find out than one picture takes to draw is
+//! then left in.
+
+mod background;
+mod dead;
+mod objects;
+mod shaders;
+
+use super::{Draw, Geometry, Plan, Program, Step};
+use crate::names::find;
+use crate::scene::{Rectangle, Scene, Size};
+use serde::Serialize;
+use std::cell::OnceCell;
+use std::fmt;
+use std::str::FromStr;
+
+/// A kind of thing that can be left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rule {
+    /// The border's square where its filter is multiplied by 0.
+    Border,
+    /// Objects outside the picture.
+    OutsideObjects,
+    /// Faces of closed surfaces, turned away and behind faces that are not.
+    HiddenFaces,
+    /// Light that no tone depends on: highlights below three tones, all of it with one.
+    UnusedLight,
+    /// The background square where clearing does the same.
+    BackgroundSquare,
+    /// Pixels of full-screen squares that no object reaches.
+    EmptyPixels,
+    /// Drawing and copying that nothing reads: the map of a picture without borders.
+    UnreadMap,
+    /// Clearing colours that the next step draws over.
+    OverwrittenClear,
+    /// Pictures and tables of tones that no step reads.
+    UnreadTextures,
+}
+
+impl Rule {
+    /// All of them, in the order they are applied, as the user writes them.
+    pub const ALL: [(&'static str, Self); 9] = [
+        ("border", Self::Border),
+        ("outside-objects", Self::OutsideObjects),
+        ("hidden-faces", Self::HiddenFaces),
+        ("unused-light", Self::UnusedLight),
+        ("background-square", Self::BackgroundSquare),
+        ("empty-pixels", Self::EmptyPixels),
+        ("unread-map", Self::UnreadMap),
+        ("overwritten-clear", Self::OverwrittenClear),
+        ("unread-textures", Self::UnreadTextures),
+    ];
+
+    /// As the user writes it.
+    pub fn name(self) -> &'static str {
+        Self::ALL[self as usize].0
+    }
+
+    /// Shortens the plan, or says why not.
+    fn apply(self, plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
+        match self {
+            Self::Border => dead::border(plan),
+            Self::OutsideObjects => objects::outside(plan, facts),
+            Self::HiddenFaces => objects::hidden_faces(plan, facts),
+            Self::UnusedLight => shaders::unused_light(plan),
+            Self::BackgroundSquare => background::square(plan),
+            Self::EmptyPixels => background::empty_pixels(plan, facts),
+            Self::UnreadMap => dead::unread_map(plan),
+            Self::OverwrittenClear => background::overwritten_clear(plan),
+            Self::UnreadTextures => dead::unread_textures(plan),
+        }
+    }
+}
+
+impl FromStr for Rule {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        find(&Self::ALL, text)
+    }
+}
+
+impl fmt::Display for Rule {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.name())
+    }
+}
+
+/// How to prune.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Pruning {
+    /// Rules that are not to be applied. Default none.
+    pub keep: Vec<Rule>,
+    /// How many pictures of these models will be drawn, from any view: more are worth more finding out. Default 1.
+    pub pictures: u32,
+}
+
+impl Default for Pruning {
+    fn default() -> Self {
+        Self { keep: Vec::new(), pictures: 1 }
+    }
+}
+
+/// Something left out that cannot change the picture.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Omission {
+    /// Its name.
+    #[serde(rename = "name")]
+    pub rule: Rule,
+    /// What is not done any more.
+    pub what: String,
+    /// Why the picture is the same without it.
+    pub reason: String,
+    /// What about this scene and plan that rests on.
+    pub facts: Vec<String>,
+}
+
+/// A rule that left everything in.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Kept {
+    /// Its name.
+    #[serde(rename = "name")]
+    pub rule: Rule,
+    /// Why.
+    pub reason: String,
+}
+
+/// A plan without what its scene does not need.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pruned {
+    /// What is left.
+    pub plan: Plan,
+    /// What is not, in the order it was left out.
+    pub omissions: Vec<Omission>,
+    /// The other rules.
+    pub kept: Vec<Kept>,
+}
+
+/// Leaves out of a plan made for this scene what cannot change its picture.
+pub fn prune(plan: &Plan, scene: &Scene, pruning: &Pruning) -> Pruned {
+    let mut pruned = Pruned { plan: plan.clone(), omissions: Vec::new(), kept: Vec::new() };
+    let facts =
+        Facts { scene, surface: scene.size.times(plan.supersample), pictures: pruning.pictures, extent: OnceCell::new() };
+    for (_, rule) in Rule::ALL {
+        let result = match pruning.keep.contains(&rule) {
+            true => Err("it is asked for".to_owned()),
+            false => rule.apply(&mut pruned.plan, &facts),
+        };
+        match result {
+            Ok(omission) => pruned.omissions.push(omission),
+            Err(reason) => pruned.kept.push(Kept { rule, reason }),
+        }
+    }
+    pruned
+}
+
+/// What is known of the scene, found out when first asked for.
+struct Facts<'a> {
+    scene: &'a Scene,
+    /// The size of what is drawn into.
+    surface: Size,
+    pictures: u32,
+    extent: OnceCell<Option<Rectangle>>,
+}
+
+impl Facts<'_> {
+    /// The pixels that faces of objects can touch.
+    fn extent(&self) -> Option<Rectangle> {
+        *self.extent.get_or_init(|| {
+            let inside = self.scene.objects.iter().filter(|object| !self.scene.is_outside(object, 0.0));
+            self.scene.extent_px(inside, self.surface)
+        })
+    }
+}
+
+impl Plan {
+    fn draws(&self) -> impl Iterator<Item = &Draw> {
+        self.steps().filter_map(|(_, step)| if let Step::Draw(draw) = step { Some(draw) } else { None })
+    }
+
+    fn draws_mut(&mut self) -> impl Iterator<Item = &mut Draw> {
+        let steps = self.passes.iter_mut().flat_map(|pass| &mut pass.steps);
+        steps.filter_map(|step| if let Step::Draw(draw) = step { Some(draw) } else { None })
+    }
+}
+
+impl Draw {
+    fn is_of_objects(&self) -> bool {
+        matches!(self.geometry, Geometry::Objects(_))
+    }
+
+    fn has_shader(&self, path: &str) -> bool {
+        self.program.as_ref().is_some_and(|Program { vertex, fragments }| *vertex == path || fragments.contains(&path))
+    }
+}
+
+/// `1 pass`, `2 passes`.
+fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}

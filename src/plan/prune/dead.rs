@@ -1,0 +1,117 @@
+//! What nothing reads: squares that draw nothing, maps and copies without a filter, textures without a shader.
+
+use super::{Omission, Rule, counted};
+use crate::plan::{Draw, Geometry, Plan, Step, Target, Texture, Value};
+
+/// Leaves out the border's square where its response is multiplied by 0.
+pub(super) fn border(plan: &mut Plan) -> Result<Omission, String> {
+    let is_invisible = |step: &Step| match step {
+        Step::Draw(draw) => {
+            let factor = draw.uniforms.iter().find(|uniform| uniform.name == "detectionFactor");
+            draw.geometry == Geometry::ScreenSquare
+                && draw.blend
+                && draw.has_shader("evangelista/border-settings.frag")
+                // The slope's threshold is black or white by itself.
+                && !draw.has_shader("improved/slope-threshold.frag")
+                && factor.is_some_and(|uniform| uniform.value == Value::Float(0.0))
+        }
+        _ => false,
+    };
+    if !plan.steps().any(|(_, step)| is_invisible(step)) {
+        return Err("no border of this plan is invisible".to_owned());
+    }
+    plan.passes.iter_mut().for_each(|pass| pass.steps.retain(|step| !is_invisible(step)));
+    plan.passes.retain(|pass| !pass.steps.is_empty());
+    Ok(Omission {
+        rule: Rule::Border,
+        what: "the border's square".to_owned(),
+        reason: "its alpha is 0 everywhere, and blending that leaves every pixel as it is".to_owned(),
+        facts: vec!["the detection factor is 0".to_owned()],
+    })
+}
+
+/// Leaves out passes, draws and copies whose result nothing reads, going back from the picture.
+pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
+    let mut read: Vec<Texture> = Vec::new();
+    let mut framebuffer_is_read = true;
+    let mut dropped = Vec::new();
+    for pass in plan.passes.iter_mut().rev() {
+        let name = pass.name;
+        let mut kept = Vec::new();
+        for step in std::mem::take(&mut pass.steps).into_iter().rev() {
+            let is_read = match (&step, pass.target) {
+                (Step::CopyFramebuffer, _) => take(&mut read, Texture::BorderMap),
+                (Step::CopyDepth, _) => take(&mut read, Texture::DepthMap),
+                (_, Target::Framebuffer) => framebuffer_is_read,
+                (_, Target::FloatMap(_)) => read.contains(&Texture::FloatMap),
+            };
+            if !is_read {
+                dropped.push(format!("{name}: {}", step.name()));
+                continue;
+            }
+            match &step {
+                Step::CopyFramebuffer | Step::CopyDepth => framebuffer_is_read = true,
+                Step::Clear { color: Some(_), depth: true } if pass.target == Target::Framebuffer => {
+                    framebuffer_is_read = false;
+                }
+                Step::Clear { .. } => {}
+                Step::Draw(Draw { textures, .. }) => read.extend(textures.iter().map(|(_, texture)| *texture)),
+            }
+            kept.push(step);
+        }
+        kept.reverse();
+        pass.steps = kept;
+        if pass.target != Target::Framebuffer {
+            take(&mut read, Texture::FloatMap);
+        }
+    }
+    if dropped.is_empty() {
+        return Err("every pass and every copy is read".to_owned());
+    }
+    plan.passes.retain(|pass| !pass.steps.is_empty());
+    dropped.reverse();
+    Ok(Omission {
+        rule: Rule::UnreadMap,
+        what: format!("{}: {}", counted(dropped.len(), "step", "steps"), dropped.join(", ")),
+        reason: "what they leave is cleared, or never looked at, before the picture is read".to_owned(),
+        facts: vec!["no later step reads their texture".to_owned()],
+    })
+}
+
+/// Removes a texture from those that are read; whether it was one.
+fn take(read: &mut Vec<Texture>, texture: Texture) -> bool {
+    let count = read.len();
+    read.retain(|other| *other != texture);
+    read.len() < count
+}
+
+/// Leaves out pictures and tables that no step reads.
+pub(super) fn unread_textures(plan: &mut Plan) -> Result<Omission, String> {
+    let read: Vec<Texture> = plan.draws().flat_map(|draw| draw.textures.iter().map(|(_, texture)| *texture)).collect();
+    let mut dropped = Vec::new();
+    if plan.tone_table.is_some() && !read.contains(&Texture::ToneTable) {
+        plan.tone_table = None;
+        dropped.push("the table of tones");
+    }
+    let is_read: Vec<bool> =
+        (0..plan.pictures.len()).map(|number| read.contains(&Texture::Picture(number))).collect();
+    let unread = plan.pictures.iter().zip(&is_read).filter(|(_, is_read)| !**is_read);
+    dropped.extend(unread.map(|(picture, _)| picture.name));
+    if dropped.is_empty() {
+        return Err("every texture of this plan is read".to_owned());
+    }
+    let mut flags = is_read.iter();
+    plan.pictures.retain(|_| flags.next().is_some_and(|is_read| *is_read));
+    let number = |old: usize| is_read[..old].iter().filter(|is_read| **is_read).count();
+    for (_, texture) in plan.draws_mut().flat_map(|draw| &mut draw.textures) {
+        if let Texture::Picture(old) = texture {
+            *old = number(*old);
+        }
+    }
+    Ok(Omission {
+        rule: Rule::UnreadTextures,
+        what: format!("{}: {}", counted(dropped.len(), "texture", "textures"), dropped.join(", ")),
+        reason: "no shader that is left samples them".to_owned(),
+        facts: vec![format!("{} of the plan are read", counted(plan.pictures.len(), "picture", "pictures"))],
+    })
+}

@@ -1,0 +1,171 @@
+//! Where on the picture a scene lies: which objects are outside it, and which pixels those inside can touch.
+//!
+//! In: the vertices GL gets, taken together in boxes of neighbours. Out: answers that may say "perhaps" too often and never
+//! "no" wrongly, in f64 by the same matrices.
+
+use super::{Object, Rectangle, Scene, Size};
+use crate::mesh::VertexArrays;
+use crate::tolerances::{CLIP_ROUNDING, WINDOW_ROUNDING_PX};
+use glam::{DMat4, DVec3, DVec4, Vec3};
+
+/// Vertices in a box at least: fewer make tighter boxes and more of them.
+const LEAST_IN_BOX: usize = 64;
+
+/// Boxes of a mesh at most: each is eight points to project in each picture.
+const MOST_BOXES: usize = 512;
+
+/// The boxes around a mesh's vertices, neighbours in drawing order together, in scene radii from the mesh's centre.
+pub(super) fn boxes(arrays: &VertexArrays) -> Vec<[Vec3; 2]> {
+    let each = LEAST_IN_BOX.max(arrays.vertices.len().div_ceil(MOST_BOXES));
+    let around = |vertices: &[[f32; 6]]| {
+        let points = vertices.iter().map(|vertex| Vec3::from_slice(vertex));
+        points.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
+    };
+    arrays.vertices.chunks(each).map(around).collect()
+}
+
+impl Scene {
+    /// Whether nothing of this object, nor any line or point along its edges of this width, can be in the picture.
+    pub fn is_outside(&self, object: &Object, width_px: f32) -> bool {
+        // Half the width beyond the picture's edge and a pixel more, as a share of half the picture.
+        let beyond = [self.size.width, self.size.height].map(|side| (f64::from(width_px) + 2.0) / f64::from(side));
+        let limits = DVec3::new(1.0 + beyond[0], 1.0 + beyond[1], 1.0) * (1.0 + CLIP_ROUNDING);
+        // By the axis and the side of it on which everything lies: right, left, above, below, far, near.
+        let mut all_beyond = [true; 6];
+        for corner in self.corners_in_clip_space(object) {
+            for axis in 0..3 {
+                let limit = limits[axis] * corner.w;
+                // Behind the eye w is below 0, and the limits are on the other side: a point there is inside none.
+                all_beyond[axis * 2] &= corner[axis] > limit;
+                all_beyond[axis * 2 + 1] &= corner[axis] < -limit;
+            }
+        }
+        all_beyond.contains(&true)
+    }
+
+    /// Whether all of an object lies between the near and the far plane, well clear of both.
+    pub fn is_between_planes(&self, object: &Object) -> bool {
+        self.corners_in_clip_space(object)
+            .all(|corner| corner.w > 0.0 && corner.z.abs() < corner.w * (1.0 - CLIP_ROUNDING))
+    }
+
+    /// The pixels of a surface of this size that faces of these objects can touch; `None` for none. The whole surface where
+    /// a box reaches behind the eye.
+    pub fn extent_px<'a>(&self, objects: impl Iterator<Item = &'a Object>, surface: Size) -> Option<Rectangle> {
+        let whole = [f64::from(surface.width), f64::from(surface.height)];
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for object in objects {
+            for corner in self.corners_in_clip_space(object) {
+                // Beside or behind the eye a box has no bounds in the picture. What the near plane cuts off only lies nearer.
+                if corner.w <= 0.0 {
+                    return Some(Rectangle { x: 0, y: 0, width: surface.width, height: surface.height });
+                }
+                for axis in 0..2 {
+                    let place = (corner[axis] / corner.w * 0.5 + 0.5) * whole[axis];
+                    low[axis] = low[axis].min(place);
+                    high[axis] = high[axis].max(place);
+                }
+            }
+        }
+        let first = |axis: usize| (low[axis] - WINDOW_ROUNDING_PX).clamp(0.0, whole[axis]).floor() as u32;
+        let last = |axis: usize| (high[axis] + WINDOW_ROUNDING_PX).clamp(0.0, whole[axis]).ceil() as u32;
+        let [x, y] = [0, 1].map(first);
+        let [width, height] = [last(0).saturating_sub(x), last(1).saturating_sub(y)];
+        (width > 0 && height > 0).then_some(Rectangle { x, y, width, height })
+    }
+
+    /// The corners of an object's boxes, in clip space.
+    fn corners_in_clip_space<'a>(&self, object: &'a Object) -> impl Iterator<Item = DVec4> + use<'a> {
+        let centre = self.arrays(object).centre;
+        let clip_from_object: DMat4 =
+            self.clip_from_view().as_dmat4() * self.view_from_object(object, centre).as_dmat4();
+        self.boxes(object).iter().flat_map(move |[low, high]| {
+            (0..8).map(move |corner| {
+                let pick = |axis: usize| if corner >> axis & 1 == 1 { high[axis] } else { low[axis] };
+                clip_from_object * DVec4::new(pick(0).into(), pick(1).into(), pick(2).into(), 1.0)
+            })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::camera::{CameraSettings, View};
+    use crate::mesh::Mesh;
+    use crate::scene::{Rectangle, Scene, SceneSettings, Size};
+    use glam::DVec3;
+    use std::sync::Arc;
+
+    fn scene(camera: CameraSettings, copies: u32) -> Scene {
+        let settings = SceneSettings { camera, copies, ..SceneSettings::default() };
+        Scene::new(vec![Arc::new(Mesh::triangle())], &settings).unwrap()
+    }
+
+    #[test]
+    fn the_extent_is_the_triangles_box_in_the_picture() {
+        let view = View { azimuth_degrees: 0.0, elevation_degrees: 0.0 };
+        let scene = scene(CameraSettings { view, parallel: true, ..CameraSettings::default() }, 1);
+        let extent = scene.extent_px(scene.objects.iter(), scene.size).unwrap();
+        // The triangle's box is a square; fitted, it fills 92 of 100 of the picture, and a pixel may be added at each end.
+        let side = 512.0 * crate::tolerances::FRAME_FILL;
+        for (first, length) in [(extent.x, extent.width), (extent.y, extent.height)] {
+            assert!((f64::from(length) - side).abs() <= 2.5, "{extent:?}");
+            assert!((f64::from(first) - (512.0 - side) * 0.5).abs() <= 1.5, "{extent:?}");
+        }
+    }
+
+    #[test]
+    fn every_projected_vertex_lies_in_the_extent() {
+        for azimuth_degrees in [0.0, 33.0, 90.0, 200.0] {
+            let view = View { azimuth_degrees, elevation_degrees: 20.0 };
+            let scene = scene(CameraSettings { view, ..CameraSettings::default() }, 3);
+            let Rectangle { x, y, width, height } = scene.extent_px(scene.objects.iter(), scene.size).unwrap();
+            for object in &scene.objects {
+                let clip = scene.clip_from_view() * scene.view_from_object(object, scene.arrays(object).centre);
+                for vertex in &scene.arrays(object).vertices {
+                    let place = clip.project_point3(glam::Vec3::from_slice(vertex)) * 256.0 + 256.0;
+                    assert!(place.x >= x as f32 && place.x <= (x + width) as f32, "{place} {x} {width}");
+                    assert!(place.y >= y as f32 && place.y <= (y + height) as f32, "{place} {y} {height}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn objects_beside_and_behind_the_picture_are_outside_and_those_in_it_are_not() {
+        let looking = |eye: DVec3, target: DVec3| {
+            let settings = CameraSettings { eye: Some(eye), target: Some(target), ..CameraSettings::default() };
+            let scene = scene(CameraSettings { near: Some(0.01), far: Some(100.0), ..settings }, 1);
+            (scene.is_outside(&scene.objects[0], 0.0), scene.extent_px(scene.objects.iter(), scene.size))
+        };
+        let (outside, extent) = looking(DVec3::new(0.3, 0.3, 5.0), DVec3::new(0.3, 0.3, 0.0));
+        assert!(!outside && extent.is_some());
+        assert!(looking(DVec3::new(0.3, 0.3, 5.0), DVec3::new(30.0, 0.3, 0.0)).0, "beside");
+        assert!(looking(DVec3::new(0.3, 0.3, 5.0), DVec3::new(0.3, 0.3, 9.0)).0, "behind the eye");
+        let whole = Rectangle { x: 0, y: 0, width: 512, height: 512 };
+        let (outside, extent) = looking(DVec3::new(0.3, -1.0, 0.001), DVec3::new(0.3, 0.3, 0.0));
+        assert!(!outside && extent.is_none_or(|extent| extent.pixel_count() <= whole.pixel_count()));
+    }
+
+    #[test]
+    fn a_wide_line_reaches_in_from_outside() {
+        // The triangle's nearest edge lies 3 pixels beyond the right edge of a picture in parallel projection.
+        let view = View { azimuth_degrees: 0.0, elevation_degrees: 0.0 };
+        let mut scene = scene(CameraSettings { view, parallel: true, ..CameraSettings::default() }, 1);
+        let crate::camera::Projection::Parallel { height } = scene.camera.projection else { panic!("parallel") };
+        let shift = DVec3::X * (height * 0.5 + 3.0 * height / 512.0);
+        scene.camera.target = DVec3::new(0.0, 0.5, 0.0) - shift;
+        scene.camera.eye = scene.camera.target + DVec3::Z * 5.0;
+        (scene.camera.near, scene.camera.far) = (1.0, 10.0);
+        assert!(scene.is_outside(&scene.objects[0], 0.0));
+        assert!(!scene.is_outside(&scene.objects[0], 8.0));
+    }
+
+    #[test]
+    fn a_rectangle_grows_to_the_surface_and_no_further() {
+        let size = Size { width: 10, height: 8 };
+        let small = Rectangle { x: 1, y: 6, width: 4, height: 1 };
+        assert_eq!(small.grown(2, size), Rectangle { x: 0, y: 4, width: 7, height: 4 });
+        assert_eq!(small.grown(u32::MAX, size), Rectangle { x: 0, y: 0, width: 10, height: 8 });
+    }
+}
