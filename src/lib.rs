@@ -32,6 +32,7 @@ pub mod error;
 pub mod figures;
 pub mod gl;
 pub mod glsl;
+pub mod hiding;
 pub mod lines;
 pub mod measure;
 pub mod mesh;

@@ -6,7 +6,7 @@
 //! (boundary, non-manifold, silhouette), or where the edge passes through a face (Appel 1967). All these places are found,
 //! the edge is cut there, and each piece is decided by one ray.
 
-mod boxes;
+pub(crate) mod boxes;
 mod cast;
 mod chain;
 mod faces;

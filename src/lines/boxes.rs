@@ -12,7 +12,7 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 /// An axis-aligned box.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Box3(Aabb);
+pub(crate) struct Box3(Aabb);
 
 impl Box3 {
     /// The smallest box around points, rounded outwards.
@@ -51,7 +51,7 @@ fn clamped(x: f64) -> f32 {
 }
 
 /// Numbered things with a box each, in a hierarchy of boxes.
-pub(super) struct BoxTree {
+pub(crate) struct BoxTree {
     nodes: Bvh2,
     /// The boxes, leaf by leaf.
     boxes: Vec<Box3>,
@@ -59,7 +59,7 @@ pub(super) struct BoxTree {
 }
 
 /// Most things in a leaf.
-pub(super) const LARGEST_LEAF: u32 = 8;
+pub(crate) const LARGEST_LEAF: u32 = 8;
 
 /// What a step down the hierarchy costs, in tests of a thing: more makes larger leaves.
 const STEP_COST: f32 = 3.0;

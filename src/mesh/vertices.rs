@@ -16,6 +16,8 @@ pub struct VertexArrays {
     pub indices: Vec<u32>,
     /// For each of the mesh's positions one vertex that lies there, or [`NONE`] where no triangle does.
     pub position_vertices: Vec<u32>,
+    /// The mesh's triangles in drawing order: whose indices come first, second and so on.
+    pub order: Vec<u32>,
     /// The runs of triangles that share a material, in drawing order.
     pub parts: Vec<Part>,
     /// The mesh's own centre, world space, subtracted in f64 before anything becomes f32.
@@ -66,7 +68,7 @@ impl VertexArrays {
         let indices =
             order.iter().flat_map(|&triangle| &corner_vertices[triangle as usize * 3..][..3]).copied().collect();
         let parts = parts(mesh, &order);
-        let mut arrays = Self { vertices, texture_coordinates, indices, position_vertices, parts, centre };
+        let mut arrays = Self { vertices, texture_coordinates, indices, position_vertices, order, parts, centre };
         arrays.number_by_first_use();
         arrays
     }

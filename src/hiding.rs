@@ -1,0 +1,155 @@
+//! Which faces of a mesh a view cannot show, so that GL need not draw them and the picture stays the same byte for byte.
+//!
+//! In: a mesh and its arrays, once; then a scene, for every view. Out: the arrays' indices without those faces.
+//!
+//! Leaving out all back faces would not do: at silhouettes, folds and holes a back face may win a pixel, by a tie in depth or
+//! because nothing is in front of it. A face is left out only where a front face of its own shell is surely nearer in every
+//! pixel that it covers:
+//!
+//! - Triangles connected over edges form a shell. With caps over its holes a sound one is a closed surface of one orientation,
+//!   and how often it surrounds a point (its winding number) says what a ray from outside must have met on the way there.
+//!   Behind the back of a face that it surrounds 0 times or more outside, it surrounds the space at least once: a ray that
+//!   arrives there from the eye has come in through a front face.
+//! - That face must be nearer by more than sub-pixel rounding and depth can confuse. So faces near another part of their shell
+//!   are never left out, nor are those that are not seen steeply from behind, nor their neighbours.
+//! - The face it came in through must be one that is drawn: where a cap may be seen from its front, nothing is left out.
+//!
+//! This holds for faces that are drawn with a depth test (GL_LESS or GL_LEQUAL) and without polygon offset, which would push
+//! steep faces behind what they hide.
+
+mod distance;
+mod flags;
+mod groups;
+mod shells;
+mod view;
+mod winding;
+
+#[cfg(test)]
+mod tests;
+
+use crate::mesh::{Mesh, NONE, Part, VertexArrays, triangle_normal};
+use crate::threads::{filled, threads_for};
+use crate::tolerances::SHELL_THICKNESS;
+use flags::Hierarchy;
+use glam::{DVec3, Vec3};
+use serde::Serialize;
+use shells::{Cap, Shells, Surface};
+
+/// What holds for every view of a mesh: its faces' planes and whether something of their own shell can hide them.
+///
+/// Lengths in it are in the mesh's radii, half its bounding box's diagonal, and relative to its centre.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hiding {
+    /// The mesh's radius, file units.
+    radius: f64,
+    /// Least distance of faces that may be hidden from others of their shell.
+    thickness: f64,
+    /// Each face's plane, in drawing order: unit normal and its product with the plane's points; zeros without an area.
+    planes: Vec<[f32; 4]>,
+    /// The shell of each face that may be hidden, else [`NONE`]; in drawing order.
+    shells: Vec<u32>,
+    /// Of each of the arrays' vertices the point where it lies; empty where each vertex is a point of its own.
+    points: Vec<u32>,
+    point_count: usize,
+    /// Boxes around every so many of the arrays' vertices.
+    boxes: Vec<[Vec3; 2]>,
+    caps: Vec<CapPlane>,
+    counts: HidingCounts,
+}
+
+/// A cap, which closes a hole and is not drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct CapPlane {
+    shell: u32,
+    plane: [f32; 4],
+}
+
+/// How much of a mesh may be hidden.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct HidingCounts {
+    /// Groups of triangles that are connected over edges.
+    pub shells: usize,
+    /// Of these, those that are closed surfaces of one orientation, with caps over their holes.
+    pub sound_shells: usize,
+    /// Holes of these that caps close.
+    pub capped_holes: usize,
+    /// Faces that come near another part of their shell.
+    pub flagged_faces: usize,
+    /// Faces that some views may leave out.
+    pub hideable_faces: usize,
+}
+
+/// The faces that a view needs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DrawnFaces {
+    /// The arrays' indices, in unchanged order, without the faces left out.
+    pub indices: Vec<u32>,
+    /// The runs of these that share a material.
+    pub parts: Vec<Part>,
+    /// Number of faces left out.
+    pub left_out: usize,
+}
+
+/// Vertices in one of the boxes.
+const VERTICES_IN_A_BOX: usize = 64;
+
+impl Hiding {
+    /// Looks at all faces of a mesh, whose arrays these are, on as many threads as the machine has.
+    pub fn new(mesh: &Mesh, arrays: &VertexArrays) -> Self {
+        let (low, high) = mesh.bounds();
+        let radius = (high * 0.5 - low * 0.5).length();
+        let mut surface = Surface::new(mesh, arrays, radius);
+        let point_count = surface.points.len();
+        let thickness = surface.mean_edge() * SHELL_THICKNESS;
+        let mut shells = Shells::new(&mut surface);
+        let hierarchy = Hierarchy::new(&surface, &shells, thickness);
+        let flags = flags::flagged(&surface, &mut shells, &hierarchy, thickness);
+        let may_hide = winding::faces_with_outside(&surface, &shells, &hierarchy, &flags);
+        let counts = HidingCounts {
+            shells: shells.list.len(),
+            sound_shells: shells.list.iter().filter(|shell| shell.is_sound).count(),
+            capped_holes: shells.list.iter().filter(|shell| shell.is_sound).map(|shell| shell.holes as usize).sum(),
+            flagged_faces: flags.iter().filter(|flag| **flag).count(),
+            hideable_faces: may_hide.iter().filter(|may| **may).count(),
+        };
+        let threads = threads_for(surface.triangles.len());
+        let planes = filled(surface.triangles.len(), threads, [0.0; 4], |face| plane(&surface, surface.triangles[face]));
+        let shell_of = |face: usize| if may_hide[face] { shells.of_face[face] } else { NONE };
+        let cap_plane = |cap: &Cap| CapPlane { shell: cap.shell, plane: plane(&surface, cap.corners) };
+        let is_used = |cap: &&Cap| shells.list[cap.shell as usize].is_sound;
+        let is_by_itself = surface.point_of_vertex.iter().enumerate().all(|(vertex, point)| vertex == *point as usize);
+        Self {
+            radius,
+            thickness,
+            planes,
+            shells: filled(surface.triangles.len(), threads, NONE, shell_of),
+            boxes: boxes(&surface),
+            caps: shells.caps.iter().filter(is_used).map(cap_plane).collect(),
+            points: if is_by_itself { Vec::new() } else { surface.point_of_vertex },
+            point_count,
+            counts,
+        }
+    }
+
+    /// How much of the mesh may be hidden.
+    pub fn counts(&self) -> HidingCounts {
+        self.counts
+    }
+}
+
+fn plane(surface: &Surface, triangle: [u32; 3]) -> [f32; 4] {
+    let corners = surface.corners(triangle);
+    let Some(normal) = triangle_normal(corners) else { return [0.0; 4] };
+    normal.extend(normal.dot(corners[0])).as_vec4().to_array()
+}
+
+fn boxes(surface: &Surface) -> Vec<[Vec3; 2]> {
+    let pieces = surface.point_of_vertex.chunks(VERTICES_IN_A_BOX);
+    pieces
+        .map(|vertices| {
+            let points: Vec<DVec3> = vertices.iter().map(|point| surface.points[*point as usize]).collect();
+            let (low, high) = crate::mesh::bounds(&points);
+            [low.as_vec3(), high.as_vec3()]
+        })
+        .collect()
+}

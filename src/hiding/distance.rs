@@ -1,0 +1,93 @@
+//! Whether two triangles come near each other or pass through each other.
+
+use crate::mesh::triangle_normal;
+use glam::DVec3;
+use robust::{Coord3D, orient3d};
+
+type Triangle = [DVec3; 3];
+
+/// Whether some points of two triangles are less than `distance` apart.
+pub(super) fn come_near(a: &Triangle, b: &Triangle, distance: f64) -> bool {
+    if is_beyond_a_side(a, b, distance) || is_beyond_a_side(b, a, distance) {
+        return false;
+    }
+    if pierces(a, b) || pierces(b, a) {
+        return true;
+    }
+    let limit = distance * distance;
+    let sides = |t: &Triangle| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
+    a.iter().any(|point| square_to_triangle(*point, b) < limit)
+        || b.iter().any(|point| square_to_triangle(*point, a) < limit)
+        || sides(a).iter().any(|first| sides(b).iter().any(|second| square_of_segments(*first, *second) < limit))
+}
+
+/// Whether two triangles that share just one corner also meet elsewhere: then a side of one of them that lies opposite to the
+/// corner passes through the other.
+pub(super) fn cross_beyond_corner(a: &Triangle, opposite_a: [DVec3; 2], b: &Triangle, opposite_b: [DVec3; 2]) -> bool {
+    passes_through(opposite_a, b) || passes_through(opposite_b, a)
+}
+
+/// Whether `other` lies wholly on one side of a triangle's plane, or of a plane upright on one of its sides, and at least
+/// `distance` away: the quick answer for most.
+fn is_beyond_a_side(triangle: &Triangle, other: &Triangle, distance: f64) -> bool {
+    let Some(normal) = triangle_normal(*triangle) else { return false };
+    let heights = other.map(|point| normal.dot(point - triangle[0]));
+    if heights.iter().all(|height| *height >= distance) || heights.iter().all(|height| *height <= -distance) {
+        return true;
+    }
+    (0..3).any(|corner| {
+        let from = triangle[corner];
+        let outwards = (triangle[(corner + 1) % 3] - from).cross(normal);
+        let least = distance * outwards.length();
+        other.iter().all(|point| outwards.dot(*point - from) >= least)
+    })
+}
+
+fn pierces(a: &Triangle, b: &Triangle) -> bool {
+    (0..3).any(|corner| passes_through([a[corner], a[(corner + 1) % 3]], b))
+}
+
+/// Whether a segment meets a triangle, exactly but for what lies in the triangle's plane.
+fn passes_through([from, to]: [DVec3; 2], triangle: &Triangle) -> bool {
+    let [a, b, c] = *triangle;
+    let side = |a: DVec3, b: DVec3, c: DVec3, d: DVec3| {
+        let [a, b, c, d] = [a, b, c, d].map(|DVec3 { x, y, z }| Coord3D { x, y, z });
+        orient3d(a, b, c, d)
+    };
+    let (below, above) = (side(a, b, c, from), side(a, b, c, to));
+    if (below > 0.0 && above > 0.0) || (below < 0.0 && above < 0.0) || (below == 0.0 && above == 0.0) {
+        return false;
+    }
+    let turns = [side(from, to, a, b), side(from, to, b, c), side(from, to, c, a)];
+    turns.iter().all(|turn| *turn >= 0.0) || turns.iter().all(|turn| *turn <= 0.0)
+}
+
+/// Square of a point's distance from a triangle: where it is above the inside, from its plane, else from its sides.
+fn square_to_triangle(point: DVec3, &[a, b, c]: &Triangle) -> f64 {
+    let to_side = |from, to| square_of_segments([point, point], [from, to]);
+    let Some(normal) = triangle_normal([a, b, c]) else {
+        return to_side(a, b).min(to_side(b, c)).min(to_side(c, a));
+    };
+    let is_inside = [(a, b), (b, c), (c, a)].iter().all(|(from, to)| (*to - *from).cross(point - *from).dot(normal) >= 0.0);
+    match is_inside {
+        true => normal.dot(point - a).powi(2),
+        false => to_side(a, b).min(to_side(b, c)).min(to_side(c, a)),
+    }
+}
+
+/// Square of the distance between two segments, either of which may be a point (Ericson, *Real-Time Collision Detection*,
+/// section 5.1.9).
+fn square_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> f64 {
+    let (along_p, along_q, between) = (p_end - p, q_end - q, p - q);
+    let (a, e, f) = (along_p.length_squared(), along_q.length_squared(), along_q.dot(between));
+    let share = |part: f64, whole: f64| if whole > 0.0 { (part / whole).clamp(0.0, 1.0) } else { 0.0 };
+    let c = along_p.dot(between);
+    let b = along_p.dot(along_q);
+    let mut s = share(b * f - c * e, a * e - b * b);
+    let mut t = (b * s + f) / if e > 0.0 { e } else { 1.0 };
+    if !(0.0..=1.0).contains(&t) || e == 0.0 {
+        t = if e == 0.0 { 0.0 } else { t.clamp(0.0, 1.0) };
+        s = share(b * t - c, a);
+    }
+    (between + along_p * s - along_q * t).length_squared()
+}

@@ -1,0 +1,108 @@
+//! Faces that come near another part of their own shell: of them it is never said that something else hides them.
+
+use super::distance::{come_near, cross_beyond_corner};
+use super::shells::{Shells, Surface};
+use crate::lines::boxes::{Box3, BoxTree};
+use crate::threads::{cores, in_chunks};
+use glam::DVec3;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Groups of the hierarchy's boxes that a thread takes at a time.
+const GROUPS_AT_A_TIME: usize = 512;
+
+/// Caps that a thread takes at a time.
+const CAPS_AT_A_TIME: usize = 64;
+
+/// Boxes that all caps together may meet, and those one may meet in any case: a cap as large as the whole shell, which an
+/// open sheet has, meets all of its faces, and nothing would be gained by asking them all.
+const BOXES_OF_CAPS: usize = 4_000_000;
+const BOXES_OF_A_CAP: usize = 256;
+
+/// The faces of sound shells by their boxes, which are half the thickness larger all around: where two overlap the faces
+/// may come near each other.
+pub(super) struct Hierarchy {
+    pub tree: BoxTree,
+    /// The face at each place of the tree.
+    pub faces: Vec<u32>,
+}
+
+impl Hierarchy {
+    pub fn new(surface: &Surface, shells: &Shells, thickness: f64) -> Self {
+        let faces: Vec<u32> = (0..surface.triangles.len() as u32).filter(|face| shells.is_sound(*face)).collect();
+        let box_of = |face: &u32| inflated(&surface.corners(surface.triangles[*face as usize]), thickness * 0.5);
+        let boxes: Vec<Box3> = faces.iter().map(box_of).collect();
+        let (tree, order) = BoxTree::new(&boxes);
+        Self { tree, faces: order.into_iter().map(|index| faces[index as usize]).collect() }
+    }
+}
+
+fn inflated(corners: &[DVec3; 3], by: f64) -> Box3 {
+    let (low, high) = crate::mesh::bounds(corners);
+    Box3::new(low - by, high + by)
+}
+
+/// Each face that comes within `thickness` of a face or cap of its shell with which it shares no corner, or that passes
+/// through one with which it shares one. A shell whose caps are too large to ask is no longer sound.
+pub(super) fn flagged(surface: &Surface, shells: &mut Shells, hierarchy: &Hierarchy, thickness: f64) -> Vec<bool> {
+    let flags: Vec<AtomicBool> = surface.triangles.iter().map(|_| AtomicBool::new(false)).collect();
+    let is_set = |face: u32| flags[face as usize].load(Ordering::Relaxed);
+    let set = |face: u32| flags[face as usize].store(true, Ordering::Relaxed);
+    let meet = |first: [u32; 3], second: [u32; 3]| are_too_near(surface, first, second, thickness);
+    let Hierarchy { tree, faces } = hierarchy;
+    in_chunks(tree.group_count(), GROUPS_AT_A_TIME, cores(), |groups| {
+        tree.pairs(groups, |first, second| {
+            let [first, second] = [first, second].map(|place| faces[place as usize]);
+            let is_one_shell = shells.of_face[first as usize] == shells.of_face[second as usize];
+            if !is_one_shell || (is_set(first) && is_set(second)) {
+                return;
+            }
+            if meet(surface.triangles[first as usize], surface.triangles[second as usize]) {
+                set(first);
+                set(second);
+            }
+        });
+    });
+    let most_boxes = (BOXES_OF_CAPS / shells.caps.len().max(1)).max(BOXES_OF_A_CAP);
+    let too_large = in_chunks(shells.caps.len(), CAPS_AT_A_TIME, cores(), |caps| {
+        let mut too_large = Vec::new();
+        for cap in &shells.caps[caps] {
+            let mut boxes = 0;
+            let is_too_large = tree.any(&inflated(&surface.corners(cap.corners), thickness * 0.5), |place| {
+                let face = faces[place as usize];
+                if shells.of_face[face as usize] == cap.shell
+                    && !is_set(face)
+                    && meet(surface.triangles[face as usize], cap.corners)
+                {
+                    set(face);
+                }
+                boxes += 1;
+                boxes > most_boxes
+            });
+            if is_too_large {
+                too_large.push(cap.shell);
+            }
+        }
+        too_large
+    });
+    for shell in too_large.into_iter().flatten() {
+        shells.list[shell as usize].is_sound = false;
+    }
+    flags.into_iter().map(AtomicBool::into_inner).collect()
+}
+
+fn are_too_near(surface: &Surface, first: [u32; 3], second: [u32; 3], thickness: f64) -> bool {
+    let is_shared = |point: &u32| second.contains(point);
+    match first.iter().filter(|point| is_shared(point)).count() {
+        0 => come_near(&surface.corners(first), &surface.corners(second), thickness),
+        1 => {
+            let opposite = |triangle: [u32; 3], other: [u32; 3]| {
+                let turn = triangle.iter().position(|point| other.contains(point)).unwrap_or(0);
+                [1, 2].map(|next| surface.points[triangle[(turn + next) % 3] as usize])
+            };
+            let (ends_first, ends_second) = (opposite(first, second), opposite(second, first));
+            cross_beyond_corner(&surface.corners(first), ends_first, &surface.corners(second), ends_second)
+        }
+        // Over a shared side they meet elsewhere only if they lie on one another: then one shows its front.
+        _ => false,
+    }
+}
