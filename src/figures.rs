@@ -21,7 +21,7 @@ pub use measure::{
     BackgroundRow, FilterRow, FrameRow, HowToMeasure, MixRow, Numbers, PAPER, Paper, Reason, measure, steps,
 };
 pub use mix::{Mix, TRIANGLES};
-pub use reasons::{Host, is_software};
+pub use reasons::Host;
 pub use throughput::{SHADERS, ShaderRow};
 
 use crate::camera::CameraSettings;

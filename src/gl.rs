@@ -16,7 +16,7 @@ mod quads;
 mod targets;
 mod textures;
 
-pub use context::{Attempt, Backend, ContextInfo};
+pub use context::{Attempt, Backend, ContextInfo, is_software};
 
 use crate::error::{Error, Result};
 use glow::HasContext;

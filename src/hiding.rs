@@ -20,7 +20,9 @@
 mod distance;
 mod flags;
 mod groups;
+mod selection;
 mod shells;
+mod turned;
 mod view;
 mod winding;
 
@@ -34,6 +36,8 @@ use flags::Hierarchy;
 use glam::{DVec3, Vec3};
 use serde::Serialize;
 use shells::{Cap, Shells, Surface};
+
+pub use turned::faces_not_culled;
 
 /// What holds for every view of a mesh: its faces' planes and whether something of their own shell can hide them.
 ///
@@ -113,7 +117,8 @@ impl Hiding {
             hideable_faces: may_hide.iter().filter(|may| **may).count(),
         };
         let threads = threads_for(surface.triangles.len());
-        let planes = filled(surface.triangles.len(), threads, [0.0; 4], |face| plane(&surface, surface.triangles[face]));
+        let planes =
+            filled(surface.triangles.len(), threads, [0.0; 4], |face| plane(&surface, surface.triangles[face]));
         let shell_of = |face: usize| if may_hide[face] { shells.of_face[face] } else { NONE };
         let cap_plane = |cap: &Cap| CapPlane { shell: cap.shell, plane: plane(&surface, cap.corners) };
         let is_used = |cap: &&Cap| shells.list[cap.shell as usize].is_sound;

@@ -120,7 +120,7 @@ impl Renderer {
     /// [`Error::Setting`] from the style, [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
     pub fn render(&mut self, scene: &Scene, style: &Style) -> Result<Picture> {
         let plan = style.plan(scene, Show::Final)?;
-        self.draw(scene, &prune(&plan, scene, &Pruning::default()).plan)
+        self.draw(scene, &prune(&plan, scene, &Pruning::for_context(self.context.info(), 1)).plan)
     }
 
     /// Carries out a plan made for this scene.

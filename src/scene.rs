@@ -13,6 +13,7 @@ pub use values::{Background, Color, Rectangle, Size};
 use crate::camera::{Camera, CameraSettings, Projection};
 use crate::edges::{Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
+use crate::hiding::Hiding;
 use crate::mesh::{Material, Mesh, NONE, VertexArrays, bounds};
 use crate::picture::Picture;
 use crate::tolerances::{LARGEST_DISTANCE, SCENE_RADIUS};
@@ -30,6 +31,8 @@ pub struct Object {
     arrays: Arc<OnceLock<VertexArrays>>,
     /// Boxes around them, likewise.
     boxes: Arc<OnceLock<Vec<[Vec3; 2]>>>,
+    /// Which of its faces hide which, likewise.
+    hiding: Arc<OnceLock<Hiding>>,
     /// Its edges, likewise.
     edges: Arc<OnceLock<MeshEdges>>,
     /// Its materials' pictures, likewise.
@@ -182,6 +185,17 @@ impl Scene {
         });
     }
 
+    /// What holds for every view of an object's faces; made when first asked for, which takes as long as drawing it some
+    /// dozen times.
+    pub fn hiding<'a>(&self, object: &'a Object) -> &'a Hiding {
+        object.hiding.get_or_init(|| Hiding::new(&object.mesh, self.arrays(object)))
+    }
+
+    /// Whether [`Scene::hiding`] has been made.
+    pub fn has_hiding(&self, object: &Object) -> bool {
+        object.hiding.get().is_some()
+    }
+
     /// The edges of an object's mesh.
     pub fn edges<'a>(&self, object: &'a Object) -> &'a MeshEdges {
         object.edges.get_or_init(|| MeshEdges::new(object.mesh.clone()))
@@ -273,6 +287,7 @@ fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
         offset: DVec3::ZERO,
         arrays: Arc::default(),
         boxes: Arc::default(),
+        hiding: Arc::default(),
         edges: Arc::default(),
         pictures: Arc::default(),
     };

@@ -5,7 +5,8 @@ use roxmltree::{Document, ParsingOptions};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
-use tinta::figures::{Content, Drawing, Figure, HowToMeasure, TRIANGLES, figures, is_software, measure, only};
+use tinta::figures::{Content, Drawing, Figure, HowToMeasure, TRIANGLES, figures, measure, only};
+use tinta::gl::is_software;
 use tinta::{Backend, Picture, Size};
 
 const SIZE: Size = Size { width: 48, height: 48 };

@@ -133,8 +133,12 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
             Err(panic) => std::panic::resume_unwind(panic),
         }
     });
-    let Loaded { scene, published, plan: Pruned { plan, omissions, kept }, load_ms, plan_ms } = loaded?;
+    let Loaded { scene, published, load_ms, plan_ms } = loaded?;
     let Opened { mut renderer, context_ms, warm_up_ms } = renderer?;
+    let pruning = Instant::now();
+    let Pruned { plan, omissions, kept } =
+        arguments.prune.pruned(&published, &scene, renderer.context(), arguments.run.frames);
+    let plan_ms = plan_ms + milliseconds_since(pruning);
     let remarks = renderer.remarks(&plan);
     remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
 
@@ -160,7 +164,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
     let passes = renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?;
     if arguments.run.explain {
         let mut text = explanation(&plan, &passes, &times, frames);
-        if let Some(pruning) = arguments.prune.pruning(arguments.run.frames) {
+        if let Some(pruning) = arguments.prune.pruning(renderer.context(), arguments.run.frames) {
             text.push_str(&prune::explanation(&mut renderer, &scene, &published, &pruning, frames)?);
         }
         return super::print(&text).map(|()| verdict);
@@ -216,7 +220,7 @@ fn open_renderer(
         None
     } else {
         let start = Instant::now();
-        let pruning = arguments.prune.pruning(arguments.run.frames);
+        let pruning = arguments.prune.pruning(renderer.context(), arguments.run.frames);
         renderer.warm_up(settings, style, arguments.styles.show, pruning.as_ref())?;
         Some(milliseconds_since(start))
     };
@@ -228,8 +232,6 @@ struct Loaded {
     scene: Scene,
     /// As the style has it.
     published: Plan,
-    /// As it is drawn.
-    plan: Pruned,
     load_ms: f64,
     plan_ms: f64,
 }
@@ -243,8 +245,7 @@ fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style) ->
     scene.make_arrays();
     let start = Instant::now();
     let published = style.plan(&scene, arguments.styles.show)?;
-    let plan = arguments.prune.pruned(&published, &scene, arguments.run.frames);
-    Ok(Loaded { scene, published, plan, load_ms, plan_ms: milliseconds_since(start) })
+    Ok(Loaded { scene, published, load_ms, plan_ms: milliseconds_since(start) })
 }
 
 /// Refuses to write over a model that is to be read.

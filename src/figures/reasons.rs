@@ -23,14 +23,8 @@ impl Host {
     pub fn new(context: &ContextInfo) -> Self {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let (renderer, version) = (context.renderer.clone(), context.version.clone());
-        Self { is_software: is_software(&renderer), renderer, version, threads }
+        Self { is_software: context.is_software(), renderer, version, threads }
     }
-}
-
-/// Whether this GL_RENDERER draws on the processor.
-pub fn is_software(renderer: &str) -> bool {
-    let renderer = renderer.to_lowercase();
-    ["llvmpipe", "softpipe", "swrast", "swiftshader", "software", "gdi generic"].iter().any(|n| renderer.contains(n))
 }
 
 /// Rates nearer to each other than this are called equal, percent: medians of a busy machine differ by as much.

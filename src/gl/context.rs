@@ -18,6 +18,9 @@ use std::str::FromStr;
 /// Fewest bits of the depth buffer: with fewer, surfaces of a fitted scene show through each other.
 const DEPTH_BITS: i32 = 24;
 
+/// Sub-pixel bits that OpenGL 2.1 promises.
+const LEAST_SUBPIXEL_BITS: i32 = 4;
+
 /// Which way to take.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -42,6 +45,12 @@ impl FromStr for Backend {
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         find(&Self::ALL, text)
     }
+}
+
+/// Whether this GL_RENDERER draws on the processor.
+pub fn is_software(renderer: &str) -> bool {
+    let renderer = renderer.to_lowercase();
+    ["llvmpipe", "softpipe", "swrast", "swiftshader", "software", "gdi generic"].iter().any(|n| renderer.contains(n))
 }
 
 /// What a context says about itself.
@@ -79,6 +88,8 @@ pub struct ContextInfo {
     pub largest_picture: Size,
     /// Whether passes can draw into floating-point textures.
     pub float_targets: bool,
+    /// Bits to which a vertex is placed within a pixel; OpenGL promises 4.
+    pub subpixel_bits: u32,
     /// Whether passes can be timed on the device.
     pub timer_queries: bool,
 }
@@ -86,7 +97,7 @@ pub struct ContextInfo {
 impl ContextInfo {
     /// Whether it draws on the processor: then work done here before drawing takes from drawing's own time.
     pub fn is_software(&self) -> bool {
-        ["llvmpipe", "softpipe", "SWR"].iter().any(|name| self.renderer.contains(name))
+        is_software(&self.renderer)
     }
 
     /// Whether GL draws lines, and points to join them, this wide; what is narrower or wider it draws at the nearest width it
@@ -340,6 +351,7 @@ fn load_functions(platform: &Platform, backend: &'static str, device: String) ->
         texture_units: integer(glow::MAX_TEXTURE_IMAGE_UNITS).max(0) as u32,
         largest_picture: Size { width: limit(viewport[0], surface.width), height: limit(viewport[1], surface.height) },
         float_targets,
+        subpixel_bits: integer(glow::SUBPIXEL_BITS).max(LEAST_SUBPIXEL_BITS) as u32,
         timer_queries,
     };
     let gl = Gl { glow, legacy, info, live_objects: Cell::new(0) };

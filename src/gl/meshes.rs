@@ -74,7 +74,9 @@ impl Resources {
     pub(super) fn upload_faces(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
         let lists: Vec<(usize, &Arc<FaceList>)> = plan
             .steps()
-            .filter_map(|(_, step)| if let Step::Draw(Draw { faces: Some(faces), .. }) = step { Some(faces) } else { None })
+            .filter_map(
+                |(_, step)| if let Step::Draw(Draw { faces: Some(faces), .. }) = step { Some(faces) } else { None },
+            )
             .flat_map(|faces| faces.iter().enumerate())
             .filter_map(|(object, faces)| if let Faces::Listed(list) = faces { Some((object, list)) } else { None })
             .collect();

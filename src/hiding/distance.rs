@@ -68,7 +68,8 @@ fn square_to_triangle(point: DVec3, &[a, b, c]: &Triangle) -> f64 {
     let Some(normal) = triangle_normal([a, b, c]) else {
         return to_side(a, b).min(to_side(b, c)).min(to_side(c, a));
     };
-    let is_inside = [(a, b), (b, c), (c, a)].iter().all(|(from, to)| (*to - *from).cross(point - *from).dot(normal) >= 0.0);
+    let is_inside =
+        [(a, b), (b, c), (c, a)].iter().all(|(from, to)| (*to - *from).cross(point - *from).dot(normal) >= 0.0);
     match is_inside {
         true => normal.dot(point - a).powi(2),
         false => to_side(a, b).min(to_side(b, c)).min(to_side(c, a)),

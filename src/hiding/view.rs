@@ -44,12 +44,11 @@ impl Hiding {
             is_shut[cap.shell as usize] = false;
         }
         let threads = threads_for(self.planes.len());
-        let is_marked: Vec<AtomicBool> = in_parallel(self.point_count, threads, |points| {
-            points.map(|_| AtomicBool::new(false)).collect::<Vec<_>>()
-        })
-        .into_iter()
-        .flatten()
-        .collect();
+        let is_marked: Vec<AtomicBool> =
+            in_parallel(self.point_count, threads, |points| points.map(|_| AtomicBool::new(false)).collect::<Vec<_>>())
+                .into_iter()
+                .flatten()
+                .collect();
         in_parallel(self.planes.len(), threads, |faces| self.mark(&view, &arrays.indices, faces, &is_marked));
         let kept = in_parallel(self.planes.len(), threads, |faces| self.kept(arrays, faces, &is_shut, &is_marked));
         let drawn = joined(kept, arrays);
@@ -83,7 +82,8 @@ impl Hiding {
             }
             Projection::Parallel { height } => (height * 0.5 / self.radius, (camera.far - camera.near) / self.radius),
         };
-        let pixel = 2.0 * tangent * (1.0 / f64::from(surface.height)).max(scene.size.aspect() / f64::from(surface.width));
+        let pixel =
+            2.0 * tangent * (1.0 / f64::from(surface.height)).max(scene.size.aspect() / f64::from(surface.width));
         let sideways = pixel * SUBPIXEL_STEPS * 0.5f64.powi(subpixel_bits.min(24) as i32);
         let depth = self.thickness * HIDING_DEPTH;
         let cosine = (2.0 * sideways / depth).max(*SURELY_BACK.start());
@@ -91,7 +91,8 @@ impl Hiding {
         // Along a slanted ray less of the distance is depth.
         let slant = if is_parallel { 1.0 } else { nearest_depth / farthest };
         let confused = depth_step * HIDING_DEPTH_STEPS / f64::from(1 << 24);
-        let is_fine = cosine <= *SURELY_BACK.end() && depth + 2.0 * sideways < self.thickness && confused < depth * slant;
+        let is_fine =
+            cosine <= *SURELY_BACK.end() && depth + 2.0 * sideways < self.thickness && confused < depth * slant;
         is_fine.then(|| View {
             eye: if is_parallel { backward } else { eye }.as_vec3(),
             is_parallel,
@@ -153,7 +154,9 @@ impl Hiding {
                 break;
             }
             let before = kept.indices.len();
-            for (shell, corners) in self.shells[begin..end].iter().zip(arrays.indices[begin * 3..end * 3].chunks_exact(3)) {
+            for (shell, corners) in
+                self.shells[begin..end].iter().zip(arrays.indices[begin * 3..end * 3].chunks_exact(3))
+            {
                 let may_hide = *shell != NONE && is_shut[*shell as usize];
                 let is_marked = |vertex: &u32| is_marked[self.point(*vertex)].load(Ordering::Relaxed);
                 if !may_hide || corners.iter().any(is_marked) {

@@ -12,6 +12,7 @@ mod objects;
 mod shaders;
 
 use super::{Draw, Geometry, Plan, Program, Step};
+use crate::gl::ContextInfo;
 use crate::names::find;
 use crate::scene::{Rectangle, Scene, Size};
 use serde::Serialize;
@@ -27,6 +28,8 @@ pub enum Rule {
     Border,
     /// Objects outside the picture.
     OutsideObjects,
+    /// Faces that the driver would cull anyway.
+    CulledFaces,
     /// Faces of closed surfaces, turned away and behind faces that are not.
     HiddenFaces,
     /// Light that no tone depends on: highlights below three tones, all of it with one.
@@ -45,9 +48,10 @@ pub enum Rule {
 
 impl Rule {
     /// All of them, in the order they are applied, as the user writes them.
-    pub const ALL: [(&'static str, Self); 9] = [
+    pub const ALL: [(&'static str, Self); 10] = [
         ("border", Self::Border),
         ("outside-objects", Self::OutsideObjects),
+        ("culled-faces", Self::CulledFaces),
         ("hidden-faces", Self::HiddenFaces),
         ("unused-light", Self::UnusedLight),
         ("background-square", Self::BackgroundSquare),
@@ -67,6 +71,7 @@ impl Rule {
         match self {
             Self::Border => dead::border(plan),
             Self::OutsideObjects => objects::outside(plan, facts),
+            Self::CulledFaces => objects::culled_faces(plan, facts),
             Self::HiddenFaces => objects::hidden_faces(plan, facts),
             Self::UnusedLight => shaders::unused_light(plan),
             Self::BackgroundSquare => background::square(plan),
@@ -99,11 +104,23 @@ pub struct Pruning {
     pub keep: Vec<Rule>,
     /// How many pictures of these models will be drawn, from any view: more are worth more finding out. Default 1.
     pub pictures: u32,
+    /// Whether GL draws on the processor, where faces left out here are worth the search for them. Default yes.
+    pub is_software: bool,
+    /// Bits to which GL places a vertex within a pixel. Default 4, as many as every driver has.
+    pub subpixel_bits: u32,
 }
 
 impl Default for Pruning {
     fn default() -> Self {
-        Self { keep: Vec::new(), pictures: 1 }
+        Self { keep: Vec::new(), pictures: 1, is_software: true, subpixel_bits: 4 }
+    }
+}
+
+impl Pruning {
+    /// Everything that pays for so many pictures by this context.
+    pub fn for_context(context: &ContextInfo, pictures: u32) -> Self {
+        let ContextInfo { subpixel_bits, .. } = *context;
+        Self { keep: Vec::new(), pictures, is_software: context.is_software(), subpixel_bits }
     }
 }
 
@@ -145,8 +162,7 @@ pub struct Pruned {
 /// Leaves out of a plan made for this scene what cannot change its picture.
 pub fn prune(plan: &Plan, scene: &Scene, pruning: &Pruning) -> Pruned {
     let mut pruned = Pruned { plan: plan.clone(), omissions: Vec::new(), kept: Vec::new() };
-    let facts =
-        Facts { scene, surface: scene.size.times(plan.supersample), pictures: pruning.pictures, extent: OnceCell::new() };
+    let facts = Facts { scene, surface: scene.size.times(plan.supersample), pruning, extent: OnceCell::new() };
     for (_, rule) in Rule::ALL {
         let result = match pruning.keep.contains(&rule) {
             true => Err("it is asked for".to_owned()),
@@ -165,7 +181,7 @@ struct Facts<'a> {
     scene: &'a Scene,
     /// The size of what is drawn into.
     surface: Size,
-    pictures: u32,
+    pruning: &'a Pruning,
     extent: OnceCell<Option<Rectangle>>,
 }
 

@@ -3,6 +3,7 @@
 use super::super::Verdict;
 use super::Arguments;
 use std::path::{Path, PathBuf};
+use tinta::gl::ContextInfo;
 use tinta::plan::Plan;
 use tinta::plan::prune::{Omission, Pruned, Pruning, Rule, prune};
 use tinta::renderer::median;
@@ -15,7 +16,7 @@ pub struct PruneArguments {
     #[arg(long)]
     full: bool,
 
-    /// Leave these in: border, outside-objects, hidden-faces, unused-light, background-square, empty-pixels, unread-map, overwritten-clear, unread-textures [default: none]
+    /// Leave these in: border, outside-objects, culled-faces, hidden-faces, unused-light, background-square, empty-pixels, unread-map, overwritten-clear, unread-textures [default: none]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "full")]
     keep: Vec<Rule>,
 
@@ -35,14 +36,14 @@ const MOST_ROUNDS: usize = 101;
 
 impl PruneArguments {
     /// How to prune for so many pictures; `None` for not at all.
-    pub fn pruning(&self, pictures: u32) -> Option<Pruning> {
+    pub fn pruning(&self, context: &ContextInfo, pictures: u32) -> Option<Pruning> {
         let pictures = if self.verify { ALL_WORTH_IT } else { pictures };
-        (!self.full).then(|| Pruning { keep: self.keep.clone(), pictures })
+        (!self.full).then(|| Pruning { keep: self.keep.clone(), ..Pruning::for_context(context, pictures) })
     }
 
     /// The plan that is drawn.
-    pub fn pruned(&self, published: &Plan, scene: &Scene, pictures: u32) -> Pruned {
-        match self.pruning(pictures) {
+    pub fn pruned(&self, published: &Plan, scene: &Scene, context: &ContextInfo, pictures: u32) -> Pruned {
+        match self.pruning(context, pictures) {
             Some(pruning) => prune(published, scene, &pruning),
             None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
         }

@@ -97,8 +97,9 @@ pub(super) fn empty_pixels(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omissio
     Ok(Omission {
         rule: Rule::EmptyPixels,
         what: format!("{percent} % of the pixels of the square in {}", changed.join(", ")),
-        reason: "no object reaches them, the map is the same all around them, and the filter answers to differences alone"
-            .to_owned(),
+        reason:
+            "no object reaches them, the map is the same all around them, and the filter answers to differences alone"
+                .to_owned(),
         facts: vec![match facts.extent() {
             Some(Rectangle { x, y, width, height }) => {
                 format!("objects lie in {width} x {height} pixels from ({x}, {y}) of {}", facts.surface)

@@ -93,8 +93,7 @@ pub(super) fn unread_textures(plan: &mut Plan) -> Result<Omission, String> {
         plan.tone_table = None;
         dropped.push("the table of tones");
     }
-    let is_read: Vec<bool> =
-        (0..plan.pictures.len()).map(|number| read.contains(&Texture::Picture(number))).collect();
+    let is_read: Vec<bool> = (0..plan.pictures.len()).map(|number| read.contains(&Texture::Picture(number))).collect();
     let unread = plan.pictures.iter().zip(&is_read).filter(|(_, is_read)| !**is_read);
     dropped.extend(unread.map(|(picture, _)| picture.name));
     if dropped.is_empty() {

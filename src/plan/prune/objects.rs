@@ -1,7 +1,9 @@
 //! Objects outside the picture, and faces that a view cannot show.
 
 use super::{Facts, Omission, Rule, counted};
-use crate::plan::{Draw, EdgeRun, Faces, Geometry, Plan, Step};
+use crate::hiding::{DrawnFaces, faces_not_culled};
+use crate::plan::{Depth, Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
+use crate::scene::{Object, Scene};
 use std::sync::Arc;
 
 /// Leaves out objects outside the picture, with their edges.
@@ -45,7 +47,8 @@ pub(super) fn outside(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, St
         let draws_nothing = |step: &Step| matches!(step, Step::Draw(draw) if draw.is_of_objects());
         plan.passes.iter_mut().for_each(|pass| pass.steps.retain(|step| !draws_nothing(step)));
     }
-    let lines = if edges > 0 { format!(" and {}", counted(edges, "of their edges", "of their edges")) } else { String::new() };
+    let lines =
+        if edges > 0 { format!(" and {}", counted(edges, "of their edges", "of their edges")) } else { String::new() };
     Ok(Omission {
         rule: Rule::OutsideObjects,
         what: format!("{} of {}{lines}", count, counted(outside.len(), "object", "objects")),
@@ -54,12 +57,128 @@ pub(super) fn outside(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, St
     })
 }
 
-/// Leaves out faces that are turned away and behind others of their own closed surface.
-pub(super) fn hidden_faces(_plan: &mut Plan, _facts: &Facts<'_>) -> Result<Omission, String> {
-    Err("not yet".to_owned())
+/// Leaves out faces that the driver would cull once it has computed their vertices.
+pub(super) fn culled_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
+    let Facts { scene, surface, pruning, .. } = *facts;
+    if !plan.draws().any(|draw| draw.is_of_objects() && draw.cull_back_faces) {
+        return Err(
+            "this style draws faces from both sides; --cull back leaves those out that are turned away".to_owned()
+        );
+    }
+    if !pruning.is_software {
+        return Err("the device culls faster than they are found here".to_owned());
+    }
+    let lists = |object: &Object| faces_not_culled(scene, object, surface, pruning.subpixel_bits);
+    let left_out = choose(plan, scene, |draw| draw.cull_back_faces, lists);
+    if left_out == 0 {
+        return Err("no face is surely turned away".to_owned());
+    }
+    Ok(Omission {
+        rule: Rule::CulledFaces,
+        what: format!("{left_out} of {} faces", scene.triangle_count()),
+        reason: "the driver would cull them, after it has computed their vertices".to_owned(),
+        facts: vec![
+            "their corners run clockwise in the picture, wherever on its sub-pixels the driver places them".to_owned(),
+        ],
+    })
 }
 
-#[expect(dead_code, reason = "used by hidden faces")]
-fn is_candidate(draw: &Draw) -> bool {
+/// Pictures from which on finding hidden faces takes less time than drawing them does.
+const WORTH_HIDING: u32 = 24;
+
+/// Leaves out faces that are turned away and behind others of their own closed surface.
+pub(super) fn hidden_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
+    let Facts { scene, surface, pruning, .. } = *facts;
+    if !plan.draws().any(is_hiding) {
+        return Err(
+            "faces pushed back by polygon offset, or culled already, need not hide what is behind them".to_owned()
+        );
+    }
+    if !pruning.is_software {
+        return Err("the device draws faster than they are found here".to_owned());
+    }
+    let is_known = scene.objects.iter().all(|object| scene.has_hiding(object));
+    if !is_known && pruning.pictures < WORTH_HIDING {
+        return Err(format!("finding them takes longer than {WORTH_HIDING} pictures like this one save"));
+    }
+    let is_outside = |object: &Object| scene.is_outside(object, 0.0);
+    let lists = |object: &Object| match is_outside(object) {
+        true => None,
+        false => scene.hiding(object).faces_to_draw(scene, object, surface, pruning.subpixel_bits),
+    };
+    let left_out = choose(plan, scene, is_hiding, lists);
+    let counts = scene.objects.iter().map(|object| scene.hiding(object).counts());
+    let (sound, shells, holes) = counts.fold((0, 0, 0), |(sound, shells, holes), counts| {
+        (sound + counts.sound_shells, shells + counts.shells, holes + counts.capped_holes)
+    });
+    let facts = format!(
+        "{sound} of {} closed, {} of them shut",
+        counted(shells, "surface is", "surfaces are"),
+        counted(holes, "hole", "holes")
+    );
+    match left_out {
+        0 => Err(format!("from here none is surely hidden ({facts})")),
+        left_out => Ok(Omission {
+            rule: Rule::HiddenFaces,
+            what: format!("{left_out} of {} faces", scene.triangle_count()),
+            reason:
+                "each lies behind a face of its own closed surface in every pixel, by more than rounding can confuse"
+                    .to_owned(),
+            facts: vec![facts],
+        }),
+    }
+}
+
+/// Whether the nearest face is what this draw leaves of several in a pixel.
+fn is_hiding(draw: &Draw) -> bool {
     draw.is_of_objects()
+        && draw.depth == Depth::TestAndWrite
+        && draw.polygon_offset.is_none()
+        && !draw.blend
+        && !draw.cull_back_faces
+}
+
+/// Has the draws that `is_meant` draw only the faces listed of objects that they draw whole; how many are left out.
+fn choose(
+    plan: &mut Plan,
+    scene: &Scene,
+    is_meant: impl Fn(&Draw) -> bool,
+    list: impl Fn(&Object) -> Option<DrawnFaces>,
+) -> usize {
+    let is_whole = |draw: &Draw, number: usize| match &draw.faces {
+        None => true,
+        Some(faces) => faces.get(number) == Some(&Faces::All),
+    };
+    let mut left_out = 0;
+    let lists: Vec<Option<Faces>> = scene
+        .objects
+        .iter()
+        .enumerate()
+        .map(|(number, object)| {
+            let is_needed = plan.draws().any(|draw| draw.is_of_objects() && is_meant(draw) && is_whole(draw, number));
+            let DrawnFaces { indices, parts, left_out: count } = is_needed.then(|| list(object)).flatten()?;
+            left_out += count;
+            Some(Faces::Listed(Arc::new(FaceList { indices, parts })))
+        })
+        .collect();
+    if left_out == 0 {
+        return 0;
+    }
+    // One list for all draws that drew the same before.
+    let mut made: Vec<(Option<Arc<Vec<Faces>>>, Arc<Vec<Faces>>)> = Vec::new();
+    for draw in plan.draws_mut().filter(|draw| draw.is_of_objects() && is_meant(draw)) {
+        let before = draw.faces.take();
+        let known = made.iter().find(|(old, _)| *old == before).map(|(_, new)| new.clone());
+        draw.faces = Some(known.unwrap_or_else(|| {
+            let old = |number: usize| before.as_ref().map_or(Faces::All, |faces| faces[number].clone());
+            let pick = |(number, list): (usize, &Option<Faces>)| match (old(number), list) {
+                (Faces::All, Some(list)) => list.clone(),
+                (old, _) => old,
+            };
+            let new = Arc::new(lists.iter().enumerate().map(pick).collect());
+            made.push((before, Arc::clone(&new)));
+            new
+        }));
+    }
+    left_out
 }
