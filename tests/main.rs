@@ -24,6 +24,7 @@ mod lines_shapes;
 mod lines_support;
 mod measure;
 mod pipeline;
+mod prune;
 mod report;
 mod report_page;
 mod shapes;
