@@ -145,7 +145,10 @@ impl Hiding {
             planes,
             shells: filled(surface.triangles.len(), threads, NONE, shell_of),
             vertex_boxes: boxes(surface.point_of_vertex.chunks(VERTICES_IN_A_BOX), &surface.points),
-            face_boxes: boxes(surface.triangles.chunks(FACES_IN_A_BOX).map(|faces| faces.as_flattened()), &surface.points),
+            face_boxes: boxes(
+                surface.triangles.chunks(FACES_IN_A_BOX).map(|faces| faces.as_flattened()),
+                &surface.points,
+            ),
             caps: shells.caps.iter().filter(is_used).map(cap_plane).collect(),
             points: if is_by_itself { Vec::new() } else { surface.point_of_vertex },
             point_count,

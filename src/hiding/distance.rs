@@ -1,6 +1,7 @@
 //! Whether two triangles come near each other or pass through each other.
 
 use crate::mesh::triangle_normal;
+use crate::tolerances::COORDINATE_NOISE;
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
@@ -60,8 +61,25 @@ fn is_beyond_a_side(triangle: &Triangle, other: &Triangle, distance: f64) -> boo
     })
 }
 
+/// Whether a segment surely passes a triangle by: it lies on one side of its plane, or of a plane upright on one of its sides.
+/// The quick answer for most; what rounding could make of it is left to exact arithmetic.
+fn is_clear_of(ends: [DVec3; 2], triangle: &Triangle) -> bool {
+    let Triangle { corners, normal } = *triangle;
+    let noise = COORDINATE_NOISE;
+    let heights = ends.map(|end| normal.dot(end - corners[0]));
+    heights.iter().all(|height| *height > noise)
+        || heights.iter().all(|height| *height < -noise)
+        || triangle.sides().iter().any(|[from, to]| {
+            let outwards = (*to - *from).cross(normal);
+            ends.iter().all(|end| outwards.dot(*end - *from) > noise)
+        })
+}
+
 /// Whether a segment meets a triangle, exactly but for what lies in the triangle's plane.
 fn passes_through([from, to]: [DVec3; 2], triangle: &Triangle) -> bool {
+    if is_clear_of([from, to], triangle) {
+        return false;
+    }
     let [a, b, c] = triangle.corners;
     let side = |a: DVec3, b: DVec3, c: DVec3, d: DVec3| {
         let [a, b, c, d] = [a, b, c, d].map(|DVec3 { x, y, z }| Coord3D { x, y, z });

@@ -1,6 +1,7 @@
 //! Where in the picture a ray may come into a shell through a hole: a coarse grid over the holes' caps.
 
 use super::Sight;
+use crate::threads::filled;
 use glam::{DVec2, DVec3, Vec3};
 
 /// Cells of the grid's side.
@@ -41,17 +42,13 @@ impl Openings {
         openings
     }
 
-    /// Whether a box may be seen through a hole.
-    pub fn may_show(&self, sight: &Sight, [low, high]: &[Vec3; 2]) -> bool {
-        if self.is_empty {
-            return false;
-        }
-        let corner = |number: usize| {
-            let pick = |bit: usize, low: f32, high: f32| f64::from(if number >> bit & 1 == 1 { high } else { low });
-            DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
+    /// Whether each box may be seen through a hole; no list where there is none.
+    pub fn boxes_that_may_show(&self, sight: &Sight, boxes: &[[Vec3; 2]], threads: usize) -> Vec<bool> {
+        let may_show = |number: usize| {
+            let rectangle = Rectangle::around_box(sight, boxes[number].map(|corner| corner.as_dvec3()));
+            self.cells(&rectangle).is_some_and(|(rows, columns)| self.rows[rows].iter().any(|row| row & columns != 0))
         };
-        let rectangle = Rectangle::around(sight, (0..8).map(corner), 0.0);
-        self.cells(&rectangle).is_some_and(|(rows, columns)| self.rows[rows].iter().any(|row| row & columns != 0))
+        filled(if self.is_empty { 0 } else { boxes.len() }, threads, false, may_show)
     }
 
     /// The grid's rows and, as bits, columns that a rectangle touches; all of them for one that is none.
@@ -80,4 +77,27 @@ impl Rectangle {
         let margin = margin + NOISE * (1.0 + low.abs().max(high.abs()).max_element());
         Self { low: low - margin, high: high + margin }
     }
+
+    /// One around all that a box may cover, a little larger than it need be.
+    fn around_box(sight: &Sight, [low, high]: [DVec3; 2]) -> Self {
+        let (middle, half) = ((low + high) * 0.5 - sight.eye, (high - low) * 0.5);
+        let [x, y, z] = sight.axes.map(|axis| [axis.dot(middle), axis.abs().dot(half)]);
+        let corner = DVec2::new(x[0], y[0]);
+        let (low, high) = (corner - DVec2::new(x[1], y[1]), corner + DVec2::new(x[1], y[1]));
+        if sight.is_parallel {
+            return Self { low, high };
+        }
+        // A place is farther out the nearer it is to the eye.
+        let (nearest, farthest) = (-z[0] - z[1], -z[0] + z[1]);
+        if nearest <= 0.0 {
+            return Self { low: DVec2::NAN, high: DVec2::NAN };
+        }
+        let by_depth = |place: DVec2, outer: DVec2, inner: DVec2| DVec2::select(place.cmplt(DVec2::ZERO), outer, inner);
+        let (near, far) = (place_of(nearest), place_of(farthest));
+        Self { low: low * by_depth(low, near, far), high: high * by_depth(high, far, near) }
+    }
+}
+
+fn place_of(depth: f64) -> DVec2 {
+    DVec2::splat(1.0 / depth)
 }

@@ -49,18 +49,16 @@ impl Hiding {
         let threads = threads_for(self.planes.len());
         let is_marked: Vec<AtomicBool> = (0..self.point_count).map(|_| AtomicBool::new(false)).collect();
         in_parallel(self.planes.len(), threads, |faces| self.mark(&view, &arrays.indices, faces, &is_marked));
+        let may_show = openings.boxes_that_may_show(&view.sight, &self.face_boxes, threads);
         let is_kept = |face: usize, corners: &[u32]| {
             let is_marked = |vertex: &u32| is_marked[self.point(*vertex)].load(Ordering::Relaxed);
             match self.shells[face] {
                 NONE => true,
-                shell => {
-                    corners.iter().any(is_marked)
-                        || (!is_shut[shell as usize]
-                            && openings.may_show(&view.sight, &self.face_boxes[face / FACES_IN_A_BOX]))
-                }
+                _ if corners.iter().any(is_marked) => true,
+                shell => !is_shut[shell as usize] && may_show[face / FACES_IN_A_BOX],
             }
         };
-        let kept = in_parallel(self.planes.len(), threads, |faces| kept(arrays, faces, &is_kept));
+        let kept = in_parallel(self.planes.len(), threads, |faces| kept(arrays, faces, is_kept));
         let drawn = joined(kept, arrays);
         (drawn.left_out > 0).then_some(drawn)
     }
@@ -79,7 +77,8 @@ impl Hiding {
         let view_from_world = camera.view_from_world();
         let axes = [0, 1, 2].map(|row| view_from_world.row(row).truncate());
         let backward = axes[2];
-        let half = self.vertex_boxes.iter().flatten().fold(DVec3::ZERO, |half, corner| half.max(corner.as_dvec3().abs()));
+        let half =
+            self.vertex_boxes.iter().flatten().fold(DVec3::ZERO, |half, corner| half.max(corner.as_dvec3().abs()));
         let farthest_depth = backward.dot(eye) + backward.abs().dot(half);
         let farthest = (eye.abs() + half).length();
         let near = camera.near / self.radius + farthest * NEAR_PLANE_NOISE;
@@ -93,14 +92,16 @@ impl Hiding {
             }
             Projection::Parallel { height } => (height * 0.5 / self.radius, (camera.far - camera.near) / self.radius),
         };
-        let pixel = 2.0 * tangent * (1.0 / f64::from(surface.height)).max(scene.size.aspect() / f64::from(surface.width));
+        let pixel =
+            2.0 * tangent * (1.0 / f64::from(surface.height)).max(scene.size.aspect() / f64::from(surface.width));
         let sideways = pixel * SUBPIXEL_STEPS * 0.5f64.powi(subpixel_bits.min(24) as i32);
         let depth = self.thickness * HIDING_DEPTH;
         let cosine = (2.0 * sideways / depth).max(*SURELY_BACK.start());
         // Along a slanted ray less of the distance is depth.
         let slant = if is_parallel { 1.0 } else { nearest_depth / farthest };
         let confused = whole_depth * HIDING_DEPTH_STEPS / f64::from(1 << 24);
-        let is_fine = cosine <= *SURELY_BACK.end() && depth + 2.0 * sideways < self.thickness && confused < depth * slant;
+        let is_fine =
+            cosine <= *SURELY_BACK.end() && depth + 2.0 * sideways < self.thickness && confused < depth * slant;
         is_fine.then(|| View {
             sight: Sight { eye, axes, is_parallel },
             margin: if is_parallel { sideways } else { sideways / farthest_depth },
@@ -129,8 +130,7 @@ impl Hiding {
                 let of_vertex = |[x, y, z, ..]: &[f32; 6]| backward.dot(Vec3::new(*x, *y, *z).as_dvec3()) * unit;
                 depth = from_plane - vertices.iter().map(of_vertex).fold(f64::NEG_INFINITY, f64::max);
             }
-            // Written so that a depth that is no number is refused.
-            if !(depth > near) {
+            if depth.is_nan() || depth <= near {
                 return None;
             }
             nearest = nearest.min(depth);
@@ -215,6 +215,7 @@ impl Sight {
     /// Where a point lies on the picture plane: its distances to the right and up, in perspective by its depth.
     pub(super) fn on_picture_plane(&self, point: DVec3) -> DVec2 {
         let [x, y, z] = self.axes.map(|axis| axis.dot(point - self.eye));
-        if self.is_parallel { DVec2::new(x, y) } else if z < 0.0 { DVec2::new(x, y) / -z } else { DVec2::NAN }
+        let depth = if self.is_parallel { 1.0 } else { -z };
+        if depth > 0.0 { DVec2::new(x, y) / depth } else { DVec2::NAN }
     }
 }

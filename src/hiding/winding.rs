@@ -123,7 +123,9 @@ impl Lines<'_> {
         };
         self.hierarchy.tree.any(&column, |place| {
             let other = self.hierarchy.faces[place as usize];
-            other != face && self.shells.of_face[other as usize] == shell && meet(self.surface.triangles[other as usize])
+            other != face
+                && self.shells.of_face[other as usize] == shell
+                && meet(self.surface.triangles[other as usize])
         });
         self.caps.any(&column, |place| {
             let cap = self.shells.caps[self.cap_order[place as usize] as usize];
