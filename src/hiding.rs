@@ -12,7 +12,7 @@
 //!   arrives there from the eye has come in through a front face.
 //! - That face must be nearer by more than sub-pixel rounding and depth can confuse. So faces near another part of their shell
 //!   are never left out, nor are those that are not seen steeply from behind, nor their neighbours.
-//! - The face it came in through must be one that is drawn: where a cap may be seen from its front, nothing is left out.
+//! - The face it came in through must be one that is drawn: what may be seen through a cap's front is not left out.
 //!
 //! This holds for faces that are drawn with a depth test (GL_LESS or GL_LEQUAL) and without polygon offset, which would push
 //! steep faces behind what they hide.
@@ -20,6 +20,7 @@
 mod distance;
 mod flags;
 mod groups;
+mod openings;
 mod selection;
 mod shells;
 mod turned;
@@ -31,7 +32,7 @@ mod tests;
 
 use crate::mesh::{Mesh, NONE, Part, VertexArrays, triangle_normal};
 use crate::threads::{filled, threads_for};
-use crate::tolerances::SHELL_THICKNESS;
+use crate::tolerances::{LARGEST_THICKNESS, SHELL_THICKNESS};
 use flags::Hierarchy;
 use glam::{DVec3, Vec3};
 use serde::Serialize;
@@ -55,8 +56,10 @@ pub struct Hiding {
     /// Of each of the arrays' vertices the point where it lies; empty where each vertex is a point of its own.
     points: Vec<u32>,
     point_count: usize,
-    /// Boxes around every so many of the arrays' vertices.
-    boxes: Vec<[Vec3; 2]>,
+    /// Smallest and largest corner of boxes around every so many of the arrays' vertices.
+    vertex_boxes: Vec<[Vec3; 2]>,
+    /// Likewise of their faces, in drawing order.
+    face_boxes: Vec<[Vec3; 2]>,
     caps: Vec<CapPlane>,
     counts: HidingCounts,
 }
@@ -66,6 +69,16 @@ pub struct Hiding {
 struct CapPlane {
     shell: u32,
     plane: [f32; 4],
+    corners: [Vec3; 3],
+}
+
+/// Where an object is seen from, mesh radii, relative to the mesh's centre.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Sight {
+    eye: DVec3,
+    /// Unit vectors to the right, up and towards the eye.
+    axes: [DVec3; 3],
+    is_parallel: bool,
 }
 
 /// How much of a mesh may be hidden.
@@ -94,8 +107,11 @@ pub struct DrawnFaces {
     pub left_out: usize,
 }
 
-/// Vertices in one of the boxes.
+/// Vertices in one of their boxes.
 const VERTICES_IN_A_BOX: usize = 64;
+
+/// Faces in one of theirs.
+const FACES_IN_A_BOX: usize = 32;
 
 impl Hiding {
     /// Looks at all faces of a mesh, whose arrays these are, on as many threads as the machine has.
@@ -104,7 +120,7 @@ impl Hiding {
         let radius = (high * 0.5 - low * 0.5).length();
         let mut surface = Surface::new(mesh, arrays, radius);
         let point_count = surface.points.len();
-        let thickness = surface.mean_edge() * SHELL_THICKNESS;
+        let thickness = (surface.mean_edge() * SHELL_THICKNESS).min(LARGEST_THICKNESS);
         let mut shells = Shells::new(&mut surface);
         let hierarchy = Hierarchy::new(&surface, &shells, thickness);
         let flags = flags::flagged(&surface, &mut shells, &hierarchy, thickness);
@@ -117,10 +133,14 @@ impl Hiding {
             hideable_faces: may_hide.iter().filter(|may| **may).count(),
         };
         let threads = threads_for(surface.triangles.len());
-        let planes =
-            filled(surface.triangles.len(), threads, [0.0; 4], |face| plane(&surface, surface.triangles[face]));
+        let plane_of = |face: usize| plane(surface.normals[face], surface.points[surface.triangles[face][0] as usize]);
+        let planes = filled(surface.triangles.len(), threads, [0.0; 4], plane_of);
         let shell_of = |face: usize| if may_hide[face] { shells.of_face[face] } else { NONE };
-        let cap_plane = |cap: &Cap| CapPlane { shell: cap.shell, plane: plane(&surface, cap.corners) };
+        let cap_plane = |cap: &Cap| {
+            let corners = surface.corners(cap.corners);
+            let plane = plane(triangle_normal(corners).unwrap_or_default(), corners[0]);
+            CapPlane { shell: cap.shell, plane, corners: corners.map(|corner| corner.as_vec3()) }
+        };
         let is_used = |cap: &&Cap| shells.list[cap.shell as usize].is_sound;
         let is_by_itself = surface.point_of_vertex.iter().enumerate().all(|(vertex, point)| vertex == *point as usize);
         Self {
@@ -128,7 +148,11 @@ impl Hiding {
             thickness,
             planes,
             shells: filled(surface.triangles.len(), threads, NONE, shell_of),
-            boxes: boxes(&surface),
+            vertex_boxes: boxes(surface.point_of_vertex.chunks(VERTICES_IN_A_BOX), &surface.points),
+            face_boxes: boxes(
+                surface.triangles.chunks(FACES_IN_A_BOX).map(|faces| faces.as_flattened()),
+                &surface.points,
+            ),
             caps: shells.caps.iter().filter(is_used).map(cap_plane).collect(),
             points: if is_by_itself { Vec::new() } else { surface.point_of_vertex },
             point_count,
@@ -142,19 +166,16 @@ impl Hiding {
     }
 }
 
-fn plane(surface: &Surface, triangle: [u32; 3]) -> [f32; 4] {
-    let corners = surface.corners(triangle);
-    let Some(normal) = triangle_normal(corners) else { return [0.0; 4] };
-    normal.extend(normal.dot(corners[0])).as_vec4().to_array()
+fn plane(normal: DVec3, point: DVec3) -> [f32; 4] {
+    normal.extend(normal.dot(point)).as_vec4().to_array()
 }
 
-fn boxes(surface: &Surface) -> Vec<[Vec3; 2]> {
-    let pieces = surface.point_of_vertex.chunks(VERTICES_IN_A_BOX);
-    pieces
-        .map(|vertices| {
-            let points: Vec<DVec3> = vertices.iter().map(|point| surface.points[*point as usize]).collect();
-            let (low, high) = crate::mesh::bounds(&points);
-            [low.as_vec3(), high.as_vec3()]
-        })
-        .collect()
+fn boxes<'a>(groups: impl Iterator<Item = &'a [u32]>, points: &[DVec3]) -> Vec<[Vec3; 2]> {
+    let around = |group: &[u32]| {
+        let (low, high) = group.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| {
+            (low.min(points[*point as usize]), high.max(points[*point as usize]))
+        });
+        [low.as_vec3(), high.as_vec3()]
+    };
+    groups.map(around).collect()
 }

@@ -93,6 +93,9 @@ pub const EIGHT_BIT_TIE: f64 = 0.02;
 /// mesh's mean edge length: less flags fewer faces, more asks of fewer faces that they are seen steeply.
 pub const SHELL_THICKNESS: f64 = 0.2;
 
+/// Most of that distance, in the mesh's radii: in a picture of 512 pixels half of one, which is enough.
+pub const LARGEST_THICKNESS: f64 = 3e-3;
+
 /// Share of that distance by which what hides a face is nearer than it; the rest is room for what moves sideways.
 pub const HIDING_DEPTH: f64 = 0.5;
 

@@ -11,6 +11,7 @@ mod docs;
 mod edges;
 mod figures;
 mod goldens;
+mod hiding;
 mod improved;
 mod inking;
 mod licences;

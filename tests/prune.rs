@@ -237,6 +237,31 @@ fn textures_that_no_step_reads_are_left_out_and_the_others_keep_their_pictures()
     assert_eq!(renderer.draw(&scene, &plan).unwrap(), renderer.draw(&scene, &short.plan).unwrap());
 }
 
+#[test]
+fn edges_turned_away_and_joints_are_options_of_a_style_for_they_show_a_little() {
+    let scene = scene("builtin:gear", 128, 128);
+    let draw = |renderer: &mut Renderer, inking: Inking| {
+        let plan = Style::Inking(inking).plan(&scene, Show::Final).unwrap();
+        let ends = draws(&plan).filter_map(|draw| match &draw.geometry {
+            Geometry::Edges { runs, .. } => Some(runs.iter().map(|run| run.ends.len()).sum::<usize>()),
+            _ => None,
+        });
+        let ends: Vec<usize> = ends.collect();
+        (ends, renderer.draw(&scene, &plan).unwrap())
+    };
+    let mut renderer = renderer(BACKENDS[0]);
+    let (all, as_published) = draw(&mut renderer, Inking::default());
+    let (front, without_back) = draw(&mut renderer, Inking { back_edges: false, ..Inking::default() });
+    let (lines, without_joints) = draw(&mut renderer, Inking { has_joints: false, ..Inking::default() });
+    assert!(front[0] < all[0] * 9 / 10, "{front:?} of {all:?} edges");
+    assert_eq!((all.len(), lines.len()), (2, 1), "lines and points, lines alone");
+    for picture in [&without_back, &without_joints] {
+        let difference = as_published.difference(picture).unwrap();
+        assert!(difference.pixels < scene.size.pixel_count() / 20, "{difference:?}");
+    }
+    assert!(as_published != without_joints, "the points close notches between smoothed lines");
+}
+
 /// Settings under which plans differ.
 fn many_styles() -> Vec<Style> {
     let border = |change: fn(&mut Border)| {

@@ -1,24 +1,39 @@
 //! Whether two triangles come near each other or pass through each other.
 
 use crate::mesh::triangle_normal;
+use crate::tolerances::COORDINATE_NOISE;
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
-type Triangle = [DVec3; 3];
+/// A triangle's corners and its unit normal, zeros where it has no area.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Triangle {
+    pub corners: [DVec3; 3],
+    pub normal: DVec3,
+}
+
+impl Triangle {
+    pub fn new(corners: [DVec3; 3]) -> Self {
+        Self { corners, normal: triangle_normal(corners).unwrap_or_default() }
+    }
+
+    fn sides(&self) -> [[DVec3; 2]; 3] {
+        let [a, b, c] = self.corners;
+        [[a, b], [b, c], [c, a]]
+    }
+}
 
 /// Whether some points of two triangles are less than `distance` apart.
 pub(super) fn come_near(a: &Triangle, b: &Triangle, distance: f64) -> bool {
     if is_beyond_a_side(a, b, distance) || is_beyond_a_side(b, a, distance) {
         return false;
     }
-    if pierces(a, b) || pierces(b, a) {
-        return true;
-    }
     let limit = distance * distance;
-    let sides = |t: &Triangle| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
-    a.iter().any(|point| square_to_triangle(*point, b) < limit)
-        || b.iter().any(|point| square_to_triangle(*point, a) < limit)
-        || sides(a).iter().any(|first| sides(b).iter().any(|second| square_of_segments(*first, *second) < limit))
+    a.sides().iter().any(|side| passes_through(*side, b))
+        || b.sides().iter().any(|side| passes_through(*side, a))
+        || a.corners.iter().any(|point| square_to_triangle(*point, b) < limit)
+        || b.corners.iter().any(|point| square_to_triangle(*point, a) < limit)
+        || a.sides().iter().any(|first| b.sides().iter().any(|second| square_of_segments(*first, *second) < limit))
 }
 
 /// Whether two triangles that share just one corner also meet elsewhere: then a side of one of them that lies opposite to the
@@ -30,26 +45,42 @@ pub(super) fn cross_beyond_corner(a: &Triangle, opposite_a: [DVec3; 2], b: &Tria
 /// Whether `other` lies wholly on one side of a triangle's plane, or of a plane upright on one of its sides, and at least
 /// `distance` away: the quick answer for most.
 fn is_beyond_a_side(triangle: &Triangle, other: &Triangle, distance: f64) -> bool {
-    let Some(normal) = triangle_normal(*triangle) else { return false };
-    let heights = other.map(|point| normal.dot(point - triangle[0]));
+    let Triangle { corners, normal } = *triangle;
+    if normal == DVec3::ZERO {
+        return false;
+    }
+    let heights = other.corners.map(|point| normal.dot(point - corners[0]));
     if heights.iter().all(|height| *height >= distance) || heights.iter().all(|height| *height <= -distance) {
         return true;
     }
-    (0..3).any(|corner| {
-        let from = triangle[corner];
-        let outwards = (triangle[(corner + 1) % 3] - from).cross(normal);
-        let least = distance * outwards.length();
-        other.iter().all(|point| outwards.dot(*point - from) >= least)
+    triangle.sides().iter().any(|[from, to]| {
+        let outwards = (*to - *from).cross(normal);
+        let heights = other.corners.map(|point| outwards.dot(point - *from));
+        let least = heights[0].min(heights[1]).min(heights[2]);
+        least > 0.0 && least * least >= distance * distance * outwards.length_squared()
     })
 }
 
-fn pierces(a: &Triangle, b: &Triangle) -> bool {
-    (0..3).any(|corner| passes_through([a[corner], a[(corner + 1) % 3]], b))
+/// Whether a segment surely passes a triangle by: it lies on one side of its plane, or of a plane upright on one of its sides.
+/// The quick answer for most; what rounding could make of it is left to exact arithmetic.
+fn is_clear_of(ends: [DVec3; 2], triangle: &Triangle) -> bool {
+    let Triangle { corners, normal } = *triangle;
+    let noise = COORDINATE_NOISE;
+    let heights = ends.map(|end| normal.dot(end - corners[0]));
+    heights.iter().all(|height| *height > noise)
+        || heights.iter().all(|height| *height < -noise)
+        || triangle.sides().iter().any(|[from, to]| {
+            let outwards = (*to - *from).cross(normal);
+            ends.iter().all(|end| outwards.dot(*end - *from) > noise)
+        })
 }
 
 /// Whether a segment meets a triangle, exactly but for what lies in the triangle's plane.
 fn passes_through([from, to]: [DVec3; 2], triangle: &Triangle) -> bool {
-    let [a, b, c] = *triangle;
+    if is_clear_of([from, to], triangle) {
+        return false;
+    }
+    let [a, b, c] = triangle.corners;
     let side = |a: DVec3, b: DVec3, c: DVec3, d: DVec3| {
         let [a, b, c, d] = [a, b, c, d].map(|DVec3 { x, y, z }| Coord3D { x, y, z });
         orient3d(a, b, c, d)
@@ -63,17 +94,13 @@ fn passes_through([from, to]: [DVec3; 2], triangle: &Triangle) -> bool {
 }
 
 /// Square of a point's distance from a triangle: where it is above the inside, from its plane, else from its sides.
-fn square_to_triangle(point: DVec3, &[a, b, c]: &Triangle) -> f64 {
-    let to_side = |from, to| square_of_segments([point, point], [from, to]);
-    let Some(normal) = triangle_normal([a, b, c]) else {
-        return to_side(a, b).min(to_side(b, c)).min(to_side(c, a));
-    };
-    let is_inside =
-        [(a, b), (b, c), (c, a)].iter().all(|(from, to)| (*to - *from).cross(point - *from).dot(normal) >= 0.0);
-    match is_inside {
-        true => normal.dot(point - a).powi(2),
-        false => to_side(a, b).min(to_side(b, c)).min(to_side(c, a)),
+fn square_to_triangle(point: DVec3, triangle: &Triangle) -> f64 {
+    let Triangle { corners, normal } = *triangle;
+    let is_left_of = |[from, to]: &[DVec3; 2]| (*to - *from).cross(point - *from).dot(normal) >= 0.0;
+    if normal != DVec3::ZERO && triangle.sides().iter().all(is_left_of) {
+        return normal.dot(point - corners[0]).powi(2);
     }
+    triangle.sides().iter().map(|side| square_of_segments([point, point], *side)).fold(f64::INFINITY, f64::min)
 }
 
 /// Square of the distance between two segments, either of which may be a point (Ericson, *Real-Time Collision Detection*,

@@ -1,6 +1,6 @@
 //! Faces that come near another part of their own shell: of them it is never said that something else hides them.
 
-use super::distance::{come_near, cross_beyond_corner};
+use super::distance::{Triangle, come_near, cross_beyond_corner};
 use super::shells::{Shells, Surface};
 use crate::lines::boxes::{Box3, BoxTree};
 use crate::threads::{cores, in_chunks};
@@ -47,7 +47,10 @@ pub(super) fn flagged(surface: &Surface, shells: &mut Shells, hierarchy: &Hierar
     let flags: Vec<AtomicBool> = surface.triangles.iter().map(|_| AtomicBool::new(false)).collect();
     let is_set = |face: u32| flags[face as usize].load(Ordering::Relaxed);
     let set = |face: u32| flags[face as usize].store(true, Ordering::Relaxed);
-    let meet = |first: [u32; 3], second: [u32; 3]| are_too_near(surface, first, second, thickness);
+    let face_of = |face: u32| {
+        let points = surface.triangles[face as usize];
+        (points, Triangle { corners: surface.corners(points), normal: surface.normals[face as usize] })
+    };
     let Hierarchy { tree, faces } = hierarchy;
     in_chunks(tree.group_count(), GROUPS_AT_A_TIME, cores(), |groups| {
         tree.pairs(groups, |first, second| {
@@ -56,7 +59,7 @@ pub(super) fn flagged(surface: &Surface, shells: &mut Shells, hierarchy: &Hierar
             if !is_one_shell || (is_set(first) && is_set(second)) {
                 return;
             }
-            if meet(surface.triangles[first as usize], surface.triangles[second as usize]) {
+            if are_too_near(&face_of(first), &face_of(second), thickness) {
                 set(first);
                 set(second);
             }
@@ -67,11 +70,12 @@ pub(super) fn flagged(surface: &Surface, shells: &mut Shells, hierarchy: &Hierar
         let mut too_large = Vec::new();
         for cap in &shells.caps[caps] {
             let mut boxes = 0;
+            let of_cap = (cap.corners, Triangle::new(surface.corners(cap.corners)));
             let is_too_large = tree.any(&inflated(&surface.corners(cap.corners), thickness * 0.5), |place| {
                 let face = faces[place as usize];
                 if shells.of_face[face as usize] == cap.shell
                     && !is_set(face)
-                    && meet(surface.triangles[face as usize], cap.corners)
+                    && are_too_near(&face_of(face), &of_cap, thickness)
                 {
                     set(face);
                 }
@@ -90,17 +94,19 @@ pub(super) fn flagged(surface: &Surface, shells: &mut Shells, hierarchy: &Hierar
     flags.into_iter().map(AtomicBool::into_inner).collect()
 }
 
-fn are_too_near(surface: &Surface, first: [u32; 3], second: [u32; 3], thickness: f64) -> bool {
-    let is_shared = |point: &u32| second.contains(point);
-    match first.iter().filter(|point| is_shared(point)).count() {
-        0 => come_near(&surface.corners(first), &surface.corners(second), thickness),
+/// By their points and where these lie.
+fn are_too_near(first: &([u32; 3], Triangle), second: &([u32; 3], Triangle), thickness: f64) -> bool {
+    let ((points_first, first), (points_second, second)) = (first, second);
+    match points_first.iter().filter(|point| points_second.contains(point)).count() {
+        0 => come_near(first, second, thickness),
         1 => {
-            let opposite = |triangle: [u32; 3], other: [u32; 3]| {
-                let turn = triangle.iter().position(|point| other.contains(point)).unwrap_or(0);
-                [1, 2].map(|next| surface.points[triangle[(turn + next) % 3] as usize])
+            let opposite = |points: &[u32; 3], triangle: &Triangle, others: &[u32; 3]| {
+                let shared = points.iter().position(|point| others.contains(point)).unwrap_or(0);
+                [1, 2].map(|next| triangle.corners[(shared + next) % 3])
             };
-            let (ends_first, ends_second) = (opposite(first, second), opposite(second, first));
-            cross_beyond_corner(&surface.corners(first), ends_first, &surface.corners(second), ends_second)
+            let opposite_first = opposite(points_first, first, points_second);
+            let opposite_second = opposite(points_second, second, points_first);
+            cross_beyond_corner(first, opposite_first, second, opposite_second)
         }
         // Over a shared side they meet elsewhere only if they lie on one another: then one shows its front.
         _ => false,

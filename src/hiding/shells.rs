@@ -2,8 +2,8 @@
 
 use super::groups::Groups;
 use crate::edges::{EdgeList, Incidence};
-use crate::mesh::{Mesh, NONE, VertexArrays};
-use crate::threads::threads_for;
+use crate::mesh::{Mesh, NONE, VertexArrays, triangle_normal};
+use crate::threads::{filled, threads_for};
 use glam::DVec3;
 
 /// The mesh as its arrays draw it.
@@ -14,6 +14,8 @@ pub(super) struct Surface {
     pub triangles: Vec<[u32; 3]>,
     /// Where each of the arrays' vertices lies.
     pub point_of_vertex: Vec<u32>,
+    /// Each triangle's unit normal; zeros where it has no area.
+    pub normals: Vec<DVec3>,
     pub edges: EdgeList,
 }
 
@@ -60,8 +62,12 @@ impl Surface {
                 *point
             }));
         }
-        let edges = EdgeList::of_triangles(&triangles, points.len() as u32, threads_for(triangles.len()));
-        Self { points, triangles, point_of_vertex, edges }
+        let threads = threads_for(triangles.len());
+        let edges = EdgeList::of_triangles(&triangles, points.len() as u32, threads);
+        let corners = |face: usize| triangles[face].map(|point| points[point as usize]);
+        let normal = |face| triangle_normal(corners(face)).unwrap_or_default();
+        let normals = filled(triangles.len(), threads, DVec3::ZERO, normal);
+        Self { points, triangles, point_of_vertex, normals, edges }
     }
 
     pub fn corners(&self, triangle: [u32; 3]) -> [DVec3; 3] {

@@ -1,23 +1,27 @@
 //! One view: which faces are surely back faces, and which of them are surrounded by such faces.
 
-use super::{DrawnFaces, Hiding, VERTICES_IN_A_BOX};
+use super::openings::Openings;
+use super::selection::select;
+use super::{DrawnFaces, FACES_IN_A_BOX, Hiding, Sight, VERTICES_IN_A_BOX};
 use crate::camera::Projection;
-use crate::mesh::{NONE, Part, VertexArrays};
+use crate::mesh::{NONE, VertexArrays};
 use crate::scene::{Object, Scene, Size};
 use crate::threads::{in_parallel, threads_for};
 use crate::tolerances::{HIDING_DEPTH, HIDING_DEPTH_STEPS, NEAR_PLANE_NOISE, SUBPIXEL_STEPS, SURELY_BACK};
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Where an object is seen from and when a face is surely a back face; mesh radii, relative to the mesh's centre.
+/// When a face is surely a back face, by [`Sight`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct View {
+    sight: Sight,
     /// The eye, or in parallel projection the direction to it.
     eye: Vec3,
-    is_parallel: bool,
     /// A face is surely back if its plane's height over the eye, or the product of its normal and the direction, is more.
     least_back: f32,
+    /// What GL may move a point by on the picture plane.
+    margin: f64,
 }
 
 impl Hiding {
@@ -38,20 +42,24 @@ impl Hiding {
             return None;
         }
         let view = self.view(scene, object, arrays, surface, subpixel_bits)?;
-        // A cap that may show its front may be what a ray comes in through, and it is not drawn.
+        // Through a cap that may show its front a ray may come in, and it is not drawn.
         let mut is_shut = vec![true; self.counts.shells];
-        for cap in self.caps.iter().filter(|cap| !view.is_surely_back(&cap.plane)) {
-            is_shut[cap.shell as usize] = false;
-        }
+        let open = self.caps.iter().filter(|cap| !view.is_surely_back(&cap.plane));
+        open.clone().for_each(|cap| is_shut[cap.shell as usize] = false);
+        let openings = Openings::new(&view.sight, open.map(|cap| cap.corners), view.margin);
         let threads = threads_for(self.planes.len());
-        let is_marked: Vec<AtomicBool> =
-            in_parallel(self.point_count, threads, |points| points.map(|_| AtomicBool::new(false)).collect::<Vec<_>>())
-                .into_iter()
-                .flatten()
-                .collect();
+        let is_marked: Vec<AtomicBool> = (0..self.point_count).map(|_| AtomicBool::new(false)).collect();
         in_parallel(self.planes.len(), threads, |faces| self.mark(&view, &arrays.indices, faces, &is_marked));
-        let kept = in_parallel(self.planes.len(), threads, |faces| self.kept(arrays, faces, &is_shut, &is_marked));
-        let drawn = joined(kept, arrays);
+        let may_show = openings.boxes_that_may_show(&view.sight, &self.face_boxes, threads);
+        let is_kept = |face: usize, corners: &[u32]| {
+            let is_marked = |vertex: &u32| is_marked[self.point(*vertex)].load(Ordering::Relaxed);
+            match self.shells[face] {
+                NONE => true,
+                _ if corners.iter().any(is_marked) => true,
+                shell => !is_shut[shell as usize] && may_show[face / FACES_IN_A_BOX],
+            }
+        };
+        let drawn = select(arrays, is_kept);
         (drawn.left_out > 0).then_some(drawn)
     }
 
@@ -64,21 +72,23 @@ impl Hiding {
         subpixel_bits: u32,
     ) -> Option<View> {
         let camera = &scene.camera;
+        let is_parallel = matches!(camera.projection, Projection::Parallel { .. });
         let eye = (camera.eye - object.offset - arrays.centre) / self.radius;
-        let backward = camera.backward();
-        let (low, high) = self.boxes.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), [least, most]| {
-            (low.min(*least), high.max(*most))
-        });
-        let half = high.as_dvec3().max(-low.as_dvec3());
+        let view_from_world = camera.view_from_world();
+        let axes = [0, 1, 2].map(|row| view_from_world.row(row).truncate());
+        let backward = axes[2];
+        let half =
+            self.vertex_boxes.iter().flatten().fold(DVec3::ZERO, |half, corner| half.max(corner.as_dvec3().abs()));
         let farthest_depth = backward.dot(eye) + backward.abs().dot(half);
         let farthest = (eye.abs() + half).length();
         let near = camera.near / self.radius + farthest * NEAR_PLANE_NOISE;
         let nearest_depth = self.nearest_depth(arrays, scene.radius, eye, backward, near)?;
-        let (tangent, depth_step) = match camera.projection {
+        let (tangent, whole_depth) = match camera.projection {
             Projection::Perspective { fov_y_degrees } => {
                 let tangent = (fov_y_degrees.to_radians() * 0.5).tan() * farthest_depth;
-                let steps_per_depth = (1.0 / camera.near - 1.0 / camera.far).recip() / self.radius;
-                (tangent, farthest_depth.powi(2) / steps_per_depth)
+                // Of all depth, which is as one over the distance, the part that a unit of distance is at the far side.
+                let nearer = (1.0 / camera.near - 1.0 / camera.far) * self.radius;
+                (tangent, nearer * farthest_depth.powi(2))
             }
             Projection::Parallel { height } => (height * 0.5 / self.radius, (camera.far - camera.near) / self.radius),
         };
@@ -87,15 +97,15 @@ impl Hiding {
         let sideways = pixel * SUBPIXEL_STEPS * 0.5f64.powi(subpixel_bits.min(24) as i32);
         let depth = self.thickness * HIDING_DEPTH;
         let cosine = (2.0 * sideways / depth).max(*SURELY_BACK.start());
-        let is_parallel = matches!(camera.projection, Projection::Parallel { .. });
         // Along a slanted ray less of the distance is depth.
         let slant = if is_parallel { 1.0 } else { nearest_depth / farthest };
-        let confused = depth_step * HIDING_DEPTH_STEPS / f64::from(1 << 24);
+        let confused = whole_depth * HIDING_DEPTH_STEPS / f64::from(1 << 24);
         let is_fine =
             cosine <= *SURELY_BACK.end() && depth + 2.0 * sideways < self.thickness && confused < depth * slant;
         is_fine.then(|| View {
+            sight: Sight { eye, axes, is_parallel },
+            margin: if is_parallel { sideways } else { sideways / farthest_depth },
             eye: if is_parallel { backward } else { eye }.as_vec3(),
-            is_parallel,
             least_back: (if is_parallel { cosine } else { cosine * farthest }) as f32,
         })
     }
@@ -112,7 +122,7 @@ impl Hiding {
         let unit = scene_radius / self.radius;
         let from_plane = backward.dot(eye);
         let mut nearest = f64::INFINITY;
-        for ([low, high], vertices) in self.boxes.iter().zip(arrays.vertices.chunks(VERTICES_IN_A_BOX)) {
+        for ([low, high], vertices) in self.vertex_boxes.iter().zip(arrays.vertices.chunks(VERTICES_IN_A_BOX)) {
             let (low, high) = (low.as_dvec3(), high.as_dvec3());
             let most = (backward * low).max(backward * high).element_sum();
             let mut depth = from_plane - most;
@@ -120,8 +130,7 @@ impl Hiding {
                 let of_vertex = |[x, y, z, ..]: &[f32; 6]| backward.dot(Vec3::new(*x, *y, *z).as_dvec3()) * unit;
                 depth = from_plane - vertices.iter().map(of_vertex).fold(f64::NEG_INFINITY, f64::max);
             }
-            // Written so that a depth that is no number is refused.
-            if !(depth > near) {
+            if depth.is_nan() || depth <= near {
                 return None;
             }
             nearest = nearest.min(depth);
@@ -142,66 +151,21 @@ impl Hiding {
             }
         }
     }
-
-    /// The indices of faces that may not be left out, and the places in them where a new part begins.
-    fn kept(&self, arrays: &VertexArrays, faces: Range<usize>, is_shut: &[bool], is_marked: &[AtomicBool]) -> Kept {
-        let mut kept = Kept { indices: Vec::with_capacity(faces.len() * 3), counts: Vec::new() };
-        let first_part = arrays.parts.partition_point(|part| part.first + part.count <= faces.start as u32 * 3);
-        for (number, part) in arrays.parts.iter().enumerate().skip(first_part) {
-            let begin = (part.first as usize / 3).max(faces.start);
-            let end = ((part.first + part.count) as usize / 3).min(faces.end);
-            if begin >= end {
-                break;
-            }
-            let before = kept.indices.len();
-            for (shell, corners) in
-                self.shells[begin..end].iter().zip(arrays.indices[begin * 3..end * 3].chunks_exact(3))
-            {
-                let may_hide = *shell != NONE && is_shut[*shell as usize];
-                let is_marked = |vertex: &u32| is_marked[self.point(*vertex)].load(Ordering::Relaxed);
-                if !may_hide || corners.iter().any(is_marked) {
-                    kept.indices.extend_from_slice(corners);
-                }
-            }
-            kept.counts.push((number, (kept.indices.len() - before) as u32));
-        }
-        kept
-    }
 }
 
 impl View {
     fn is_surely_back(&self, &[x, y, z, offset]: &[f32; 4]) -> bool {
         let height = Vec3::new(x, y, z).dot(self.eye);
-        let height = if self.is_parallel { height } else { height - offset };
+        let height = if self.sight.is_parallel { height } else { height - offset };
         height < -self.least_back
     }
 }
 
-/// What is kept of a range of faces.
-struct Kept {
-    indices: Vec<u32>,
-    /// Parts, and how many of the indices are each one's.
-    counts: Vec<(usize, u32)>,
-}
-
-fn joined(kept: Vec<Kept>, arrays: &VertexArrays) -> DrawnFaces {
-    let mut parts: Vec<Part> = Vec::with_capacity(arrays.parts.len());
-    let mut last = None;
-    let mut first = 0;
-    for (number, count) in kept.iter().flat_map(|kept| &kept.counts) {
-        match parts.last_mut() {
-            Some(part) if last == Some(number) => part.count += count,
-            _ if *count > 0 => {
-                parts.push(Part { material: arrays.parts[*number].material, first, count: *count });
-                last = Some(number);
-            }
-            _ => {}
-        }
-        first += count;
+impl Sight {
+    /// Where a point lies on the picture plane: its distances to the right and up, in perspective by its depth.
+    pub(super) fn on_picture_plane(&self, point: DVec3) -> DVec2 {
+        let [x, y, z] = self.axes.map(|axis| axis.dot(point - self.eye));
+        let depth = if self.is_parallel { 1.0 } else { -z };
+        if depth > 0.0 { DVec2::new(x, y) / depth } else { DVec2::NAN }
     }
-    let mut lists = kept.into_iter().map(|kept| kept.indices);
-    let mut indices = lists.next().unwrap_or_default();
-    lists.for_each(|list| indices.extend_from_slice(&list));
-    let left_out = (arrays.indices.len() - indices.len()) / 3;
-    DrawnFaces { indices, parts, left_out }
 }

@@ -9,7 +9,6 @@ use super::flags::Hierarchy;
 use super::groups::Groups;
 use super::shells::{Shells, Surface};
 use crate::lines::boxes::{Box3, BoxTree};
-use crate::mesh::triangle_normal;
 use crate::threads::{cores, in_chunks};
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -101,7 +100,10 @@ impl Lines<'_> {
     /// the face and below it.
     fn outside_of_face(&self, face: u32) -> Option<i32> {
         let corners = self.surface.corners(self.surface.triangles[face as usize]);
-        let normal = triangle_normal(corners)?;
+        let normal = self.surface.normals[face as usize];
+        if normal == DVec3::ZERO {
+            return None;
+        }
         let axis = normal.abs().max_position();
         let point: DVec3 = corners.iter().zip(WEIGHTS).map(|(corner, weight)| *corner * weight).sum();
         let along = DVec3::AXES[axis] * f64::INFINITY;

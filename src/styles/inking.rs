@@ -5,7 +5,7 @@
 //! vertex shader computes the light.
 
 use super::{Ramp, RampRow, Show, ramp};
-use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
+use crate::edges::{Class, ClassSet, CreaseAngle, Side, SilhouetteRule, side_of_face};
 use crate::error::{Error, Result};
 use crate::names::find;
 use crate::plan::{
@@ -32,6 +32,12 @@ pub struct Inking {
     pub line_width_px: f32,
     /// Whether lines are smoothed and blended, the text's optional part. Default yes.
     pub is_smooth: bool,
+    /// Whether points are drawn at the lines' ends, which join them. Default yes, as in the text; without them lines of
+    /// some width have notches where they meet, thin ones hardly any.
+    pub has_joints: bool,
+    /// Whether edges both of whose faces are turned away are drawn. Default yes, as in the text; on a closed model the faces
+    /// in front hide them but for what polygon offset and their width let through.
+    pub back_edges: bool,
     /// How lines get their width. Default as GL draws them.
     pub line_drawing: LineDrawing,
     /// Whether lines write depth, as the text leaves it. Default yes; then a smoothed line's faint end hides the point that
@@ -65,6 +71,8 @@ impl Default for Inking {
             silhouette: SilhouetteRule::Paper,
             line_width_px: 2.0,
             is_smooth: true,
+            has_joints: true,
+            back_edges: true,
             line_drawing: LineDrawing::Gl,
             writes_depth: true,
             colors: ClassColors::default(),
@@ -187,7 +195,8 @@ impl Inking {
                 let depth = if self.writes_depth { Depth::TestAndWrite } else { Depth::TestOnly };
                 Step::Draw(Draw { blend: self.is_smooth, depth, ..Draw::new(geometry, None) })
             };
-            passes.push(Pass::new("ink", vec![mark(Mark::Lines), mark(Mark::Points)]));
+            let marks = if self.has_joints { vec![Mark::Lines, Mark::Points] } else { vec![Mark::Lines] };
+            passes.push(Pass::new("ink", marks.into_iter().map(mark).collect()));
         }
         Ok(Plan { pictures, ..Plan::new(passes) })
     }
@@ -264,6 +273,14 @@ impl Inking {
             let edges = scene.edges(object);
             let vertices = &scene.arrays(object).position_vertices;
             let eye = scene.eye(object, self.silhouette);
+            let mesh = &object.mesh;
+            // Where the eye really is, whatever the rule for silhouettes.
+            let true_eye = scene.eye(object, SilhouetteRule::Exact);
+            let is_turned_away = |face: &u32| {
+                let corners = mesh.triangles[*face as usize].map(|position| mesh.positions[position as usize]);
+                side_of_face(corners, true_eye) == Side::Back
+            };
+            let is_drawn = |edge: &u32| self.back_edges || !edges.list().faces(*edge).iter().all(is_turned_away);
             for (class, chosen) in edges.chosen(self.classes, self.crease_angle, eye, self.silhouette) {
                 let Color([red, green, blue]) = self.colors.0[class as usize];
                 let positions = edges.list().positions();
@@ -272,7 +289,7 @@ impl Inking {
                     object: number,
                     name: class.name(),
                     color: [red, green, blue, 1.0],
-                    ends: chosen.iter().map(ends).collect(),
+                    ends: chosen.iter().filter(|edge| is_drawn(edge)).map(ends).collect(),
                 });
             }
         }

@@ -137,6 +137,14 @@ struct InkingArguments {
     #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
     smooth: bool,
 
+    /// Join lines by points at their ends, on or off; thin lines hardly need it [default: on]
+    #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
+    joints: bool,
+
+    /// Draw edges both of whose faces are turned away, on or off; on closed models hardly any of them shows [default: on]
+    #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
+    back_edges: bool,
+
     /// Draw lines as GL lines (gl) or as quads of exactly their width (quads) [default: gl]
     #[arg(long, value_name = "HOW", default_value = "gl", hide_default_value = true)]
     line_drawing: LineDrawing,
@@ -300,6 +308,8 @@ impl InkingArguments {
             silhouette: common.crease.silhouette(),
             line_width_px: self.line_width,
             is_smooth: self.smooth,
+            has_joints: self.joints,
+            back_edges: self.back_edges,
             line_drawing: self.line_drawing,
             writes_depth: self.ink_depth,
             colors: self.class_colors.unwrap_or_default(),
