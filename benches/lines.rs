@@ -4,6 +4,8 @@
 //! `target/bench/lines.json`, the growth as a plot to `target/bench/lines-growth.svg`.
 
 mod report;
+#[path = "report/sphere.rs"]
+mod sphere;
 
 use glam::{DVec3, Vec3};
 use plotters::prelude::*;
@@ -182,48 +184,6 @@ fn growth() -> Value {
     plot(&points, &path).expect("the plot can be drawn");
     println!("plot: {}", path.display());
     Value::Array(rows)
-}
-
-/// A closed sphere of about so many triangles whose radius varies, so that it has silhouettes in front of itself.
-fn bumpy_sphere(triangles: usize) -> Mesh {
-    let rows = ((triangles as f64) / 4.0).sqrt().round() as u32;
-    let columns = rows * 2;
-    let mut positions = vec![DVec3::Y, DVec3::NEG_Y];
-    for row in 1..rows {
-        for column in 0..columns {
-            let (polar, around) = (
-                std::f64::consts::PI * f64::from(row) / f64::from(rows),
-                std::f64::consts::TAU * f64::from(column) / f64::from(columns),
-            );
-            let direction = DVec3::new(polar.sin() * around.sin(), polar.cos(), polar.sin() * around.cos());
-            positions.push(direction * (1.0 + 0.2 * (9.0 * polar).sin() * (7.0 * around).sin()));
-        }
-    }
-    let at = |row: u32, column: u32| match row {
-        0 => 0,
-        row if row == rows => 1,
-        row => 2 + (row - 1) * columns + column % columns,
-    };
-    let mut faces = Vec::new();
-    for row in 0..rows {
-        for column in 0..columns {
-            let [a, b, c, d] = [at(row, column), at(row + 1, column), at(row + 1, column + 1), at(row, column + 1)];
-            faces.extend([[a, b, c], [a, c, d]].into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
-        }
-    }
-    Mesh {
-        name: "a sphere with bumps".to_owned(),
-        file_vertices: (0..positions.len() as u32).collect(),
-        normals: vec![Vec3::Y],
-        triangle_normals: vec![[0; 3]; faces.len()],
-        triangles: faces,
-        positions,
-        texture_coordinates: Vec::new(),
-        triangle_texture_coordinates: Vec::new(),
-        materials: Vec::new(),
-        triangle_materials: Vec::new(),
-        defects: Defects::default(),
-    }
 }
 
 /// Times over triangles on logarithmic axes, with what n log n would be from the first one on.

@@ -1,0 +1,285 @@
+//! What leaving out saves, and how a frame's cost grows with triangles and with pixels, beside the limits: clearing, drawing
+//! the mesh once, one filter over the picture. docs/performance.md has the command.
+//!
+//! Contestants take turns, round by round. The model turns by 3 degrees a round; making the plan and pruning it is part of
+//! every frame, finding out what holds for all views is not: it is timed by itself.
+
+#[path = "report/growth.rs"]
+mod growth;
+mod report;
+#[path = "report/sphere.rs"]
+mod sphere;
+
+use glam::DVec3;
+use growth::{Curve, plot};
+use report::{Series, print_table, write_record};
+use serde_json::{Value, json};
+use sphere::bumpy_sphere;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+use tinta::plan::prune::{Pruning, prune};
+use tinta::plan::{Draw, Geometry, Paint, Pass, Plan, Step};
+use tinta::renderer::{median, milliseconds_since};
+use tinta::styles::{Cartoon, Mrt};
+use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
+
+const USAGE: &str = "cargo bench --bench performance -- [--rounds N] [--largest N] [--only saved|triangles|pixels]
+  --rounds N     interleaved rounds (default 21)
+  --largest N    triangles of the largest mesh (default 4000000)
+  --only PART    one of the three tables";
+
+struct Settings {
+    rounds: usize,
+    largest: usize,
+    only: Option<String>,
+}
+
+fn settings() -> Option<Settings> {
+    let mut settings = Settings { rounds: 21, largest: 4_000_000, only: None };
+    let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--rounds" => settings.rounds = arguments.next()?.parse().ok()?,
+            "--largest" => settings.largest = arguments.next()?.parse().ok()?,
+            "--only" => settings.only = Some(arguments.next()?),
+            _ => return None,
+        }
+    }
+    Some(settings)
+}
+
+fn main() {
+    let Some(settings) = settings() else {
+        println!("{USAGE}");
+        return;
+    };
+    let mut renderer = Renderer::new(Backend::Auto).expect("a context");
+    println!("{}", renderer.context().renderer);
+    let is_wanted = |part: &str| settings.only.as_ref().is_none_or(|only| only == part);
+    let mut record = json!({ "gl": renderer.context() });
+    if is_wanted("saved") {
+        record["saved"] = saved(&mut renderer, settings.rounds);
+    }
+    if is_wanted("triangles") {
+        record["triangles"] = by_triangles(&mut renderer, &settings);
+    }
+    if is_wanted("pixels") {
+        record["pixels"] = by_pixels(&mut renderer, settings.rounds);
+    }
+    write_record("performance", &record);
+}
+
+/// What draws a frame.
+enum Contestant {
+    /// As published.
+    Full(Style),
+    /// The same, pruned for each view.
+    Pruned(Style),
+    /// A plan of single steps.
+    Limit(Plan),
+}
+
+impl Contestant {
+    /// The milliseconds of one frame, its plan included.
+    fn frame_ms(&self, renderer: &mut Renderer, scene: &Scene) -> f64 {
+        let pruning = Pruning::for_context(renderer.context(), u32::MAX);
+        let start = Instant::now();
+        let made;
+        let plan = match self {
+            Self::Full(style) => {
+                made = style.plan(scene, Show::Final).expect("a plan");
+                &made
+            }
+            Self::Pruned(style) => {
+                made = prune(&style.plan(scene, Show::Final).expect("a plan"), scene, &pruning).plan;
+                &made
+            }
+            Self::Limit(plan) => plan,
+        };
+        renderer.time_frames(scene, plan, 0, 1).expect("a frame");
+        milliseconds_since(start)
+    }
+}
+
+/// The scene with the eye turned by so many degrees.
+fn turned(scene: &Scene, degrees: f64) -> Scene {
+    let mut turned = scene.clone();
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let offset = scene.camera.eye - scene.camera.target;
+    let offset = DVec3::new(offset.x * cos + offset.z * sin, offset.y, offset.z * cos - offset.x * sin);
+    turned.camera.eye = scene.camera.target + offset;
+    (turned.camera.near, turned.camera.far) = (offset.length() - scene.radius * 1.05, offset.length() + scene.radius * 1.05);
+    turned
+}
+
+/// Every contestant's times, in turn.
+fn race(
+    renderer: &mut Renderer,
+    scene: &Scene,
+    contestants: &[(String, Contestant)],
+    rounds: usize,
+) -> Vec<Series> {
+    let mut series: Vec<Series> = contestants.iter().map(|(name, _)| Series::new(name)).collect();
+    for (_, contestant) in contestants {
+        contestant.frame_ms(renderer, scene);
+    }
+    for round in 0..rounds {
+        let view = turned(scene, round as f64 * 3.0);
+        for ((_, contestant), series) in contestants.iter().zip(&mut series) {
+            series.times.push(contestant.frame_ms(renderer, &view));
+        }
+    }
+    series
+}
+
+fn rows(series: &[Series]) -> Value {
+    series.iter().map(|one| json!({ "name": one.name, "ms": one.times })).collect()
+}
+
+/// Styles in full and pruned: the built-in bust as it is fitted, and a gear that covers a quarter of the picture.
+fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
+    let fitted = |model: &str| {
+        let mesh = Arc::new(load(model, &LoadOptions::default()).expect("a model").mesh);
+        Scene::new(vec![mesh], &SceneSettings::default()).expect("a scene")
+    };
+    let mut quarter = fitted("builtin:gear");
+    quarter.camera.eye = quarter.camera.target + (quarter.camera.eye - quarter.camera.target) * 1.85;
+    let scenes = [("the bust, fitted", fitted("builtin:bust")), ("the gear, on a quarter of the picture", quarter)];
+    let tables = scenes.iter().map(|(name, scene)| {
+        let view = turned(scene, 0.0);
+        let extent = view.extent_px(view.objects.iter(), view.size).map_or(0, |extent| extent.pixel_count());
+        let start = Instant::now();
+        scene.objects.iter().for_each(|object| drop(scene.hiding(object).counts()));
+        println!(
+            "\n{name}: {} triangles, their box covers {} % of {}; what holds for every view was found in {:.1} ms",
+            scene.triangle_count(),
+            extent * 100 / view.size.pixel_count(),
+            view.size,
+            milliseconds_since(start)
+        );
+        let names = StyleName::ALL.iter().filter(|(name, _)| *name != "sand");
+        let tables: Vec<Value> = names
+            .map(|(name, style)| {
+                let full = format!("{name} --full");
+                let contestants = [
+                    (full.clone(), Contestant::Full(Style::named(*style))),
+                    ((*name).to_owned(), Contestant::Pruned(Style::named(*style))),
+                ];
+                let series = race(renderer, scene, &contestants, rounds);
+                let ratio = series[0].median() / series[1].median();
+                println!("  {full:<24}{:>9.2} ms{:>9.2} ms pruned: {ratio:.2} x", series[0].median(), series[1].median());
+                rows(&series)
+            })
+            .collect();
+        json!({ "scene": name, "styles": tables })
+    });
+    tables.collect()
+}
+
+/// A plan of one pass.
+fn limit(name: &'static str, steps: Vec<Step>) -> Contestant {
+    Contestant::Limit(Plan::new(vec![Pass::new(name, steps)]))
+}
+
+fn mesh_once(cull_back_faces: bool) -> Contestant {
+    let draw = Draw { cull_back_faces, ..Draw::new(Geometry::Objects(Paint::Uniform([0.5; 4])), None) };
+    limit("mesh", vec![Step::clear([1.0; 4]), Step::Draw(draw)])
+}
+
+/// The published border's square over a copy of the framebuffer.
+fn filter_once(scene: &Scene) -> Contestant {
+    let plan = Style::named(StyleName::ThreePass).plan(scene, Show::Final).expect("a plan");
+    let square = plan.steps().find_map(|(_, step)| match step {
+        Step::Draw(draw) if draw.geometry == Geometry::ScreenSquare => Some(step.clone()),
+        _ => None,
+    });
+    limit("filter", vec![Step::clear([1.0; 4]), Step::CopyFramebuffer, square.expect("a border")])
+}
+
+fn contestants(scene: &Scene) -> Vec<(String, Contestant)> {
+    let named = |name: &str, contestant| (name.to_owned(), contestant);
+    vec![
+        named("three-pass --full", Contestant::Full(Style::named(StyleName::ThreePass))),
+        named("three-pass", Contestant::Pruned(Style::named(StyleName::ThreePass))),
+        named(
+            "three-pass --cull back",
+            Contestant::Pruned(Style::ThreePass(Cartoon { cull_back_faces: true, ..Cartoon::default() })),
+        ),
+        named("mrt --cull back", Contestant::Pruned(Style::Mrt(Mrt { cull_back_faces: true, ..Mrt::default() }))),
+        named("limit: the mesh once, untextured and unlit, culled", mesh_once(true)),
+        named("limit: clear and one filter", filter_once(scene)),
+        named("limit: clear and read back", limit("clear", vec![Step::clear([1.0; 4])])),
+    ]
+}
+
+/// Adds one size's medians to the curves.
+fn add(curves: &mut Vec<Curve>, series: &[Series], size: f64) {
+    if curves.is_empty() {
+        curves.extend(series.iter().map(|one| Curve { name: one.name.clone(), points: Vec::new() }));
+    }
+    for (curve, one) in curves.iter_mut().zip(series) {
+        curve.points.push((size, one.median()));
+    }
+}
+
+/// Prints each curve's straight line and draws all of them.
+fn finish(curves: &[Curve], title: &str, sizes: &str, file: &str) {
+    println!("\n  straight lines through them: start, and nanoseconds for each of the {sizes}; the worst miss");
+    for curve in curves {
+        let [start, slope] = curve.line();
+        println!("  {:<52}{start:>9.3} ms{:>10.3} ns{:>7.0} %", curve.name, slope * 1e6, curve.worst_miss() * 100.0);
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench").join(file);
+    std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
+    plot(curves, title, sizes, &path).expect("the plot can be drawn");
+    println!("  plot: {}", path.display());
+}
+
+fn by_triangles(renderer: &mut Renderer, settings: &Settings) -> Value {
+    println!("\nframes by triangles: a sphere with bumps, 512x512");
+    let sizes = (0..).map(|power| 1000 << (2 * power)).take_while(|size| *size < settings.largest);
+    let mut curves = Vec::new();
+    let tables: Vec<Value> = sizes
+        .chain([settings.largest])
+        .map(|size| {
+            let mesh = Arc::new(bumpy_sphere(size));
+            let scene = Scene::new(vec![mesh.clone()], &SceneSettings::default()).expect("a scene");
+            let start = Instant::now();
+            scene.make_arrays();
+            let arrays_ms = milliseconds_since(start);
+            let start = Instant::now();
+            let counts = scene.hiding(&scene.objects[0]).counts();
+            let hiding_ms = milliseconds_since(start);
+            println!("\n  {} triangles; arrays {arrays_ms:.1} ms, what hides what {hiding_ms:.1} ms", mesh.triangles.len());
+            let series = race(renderer, &scene, &contestants(&scene), settings.rounds.min(4_000_000_000 / size / 500));
+            print_table(&series, "three-pass --full");
+            add(&mut curves, &series, mesh.triangles.len() as f64);
+            json!({ "triangles": mesh.triangles.len(), "arrays_ms": arrays_ms, "hiding_ms": hiding_ms, "hiding": counts,
+                "series": rows(&series) })
+        })
+        .collect();
+    finish(&curves, "Frames of a sphere with bumps, 512 x 512", "triangles", "frame-triangles.svg");
+    Value::Array(tables)
+}
+
+fn by_pixels(renderer: &mut Renderer, rounds: usize) -> Value {
+    println!("\nframes by pixels: the bust, fitted");
+    let mesh = Arc::new(load("builtin:bust", &LoadOptions::default()).expect("a model").mesh);
+    let mut curves = Vec::new();
+    let tables: Vec<Value> = [256, 512, 1024, 2048, 4096]
+        .into_iter()
+        .map(|side| {
+            let size = Size { width: side, height: side };
+            let settings = SceneSettings { size, ..SceneSettings::default() };
+            let scene = Scene::new(vec![mesh.clone()], &settings).expect("a scene");
+            println!("\n  {size}");
+            let series = race(renderer, &scene, &contestants(&scene), rounds);
+            print_table(&series, "three-pass --full");
+            add(&mut curves, &series, size.pixel_count() as f64);
+            json!({ "size": size, "series": rows(&series) })
+        })
+        .collect();
+    finish(&curves, "Frames of the bust by size of the picture", "pixels", "frame-pixels.svg");
+    Value::Array(tables)
+}

@@ -1,0 +1,84 @@
+//! Times that grow: a straight line through them, and a plot on logarithmic axes.
+
+use plotters::prelude::*;
+use std::path::Path;
+
+/// Times over sizes, under a name.
+pub struct Curve {
+    /// What took them.
+    pub name: String,
+    /// Size and milliseconds.
+    pub points: Vec<(f64, f64)>,
+}
+
+impl Curve {
+    /// The milliseconds that size 0 would take and those of each more, by least squares of relative errors: a straight line
+    /// that is as true for the small sizes as for the large.
+    pub fn line(&self) -> [f64; 2] {
+        let sums = self.points.iter().fold([0.0; 5], |[w, x, y, xx, xy], (size, ms)| {
+            let weight = 1.0 / (ms * ms);
+            [w + weight, x + weight * size, y + weight * ms, xx + weight * size * size, xy + weight * size * ms]
+        });
+        let [w, x, y, xx, xy] = sums;
+        let slope = (w * xy - x * y) / (w * xx - x * x);
+        [(y - slope * x) / w, slope]
+    }
+
+    /// By which share of itself the worst time misses that line.
+    pub fn worst_miss(&self) -> f64 {
+        let [start, slope] = self.line();
+        self.points.iter().map(|(size, ms)| ((start + slope * size) / ms - 1.0).abs()).fold(0.0, f64::max)
+    }
+}
+
+/// Draws the curves to an SVG file.
+pub fn plot(curves: &[Curve], title: &str, sizes: &str, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    const COLORS: [RGBColor; 6] = [
+        RGBColor(30, 90, 170),
+        RGBColor(200, 60, 30),
+        RGBColor(40, 130, 60),
+        RGBColor(120, 120, 120),
+        RGBColor(160, 110, 20),
+        RGBColor(110, 60, 150),
+    ];
+    let range = |pick: fn(&(f64, f64)) -> f64, below: f64, above: f64| {
+        let values = || curves.iter().flat_map(|curve| curve.points.iter().map(pick));
+        values().fold(f64::INFINITY, f64::min) * below..values().fold(0.0, f64::max) * above
+    };
+    let area = SVGBackend::new(path, (760, 460)).into_drawing_area();
+    area.fill(&WHITE)?;
+    let (x, y) = (range(|point| point.0, 0.8, 1.25), range(|point| point.1, 0.6, 4.0));
+    let mut chart = ChartBuilder::on(&area)
+        .caption(title, ("sans-serif", 17))
+        .margin(12)
+        .x_label_area_size(44)
+        .y_label_area_size(62)
+        .build_cartesian_2d(x.log_scale(), y.log_scale())?;
+    let short = |x: &f64| match *x {
+        x if x >= 1e6 => format!("{} M", x / 1e6),
+        x if x >= 1e3 => format!("{} k", x / 1e3),
+        x => format!("{x}"),
+    };
+    chart
+        .configure_mesh()
+        .x_desc(sizes)
+        .y_desc("milliseconds a frame")
+        .x_label_formatter(&short)
+        .y_label_formatter(&|y| format!("{y}"))
+        .light_line_style(RGBColor(240, 240, 240))
+        .draw()?;
+    for (curve, color) in curves.iter().zip(COLORS) {
+        chart
+            .draw_series(LineSeries::new(curve.points.iter().copied(), color.stroke_width(2)).point_size(3))?
+            .label(&curve.name)
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], color.stroke_width(2)));
+    }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperLeft)
+        .background_style(WHITE)
+        .border_style(RGBColor(200, 200, 200))
+        .draw()?;
+    area.present()?;
+    Ok(())
+}
