@@ -109,17 +109,13 @@ fn turned(scene: &Scene, degrees: f64) -> Scene {
     let offset = scene.camera.eye - scene.camera.target;
     let offset = DVec3::new(offset.x * cos + offset.z * sin, offset.y, offset.z * cos - offset.x * sin);
     turned.camera.eye = scene.camera.target + offset;
-    (turned.camera.near, turned.camera.far) = (offset.length() - scene.radius * 1.05, offset.length() + scene.radius * 1.05);
+    (turned.camera.near, turned.camera.far) =
+        (offset.length() - scene.radius * 1.05, offset.length() + scene.radius * 1.05);
     turned
 }
 
 /// Every contestant's times, in turn.
-fn race(
-    renderer: &mut Renderer,
-    scene: &Scene,
-    contestants: &[(String, Contestant)],
-    rounds: usize,
-) -> Vec<Series> {
+fn race(renderer: &mut Renderer, scene: &Scene, contestants: &[(String, Contestant)], rounds: usize) -> Vec<Series> {
     let mut series: Vec<Series> = contestants.iter().map(|(name, _)| Series::new(name)).collect();
     for (_, contestant) in contestants {
         contestant.frame_ms(renderer, scene);
@@ -168,7 +164,11 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
                 ];
                 let series = race(renderer, scene, &contestants, rounds);
                 let ratio = series[0].median() / series[1].median();
-                println!("  {full:<24}{:>9.2} ms{:>9.2} ms pruned: {ratio:.2} x", series[0].median(), series[1].median());
+                println!(
+                    "  {full:<24}{:>9.2} ms{:>9.2} ms pruned: {ratio:.2} x",
+                    series[0].median(),
+                    series[1].median()
+                );
                 rows(&series)
             })
             .collect();
@@ -251,7 +251,10 @@ fn by_triangles(renderer: &mut Renderer, settings: &Settings) -> Value {
             let start = Instant::now();
             let counts = scene.hiding(&scene.objects[0]).counts();
             let hiding_ms = milliseconds_since(start);
-            println!("\n  {} triangles; arrays {arrays_ms:.1} ms, what hides what {hiding_ms:.1} ms", mesh.triangles.len());
+            println!(
+                "\n  {} triangles; arrays {arrays_ms:.1} ms, what hides what {hiding_ms:.1} ms",
+                mesh.triangles.len()
+            );
             let series = race(renderer, &scene, &contestants(&scene), settings.rounds.min(4_000_000_000 / size / 500));
             print_table(&series, "three-pass --full");
             add(&mut curves, &series, mesh.triangles.len() as f64);

@@ -12,6 +12,7 @@
 //!   arrives there from the eye has come in through a front face.
 //! - That face must be nearer by more than sub-pixel rounding and depth can confuse. So faces near another part of their shell
 //!   are never left out, nor are those that are not seen steeply from behind, nor their neighbours.
+//! - Drivers may give faces seen almost edge-on any depth, so nothing is left out where one lies in the picture.
 //! - The face it came in through must be one that is drawn: what may be seen through a cap's front is not left out.
 //!
 //! This holds for faces that are drawn with a depth test (GL_LESS or GL_LEQUAL) and without polygon offset, which would push
@@ -23,6 +24,7 @@ mod groups;
 mod openings;
 mod selection;
 mod shells;
+mod slivers;
 mod turned;
 mod view;
 mod winding;

@@ -2,6 +2,8 @@
 
 use super::openings::Openings;
 use super::selection::select;
+use super::slivers::Slivers;
+use super::turned::window_places;
 use super::{DrawnFaces, FACES_IN_A_BOX, Hiding, Sight, VERTICES_IN_A_BOX};
 use crate::camera::Projection;
 use crate::mesh::{NONE, VertexArrays};
@@ -49,14 +51,21 @@ impl Hiding {
         let openings = Openings::new(&view.sight, open.map(|cap| cap.corners), view.margin);
         let threads = threads_for(self.planes.len());
         let is_marked: Vec<AtomicBool> = (0..self.point_count).map(|_| AtomicBool::new(false)).collect();
-        in_parallel(self.planes.len(), threads, |faces| self.mark(&view, &arrays.indices, faces, &is_marked));
+        let edge_on = in_parallel(self.planes.len(), threads, |faces| self.mark(&view, arrays, faces, &is_marked));
+        let places = window_places(scene, object, surface);
+        let places_of = |corners: &[u32]| [0, 1, 2].map(|corner| places[corners[corner] as usize]);
+        let mut slivers = Slivers::new(surface);
+        for face in edge_on.iter().flatten() {
+            slivers.add(places_of(&arrays.indices[*face as usize * 3..][..3]));
+        }
         let may_show = openings.boxes_that_may_show(&view.sight, &self.face_boxes, threads);
         let is_kept = |face: usize, corners: &[u32]| {
             let is_marked = |vertex: &u32| is_marked[self.point(*vertex)].load(Ordering::Relaxed);
             match self.shells[face] {
                 NONE => true,
                 _ if corners.iter().any(is_marked) => true,
-                shell => !is_shut[shell as usize] && may_show[face / FACES_IN_A_BOX],
+                shell if !is_shut[shell as usize] && may_show[face / FACES_IN_A_BOX] => true,
+                _ => slivers.touch(places_of(corners)),
             }
         };
         let drawn = select(arrays, is_kept);
@@ -142,22 +151,34 @@ impl Hiding {
         self.points.get(vertex as usize).copied().unwrap_or(vertex) as usize
     }
 
-    /// Marks the corners of faces that are not surely back.
-    fn mark(&self, view: &View, indices: &[u32], faces: Range<usize>, is_marked: &[AtomicBool]) {
-        let corners = indices[faces.start * 3..faces.end * 3].chunks_exact(3);
-        for (plane, corners) in self.planes[faces].iter().zip(corners) {
-            if !view.is_surely_back(plane) {
-                corners.iter().for_each(|vertex| is_marked[self.point(*vertex)].store(true, Ordering::Relaxed));
+    /// Marks the corners of faces that are not surely back, and returns those of them that are not surely front either.
+    fn mark(&self, view: &View, arrays: &VertexArrays, faces: Range<usize>, is_marked: &[AtomicBool]) -> Vec<u32> {
+        let corners = arrays.indices[faces.start * 3..faces.end * 3].chunks_exact(3);
+        let mut edge_on = Vec::new();
+        for ((face, plane), corners) in faces.clone().zip(&self.planes[faces]).zip(corners) {
+            let height = view.height(plane);
+            if height < -view.least_back {
+                continue;
+            }
+            corners.iter().for_each(|vertex| is_marked[self.point(*vertex)].store(true, Ordering::Relaxed));
+            // Written so that a face whose plane is no number counts as edge-on.
+            if !(height > view.least_back) {
+                edge_on.push(face as u32);
             }
         }
+        edge_on
     }
 }
 
 impl View {
-    fn is_surely_back(&self, &[x, y, z, offset]: &[f32; 4]) -> bool {
+    fn is_surely_back(&self, plane: &[f32; 4]) -> bool {
+        self.height(plane) < -self.least_back
+    }
+
+    /// How far before a face's plane the eye is; in parallel projection the product of its normal and the direction.
+    fn height(&self, &[x, y, z, offset]: &[f32; 4]) -> f32 {
         let height = Vec3::new(x, y, z).dot(self.eye);
-        let height = if self.sight.is_parallel { height } else { height - offset };
-        height < -self.least_back
+        if self.sight.is_parallel { height } else { height - offset }
     }
 }
 

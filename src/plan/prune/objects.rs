@@ -84,7 +84,7 @@ pub(super) fn culled_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omissio
 }
 
 /// Pictures from which on finding hidden faces takes less time than drawing them does.
-const WORTH_HIDING: u32 = 24;
+const WORTH_HIDING: u32 = 16;
 
 /// Leaves out faces that are turned away and behind others of their own closed surface.
 pub(super) fn hidden_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
