@@ -23,6 +23,7 @@ mod lines_rules;
 mod lines_shapes;
 mod lines_support;
 mod measure;
+mod mrt;
 mod pipeline;
 mod report;
 mod report_page;
