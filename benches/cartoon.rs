@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::time::Instant;
 use tinta::mesh::Mesh;
-use tinta::styles::Cartoon;
+use tinta::styles::{Cartoon, Mrt};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, load};
 
 const USAGE: &str = "cargo bench --bench cartoon -- MODEL [--python PYTHON] [--rounds N] [--frames N]
@@ -88,6 +88,8 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
         ("three-pass, back faces culled", Style::ThreePass(Cartoon { cull_back_faces: true, ..Cartoon::default() })),
         ("two-pass", Style::TwoPass(Cartoon::default())),
         ("two-pass, back faces culled", Style::TwoPass(Cartoon { cull_back_faces: true, ..Cartoon::default() })),
+        ("mrt", Style::Mrt(Mrt::default())),
+        ("mrt, back faces culled", Style::Mrt(Mrt { cull_back_faces: true, ..Mrt::default() })),
     ];
     let mut series: Vec<Series> = styles.iter().map(|(name, _)| Series::new(name)).collect();
     let with_normals = folder.join("with-normals.obj");

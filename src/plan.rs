@@ -4,6 +4,9 @@
 
 mod display;
 pub mod prune;
+mod target;
+
+pub use target::{Attachment, Attachments, Drawn, Format, Target};
 
 use crate::mesh::Part;
 use crate::names::find;
@@ -25,7 +28,7 @@ pub struct Plan {
     /// How many times as wide and high as the picture it is drawn, from 1. Above 1 the plan itself ends by drawing
     /// [`Geometry::PictureSquare`], which fills the picture.
     pub supersample: u32,
-    /// What of the framebuffer is the picture.
+    /// What of [`Plan::picture_target`] is the picture.
     pub output: Output,
 }
 
@@ -40,25 +43,6 @@ pub struct Pass {
     pub steps: Vec<Step>,
 }
 
-/// What a pass draws into.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Target {
-    /// The framebuffer, 8 bits a channel.
-    #[default]
-    Framebuffer,
-    /// The texture [`Texture::FloatMap`], RGBA, with a depth buffer of its own; not clamped to [0, 1].
-    FloatMap(FloatBits),
-}
-
-/// How large a channel of a floating-point texture is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FloatBits {
-    /// 16 bits, 11 of them for the digits.
-    Half,
-    /// 32 bits.
-    Single,
-}
-
 /// One thing for GL to do.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step {
@@ -68,6 +52,11 @@ pub enum Step {
         color: Option<[f32; 4]>,
         /// Whether depth is cleared, to the farthest.
         depth: bool,
+    },
+    /// Clear each of the pass's textures to a colour of its own, and depth.
+    ClearEach {
+        /// Red, green, blue, alpha of each, in the order of [`Attachments::colors`].
+        colors: Vec<[f32; 4]>,
     },
     /// Draw something.
     Draw(Draw),
@@ -264,8 +253,8 @@ pub enum Value {
 pub enum Texture {
     /// The framebuffer as the last [`Step::CopyFramebuffer`] left it; NEAREST, CLAMP_TO_EDGE (errata E12).
     BorderMap,
-    /// What the last pass into [`Target::FloatMap`] drew; NEAREST, CLAMP_TO_EDGE.
-    FloatMap,
+    /// What passes into [`Target::Textures`] drew there; NEAREST, CLAMP_TO_EDGE.
+    Drawn(Drawn),
     /// The depth buffer as the last [`Step::CopyDepth`] left it, window z in red; NEAREST, CLAMP_TO_EDGE.
     DepthMap,
     /// The plan's [`ToneTable`], one-dimensional; NEAREST, CLAMP_TO_EDGE.
@@ -316,7 +305,7 @@ pub struct ToneTable {
     pub texels: Vec<[u8; 2]>,
 }
 
-/// What of the framebuffer the picture shows.
+/// What of the target the picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Output {
     /// All four channels.
@@ -355,7 +344,7 @@ impl Step {
     /// A short name for files and tables.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Clear { .. } => "clear",
+            Self::Clear { .. } | Self::ClearEach { .. } => "clear",
             Self::CopyFramebuffer => "copy",
             Self::CopyDepth => "copy-depth",
             Self::Draw(draw) => match draw.geometry {

@@ -8,7 +8,7 @@ use crate::gl::{Backend, ContextInfo};
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::prune::{Pruning, prune};
-use crate::plan::{Draw, Geometry, LineDrawing, Output, Plan, Step, Target};
+use crate::plan::{Draw, Geometry, LineDrawing, Output, Plan, Step};
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use serde::Serialize;
@@ -43,7 +43,7 @@ pub struct StepPicture {
     pub pass: &'static str,
     /// The step's name.
     pub step: &'static str,
-    /// The framebuffer after it, or for a copy the texture; exactly GL's bytes.
+    /// What it drew into after it, of several textures the first, or for a copy the copy; exactly GL's bytes.
     pub picture: Picture,
 }
 
@@ -211,7 +211,9 @@ impl Renderer {
                     let pixels = &mut frame.pixels[..size.pixel_count() * 4];
                     match step {
                         Step::CopyFramebuffer | Step::CopyDepth => frame.resources.read_copy(step, size, pixels),
-                        Step::Clear { .. } | Step::Draw(_) => frame.resources.read_framebuffer(size, pixels),
+                        Step::Clear { .. } | Step::ClearEach { .. } | Step::Draw(_) => {
+                            frame.resources.read_framebuffer(size, pixels)
+                        }
                     }
                     let picture = Picture::from_bottom_up(size, pixels);
                     frame.resources.check(pass.name)?;
@@ -312,7 +314,7 @@ impl Frame<'_> {
 
     fn read_back(&mut self) -> Result<()> {
         let size = self.scene.size;
-        self.resources.begin(Target::Framebuffer)?;
+        self.resources.begin(self.plan.picture_target())?;
         self.resources.read_framebuffer(size, &mut self.pixels[..size.pixel_count() * 4]);
         self.resources.check("drawing")
     }

@@ -5,6 +5,7 @@
 //! | `phong` | the realistic rendering the first paper compares with |
 //! | `three-pass` | Evangelista et al. 2005, appendix 1 |
 //! | `two-pass` | Evangelista et al. 2005, section 4.2 and appendix 2 |
+//! | `mrt` | its future work, section 6: the three passes' picture with one pass over the geometry |
 //! | `inking` | Dachsbacher, edge list and painting |
 //! | `dietrich` | the hardware's outline that Dachsbacher names as the alternative |
 //! | `ink` | of this project: Evangelista's passes with a map and a filter that answer to geometry |
@@ -19,6 +20,7 @@ mod ink;
 mod inking;
 mod lens;
 mod map;
+mod mrt;
 mod phong;
 mod ramp;
 mod supersample;
@@ -32,7 +34,8 @@ pub use charcoal::{
 pub use dietrich::Dietrich;
 pub use ink::{Ink, Quality};
 pub use inking::{ClassColors, Inking, LightOn, PaintMode};
-pub use map::MapEncoding;
+pub use map::{MapEncoding, MapTarget};
+pub use mrt::Mrt;
 pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
 pub use supersample::Supersample;
@@ -55,6 +58,8 @@ pub enum Style {
     ThreePass(Cartoon),
     /// Map, then tones and border in one.
     TwoPass(Cartoon),
+    /// Map and tones at once, border blended on top.
+    Mrt(Mrt),
     /// Painted faces, lines from the edge list.
     Inking(Inking),
     /// Ink where the surface is seen at a grazing angle.
@@ -101,6 +106,7 @@ impl Style {
             StyleName::Phong => Self::Phong(Phong::default()),
             StyleName::ThreePass => Self::ThreePass(Cartoon::default()),
             StyleName::TwoPass => Self::TwoPass(Cartoon::default()),
+            StyleName::Mrt => Self::Mrt(Mrt::default()),
             StyleName::Inking => Self::Inking(Inking::default()),
             StyleName::Dietrich => Self::Dietrich(Dietrich::default()),
             StyleName::Ink => Self::Ink(Ink::default()),
@@ -115,6 +121,7 @@ impl Style {
             Self::Phong(_) => "phong",
             Self::ThreePass(_) => "three-pass",
             Self::TwoPass(_) => "two-pass",
+            Self::Mrt(_) => "mrt",
             Self::Inking(_) => "inking",
             Self::Dietrich(_) => "dietrich",
             Self::Ink(_) => "ink",
@@ -127,6 +134,7 @@ impl Style {
     pub fn has_lines(&self) -> bool {
         match self {
             Self::ThreePass(cartoon) | Self::TwoPass(cartoon) => cartoon.border.is_some(),
+            Self::Mrt(mrt) => mrt.border.is_some(),
             Self::Inking(inking) => inking.is_inked,
             Self::Ink(ink) => ink.is_inked,
             Self::Dietrich(_) => true,
@@ -136,7 +144,11 @@ impl Style {
 
     /// Whether its tones can be shown by themselves.
     pub fn has_tones(&self) -> bool {
-        matches!(self, Self::ThreePass(_) | Self::TwoPass(_) | Self::Ink(_) | Self::Inking(_) | Self::Dietrich(_))
+        match self {
+            Self::ThreePass(_) | Self::TwoPass(_) | Self::Mrt(_) => true,
+            Self::Inking(_) | Self::Dietrich(_) | Self::Ink(_) => true,
+            Self::Phong(_) | Self::Charcoal(_) | Self::Sand(_) => false,
+        }
     }
 
     /// What GL has to do for this scene.
@@ -149,6 +161,7 @@ impl Style {
             Self::Phong(phong) => phong.plan(scene, show),
             Self::ThreePass(cartoon) => cartoon.three_pass(scene, show),
             Self::TwoPass(cartoon) => cartoon.two_pass(scene, show),
+            Self::Mrt(mrt) => mrt.plan(scene, show),
             Self::Inking(inking) => inking.plan(scene, show),
             Self::Dietrich(dietrich) => dietrich.plan(scene, show),
             Self::Ink(ink) => ink.plan(scene, show),
@@ -167,6 +180,8 @@ pub enum StyleName {
     ThreePass,
     /// `two-pass`
     TwoPass,
+    /// `mrt`
+    Mrt,
     /// `inking`
     Inking,
     /// `dietrich`
@@ -181,10 +196,11 @@ pub enum StyleName {
 
 impl StyleName {
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 8] = [
+    pub const ALL: [(&'static str, Self); 9] = [
         ("phong", Self::Phong),
         ("three-pass", Self::ThreePass),
         ("two-pass", Self::TwoPass),
+        ("mrt", Self::Mrt),
         ("inking", Self::Inking),
         ("dietrich", Self::Dietrich),
         ("ink", Self::Ink),

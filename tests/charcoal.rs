@@ -269,7 +269,7 @@ fn recipes_are_overruled_by_options_and_nonsense_is_refused_by_name() {
     refused(&["--texture-size", "5000"], &["--texture-size 5000x5000", "4096"]);
     refused(&["--paper", "no/such.png"], &["no/such.png"]);
     refused(&["--show", "tones"], &["--show", "diffuse"]);
-    for style in ["phong", "three-pass", "two-pass", "inking", "dietrich"] {
+    for style in ["phong", "three-pass", "two-pass", "mrt", "inking", "dietrich"] {
         let line = ["render", "builtin:gear", "-o", &out, "--style", style, "--show", "cet"];
         refused_in_one_line(&line, &["--show"]);
     }

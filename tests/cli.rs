@@ -148,6 +148,7 @@ fn nonsensical_settings_are_refused_by_name() {
     render(&["--tone-levels", "1,2,3"], &["--tone-levels"]);
     render(&["--fov", "1e-9"], &["--fov"]);
     render(&["--show", "tones", "--style", "phong"], &["--show"]);
+    render(&["--style", "mrt", "--map-encoding", "float"], &["--map-encoding", "mrt", "three-pass"]);
     render(&["--style", "cubist"], &["cubist", "three-pass"]);
     render(&["--background", "blurple"], &["blurple", "CSS name"]);
     render(&["--transparent", "--style", "two-pass"], &["--transparent", "three-pass"]);

@@ -1,7 +1,7 @@
 //! Memory and GL objects over many frames; in a process of its own, because other tests' memory would count too.
 
 use std::sync::{Arc, Mutex};
-use tinta::styles::{Cartoon, Ink, MapEncoding, Quality};
+use tinta::styles::{Cartoon, Ink, MapEncoding, MapTarget, Mrt, Quality, Supersample};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
 
 /// Growth allowed over 1,000 frames, KiB. The allocator's own level moves by about 1,000 once, after 1,000 frames as after
@@ -60,11 +60,13 @@ fn a_renderer_deletes_every_object_it_made() {
     }
 }
 
-/// What needs objects of its own: a floating-point target, a copy of the depth, a larger surface.
-fn improved() -> [Style; 3] {
+/// What needs objects of its own: drawn textures, a copy of the depth, a larger surface.
+fn improved() -> [Style; 5] {
     let cartoon = |map_encoding| Style::ThreePass(Cartoon { map_encoding, ..Cartoon::default() });
     let best = Style::Ink(Ink { quality: Quality::Best, ..Ink::default() });
-    [cartoon(MapEncoding::Float), cartoon(MapEncoding::DepthTexture), best]
+    let texture = Style::TwoPass(Cartoon { map_target: MapTarget::Texture, ..Cartoon::default() });
+    let mrt = Style::Mrt(Mrt { supersample: Supersample::Two, ..Mrt::default() });
+    [cartoon(MapEncoding::Float), cartoon(MapEncoding::DepthTexture), best, texture, mrt]
 }
 
 /// Resident memory of this process.

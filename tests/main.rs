@@ -24,6 +24,7 @@ mod lines_rules;
 mod lines_shapes;
 mod lines_support;
 mod measure;
+mod mrt;
 mod pipeline;
 mod prune;
 mod report;

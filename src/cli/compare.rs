@@ -21,7 +21,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE|DIR")]
     output: String,
 
-    /// Style on the left: three-pass, two-pass, inking, dietrich, ink [default: three-pass]
+    /// Style on the left: three-pass, two-pass, mrt, inking, dietrich, ink [default: three-pass]
     #[arg(long, value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
     left: StyleName,
 
@@ -92,8 +92,9 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         if matches!(name, StyleName::Phong | StyleName::Charcoal | StyleName::Sand) {
             return Err(Error::Setting {
                 setting: format!("{option} {}", name.name()),
-                problem: "this style has no lines to compare; choose three-pass, two-pass, inking, dietrich or ink"
-                    .to_owned(),
+                problem:
+                    "this style has no lines to compare; choose three-pass, two-pass, mrt, inking, dietrich or ink"
+                        .to_owned(),
             });
         }
     }

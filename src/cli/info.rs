@@ -37,6 +37,7 @@ fn in_words(attempt: &Attempt) -> String {
         Outcome::Error(reason) => return format!("{}\n  no context: {reason}\n\n", attempt.device),
         Outcome::Context(info) => info,
     };
+    let yes = |is: bool| if is { "yes" } else { "no" }.to_owned();
     let rows = [
         ("vendor", info.vendor.clone()),
         ("renderer", info.renderer.clone()),
@@ -48,8 +49,11 @@ fn in_words(attempt: &Attempt) -> String {
         ("point sizes", format!("{} to {} px", info.aliased_point_size[0], info.aliased_point_size[1])),
         ("smooth point sizes", format!("{} to {} px", info.smooth_point_size[0], info.smooth_point_size[1])),
         ("largest picture", format!("{} px", info.largest_picture)),
-        ("timer queries", if info.timer_queries { "yes" } else { "no" }.to_owned()),
+        ("draws into textures", yes(info.framebuffer_objects)),
+        ("draws into at once", info.draw_buffers.to_string()),
+        ("draws floating point", yes(info.float_targets)),
+        ("timer queries", yes(info.timer_queries)),
     ];
-    let lines: String = rows.iter().map(|(name, value)| format!("  {name:<20}{value}\n")).collect();
+    let lines: String = rows.iter().map(|(name, value)| format!("  {name:<21}{value}\n")).collect();
     format!("{}\n{lines}\n", attempt.device)
 }

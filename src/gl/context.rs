@@ -86,6 +86,10 @@ pub struct ContextInfo {
     pub texture_units: u32,
     /// Largest picture, pixels: the smallest of viewport, texture and surface limits.
     pub largest_picture: Size,
+    /// Whether passes can draw into textures (ARB_framebuffer_object).
+    pub framebuffer_objects: bool,
+    /// Into how many of them at once (ARB_draw_buffers).
+    pub draw_buffers: u32,
     /// Whether passes can draw into floating-point textures.
     pub float_targets: bool,
     /// Bits to which a vertex is placed within a pixel; OpenGL promises 4.
@@ -333,7 +337,8 @@ fn load_functions(platform: &Platform, backend: &'static str, device: String) ->
         || glow.supported_extensions().contains("GL_ARB_timer_query")
         || glow.supported_extensions().contains("GL_EXT_timer_query");
     let has = |name: &str| glow.supported_extensions().contains(name);
-    let float_targets = version >= (3, 0) || (has("GL_ARB_framebuffer_object") && has("GL_ARB_texture_float"));
+    let framebuffer_objects = version >= (3, 0) || has("GL_ARB_framebuffer_object");
+    let float_targets = framebuffer_objects && (version >= (3, 0) || has("GL_ARB_texture_float"));
     let info = ContextInfo {
         backend,
         device,
@@ -350,6 +355,8 @@ fn load_functions(platform: &Platform, backend: &'static str, device: String) ->
         largest_texture: texture.max(0) as u32,
         texture_units: integer(glow::MAX_TEXTURE_IMAGE_UNITS).max(0) as u32,
         largest_picture: Size { width: limit(viewport[0], surface.width), height: limit(viewport[1], surface.height) },
+        framebuffer_objects,
+        draw_buffers: integer(glow::MAX_DRAW_BUFFERS).max(0) as u32,
         float_targets,
         subpixel_bits: integer(glow::SUBPIXEL_BITS).max(LEAST_SUBPIXEL_BITS) as u32,
         timer_queries,

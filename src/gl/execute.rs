@@ -5,7 +5,7 @@ use super::edges::EdgeIndices;
 use super::legacy::{self, MODELVIEW, PROJECTION};
 use super::meshes::{Coordinates, FaceIndices, MeshBuffers};
 use super::objects::{Buffer, Program, Shader, TimerQuery};
-use super::targets::Targets;
+use super::targets::{Targets, clear_each};
 use super::textures::Textures;
 use crate::error::{Error, Result};
 use crate::plan::{self, Depth, Draw, Geometry, LineDrawing, Plan, Step, Target};
@@ -129,6 +129,10 @@ impl Resources {
                 }
                 Ok(())
             }
+            Step::ClearEach { colors } => {
+                clear_each(&self.gl, colors);
+                Ok(())
+            }
             Step::Draw(draw) => self.draw(scene, draw),
             Step::CopyFramebuffer => self.targets.copy_color(&self.gl, self.surface),
             Step::CopyDepth => self.targets.copy_depth(&self.gl, self.surface),
@@ -175,7 +179,7 @@ impl Resources {
         for (unit, (_, texture)) in draw.textures.iter().enumerate() {
             let texture = match texture {
                 plan::Texture::BorderMap => self.targets.border_map(),
-                plan::Texture::FloatMap => self.targets.float_map(),
+                plan::Texture::Drawn(name) => self.targets.drawn(*name),
                 plan::Texture::DepthMap => self.targets.depth_map(),
                 plan::Texture::ToneTable => self.textures.tone_table(),
                 plan::Texture::Picture(number) => self.textures.picture(*number),

@@ -1,10 +1,16 @@
-//! What passes draw into and read from besides the framebuffer: copies of its colour and depth, and a floating-point texture.
+//! What passes draw into and read from besides the framebuffer: copies of its colour and depth, and textures drawn into by
+//! framebuffer objects.
 
-use super::objects::{Live, Texture, out_of_names};
+mod framebuffer;
+
+use super::context::ContextInfo;
+use super::objects::Texture;
 use super::{Gl, legacy};
 use crate::error::{Error, Result};
-use crate::plan::{FloatBits, Plan, Sampling, Target};
+use crate::plan::{Attachments, Drawn, Format, Plan, Sampling, Target};
 use crate::scene::Size;
+pub use framebuffer::clear_each;
+use framebuffer::{Framebuffer, Renderbuffer};
 use glow::HasContext;
 use std::rc::Rc;
 
@@ -13,23 +19,19 @@ use std::rc::Rc;
 pub struct Targets {
     border_map: Option<Texture>,
     depth_map: Option<Texture>,
-    float_map: Option<FloatMap>,
+    drawn: Option<TextureTargets>,
 }
 
 impl Targets {
-    /// Makes the floating-point texture where the plan draws into one and there is none of this size yet.
+    /// Makes what the plan draws into where there is none of this size yet.
     pub fn prepare(&mut self, gl: &Rc<Gl>, plan: &Plan, size: Size) -> Result<()> {
-        for pass in &plan.passes {
-            let Target::FloatMap(bits) = pass.target else { continue };
-            if !gl.info.float_targets {
-                let problem = format!("{} cannot draw into floating-point textures; use biased", gl.info.renderer);
-                return Err(Error::setting("--map-encoding float", problem));
-            }
-            if self.float_map.as_ref().is_none_or(|map| (map.size, map.bits) != (size, bits)) {
-                // The old one first: at the largest sizes there is no room for two.
-                self.float_map = None;
-                self.float_map = Some(FloatMap::new(gl, size, bits)?);
-            }
+        check(&gl.info, plan)?;
+        let attachments = plan.attachments();
+        let is_there = |drawn: &TextureTargets| drawn.size == size && drawn.attachments == attachments;
+        if !attachments.is_empty() && !self.drawn.as_ref().is_some_and(is_there) {
+            // The old ones first: at the largest sizes there is no room for both.
+            self.drawn = None;
+            self.drawn = Some(TextureTargets::new(gl, size, attachments)?);
         }
         Ok(())
     }
@@ -38,15 +40,14 @@ impl Targets {
     pub fn begin(&self, gl: &Gl, target: Target) -> Result<()> {
         let framebuffer = match target {
             Target::Framebuffer => None,
-            Target::FloatMap(_) => match &self.float_map {
-                Some(map) => Some(map.framebuffer.id),
-                None => return Err(Error::gl("drawing", "a plan was carried out without being prepared")),
-            },
+            Target::Textures(attachments) => {
+                let drawn = self.drawn.as_ref().and_then(|drawn| drawn.framebuffer(attachments));
+                Some(drawn.ok_or_else(|| Error::gl("drawing", "a plan was carried out without being prepared"))?)
+            }
         };
         // A driver without framebuffer objects has nothing else to draw into.
-        if gl.info.float_targets {
-            // SAFETY: the context is current and the framebuffer alive.
-            unsafe { gl.glow.bind_framebuffer(glow::FRAMEBUFFER, framebuffer) }
+        if gl.info.framebuffer_objects {
+            framebuffer::bind(gl, framebuffer);
         }
         Ok(())
     }
@@ -71,10 +72,33 @@ impl Targets {
         self.depth_map.as_ref()
     }
 
-    /// The floating-point texture.
-    pub fn float_map(&self) -> Option<&Texture> {
-        self.float_map.as_ref().map(|map| &map.texture)
+    /// The texture of this name that a framebuffer object drew into.
+    pub fn drawn(&self, name: Drawn) -> Option<&Texture> {
+        self.drawn.as_ref()?.textures.iter().find(|(other, ..)| *other == name).map(|(.., texture)| texture)
     }
+}
+
+/// Refuses a plan that this context has no framebuffer objects, draw buffers or texture formats for, by the option that
+/// asks for them.
+pub fn check(info: &ContextInfo, plan: &Plan) -> Result<()> {
+    for attachments in plan.attachments() {
+        let count = attachments.colors.len();
+        let lack = if !info.framebuffer_objects {
+            "has no framebuffer objects (ARB_framebuffer_object)".to_owned()
+        } else if count > info.draw_buffers as usize {
+            format!("draws into {} buffer at once, not {count} (ARB_draw_buffers)", info.draw_buffers)
+        } else if !info.float_targets && attachments.colors.iter().any(|color| color.format.is_float()) {
+            "cannot draw into floating-point textures (ARB_texture_float)".to_owned()
+        } else {
+            continue;
+        };
+        return Err(refused(info, attachments, &lack));
+    }
+    Ok(())
+}
+
+fn refused(info: &ContextInfo, attachments: &Attachments, lack: &str) -> Error {
+    Error::setting(attachments.asked_by, format!("{} {lack}; use {}", info.renderer, attachments.instead))
 }
 
 fn copy(gl: &Rc<Gl>, texture: &mut Option<Texture>, format: u32, size: Size) -> Result<()> {
@@ -89,92 +113,65 @@ fn copy(gl: &Rc<Gl>, texture: &mut Option<Texture>, format: u32, size: Size) -> 
     Ok(())
 }
 
-/// A floating-point texture with a depth buffer, to draw into.
-struct FloatMap {
-    framebuffer: Framebuffer,
-    /// Kept for the framebuffer, which draws into it.
-    _depth: Renderbuffer,
-    texture: Texture,
+/// The textures a plan's passes draw into, one a name, and the framebuffer objects that share them and a depth buffer.
+struct TextureTargets {
     size: Size,
-    bits: FloatBits,
+    attachments: Vec<&'static Attachments>,
+    /// One for each of `attachments`; dropped before what they draw into.
+    framebuffers: Vec<Framebuffer>,
+    textures: Vec<(Drawn, Format, Texture)>,
+    /// Kept for the framebuffers, which draw into it.
+    _depth: Option<Renderbuffer>,
 }
 
-impl FloatMap {
-    fn new(gl: &Rc<Gl>, size: Size, bits: FloatBits) -> Result<Self> {
-        let texture = Texture::new(gl, glow::TEXTURE_2D, Sampling::NearestClamped)?;
-        let format = match bits {
-            FloatBits::Half => glow::RGBA16F,
-            FloatBits::Single => glow::RGBA32F,
-        };
-        let (width, height) = (size.width as i32, size.height as i32);
-        // SAFETY: the context is current, the texture just bound; no texels are given, so none are read.
-        unsafe {
-            let none = glow::PixelUnpackData::Slice(None);
-            let (target, format) = (glow::TEXTURE_2D, format as i32);
-            gl.glow.tex_image_2d(target, 0, format, width, height, 0, glow::RGBA, glow::FLOAT, none);
+impl TextureTargets {
+    fn new(gl: &Rc<Gl>, size: Size, attachments: Vec<&'static Attachments>) -> Result<Self> {
+        let mut textures: Vec<(Drawn, Format, Texture)> = Vec::new();
+        for color in attachments.iter().flat_map(|attachments| attachments.colors) {
+            match textures.iter().find(|(name, ..)| *name == color.name) {
+                None => textures.push((color.name, color.format, empty_texture(gl, size, color.format)?)),
+                Some((_, format, _)) if *format == color.format => {}
+                Some(_) => return Err(Error::gl("setting up", "a plan draws into one texture in two formats")),
+            }
         }
-        let (framebuffer, depth) = (Framebuffer::new(gl)?, Renderbuffer::new(gl)?);
-        // SAFETY: the context is current and has framebuffer objects, as `Targets::prepare` has checked; all three are alive.
-        let is_complete = unsafe {
-            let gl = &gl.glow;
-            gl.bind_renderbuffer(glow::RENDERBUFFER, Some(depth.id));
-            gl.renderbuffer_storage(glow::RENDERBUFFER, glow::DEPTH_COMPONENT24, width, height);
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer.id));
-            let color = glow::COLOR_ATTACHMENT0;
-            gl.framebuffer_texture_2d(glow::FRAMEBUFFER, color, glow::TEXTURE_2D, Some(texture.id()), 0);
-            let attachment = glow::DEPTH_ATTACHMENT;
-            gl.framebuffer_renderbuffer(glow::FRAMEBUFFER, attachment, glow::RENDERBUFFER, Some(depth.id));
-            let status = gl.check_framebuffer_status(glow::FRAMEBUFFER);
-            gl.bind_framebuffer(glow::FRAMEBUFFER, None);
-            status == glow::FRAMEBUFFER_COMPLETE
-        };
-        gl.check("making a floating-point texture")?;
-        if is_complete {
-            return Ok(Self { framebuffer, _depth: depth, texture, size, bits });
+        let needs_depth = attachments.iter().any(|attachments| attachments.has_depth);
+        let depth = needs_depth.then(|| Renderbuffer::depth(gl, size)).transpose()?;
+        let texture = |name| textures.iter().find(|(other, ..)| *other == name).map(|(.., texture)| texture);
+        let mut framebuffers = Vec::new();
+        for attachments in &attachments {
+            let colors: Vec<&Texture> = attachments.colors.iter().filter_map(|color| texture(color.name)).collect();
+            let framebuffer = Framebuffer::new(gl, &colors, depth.as_ref().filter(|_| attachments.has_depth))?;
+            gl.check("making a framebuffer object")?;
+            if !framebuffer.is_complete() {
+                return Err(refused(&gl.info, attachments, "cannot draw into such textures"));
+            }
+            framebuffers.push(framebuffer);
         }
-        let problem = format!("{} cannot draw into such a texture; use another", gl.info.renderer);
-        Err(Error::setting("--map-encoding float", problem))
+        Ok(Self { size, attachments, framebuffers, textures, _depth: depth })
+    }
+
+    fn framebuffer(&self, attachments: &Attachments) -> Option<&Framebuffer> {
+        let place = self.attachments.iter().position(|other| *other == attachments)?;
+        self.framebuffers.get(place)
     }
 }
 
-/// A framebuffer object.
-struct Framebuffer {
-    live: Live,
-    id: glow::Framebuffer,
-}
-
-impl Framebuffer {
-    fn new(gl: &Rc<Gl>) -> Result<Self> {
-        // SAFETY: the context is current and has framebuffer objects.
-        let id = unsafe { gl.glow.create_framebuffer() }.map_err(out_of_names)?;
-        Ok(Self { live: Live::new(gl), id })
+fn empty_texture(gl: &Rc<Gl>, size: Size, format: Format) -> Result<Texture> {
+    let texture = Texture::new(gl, glow::TEXTURE_2D, Sampling::NearestClamped)?;
+    let (format, kind) = match format {
+        Format::Unorm8 => (glow::RGBA8, glow::UNSIGNED_BYTE),
+        Format::Float16 => (glow::RGBA16F, glow::FLOAT),
+        Format::Float32 => (glow::RGBA32F, glow::FLOAT),
+    };
+    let (width, height) = (size.width as i32, size.height as i32);
+    // SAFETY: the context is current, the texture just bound; no texels are given, so none are read.
+    unsafe {
+        let none = glow::PixelUnpackData::Slice(None);
+        let (target, format) = (glow::TEXTURE_2D, format as i32);
+        gl.glow.tex_image_2d(target, 0, format, width, height, 0, glow::RGBA, kind, none);
     }
+    Ok(texture)
 }
 
-impl Drop for Framebuffer {
-    fn drop(&mut self) {
-        // SAFETY: the context is current and this framebuffer alive and ours.
-        unsafe { self.live.gl().delete_framebuffer(self.id) }
-    }
-}
-
-/// A buffer that is drawn into and never read as a texture.
-struct Renderbuffer {
-    live: Live,
-    id: glow::Renderbuffer,
-}
-
-impl Renderbuffer {
-    fn new(gl: &Rc<Gl>) -> Result<Self> {
-        // SAFETY: the context is current and has framebuffer objects.
-        let id = unsafe { gl.glow.create_renderbuffer() }.map_err(out_of_names)?;
-        Ok(Self { live: Live::new(gl), id })
-    }
-}
-
-impl Drop for Renderbuffer {
-    fn drop(&mut self) {
-        // SAFETY: the context is current and this buffer alive and ours.
-        unsafe { self.live.gl().delete_renderbuffer(self.id) }
-    }
-}
+#[cfg(test)]
+mod tests;

@@ -48,6 +48,7 @@ impl<'a> Shading<'a> {
     pub fn of(style: &'a Style, scene: &Scene) -> Result<Option<Self>> {
         Ok(match style {
             Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => Some(Self::Tones(&cartoon.tones)),
+            Style::Mrt(mrt) => Some(Self::Tones(&mrt.tones)),
             Style::Ink(ink) => Some(Self::Tones(&ink.tones)),
             Style::Phong(phong) => Some(Self::Phong(phong)),
             Style::Charcoal(charcoal) | Style::Sand(charcoal) => {

@@ -1,9 +1,6 @@
 //! Plans as text, for `--explain` and for tests.
 
-use super::{
-    Depth, Draw, EdgeRun, Faces, FloatBits, Geometry, LineDrawing, Mark, Output, Paint, Plan, Program, Step, Target,
-    Value,
-};
+use super::{Depth, Draw, EdgeRun, Faces, Geometry, LineDrawing, Mark, Paint, Plan, Program, Step, Texture, Value};
 use crate::scene::Rectangle;
 use std::fmt;
 
@@ -13,22 +10,12 @@ impl fmt::Display for Plan {
             writeln!(out, "everything drawn {} times as wide and high as the picture", self.supersample)?;
         }
         for (number, pass) in self.passes.iter().enumerate() {
-            write!(out, "pass {}: {}", number + 1, pass.name)?;
-            match pass.target {
-                Target::Framebuffer => writeln!(out)?,
-                Target::FloatMap(FloatBits::Half) => writeln!(out, ", into the texture FloatMap, 16 bits a channel")?,
-                Target::FloatMap(FloatBits::Single) => writeln!(out, ", into the texture FloatMap, 32 bits a channel")?,
-            }
+            writeln!(out, "pass {}: {}{}", number + 1, pass.name, pass.target)?;
             for step in &pass.steps {
                 writeln!(out, "  {step}")?;
             }
         }
-        let output = match self.output {
-            Output::Rgba => "the framebuffer",
-            Output::Rgb => "the framebuffer's red, green and blue",
-            Output::AlphaAsGrey => "the framebuffer's alpha as grey",
-        };
-        writeln!(out, "picture: {output}")
+        self.write_picture(out)
     }
 }
 
@@ -45,6 +32,13 @@ impl fmt::Display for Step {
                     write!(out, "{comma} depth to 1")?;
                 }
                 Ok(())
+            }
+            Self::ClearEach { colors } => {
+                write!(out, "clear to ")?;
+                for (index, [r, g, b, a]) in colors.iter().enumerate() {
+                    write!(out, "{}({r}, {g}, {b}, {a})", if index > 0 { " and " } else { "" })?;
+                }
+                write!(out, ", depth to 1")
             }
             Self::CopyFramebuffer => write!(out, "copy the framebuffer into the texture BorderMap"),
             Self::CopyDepth => write!(out, "copy the depth buffer into the texture DepthMap"),
@@ -86,7 +80,10 @@ impl fmt::Display for Draw {
             }
         }
         for (sampler, texture) in &self.textures {
-            write!(out, ", {sampler} = {texture:?}")?;
+            match texture {
+                Texture::Drawn(name) => write!(out, ", {sampler} = {name:?}")?,
+                _ => write!(out, ", {sampler} = {texture:?}")?,
+            }
         }
         match self.depth {
             Depth::TestAndWrite => {}

@@ -9,10 +9,11 @@ use std::f64::consts::{PI, TAU};
 pub(super) const RADIUS: f64 = 6.0;
 
 /// The colours can be told apart by the colour-blind (Okabe and Ito 2008) and be seen on white and near black.
-const MARKS: [(&str, RGBColor, Outline); 8] = [
+const MARKS: [(&str, RGBColor, Outline); 9] = [
     ("phong", RGBColor(128, 128, 128), Outline::Circle),
     ("three-pass", RGBColor(31, 131, 201), Outline::Polygon { corners: 4, turn: PI / 4.0 }),
     ("two-pass", RGBColor(213, 94, 0), Outline::Polygon { corners: 3, turn: 0.0 }),
+    ("mrt", RGBColor(86, 180, 233), Outline::Polygon { corners: 5, turn: PI }),
     ("inking", RGBColor(0, 158, 115), Outline::Polygon { corners: 4, turn: 0.0 }),
     ("dietrich", RGBColor(204, 121, 167), Outline::Polygon { corners: 3, turn: PI }),
     ("charcoal", RGBColor(140, 109, 90), Outline::Polygon { corners: 5, turn: 0.0 }),

@@ -4,7 +4,7 @@ use super::supersample::texture_unit;
 use super::{MapEncoding, lens};
 use crate::error::{Error, Result};
 use crate::names::find;
-use crate::plan::{Uniform, Value};
+use crate::plan::{Depth, Draw, Geometry, Program, Texture, Uniform, Value};
 use crate::scene::{Scene, Size};
 use serde::Serialize;
 use std::str::FromStr;
@@ -73,7 +73,7 @@ impl Default for Border {
 
 impl Border {
     /// Whether these are the constants of the listing, so that the listing itself can run.
-    pub(super) fn is_published(&self) -> bool {
+    fn is_published(&self) -> bool {
         *self == Self::default()
     }
 
@@ -100,6 +100,35 @@ impl Border {
             false => "evangelista/depth-as-filtered.frag",
         };
         [filter, tap, encoding.shader(), depth]
+    }
+
+    /// Whether the listing can run as printed on such a map.
+    pub(super) fn runs_the_listing(&self, encoding: MapEncoding) -> bool {
+        self.is_published() && encoding == MapEncoding::Paper
+    }
+
+    /// The filter over the whole surface, blended; `textures` are those of the map.
+    pub(super) fn square(
+        &self,
+        scene: &Scene,
+        surface: Size,
+        encoding: MapEncoding,
+        textures: Vec<(&'static str, Texture)>,
+    ) -> Draw {
+        let mut fragments = vec!["evangelista/border.frag"];
+        let mut uniforms = Self::published_uniforms(surface);
+        if !self.runs_the_listing(encoding) {
+            fragments = vec!["evangelista/border-settings.frag"];
+            fragments.extend(self.shaders(encoding));
+            uniforms = self.uniforms(scene, surface, encoding);
+        }
+        Draw {
+            uniforms,
+            textures,
+            depth: Depth::Ignore,
+            blend: true,
+            ..Draw::new(Geometry::ScreenSquare, Some(Program { vertex: "evangelista/border.vert", fragments }))
+        }
     }
 
     /// The uniforms of the listing: how far apart texels are.

@@ -3,7 +3,7 @@
 //! With the paper's settings the published shaders run; any other setting runs their twins in which the constants are
 //! uniforms (`*-settings.frag`). A test shows that the twins draw the same picture.
 
-use super::{Border, MapEncoding, Show, Supersample, Tones};
+use super::{Border, MapEncoding, MapTarget, Show, Supersample, Tones};
 use crate::error::{Error, Result};
 use crate::plan::{Depth, Draw, Geometry, Output, Paint, Pass, Plan, Program, Step, Target};
 use crate::scene::{Background, Scene};
@@ -23,6 +23,8 @@ pub struct Cartoon {
     pub cull_back_faces: bool,
     /// How normals and depth are stored between the passes. Default as in the listing.
     pub map_encoding: MapEncoding,
+    /// How the map gets from pass to pass. Default as in the listing; either way it is the same picture.
+    pub map_target: MapTarget,
     /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge and makes lines finer.
     /// Pictures of the map itself are drawn at their own size.
     pub supersample: Supersample,
@@ -36,6 +38,7 @@ impl Default for Cartoon {
             background_square: true,
             cull_back_faces: false,
             map_encoding: MapEncoding::Paper,
+            map_target: MapTarget::Copy,
             supersample: Supersample::One,
         }
     }
@@ -82,8 +85,9 @@ impl Cartoon {
         }
         let steps = self.scene_steps(scene, |background| {
             let surface = self.supersample.surface(scene.size);
-            let published = self.runs_the_listing(&border) && self.tones.are_published();
-            let (mut uniforms, mut textures) = (Border::published_uniforms(surface), self.map_encoding.textures());
+            let published = border.runs_the_listing(self.map_encoding) && self.tones.are_published();
+            let (mut uniforms, mut textures) =
+                (Border::published_uniforms(surface), self.map_encoding.textures(self.map_target));
             let mut fragments = vec!["evangelista/two-pass.frag"];
             if !published {
                 fragments = vec!["evangelista/two-pass-settings.frag", self.tones.shader()];
@@ -99,7 +103,7 @@ impl Cartoon {
         Ok(self.finish(scene, vec![self.map_pass(scene, true), pass], show))
     }
 
-    fn check(&self, scene: &Scene, show: Show) -> Result<()> {
+    pub(super) fn check(&self, scene: &Scene, show: Show) -> Result<()> {
         if show.is_of_charcoal() {
             return Err(Error::setting(
                 "--show",
@@ -138,11 +142,6 @@ impl Cartoon {
         if shows_map(show) { plan } else { self.supersample.finish(plan, scene.size) }
     }
 
-    /// Whether the border's listing can run as printed.
-    fn runs_the_listing(&self, border: &Border) -> bool {
-        border.is_published() && self.map_encoding == MapEncoding::Paper
-    }
-
     /// Step 1: normals and depth into the framebuffer and, to be read later, into a texture.
     fn map_pass(&self, scene: &Scene, is_read: bool) -> Pass {
         let encoding = self.map_encoding;
@@ -155,7 +154,7 @@ impl Cartoon {
         }
         steps.push(Step::Draw(draw(Geometry::Objects(Paint::Materials))));
         // The picture of a map is the framebuffer's.
-        let target = if is_read { encoding.target() } else { Target::Framebuffer };
+        let target = if is_read { encoding.target(self.map_target) } else { Target::Framebuffer };
         if is_read && target == Target::Framebuffer {
             steps.push(Step::CopyFramebuffer);
         }
@@ -203,21 +202,8 @@ impl Cartoon {
     /// Step 3: the filter over the whole picture, blended; `alone` on a white ground.
     fn border_pass(&self, border: &Border, scene: &Scene, alone: bool) -> Pass {
         let surface = self.supersample.surface(scene.size);
-        let published = self.runs_the_listing(border);
-        let mut fragments = vec!["evangelista/border.frag"];
-        let mut uniforms = Border::published_uniforms(surface);
-        if !published {
-            fragments = vec!["evangelista/border-settings.frag"];
-            fragments.extend(border.shaders(self.map_encoding));
-            uniforms = border.uniforms(scene, surface, self.map_encoding);
-        }
-        let square = Draw {
-            uniforms,
-            textures: self.map_encoding.textures(),
-            depth: Depth::Ignore,
-            blend: true,
-            ..Draw::new(Geometry::ScreenSquare, Some(Program { vertex: "evangelista/border.vert", fragments }))
-        };
+        let textures = self.map_encoding.textures(self.map_target);
+        let square = border.square(scene, surface, self.map_encoding, textures);
         let mut steps = Vec::new();
         if alone {
             let color = if scene.background == Background::Transparent { [0.0; 4] } else { WHITE };

@@ -4,11 +4,12 @@
 //! whether neighbouring planes meet. What was measured is in `docs/ink.md`.
 
 use super::border::{check_width, reach};
-use super::{Show, Supersample, Tones, lens, supersample};
+use super::map::map_texture;
+use super::{MapTarget, Show, Supersample, Tones, lens, supersample};
 use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
 use crate::names::find;
-use crate::plan::{Depth, Draw, Geometry, Paint, Pass, Plan, Program, Step, Texture, Uniform, Value};
+use crate::plan::{Depth, Draw, Geometry, Paint, Pass, Plan, Program, Step, Target, Uniform, Value};
 use crate::scene::{Background, Scene, Size};
 use serde::Serialize;
 use std::str::FromStr;
@@ -35,6 +36,8 @@ pub struct Ink {
     pub tones: Tones,
     /// Whether faces turned away from the eye are left out. Default no.
     pub cull_back_faces: bool,
+    /// How the map gets from pass to pass. Default by a copy of the framebuffer; either way it is the same picture.
+    pub map_target: MapTarget,
 }
 
 /// How much time a picture may take.
@@ -81,6 +84,7 @@ impl Default for Ink {
             line_width_px: 2,
             tones: Tones::default(),
             cull_back_faces: false,
+            map_target: MapTarget::Copy,
         }
     }
 }
@@ -121,7 +125,7 @@ impl Ink {
     }
 
     /// Each pixel's plane.
-    fn map_pass(&self, scene: &Scene, surface: Size, copy: bool) -> Pass {
+    fn map_pass(&self, scene: &Scene, surface: Size, is_read: bool) -> Pass {
         let program = Program { vertex: "improved/plane-map.vert", fragments: vec!["improved/plane-map.frag"] };
         let objects = Draw {
             uniforms: vec![lens::footprint(scene, surface)],
@@ -129,10 +133,12 @@ impl Ink {
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
         let mut steps = vec![Step::clear([0.0; 4]), Step::Draw(objects)];
-        if copy {
+        // The picture of a map is the framebuffer's.
+        let target = if is_read { self.map_target.target() } else { Target::Framebuffer };
+        if is_read && target == Target::Framebuffer {
             steps.push(Step::CopyFramebuffer);
         }
-        Pass::new("map", steps)
+        Pass { name: "map", target, steps }
     }
 
     /// The published tones; the background is cleared and needs no square.
@@ -168,7 +174,7 @@ impl Ink {
         let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/plane-ink.frag"] };
         let square = Draw {
             uniforms,
-            textures: vec![("planeMap", Texture::BorderMap)],
+            textures: vec![("planeMap", map_texture(self.map_target.target()))],
             depth: Depth::Ignore,
             ..Draw::new(Geometry::ScreenSquare, Some(program))
         };

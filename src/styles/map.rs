@@ -1,7 +1,7 @@
 //! The map of the cartoon styles: how normals and depth are stored between the passes (errata E6 to E8).
 
 use crate::names::find;
-use crate::plan::{FloatBits, Program, Target, Texture};
+use crate::plan::{Attachment, Attachments, Drawn, Format, Program, Target, Texture};
 use serde::Serialize;
 use std::str::FromStr;
 
@@ -51,21 +51,21 @@ impl MapEncoding {
     }
 
     /// What it is written into.
-    pub(super) fn target(self) -> Target {
+    pub(super) fn target(self, map_target: MapTarget) -> Target {
         match self {
-            Self::Paper | Self::Biased | Self::DepthTexture => Target::Framebuffer,
-            Self::Float16 => Target::FloatMap(FloatBits::Half),
-            Self::Float => Target::FloatMap(FloatBits::Single),
+            Self::Float16 => Target::Textures(&FLOAT16_MAP),
+            Self::Float => Target::Textures(&FLOAT_MAP),
+            Self::Paper | Self::Biased | Self::DepthTexture => map_target.target(),
         }
     }
 
     /// The textures a filter reads it from.
-    pub(super) fn textures(self) -> Vec<(&'static str, Texture)> {
-        match self {
-            Self::Paper | Self::Biased => vec![("borderMap", Texture::BorderMap)],
-            Self::Float16 | Self::Float => vec![("borderMap", Texture::FloatMap)],
-            Self::DepthTexture => vec![("borderMap", Texture::BorderMap), ("depthMap", Texture::DepthMap)],
+    pub(super) fn textures(self, map_target: MapTarget) -> Vec<(&'static str, Texture)> {
+        let mut textures = vec![("borderMap", map_texture(self.target(map_target)))];
+        if self == Self::DepthTexture {
+            textures.push(("depthMap", Texture::DepthMap));
         }
+        textures
     }
 
     /// The fragment shader by which a filter reads it.
@@ -85,6 +85,66 @@ impl MapEncoding {
             Self::Float16 => 1.0 / 2048.0,
             Self::Float | Self::DepthTexture => 1.0 / 16_777_216.0,
         }
+    }
+}
+
+/// How the map gets from the pass that draws it to the one that reads it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MapTarget {
+    /// Drawn into the framebuffer and copied into a texture: the listing's.
+    #[default]
+    Copy,
+    /// Drawn into a texture by a framebuffer object; maps in floating point always are.
+    Texture,
+}
+
+impl MapTarget {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("copy", Self::Copy), ("texture", Self::Texture)];
+
+    /// What a map of 8 bits a channel is written into.
+    pub(super) fn target(self) -> Target {
+        match self {
+            Self::Copy => Target::Framebuffer,
+            Self::Texture => Target::Textures(&MAP),
+        }
+    }
+}
+
+/// The texture in which a map drawn there is read.
+pub(super) fn map_texture(target: Target) -> Texture {
+    match target {
+        Target::Framebuffer => Texture::BorderMap,
+        Target::Textures(_) => Texture::Drawn(Drawn::Map),
+    }
+}
+
+const MAP: Attachments = Attachments {
+    colors: &[Attachment { name: Drawn::Map, format: Format::Unorm8 }],
+    has_depth: true,
+    asked_by: "--map-target texture",
+    instead: "--map-target copy",
+};
+
+const FLOAT16_MAP: Attachments = Attachments {
+    colors: &[Attachment { name: Drawn::Map, format: Format::Float16 }],
+    has_depth: true,
+    asked_by: "--map-encoding float16",
+    instead: "--map-encoding biased",
+};
+
+const FLOAT_MAP: Attachments = Attachments {
+    colors: &[Attachment { name: Drawn::Map, format: Format::Float32 }],
+    asked_by: "--map-encoding float",
+    ..FLOAT16_MAP
+};
+
+impl FromStr for MapTarget {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        find(&Self::ALL, text)
     }
 }
 

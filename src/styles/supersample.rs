@@ -1,7 +1,7 @@
 //! Drawing larger than the picture and taking the mean: edges are smooth, lines finer than a pixel.
 
 use crate::names::find;
-use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Texture, Uniform, Value};
+use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Target, Texture, Uniform, Value};
 use crate::scene::Size;
 use serde::Serialize;
 use std::str::FromStr;
@@ -45,18 +45,24 @@ impl Supersample {
         if self == Self::One {
             return plan;
         }
+        // What was drawn into a texture is read there.
+        let (mut steps, samples) = match plan.picture_target() {
+            Target::Framebuffer => (vec![Step::CopyFramebuffer], Texture::BorderMap),
+            Target::Textures(attachments) => (Vec::new(), Texture::Drawn(attachments.colors[0].name)),
+        };
         let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/box-filter.frag"] };
         let square = Draw {
             uniforms: vec![
                 texture_unit(self.surface(picture)),
                 Uniform { name: "count", value: Value::Int(self.factor() as i32) },
             ],
-            textures: vec![("samples", Texture::BorderMap)],
+            textures: vec![("samples", samples)],
             depth: Depth::Ignore,
             ..Draw::new(Geometry::PictureSquare, Some(program))
         };
         let mut plan = Plan { supersample: self.factor(), ..plan };
-        plan.passes.push(Pass::new("shrink", vec![Step::CopyFramebuffer, Step::Draw(square)]));
+        steps.push(Step::Draw(square));
+        plan.passes.push(Pass::new("shrink", steps));
         plan
     }
 }

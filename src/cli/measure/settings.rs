@@ -19,7 +19,7 @@ struct Options {
 const FAITHFUL: [&str; 7] = ["three-pass", "two-pass", "inking", "dietrich", "phong", "charcoal", "sand"];
 
 /// What is measured besides even when it has to be quick.
-const QUICK: [&str; 8] = [
+const QUICK: [&str; 10] = [
     "--style ink",
     "--style ink --quality best",
     "--style three-pass --map-encoding float --slope-threshold on",
@@ -28,10 +28,12 @@ const QUICK: [&str; 8] = [
     "--style inking --silhouette exact",
     "--style inking --silhouette exact --smooth off --line-width 1",
     "--style three-pass --cull back",
+    "--style mrt",
+    "--style mrt --cull back",
 ];
 
 /// What is measured besides when there is time.
-const FULL: [&str; 28] = [
+const FULL: [&str; 29] = [
     "--style inking --silhouette exact --polygon-offset 0,0",
     "--style inking --silhouette exact --classes boundary,non-manifold,silhouette,crease,material",
     "--style inking --light vertex-shader",
@@ -40,6 +42,7 @@ const FULL: [&str; 28] = [
     "--style three-pass --map-encoding float16",
     "--style three-pass --map-encoding float",
     "--style three-pass --map-encoding depth-texture",
+    "--style three-pass --map-target texture",
     "--style three-pass --slope-threshold on",
     "--style three-pass --map-encoding biased --filter sobel",
     "--style three-pass --border-width 1",

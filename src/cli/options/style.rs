@@ -6,15 +6,15 @@ use std::path::PathBuf;
 use tinta::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use tinta::plan::LineDrawing;
 use tinta::styles::{
-    Border, Cartoon, ClassColors, Dietrich, Filter, Ink, Inking, LightOn, MapEncoding, PaintMode, Phong, Quality, Ramp,
-    RampRow, Supersample, ToneLookup, Tones,
+    Border, Cartoon, ClassColors, Dietrich, Filter, Ink, Inking, LightOn, MapEncoding, MapTarget, Mrt, PaintMode,
+    Phong, Quality, Ramp, RampRow, Supersample, ToneLookup, Tones,
 };
 use tinta::{Error, LineSettings, Result, Show, Style, StyleName};
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "All styles")]
 pub struct StyleArguments {
-    /// Which picture: final, borders, tones; three-pass and two-pass also normals, depth, map, ink also map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
+    /// Which picture: final, borders, tones; three-pass, two-pass and mrt also normals, depth, map, ink also map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
     #[arg(long, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
     pub show: Show,
 
@@ -22,7 +22,7 @@ pub struct StyleArguments {
     #[arg(long)]
     pub no_borders: bool,
 
-    /// Leave out faces turned away: none, back; faster, and the same picture of closed models [default: none]
+    /// Leave out faces turned away: none, back; faster, and nearly the same picture of closed models [default: none]
     #[arg(long, value_name = "FACES", action = clap::ArgAction::Set, value_parser = parse_cull, default_value = "none", hide_default_value = true)]
     cull: bool,
 
@@ -49,7 +49,7 @@ pub struct StyleArguments {
 }
 
 #[derive(clap::Args)]
-#[command(next_help_heading = "Styles three-pass and two-pass (the defaults are the paper's)")]
+#[command(next_help_heading = "Styles three-pass, two-pass and mrt (the defaults are the paper's)")]
 struct CartoonArguments {
     /// Number of tones, 1 to 3; fewer leave out the brightest [default: 3]
     #[arg(long, value_name = "N", default_value = "3", hide_default_value = true)]
@@ -79,7 +79,7 @@ struct CartoonArguments {
     #[arg(long, value_name = "ON|OFF", action = clap::ArgAction::Set, value_parser = parse_switch, default_value = "on", hide_default_value = true)]
     background_quad: bool,
 
-    /// How normals and depth are kept: paper, biased (0.5 n + 0.5), float16, float, depth-texture (biased, depth from the depth buffer) [default: paper]
+    /// How normals and depth are kept: paper, biased (0.5 n + 0.5), float16, float, depth-texture (biased, depth from the depth buffer); mrt has paper only [default: paper]
     #[arg(long, value_name = "ENCODING", default_value = "paper", hide_default_value = true)]
     map_encoding: MapEncoding,
 
@@ -88,9 +88,9 @@ struct CartoonArguments {
     slope_threshold: bool,
 }
 
-/// What three-pass, two-pass and ink share.
+/// What the image-space styles share.
 #[derive(clap::Args)]
-#[command(next_help_heading = "Styles three-pass, two-pass and ink")]
+#[command(next_help_heading = "Styles three-pass, two-pass, mrt and ink")]
 struct ImageSpaceArguments {
     /// Width of the borders, pixels, 1 to 64; paper is as the filter draws them, about 2; ink has 2 [default: paper]
     #[arg(long, value_name = "PIXELS", value_parser = parse_border_width, default_value = "paper", hide_default_value = true)]
@@ -99,6 +99,10 @@ struct ImageSpaceArguments {
     /// Draw 1, 2 or 4 times as wide and high and shrink; the largest picture shrinks by as much (tinta info has it) [default: 1; ink --quality best 2]
     #[arg(long, value_name = "N")]
     supersample: Option<Supersample>,
+
+    /// Copy the map into its texture (copy) or draw it there by a framebuffer object (texture), the same picture but for rounding; mrt always does [default: copy]
+    #[arg(long, value_name = "HOW", default_value = "copy", hide_default_value = true)]
+    map_target: MapTarget,
 }
 
 /// A width in pixels, or the published one.
@@ -201,6 +205,7 @@ impl StyleArguments {
             StyleName::Phong => Style::Phong(Phong { cull_back_faces: self.cull, ..Phong::default() }),
             StyleName::ThreePass => Style::ThreePass(self.cartoon.settings(self)),
             StyleName::TwoPass => Style::TwoPass(self.cartoon.settings(self)),
+            StyleName::Mrt => Style::Mrt(self.mrt()?),
             StyleName::Inking => Style::Inking(self.inking.settings(self)?),
             StyleName::Dietrich => Style::Dietrich(Dietrich {
                 threshold: if self.no_borders { 0.0 } else { self.dietrich.ink_threshold },
@@ -215,6 +220,18 @@ impl StyleArguments {
 }
 
 impl StyleArguments {
+    fn mrt(&self) -> Result<Mrt> {
+        let Cartoon { tones, border, background_square, cull_back_faces, map_encoding, supersample, .. } =
+            self.cartoon.settings(self);
+        if map_encoding != MapEncoding::Paper {
+            return Err(Error::Setting {
+                setting: "--map-encoding".to_owned(),
+                problem: "style mrt keeps its map as published; leave it out, or draw --style three-pass".to_owned(),
+            });
+        }
+        Ok(Mrt { tones, border, background_square, cull_back_faces, supersample })
+    }
+
     /// What the style lines draws.
     pub fn line_settings(&self) -> Result<LineSettings> {
         // Given explicitly, for lines know no other rule than the exact one.
@@ -264,6 +281,7 @@ impl CartoonArguments {
             background_square: self.background_quad,
             cull_back_faces: common.cull,
             map_encoding: self.map_encoding,
+            map_target: common.image_space.map_target,
             supersample: common.image_space.supersample.unwrap_or_default(),
         }
     }
@@ -279,6 +297,7 @@ impl InkArguments {
             cull_back_faces: common.cull,
             line_width_px: common.image_space.border_width.0.unwrap_or(Ink::default().line_width_px),
             supersample: common.image_space.supersample,
+            map_target: common.image_space.map_target,
             ..Ink::default()
         })
     }

@@ -18,7 +18,7 @@ pub(super) fn square(plan: &mut Plan) -> Result<Omission, String> {
             kept = "borders are drawn on the background square".to_owned();
             continue;
         };
-        if pass.target == Target::Framebuffer && !drawn.iter().all(|channel| rounds_alike(*channel)) {
+        if has_eight_bits(pass.target) && !drawn.iter().all(|channel| rounds_alike(*channel)) {
             kept = "the background's colour lies in the middle between two of 8 bits, and drivers may round either way"
                 .to_owned();
             continue;
@@ -56,6 +56,14 @@ fn constant_color(draw: &Draw, [red, green, blue, _]: [f32; 4]) -> Option<[f32; 
             Some([red, green, blue, 1.0])
         }
         _ => None,
+    }
+}
+
+/// Whether a channel of what is drawn into has 8 bits.
+fn has_eight_bits(target: Target) -> bool {
+    match target {
+        Target::Framebuffer => true,
+        Target::Textures(attachments) => attachments.colors.iter().any(|attachment| !attachment.format.is_float()),
     }
 }
 

@@ -32,18 +32,27 @@ pub(super) fn border(plan: &mut Plan) -> Result<Omission, String> {
 
 /// Leaves out passes, draws and copies whose result nothing reads, going back from the picture.
 pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
-    let mut read: Vec<Texture> = Vec::new();
-    let mut framebuffer_is_read = true;
+    let textures_of = |target: Target| -> Vec<Texture> {
+        match target {
+            Target::Framebuffer => Vec::new(),
+            Target::Textures(attachments) => {
+                attachments.colors.iter().map(|attachment| Texture::Drawn(attachment.name)).collect()
+            }
+        }
+    };
+    // What later steps read: textures, and of the framebuffer whether they do.
+    let mut framebuffer_is_read = plan.picture_target() == Target::Framebuffer;
+    let mut read: Vec<Texture> = textures_of(plan.picture_target()).into_iter().take(1).collect();
     let mut dropped = Vec::new();
     for pass in plan.passes.iter_mut().rev() {
-        let name = pass.name;
+        let (name, drawn) = (pass.name, textures_of(pass.target));
         let mut kept = Vec::new();
         for step in std::mem::take(&mut pass.steps).into_iter().rev() {
             let is_read = match (&step, pass.target) {
-                (Step::CopyFramebuffer, _) => take(&mut read, Texture::BorderMap),
-                (Step::CopyDepth, _) => take(&mut read, Texture::DepthMap),
+                (Step::CopyFramebuffer, _) => take(&mut read, &[Texture::BorderMap]),
+                (Step::CopyDepth, _) => take(&mut read, &[Texture::DepthMap]),
                 (_, Target::Framebuffer) => framebuffer_is_read,
-                (_, Target::FloatMap(_)) => read.contains(&Texture::FloatMap),
+                (_, Target::Textures(_)) => drawn.iter().any(|texture| read.contains(texture)),
             };
             if !is_read {
                 dropped.push(format!("{name}: {}", step.name()));
@@ -51,9 +60,11 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
             }
             match &step {
                 Step::CopyFramebuffer | Step::CopyDepth => framebuffer_is_read = true,
-                Step::Clear { color: Some(_), depth: true } if pass.target == Target::Framebuffer => {
-                    framebuffer_is_read = false;
-                }
+                // What was there before is gone.
+                Step::Clear { color: Some(_), depth: true } | Step::ClearEach { .. } => match pass.target {
+                    Target::Framebuffer => framebuffer_is_read = false,
+                    Target::Textures(_) => drop(take(&mut read, &drawn)),
+                },
                 Step::Clear { .. } => {}
                 Step::Draw(Draw { textures, .. }) => read.extend(textures.iter().map(|(_, texture)| *texture)),
             }
@@ -61,9 +72,6 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
         }
         kept.reverse();
         pass.steps = kept;
-        if pass.target != Target::Framebuffer {
-            take(&mut read, Texture::FloatMap);
-        }
     }
     if dropped.is_empty() {
         return Err("every pass and every copy is read".to_owned());
@@ -78,10 +86,10 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
     })
 }
 
-/// Removes a texture from those that are read; whether it was one.
-fn take(read: &mut Vec<Texture>, texture: Texture) -> bool {
+/// Removes textures from those that are read; whether one of them was.
+fn take(read: &mut Vec<Texture>, textures: &[Texture]) -> bool {
     let count = read.len();
-    read.retain(|other| *other != texture);
+    read.retain(|other| !textures.contains(other));
     read.len() < count
 }
 

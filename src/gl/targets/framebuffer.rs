@@ -1,0 +1,119 @@
+//! Framebuffer objects and renderbuffers with one owner each.
+
+use super::super::Gl;
+use super::super::objects::{Live, Texture, out_of_names};
+use crate::error::Result;
+use crate::scene::Size;
+use glow::HasContext;
+use std::rc::Rc;
+
+/// A framebuffer object.
+pub(super) struct Framebuffer {
+    live: Live,
+    id: glow::Framebuffer,
+}
+
+/// Draws go there, and copies and read-back come from there; `None` is the context's own framebuffer.
+pub(super) fn bind(gl: &Gl, framebuffer: Option<&Framebuffer>) {
+    // SAFETY: the context is current and has framebuffer objects; this one is alive.
+    unsafe { gl.glow.bind_framebuffer(glow::FRAMEBUFFER, framebuffer.map(|framebuffer| framebuffer.id)) }
+}
+
+/// Clears each of the bound framebuffer's colours to one of its own, and depth to 1.
+pub fn clear_each(gl: &Gl, colors: &[[f32; 4]]) {
+    for (index, [red, green, blue, alpha]) in colors.iter().enumerate() {
+        let mut buffers = vec![glow::NONE; colors.len()];
+        buffers[index] = glow::COLOR_ATTACHMENT0 + index as u32;
+        let depth = if index == 0 { glow::DEPTH_BUFFER_BIT } else { 0 };
+        // SAFETY: the context is current and has as many draw buffers as the bound framebuffer has colours, as
+        // `Targets::prepare` has checked. Clearing obeys the masks, so both are opened.
+        unsafe {
+            gl.glow.draw_buffers(&buffers);
+            gl.glow.depth_mask(true);
+            gl.glow.clear_color(*red, *green, *blue, *alpha);
+            gl.glow.clear_depth_f64(1.0);
+            gl.glow.clear(glow::COLOR_BUFFER_BIT | depth);
+        }
+    }
+    draw_into_all(gl, colors.len());
+}
+
+/// Lets the bound framebuffer's program write all of its colours.
+fn draw_into_all(gl: &Gl, count: usize) {
+    let buffers: Vec<u32> = (0..count as u32).map(|index| glow::COLOR_ATTACHMENT0 + index).collect();
+    // SAFETY: the context is current and has as many draw buffers, as `Targets::prepare` has checked.
+    unsafe { gl.glow.draw_buffers(&buffers) }
+}
+
+impl Framebuffer {
+    /// One that draws into these textures and this depth buffer, all of one size.
+    pub(super) fn new(gl: &Rc<Gl>, colors: &[&Texture], depth: Option<&Renderbuffer>) -> Result<Self> {
+        // SAFETY: the context is current and has framebuffer objects, as `Targets::prepare` has checked.
+        let id = unsafe { gl.glow.create_framebuffer() }.map_err(out_of_names)?;
+        let framebuffer = Self { live: Live::new(gl), id };
+        bind(gl, Some(&framebuffer));
+        // SAFETY: as above; the textures and the depth buffer are alive.
+        unsafe {
+            for (index, texture) in (0..).zip(colors) {
+                let attachment = glow::COLOR_ATTACHMENT0 + index;
+                let texture = Some(texture.id());
+                gl.glow.framebuffer_texture_2d(glow::FRAMEBUFFER, attachment, glow::TEXTURE_2D, texture, 0);
+            }
+            if let Some(depth) = depth {
+                let (attachment, kind) = (glow::DEPTH_ATTACHMENT, glow::RENDERBUFFER);
+                gl.glow.framebuffer_renderbuffer(glow::FRAMEBUFFER, attachment, kind, Some(depth.id));
+            }
+        }
+        draw_into_all(gl, colors.len());
+        bind(gl, None);
+        Ok(framebuffer)
+    }
+
+    /// Whether the driver can draw into what it was given.
+    pub(super) fn is_complete(&self) -> bool {
+        // SAFETY: the context is current, this framebuffer alive; the context's own is bound again.
+        unsafe {
+            let gl = self.live.gl();
+            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.id));
+            let status = gl.check_framebuffer_status(glow::FRAMEBUFFER);
+            gl.bind_framebuffer(glow::FRAMEBUFFER, None);
+            status == glow::FRAMEBUFFER_COMPLETE
+        }
+    }
+}
+
+impl Drop for Framebuffer {
+    fn drop(&mut self) {
+        // SAFETY: the context is current and this framebuffer alive and ours.
+        unsafe { self.live.gl().delete_framebuffer(self.id) }
+    }
+}
+
+/// A buffer that is drawn into and never read as a texture.
+pub(super) struct Renderbuffer {
+    live: Live,
+    id: glow::Renderbuffer,
+}
+
+impl Renderbuffer {
+    /// 24 bits of depth, as in the framebuffer.
+    pub(super) fn depth(gl: &Rc<Gl>, size: Size) -> Result<Self> {
+        // SAFETY: the context is current and has framebuffer objects, as `Targets::prepare` has checked.
+        let id = unsafe { gl.glow.create_renderbuffer() }.map_err(out_of_names)?;
+        let buffer = Self { live: Live::new(gl), id };
+        let (width, height) = (size.width as i32, size.height as i32);
+        // SAFETY: as above; the buffer is alive.
+        unsafe {
+            gl.glow.bind_renderbuffer(glow::RENDERBUFFER, Some(buffer.id));
+            gl.glow.renderbuffer_storage(glow::RENDERBUFFER, glow::DEPTH_COMPONENT24, width, height);
+        }
+        Ok(buffer)
+    }
+}
+
+impl Drop for Renderbuffer {
+    fn drop(&mut self) {
+        // SAFETY: the context is current and this buffer alive and ours.
+        unsafe { self.live.gl().delete_renderbuffer(self.id) }
+    }
+}

@@ -1,0 +1,113 @@
+//! What passes draw into: the framebuffer, or textures by a framebuffer object.
+
+use super::{Output, Plan};
+use std::fmt;
+
+/// What a pass draws into.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Target {
+    /// The framebuffer, 8 bits a channel.
+    #[default]
+    Framebuffer,
+    /// Textures as large as what is drawn, and a depth buffer that all passes into textures share.
+    Textures(&'static Attachments),
+}
+
+/// The textures of one framebuffer object.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Attachments {
+    /// In the order of gl_FragData; the first is what is read where a pass's picture is.
+    pub colors: &'static [Attachment],
+    /// Whether there is a depth buffer.
+    pub has_depth: bool,
+    /// The option that asks for them, for a driver that has none.
+    pub asked_by: &'static str,
+    /// What to ask for instead there.
+    pub instead: &'static str,
+}
+
+/// A texture that is drawn into: RGBA, NEAREST, CLAMP_TO_EDGE. Within a plan a name has one format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Attachment {
+    /// By which steps read it.
+    pub name: Drawn,
+    /// What a channel holds.
+    pub format: Format,
+}
+
+/// The names of textures that are drawn into.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Drawn {
+    /// Normals and depth.
+    Map,
+    /// The picture before its borders, then with them.
+    Tones,
+}
+
+/// What a channel of a texture that is drawn into holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// 8 bits, from 0 to 1, as in the framebuffer.
+    Unorm8,
+    /// 16 bits of floating point, 11 of them for the digits; not clamped.
+    Float16,
+    /// 32 bits of floating point; not clamped.
+    Float32,
+}
+
+impl Format {
+    /// Whether it needs floating-point textures.
+    pub fn is_float(self) -> bool {
+        self != Self::Unorm8
+    }
+}
+
+impl Plan {
+    /// What holds the picture: what the last pass drew into.
+    pub fn picture_target(&self) -> Target {
+        self.passes.last().map_or(Target::Framebuffer, |pass| pass.target)
+    }
+
+    /// Every set of textures that its passes draw into, once.
+    pub fn attachments(&self) -> Vec<&'static Attachments> {
+        let mut all = Vec::new();
+        for pass in &self.passes {
+            if let Target::Textures(attachments) = pass.target
+                && !all.contains(&attachments)
+            {
+                all.push(attachments);
+            }
+        }
+        all
+    }
+
+    /// What the picture is, in words.
+    pub(super) fn write_picture(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let holder = match self.picture_target() {
+            Target::Framebuffer => "the framebuffer".to_owned(),
+            Target::Textures(attachments) => format!("the texture {:?}", attachments.colors[0].name),
+        };
+        match self.output {
+            Output::Rgba => writeln!(out, "picture: {holder}"),
+            Output::Rgb => writeln!(out, "picture: {holder}'s red, green and blue"),
+            Output::AlphaAsGrey => writeln!(out, "picture: {holder}'s alpha as grey"),
+        }
+    }
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::Textures(attachments) = self else { return Ok(()) };
+        write!(out, ", into the texture{}", if attachments.colors.len() > 1 { "s" } else { "" })?;
+        for (index, Attachment { name, format }) in attachments.colors.iter().enumerate() {
+            let and = if index > 0 { " and" } else { "" };
+            let bits = match format {
+                Format::Unorm8 => 8,
+                Format::Float16 => 16,
+                Format::Float32 => 32,
+            };
+            write!(out, "{and} {name:?}, {bits} bits a channel")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,114 @@
+//! `mrt`: the three passes' picture with one pass over the geometry, which draws tones and map into two targets at once.
+//!
+//! The future work of Evangelista et al. 2005 (section 6). The tones' texture is then the target of the border, which is
+//! blended over it as in the third pass, and it is read back itself: nothing is copied. The background needs no square:
+//! both textures are cleared to what the square would leave in them.
+
+use super::{Border, Cartoon, MapEncoding, MapTarget, Show, Supersample, Tones};
+use crate::error::Result;
+use crate::plan::{
+    Attachment, Attachments, Draw, Drawn, Format, Geometry, Paint, Pass, Plan, Program, Step, Target, Texture,
+};
+use crate::scene::Scene;
+use serde::Serialize;
+
+/// Settings of `mrt`; the defaults are those of the three passes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Mrt {
+    /// The tones.
+    pub tones: Tones,
+    /// The border; `None` draws the tones alone.
+    pub border: Option<Border>,
+    /// Whether the map holds behind the scene what the paper's square leaves there, a normal towards the eye. Default yes;
+    /// without it outer borders are fainter where the surface is seen at a grazing angle.
+    pub background_square: bool,
+    /// Whether faces turned away from the eye are left out: faster, and the same picture of closed models. Default no.
+    pub cull_back_faces: bool,
+    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge and makes lines finer.
+    pub supersample: Supersample,
+}
+
+impl Default for Mrt {
+    fn default() -> Self {
+        Self {
+            tones: Tones::default(),
+            border: Some(Border::default()),
+            background_square: true,
+            cull_back_faces: false,
+            supersample: Supersample::One,
+        }
+    }
+}
+
+/// What the square leaves in the map: the normal (0, 0, 1), farthest depth.
+const SQUARE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
+
+const TONES: Attachment = Attachment { name: Drawn::Tones, format: Format::Unorm8 };
+const MAP: Attachment = Attachment { name: Drawn::Map, format: Format::Unorm8 };
+
+const TONES_AND_MAP: Attachments = Attachments {
+    colors: &[TONES, MAP],
+    has_depth: true,
+    asked_by: "--style mrt",
+    instead: "--style three-pass, which draws the same picture but for rounding",
+};
+
+/// What the border is blended over while it reads the map.
+const TONES_ALONE: Attachments = Attachments { colors: &[TONES], has_depth: false, ..TONES_AND_MAP };
+
+impl Mrt {
+    /// Tones and map, border blended on top.
+    pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
+        let cartoon = self.cartoon();
+        let Some(border) = self.border.filter(|_| show == Show::Final) else {
+            // Its map, tones and borders by themselves are those of the three passes.
+            return cartoon.three_pass(scene, show);
+        };
+        cartoon.check(scene, show)?;
+        let surface = self.supersample.surface(scene.size);
+        let map = vec![("borderMap", Texture::Drawn(Drawn::Map))];
+        let square = border.square(scene, surface, MapEncoding::Paper, map);
+        let passes = vec![
+            self.geometry_pass(scene),
+            Pass { name: "border", target: Target::Textures(&TONES_ALONE), steps: vec![Step::Draw(square)] },
+        ];
+        let plan = Plan { tone_table: self.tones.table(), ..Plan::new(passes) };
+        Ok(self.supersample.finish(plan, scene.size))
+    }
+
+    /// The three passes with the same settings.
+    fn cartoon(&self) -> Cartoon {
+        Cartoon {
+            tones: self.tones.clone(),
+            border: self.border,
+            background_square: self.background_square,
+            cull_back_faces: self.cull_back_faces,
+            map_encoding: MapEncoding::Paper,
+            map_target: MapTarget::Copy,
+            supersample: self.supersample,
+        }
+    }
+
+    /// Both of the paper's geometry passes at once.
+    fn geometry_pass(&self, scene: &Scene) -> Pass {
+        let published = self.tones.are_published();
+        let fragments = match published {
+            true => vec!["improved/two-targets.frag"],
+            false => vec!["improved/two-targets-settings.frag", self.tones.shader()],
+        };
+        let program = Program { vertex: "improved/two-targets.vert", fragments };
+        let objects = Draw {
+            uniforms: if published { Vec::new() } else { self.tones.uniforms(false) },
+            textures: if published { Vec::new() } else { self.tones.textures() },
+            cull_back_faces: self.cull_back_faces,
+            ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
+        };
+        let map = if self.background_square { SQUARE } else { MapEncoding::Paper.empty() };
+        let colors = vec![scene.background.clear_color(), map];
+        Pass {
+            name: "tones-and-map",
+            target: Target::Textures(&TONES_AND_MAP),
+            steps: vec![Step::ClearEach { colors }, Step::Draw(objects)],
+        }
+    }
+}
