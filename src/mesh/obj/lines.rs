@@ -75,9 +75,14 @@ pub fn pieces(bytes: &[u8], length: usize) -> Vec<&[u8]> {
     pieces
 }
 
-/// A line's text without its comment.
-pub fn without_comment(line: &str) -> &str {
-    line.split_once('#').map_or(line, |(text, _)| text)
+/// Words without the comment behind them. Between them other white space than ASCII's becomes a blank.
+pub fn plain(words: &str) -> Cow<'_, str> {
+    const VERTICAL_TAB: u8 = 0x0b;
+    if words.is_ascii() && memchr::memchr2(b'#', VERTICAL_TAB, words.as_bytes()).is_none() {
+        return Cow::Borrowed(words);
+    }
+    let text = words.split('#').next().unwrap_or_default();
+    Cow::Owned(text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
 /// A 1-based or negative, relative index as a 0-based one: [`NONE`] for an empty field, [`NONE`] - 1 for what can never be

@@ -5,7 +5,7 @@
 
 use super::super::NONE;
 use super::super::soup::Corner;
-use super::lines::{Lines, resolve, without_comment};
+use super::lines::{Lines, plain, resolve};
 use glam::{DVec3, Vec2, Vec3};
 use std::ops::{Add, AddAssign};
 
@@ -113,16 +113,16 @@ impl Piece {
         let Some(keyword) = text.split_whitespace().next() else { return Ok(()) };
         let rest = &text[keyword.len()..];
         match keyword {
-            "v" => self.positions.push(position(without_comment(rest))?),
+            "v" => self.positions.push(position(&plain(rest))?),
             "vt" => {
-                let [u, v] = numbers(without_comment(rest)).ok_or("a texture coordinate is not two numbers")?;
+                let [u, v] = numbers(&plain(rest)).ok_or("a texture coordinate is not two numbers")?;
                 self.texture_coordinates.push(Vec2::new(u as f32, v as f32));
             }
             "vn" => {
-                let normal = numbers(without_comment(rest)).ok_or("a normal is not three numbers")?;
+                let normal = numbers(&plain(rest)).ok_or("a normal is not three numbers")?;
                 self.normals.push(DVec3::from_array(normal).as_vec3());
             }
-            "f" => self.take_face(without_comment(rest), before)?,
+            "f" => self.take_face(&plain(rest), before)?,
             "usemtl" | "mtllib" => {
                 // Names may hold '#' and blanks.
                 let (name, naming) = (rest.trim(), if keyword == "usemtl" { Naming::Use } else { Naming::Library });
@@ -142,7 +142,7 @@ impl Piece {
         let normals = before.normals + self.normals.len() as u32;
         let start = self.corners.len();
         let mut is_in_range = true;
-        for word in text.split_whitespace() {
+        for word in text.split_ascii_whitespace() {
             let mut fields = word.as_bytes().split(|byte| *byte == b'/');
             let mut index = |count: u32| fields.next().map_or(Some(NONE), |field| resolve(field, count));
             let corner = (index(positions), index(textures), index(normals));
@@ -171,7 +171,7 @@ impl Piece {
 /// Three numbers, and where a fourth is the last one, the weight they are divided by; more are colours.
 fn position(text: &str) -> Result<DVec3, &'static str> {
     const NO_VERTEX: &str = "a vertex is not three numbers";
-    let mut words = text.split_whitespace();
+    let mut words = text.split_ascii_whitespace();
     let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
     let (Some(x), Some(y), Some(z)) = (number(), number(), number()) else { return Err(NO_VERTEX) };
     let point = DVec3::new(x, y, z);
@@ -187,7 +187,7 @@ fn position(text: &str) -> Result<DVec3, &'static str> {
 
 /// The first numbers of a line; more may follow.
 fn numbers<const COUNT: usize>(text: &str) -> Option<[f64; COUNT]> {
-    let mut words = text.split_whitespace();
+    let mut words = text.split_ascii_whitespace();
     let mut numbers = [0.0; COUNT];
     for number in &mut numbers {
         *number = words.next()?.parse().ok()?;
