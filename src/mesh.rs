@@ -13,6 +13,7 @@ pub mod load;
 mod md2;
 mod normals;
 mod obj;
+mod pieces;
 mod ply;
 mod skin;
 mod soup;
@@ -92,6 +93,18 @@ impl Mesh {
         }
     }
 
+    /// Bytes of main memory the mesh takes, materials' names aside.
+    pub fn memory_bytes(&self) -> usize {
+        bytes_of(&self.positions)
+            + bytes_of(&self.file_vertices)
+            + bytes_of(&self.triangles)
+            + bytes_of(&self.normals)
+            + bytes_of(&self.triangle_normals)
+            + bytes_of(&self.texture_coordinates)
+            + bytes_of(&self.triangle_texture_coordinates)
+            + bytes_of(&self.triangle_materials)
+    }
+
     /// Smallest and largest corner of the axis-aligned bounding box, world space, file units.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         bounds(&self.positions)
@@ -106,6 +119,11 @@ pub(crate) fn triangle_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let scale = first.abs().max(second.abs()).max_element();
     let product = (first / scale).cross(second / scale);
     (product / product.abs().max_element()).try_normalize()
+}
+
+/// Bytes set aside for a list.
+fn bytes_of<T>(list: &Vec<T>) -> usize {
+    list.capacity() * size_of::<T>()
 }
 
 /// Smallest and largest corner of some points' bounding box; infinities, inverted, for no points.

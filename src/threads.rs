@@ -32,24 +32,40 @@ pub(crate) fn filled<T: Copy + Send>(
     value: impl Fn(usize) -> T + Sync,
 ) -> Vec<T> {
     let mut list = vec![blank; count];
-    let length = count.div_ceil(threads.max(1)).max(1);
+    each_piece(&mut list, threads, |start, places| {
+        places.iter_mut().enumerate().for_each(|(index, place)| *place = value(start + index));
+    });
+    list
+}
+
+/// Sorts a list of which no two elements are equal, each thread a piece of it.
+pub(crate) fn sort_by<T: Send>(list: &mut [T], threads: usize, order: impl Fn(&T, &T) -> std::cmp::Ordering + Sync) {
+    each_piece(list, threads, |_, piece| piece.sort_unstable_by(&order));
+    if threads > 1 {
+        // The stable sort finds runs that are in order and merges them.
+        list.sort_by(order);
+    }
+}
+
+/// Does `work` for as many pieces of a list as there are threads; it gets each piece's place in the list, too.
+fn each_piece<T: Send>(list: &mut [T], threads: usize, work: impl Fn(usize, &mut [T]) + Sync) {
+    let length = list.len().div_ceil(threads.max(1)).max(1);
     let pieces = Mutex::new(list.chunks_mut(length).enumerate());
     // Every thread takes pieces while there are any, this one too: where no other can be had, it does them all.
-    let fill = || {
+    let take = || {
         let next = || pieces.lock().unwrap_or_else(PoisonError::into_inner).next();
         while let Some((piece, places)) = next() {
-            places.iter_mut().enumerate().for_each(|(index, place)| *place = value(piece * length + index));
+            work(piece * length, places);
         }
     };
     std::thread::scope(|scope| {
         let others: Vec<_> =
-            (1..threads).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, fill).ok()).collect();
-        fill();
+            (1..threads).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, take).ok()).collect();
+        take();
         for other in others {
             other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         }
     });
-    list
 }
 
 /// Does `work` for each piece of `0..count`, one thread each, and returns the results in order.

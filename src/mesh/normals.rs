@@ -6,7 +6,9 @@
 //! exact on a sphere), which needs no arc cosine and, on a square, does not depend on how it is cut.
 
 use super::NONE;
+use crate::threads::{in_parallel, threads_for};
 use glam::{DVec3, Vec3};
+use std::ops::Range;
 
 /// Computes a normal for every corner whose entry in `triangle_normals` is [`NONE`] and appends it to `normals`.
 ///
@@ -25,24 +27,47 @@ pub fn fill_missing(
     }
     let incidence = Incidence::new(positions.len(), triangles);
     let cos_half = ((1.0 + cos_smooth) * 0.5).max(0.0).sqrt();
-    let mut fan = Fan::default();
-    for vertex in 0..positions.len() {
-        let corners = incidence.corners(vertex);
-        let slot = |corner: u32| triangle_normals[corner as usize / 3][corner as usize % 3];
-        if corners.iter().all(|corner| slot(*corner) != NONE) {
-            continue;
+    let is_missing = |corner: u32| triangle_normals[corner as usize / 3][corner as usize % 3] == NONE;
+    let found = in_parallel(positions.len(), threads_for(triangles.len()), |vertices| {
+        let corners = incidence.corners_of(&vertices);
+        let mut found =
+            Found { normals: Vec::with_capacity(vertices.len()), indices: Vec::with_capacity(corners.len()) };
+        let mut fan = Fan::default();
+        for vertex in vertices {
+            let corners = incidence.corners(vertex);
+            if !corners.iter().any(|corner| is_missing(*corner)) {
+                found.indices.resize(found.indices.len() + corners.len(), NONE);
+                continue;
+            }
+            let face_normal = |corner: &u32| face_normals[*corner as usize / 3];
+            // Most fans are smooth throughout; then any two faces are within the angle and no edge needs to be looked at.
+            // Fans that only touch in the vertex are joined too when they agree so well; that does no harm.
+            let mean = corners.iter().map(face_normal).sum::<DVec3>().normalize_or_zero();
+            if corners.iter().all(|corner| face_normal(corner).dot(mean) >= cos_half) {
+                fan.join_all(corners.len());
+            } else {
+                fan.group(triangles, face_normals, corners, cos_smooth);
+            }
+            fan.write(positions, triangles, face_normals, corners, is_missing, &mut found);
         }
-        let face_normal = |corner: &u32| face_normals[*corner as usize / 3];
-        // Most fans are smooth throughout; then any two faces are within the angle and no edge needs to be looked at.
-        // Fans that only touch in the vertex are joined too when they agree so well; that does no harm.
-        let mean = corners.iter().map(face_normal).sum::<DVec3>().normalize_or_zero();
-        if corners.iter().all(|corner| face_normal(corner).dot(mean) >= cos_half) {
-            fan.join_all(corners.len());
-        } else {
-            fan.group(triangles, face_normals, corners, cos_smooth);
+        found
+    });
+    normals.reserve_exact(found.iter().map(|found| found.normals.len()).sum());
+    let mut corners = incidence.corners.iter();
+    for mut found in found {
+        let before = normals.len() as u32;
+        normals.append(&mut found.normals);
+        for (index, corner) in found.indices.iter().zip(corners.by_ref()).filter(|(index, _)| **index != NONE) {
+            triangle_normals[*corner as usize / 3][*corner as usize % 3] = before + index;
         }
-        fan.write(positions, triangles, face_normals, corners, normals, triangle_normals);
     }
+}
+
+/// The normals of some vertices' corners.
+struct Found {
+    normals: Vec<Vec3>,
+    /// For each corner in the incidence's order its normal here, or [`NONE`] where it has one already.
+    indices: Vec<u32>,
 }
 
 /// A face's normal with its weight at one of its corners (Max 1999).
@@ -76,6 +101,11 @@ impl Incidence {
             *slot += 1;
         }
         Self { starts, corners }
+    }
+
+    /// The corners at some vertices, one after the other.
+    fn corners_of(&self, vertices: &Range<usize>) -> &[u32] {
+        &self.corners[self.starts[vertices.start] as usize..self.starts[vertices.end] as usize]
     }
 
     pub(super) fn corners(&self, vertex: usize) -> &[u32] {
@@ -138,8 +168,8 @@ impl Fan {
         triangles: &[[u32; 3]],
         face_normals: &[DVec3],
         corners: &[u32],
-        normals: &mut Vec<Vec3>,
-        triangle_normals: &mut [[u32; 3]],
+        is_missing: impl Fn(u32) -> bool,
+        found: &mut Found,
     ) {
         self.sums.clear();
         self.sums.resize(corners.len(), DVec3::ZERO);
@@ -150,8 +180,8 @@ impl Fan {
             self.sums[root] += weighted_normal(positions, triangles, corner);
         }
         for (face, &corner) in corners.iter().enumerate() {
-            let slot = &mut triangle_normals[corner as usize / 3][corner as usize % 3];
-            if *slot != NONE {
+            if !is_missing(corner) {
+                found.indices.push(NONE);
                 continue;
             }
             let root = self.root(face as u32) as usize;
@@ -159,10 +189,10 @@ impl Fan {
             let sum = self.sums[root];
             let smooth = (sum / sum.abs().max_element()).try_normalize();
             if smooth.is_none() || self.indices[root] == NONE {
-                normals.push(smooth.unwrap_or(face_normals[corner as usize / 3]).as_vec3());
-                self.indices[root] = normals.len() as u32 - 1;
+                found.normals.push(smooth.unwrap_or(face_normals[corner as usize / 3]).as_vec3());
+                self.indices[root] = found.normals.len() as u32 - 1;
             }
-            *slot = self.indices[root];
+            found.indices.push(self.indices[root]);
         }
     }
 }

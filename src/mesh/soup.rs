@@ -3,11 +3,12 @@
 //! The one place where all formats are treated alike: bad faces are dropped and counted, vertices welded, polygons
 //! cut into triangles, missing normals computed, unused vertices left out.
 
-use super::{Defects, LoadOptions, Material, Mesh, NONE, Normals, bounds, normals, triangle_normal, triangulate, weld};
+use super::pieces::Pieces;
+use super::{Defects, LoadOptions, Material, Mesh, NONE, Normals, normals, weld};
 use crate::error::{Error, Result};
 use crate::tolerances::LARGEST_COORDINATE;
-use earcut::Earcut;
 use glam::{DVec3, Vec2, Vec3};
+use std::borrow::Cow;
 
 /// A file's contents, unchecked but for two things: every index is [`NONE`] or within its array, and every polygon has at
 /// least three corners.
@@ -57,17 +58,6 @@ impl Soup {
         if self.polygon_sizes.is_empty() { self.corners.len() / 3 } else { self.polygon_sizes.len() }
     }
 
-    /// Polygon by polygon: its corners and its material.
-    fn polygons(&self) -> impl Iterator<Item = (&[Corner], u32)> {
-        let mut start = 0;
-        (0..self.polygon_count()).map(move |polygon| {
-            let size = self.polygon_sizes.get(polygon).map_or(3, |size| *size as usize);
-            let corners = &self.corners[start..start + size];
-            start += size;
-            (corners, self.polygon_materials.get(polygon).copied().unwrap_or(NONE))
-        })
-    }
-
     /// Makes the mesh. Fails if nothing is left to draw, or with `options.strict` if anything was wrong.
     pub fn into_mesh(mut self, name: &str, options: &LoadOptions) -> Result<Mesh> {
         for position in &mut self.positions {
@@ -79,11 +69,15 @@ impl Soup {
 
         let used = self.used(&finite);
         let welded = self.welded(&used, options.weld, name)?;
-        let mut pieces = self.triangulated(&finite, &welded, &mut defects);
-        pieces.drop_duplicates(&mut defects);
+        let mut pieces = Pieces::of(&self, &finite, &welded);
+        pieces.drop_duplicates();
+        defects.degenerate_triangles += pieces.degenerate;
+        defects.duplicate_triangles += pieces.duplicate;
         if pieces.triangles.is_empty() {
             return Err(nothing_to_draw(name, &self, &defects));
         }
+        // A large model's corners are most of its soup.
+        self.corners = Vec::new();
         defects.unused_vertices += finite.iter().zip(&used).filter(|(finite, used)| **finite && !**used).count();
 
         let (positions, file_vertices) = compact(&self.positions, &mut pieces.triangles);
@@ -116,54 +110,23 @@ impl Soup {
     /// For each vertex the one it is welded to, by a tolerance relative to the used vertices' bounding-box diagonal; vertices
     /// that nobody uses stay alone and do not count.
     fn welded(&self, used: &[bool], tolerance: f64, name: &str) -> Result<Vec<u32>> {
-        let in_use: Vec<DVec3> =
-            self.positions.iter().zip(used).filter(|(_, used)| **used).map(|(point, _)| *point).collect();
-        let (low, high) = bounds(&in_use);
-        if in_use.iter().any(|point| point.abs().max_element() > LARGEST_COORDINATE) {
+        let alone = DVec3::NAN;
+        let points: Cow<'_, [DVec3]> = match used.contains(&false) {
+            false => Cow::Borrowed(&self.positions),
+            true => {
+                let points = self.positions.iter().zip(used);
+                points.map(|(point, used)| if *used { *point } else { alone }).collect()
+            }
+        };
+        let (low, high) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| {
+            if point.is_nan() { (low, high) } else { (low.min(*point), high.max(*point)) }
+        });
+        if low.abs().max(high.abs()).max_element() > LARGEST_COORDINATE && low.cmple(high).all() {
             let problem = format!("its coordinates reach beyond {LARGEST_COORDINATE:e}; scale it down");
             return Err(Error::model(name, problem));
         }
         let diagonal = if low.cmple(high).all() { (high - low).length() } else { 0.0 };
-        let alone = DVec3::NAN;
-        let points: Vec<DVec3> =
-            self.positions.iter().zip(used).map(|(point, used)| if *used { *point } else { alone }).collect();
         Ok(weld::weld(&points, tolerance * diagonal))
-    }
-
-    /// All triangles with area, over welded but not yet renumbered positions.
-    fn triangulated(&self, finite: &[bool], welded: &[u32], defects: &mut Defects) -> Pieces {
-        let mut pieces = Pieces::default();
-        let mut earcut = Earcut::new();
-        let (mut cut, mut points) = (Vec::new(), Vec::new());
-        for (corners, material) in self.polygons() {
-            if corners.iter().any(|corner| !finite[corner.position as usize]) {
-                continue;
-            }
-            points.clear();
-            points.extend(corners.iter().map(|corner| self.positions[corner.position as usize]));
-            triangulate::triangulate(&points, &mut earcut, &mut cut);
-            // A polygon whose area earcut cannot find loses triangles there: they are as good as degenerate.
-            defects.degenerate_triangles += (corners.len() - 2).saturating_sub(cut.len());
-            for triangle in &cut {
-                let corners = triangle.map(|index| corners[index as usize]);
-                let positions = corners.map(|corner| welded[corner.position as usize]);
-                if let Some(face_normal) = self.face_normal(positions) {
-                    pieces.triangles.push(positions);
-                    pieces.face_normals.push(face_normal);
-                    pieces.normals.push(corners.map(|corner| corner.normal));
-                    pieces.texture_coordinates.push(corners.map(|corner| corner.texture));
-                    pieces.materials.push(material);
-                } else {
-                    defects.degenerate_triangles += 1;
-                }
-            }
-        }
-        pieces
-    }
-
-    /// The unit normal of a triangle; `None` without area.
-    fn face_normal(&self, triangle: [u32; 3]) -> Option<DVec3> {
-        triangle_normal(triangle.map(|index| self.positions[index as usize]))
     }
 
     /// Which vertices are finite and named by a polygon.
@@ -176,60 +139,14 @@ impl Soup {
     }
 }
 
-/// Triangles with what belongs to their corners.
-#[derive(Default)]
-struct Pieces {
-    triangles: Vec<[u32; 3]>,
-    face_normals: Vec<DVec3>,
-    normals: Vec<[u32; 3]>,
-    texture_coordinates: Vec<[u32; 3]>,
-    materials: Vec<u32>,
-}
-
-impl Pieces {
-    /// Drops triangles that repeat an earlier one with the same orientation; the opposite side is another triangle.
-    fn drop_duplicates(&mut self, defects: &mut Defects) {
-        let turned = |[a, b, c]: [u32; 3]| {
-            if a < b && a < c {
-                [a, b, c]
-            } else if b < c {
-                [b, c, a]
-            } else {
-                [c, a, b]
-            }
-        };
-        let mut order: Vec<([u32; 3], u32)> =
-            self.triangles.iter().enumerate().map(|(index, triangle)| (turned(*triangle), index as u32)).collect();
-        order.sort_unstable();
-        let mut repeated: Vec<u32> =
-            order.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1].1).collect();
-        if repeated.is_empty() {
-            return;
-        }
-        repeated.sort_unstable();
-        defects.duplicate_triangles += repeated.len();
-        let keep: Vec<bool> =
-            (0..self.triangles.len() as u32).map(|index| repeated.binary_search(&index).is_err()).collect();
-        retain(&mut self.triangles, &keep);
-        retain(&mut self.face_normals, &keep);
-        retain(&mut self.normals, &keep);
-        retain(&mut self.texture_coordinates, &keep);
-        retain(&mut self.materials, &keep);
-    }
-}
-
-fn retain<T>(items: &mut Vec<T>, keep: &[bool]) {
-    let mut flags = keep.iter();
-    items.retain(|_| flags.next().copied().unwrap_or(false));
-}
-
 /// Renumbers the triangles to the positions they use, in the file's order; returns those and their file vertices.
 fn compact(all: &[DVec3], triangles: &mut [[u32; 3]]) -> (Vec<DVec3>, Vec<u32>) {
     let mut number = vec![NONE; all.len()];
     for index in triangles.as_flattened() {
         number[*index as usize] = 0;
     }
-    let (mut positions, mut file_vertices) = (Vec::new(), Vec::new());
+    let count = number.iter().filter(|slot| **slot == 0).count();
+    let (mut positions, mut file_vertices) = (Vec::with_capacity(count), Vec::with_capacity(count));
     for (index, slot) in number.iter_mut().enumerate().filter(|(_, slot)| **slot == 0) {
         *slot = positions.len() as u32;
         positions.push(all[index]);

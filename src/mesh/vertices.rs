@@ -2,7 +2,8 @@
 
 use super::hilbert::hilbert_code;
 use super::normals::Incidence;
-use super::{Mesh, NONE};
+use super::{Mesh, NONE, bytes_of};
+use crate::threads::{both, filled, sort_by, threads_for};
 use glam::DVec3;
 
 /// Interleaved vertex and index arrays.
@@ -40,37 +41,23 @@ impl VertexArrays {
     pub fn new(mesh: &Mesh, unit: f64) -> Self {
         let (low, high) = mesh.bounds();
         let centre = low * 0.5 + high * 0.5;
-        let incidence = Incidence::new(mesh.positions.len(), &mesh.triangles);
-        let keys = CornerKeys::new(mesh);
-        let mut vertices: Vec<[f32; 6]> = Vec::with_capacity(mesh.positions.len());
-        let mut texture_coordinates = Vec::new();
-        let mut corner_vertices = vec![NONE; mesh.triangles.len() * 3];
-        let mut position_vertices = Vec::with_capacity(mesh.positions.len());
-        let mut corners = Vec::new();
-        for (position, point) in mesh.positions.iter().enumerate() {
-            let [x, y, z] = ((point - centre) / unit).as_vec3().to_array();
-            corners.clear();
-            corners.extend(incidence.corners(position).iter().map(|corner| (keys.of(*corner as usize), *corner)));
-            corners.sort_unstable();
-            position_vertices.push(if corners.is_empty() { NONE } else { vertices.len() as u32 });
-            for group in corners.chunk_by(|a, b| a.0 == b.0) {
-                let [normal, texture, _] = group[0].0;
-                let [nx, ny, nz] = mesh.normals[normal as usize].to_array();
-                group.iter().for_each(|(_, corner)| corner_vertices[*corner as usize] = vertices.len() as u32);
-                vertices.push([x, y, z, nx, ny, nz]);
-                if keys.has_textures {
-                    let coordinate = mesh.texture_coordinates.get(texture as usize).copied().unwrap_or_default();
-                    texture_coordinates.push(coordinate.to_array());
-                }
-            }
-        }
-        let order = drawing_order(mesh);
-        let indices =
-            order.iter().flat_map(|&triangle| &corner_vertices[triangle as usize * 3..][..3]).copied().collect();
+        let (corners, order) = both(|| CornerVertices::new(mesh, centre, unit), || drawing_order(mesh));
+        let CornerVertices { vertices, texture_coordinates, corner_vertices, position_vertices } = corners;
+        let indices: Vec<[u32; 3]> = order.iter().map(|triangle| corner_vertices[*triangle as usize]).collect();
+        let indices = indices.into_flattened();
         let parts = parts(mesh, &order);
         let mut arrays = Self { vertices, texture_coordinates, indices, position_vertices, order, parts, centre };
         arrays.number_by_first_use();
         arrays
+    }
+
+    /// Bytes of main memory the arrays take.
+    pub fn memory_bytes(&self) -> usize {
+        bytes_of(&self.vertices)
+            + bytes_of(&self.texture_coordinates)
+            + bytes_of(&self.indices)
+            + bytes_of(&self.position_vertices)
+            + bytes_of(&self.parts)
     }
 
     /// Renumbers the vertices so that drawing walks through them from first to last.
@@ -91,6 +78,47 @@ impl VertexArrays {
         }
         let vertices = self.position_vertices.iter_mut().filter(|vertex| **vertex != NONE);
         vertices.for_each(|vertex| *vertex = number[*vertex as usize]);
+    }
+}
+
+/// The mesh's vertices position by position, before they get the numbers they are drawn by.
+struct CornerVertices {
+    vertices: Vec<[f32; 6]>,
+    texture_coordinates: Vec<[f32; 2]>,
+    /// Each triangle's vertices.
+    corner_vertices: Vec<[u32; 3]>,
+    position_vertices: Vec<u32>,
+}
+
+impl CornerVertices {
+    fn new(mesh: &Mesh, centre: DVec3, unit: f64) -> Self {
+        let incidence = Incidence::new(mesh.positions.len(), &mesh.triangles);
+        let keys = CornerKeys::new(mesh);
+        let mut vertices: Vec<[f32; 6]> = Vec::with_capacity(mesh.positions.len());
+        let mut texture_coordinates = Vec::new();
+        let mut corner_vertices = vec![[NONE; 3]; mesh.triangles.len()];
+        let mut position_vertices = Vec::with_capacity(mesh.positions.len());
+        let mut corners = Vec::new();
+        for (position, point) in mesh.positions.iter().enumerate() {
+            let [x, y, z] = ((point - centre) / unit).as_vec3().to_array();
+            corners.clear();
+            corners.extend(incidence.corners(position).iter().map(|corner| (keys.of(*corner as usize), *corner)));
+            corners.sort_unstable();
+            position_vertices.push(if corners.is_empty() { NONE } else { vertices.len() as u32 });
+            for group in corners.chunk_by(|a, b| a.0 == b.0) {
+                let [normal, texture, _] = group[0].0;
+                let [nx, ny, nz] = mesh.normals[normal as usize].to_array();
+                for (_, corner) in group {
+                    corner_vertices[*corner as usize / 3][*corner as usize % 3] = vertices.len() as u32;
+                }
+                vertices.push([x, y, z, nx, ny, nz]);
+                if keys.has_textures {
+                    let coordinate = mesh.texture_coordinates.get(texture as usize).copied().unwrap_or_default();
+                    texture_coordinates.push(coordinate.to_array());
+                }
+            }
+        }
+        Self { vertices, texture_coordinates, corner_vertices, position_vertices }
     }
 }
 
@@ -133,18 +161,19 @@ impl<'a> CornerKeys<'a> {
 fn drawing_order(mesh: &Mesh) -> Vec<u32> {
     let (low, high) = mesh.bounds();
     let scale = 1023.0 / (high - low).max_element();
-    let mut keys: Vec<(u32, u32, u32)> = mesh
-        .triangles
-        .iter()
-        .enumerate()
-        .map(|(index, triangle)| {
-            let material = mesh.triangle_materials.get(index).copied().unwrap_or(NONE);
-            let middle = triangle.iter().map(|position| mesh.positions[*position as usize] - low).sum::<DVec3>() / 3.0;
-            (material, hilbert_code(middle * scale), index as u32)
-        })
-        .collect();
-    keys.sort_unstable();
-    keys.into_iter().map(|(_, _, index)| index).collect()
+    let threads = threads_for(mesh.triangles.len());
+    // A triangle's place on the curve and its number, as one number.
+    let mut keys = filled(mesh.triangles.len(), threads, 0, |index| {
+        let triangle = mesh.triangles[index].map(|position| mesh.positions[position as usize] - low);
+        let middle = triangle.iter().sum::<DVec3>() / 3.0;
+        u64::from(hilbert_code(middle * scale)) << 32 | index as u64
+    });
+    sort_by(&mut keys, threads, u64::cmp);
+    let mut order: Vec<u32> = keys.into_iter().map(|key| key as u32).collect();
+    if !mesh.triangle_materials.is_empty() {
+        order.sort_by_key(|triangle| mesh.triangle_materials[*triangle as usize]);
+    }
+    order
 }
 
 fn parts(mesh: &Mesh, order: &[u32]) -> Vec<Part> {
@@ -161,7 +190,7 @@ fn parts(mesh: &Mesh, order: &[u32]) -> Vec<Part> {
 
 #[cfg(test)]
 mod tests {
-    use crate::mesh::{LoadOptions, VertexArrays, load};
+    use crate::mesh::{LoadOptions, Mesh, VertexArrays, load};
 
     #[test]
     fn the_open_box_has_four_vertices_a_side_and_keeps_every_corner() {
@@ -210,9 +239,8 @@ mod tests {
         }
     }
 
-    #[test]
-    fn neighbours_on_a_grid_are_drawn_together() {
-        // A 60 x 60 grid of squares given row by row in a scrambled order of rows.
+    /// A 60 x 60 grid of squares given row by row in a scrambled order of rows.
+    fn grid() -> Mesh {
         let side = 61u32;
         let mut text = String::new();
         for i in 0..side * side {
@@ -226,7 +254,20 @@ mod tests {
         }
         let file = tempfile::Builder::new().suffix(".obj").tempfile().unwrap();
         std::fs::write(file.path(), text).unwrap();
-        let mesh = load(file.path().to_str().unwrap(), &LoadOptions::default()).unwrap().mesh;
+        load(file.path().to_str().unwrap(), &LoadOptions::default()).unwrap().mesh
+    }
+
+    #[test]
+    fn a_triangle_of_a_large_mesh_takes_about_70_bytes() {
+        let (mesh, arrays) = (grid(), VertexArrays::new(&grid(), 1.0));
+        // Half a vertex a triangle: 14 bytes of position and 6 of normal; 24 of indices; for GL 14 of vertex and 12 of indices.
+        let bytes = (mesh.memory_bytes() + arrays.memory_bytes()) as f64 / mesh.triangles.len() as f64;
+        assert!((70.0..74.0).contains(&bytes), "{bytes} bytes a triangle");
+    }
+
+    #[test]
+    fn neighbours_on_a_grid_are_drawn_together() {
+        let mesh = grid();
         let arrays = VertexArrays::new(&mesh, 1.0);
         let distinct: usize =
             arrays.indices.chunks(1023).map(|chunk| chunk.iter().collect::<std::collections::HashSet<_>>().len()).sum();

@@ -3,6 +3,7 @@
 //! In: points and a distance. Out: for each point the first point (in the given order) it is welded to.
 //! A sweep along one skew direction: a hash grid would be faster on huge clouds but needs 27 look-ups a point.
 
+use crate::threads::{sort_by, threads_for};
 use crate::tolerances::SWEEP_ROUNDING;
 use glam::DVec3;
 
@@ -21,7 +22,7 @@ pub fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
         .map(|(index, point)| (point.dot(SWEEP_DIRECTION), index as u32))
         .collect();
     // Ties go by index, so that the result does not depend on the sort.
-    sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    sort_by(&mut sweep, threads_for(points.len()), |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let largest = sweep.first().map_or(0.0, |first| first.0.abs()).max(sweep.last().map_or(0.0, |last| last.0.abs()));
     let reach = distance * SWEEP_DIRECTION.length() + largest * SWEEP_ROUNDING;
     let mut window_start = 0;

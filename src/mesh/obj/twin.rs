@@ -1,13 +1,111 @@
-//! Between an OBJ file and tobj: hands on one sound line at a time and keeps what tobj does not tell.
+//! A second opinion of OBJ files, for tests: tobj's, behind a reader that hands on one sound line at a time and keeps what
+//! tobj does not tell. It read everybody's files once; what it shares with the reader now is MTL files and the mesh made.
 
 use super::super::NONE;
-use super::super::soup::Corner;
+use super::super::soup::{Corner, Soup};
+use super::{Materials, material, sound_material_lines};
+use crate::error::{Error, Result};
+use glam::{DVec3, Vec2, Vec3};
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::io::{self, BufRead, Read};
+use std::path::Path;
+
+/// What a read makes of a file; vertices, normals and texture coordinates that no face names are zero.
+pub fn read(bytes: &[u8], path: &str, materials: &Materials, remarks: &mut Vec<String>) -> Result<Soup> {
+    let options = tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..tobj::LoadOptions::default() };
+    // What is not UTF-8 can only be in names.
+    let text = String::from_utf8_lossy(bytes);
+    let mut guard = Guard::new(&text);
+    let missing_files = RefCell::new(Vec::new());
+    let load_material = |name: &Path| {
+        let text = materials.find(name).unwrap_or_else(|| {
+            missing_files.borrow_mut().push(name.display().to_string());
+            Cow::Borrowed(b"")
+        });
+        tobj::load_mtl_buf(&mut sound_material_lines(&text).as_slice())
+    };
+    let (models, found) = tobj::load_obj_buf(&mut guard, &options, load_material).map_err(|error| Error::Model {
+        path: path.to_owned(),
+        line: Some(guard.line_number),
+        problem: in_words(&error),
+    })?;
+    let found = found.map_err(|error| Error::model(path, format!("its materials cannot be read ({error})")))?;
+    let missing_files = missing_files.into_inner();
+    remarks.extend(
+        missing_files
+            .iter()
+            .map(|name| format!("{path}: the material file {name} is not there; its faces get the default colour")),
+    );
+    let unknown = guard.materials.iter().filter(|name| !found.iter().any(|material| material.name == **name)).count();
+    let mut soup = into_soup(guard, &models, path)?;
+    // A missing file's materials are missing with it: counted once, said once.
+    soup.defects.missing_materials = unknown.max(missing_files.len());
+    if unknown > 0 && missing_files.is_empty() {
+        remarks.push(format!(
+            "{path}: {unknown} of the materials it uses are in no material file; their faces get the default colour"
+        ));
+    }
+    soup.materials = found.into_iter().map(material).collect();
+    Ok(soup)
+}
+
+fn in_words(error: &tobj::LoadError) -> String {
+    let what = match error {
+        tobj::LoadError::PositionParseError | tobj::LoadError::ColorParseError => "a vertex is not three numbers",
+        tobj::LoadError::ScalingByZeroError => "a vertex has weight 0",
+        tobj::LoadError::NormalParseError => "a normal is not three numbers",
+        tobj::LoadError::TexcoordParseError => "a texture coordinate is not two numbers",
+        tobj::LoadError::FaceParseError => "a face is not a list of vertex numbers",
+        _ => return format!("it cannot be read ({error}); export it again"),
+    };
+    format!("{what}; mend this line or export the model again")
+}
+
+/// Puts tobj's numbers where the file's own indices say.
+fn into_soup(guard: Guard<'_>, models: &[tobj::Model], path: &str) -> Result<Soup> {
+    let read: usize = models.iter().map(|model| model.mesh.indices.len()).sum();
+    if read != guard.corners.len() {
+        return Err(Error::model(path, "its faces are read in two ways; export it again in plain OBJ"));
+    }
+    let mut soup = Soup {
+        positions: vec![DVec3::ZERO; guard.position_count as usize],
+        normals: vec![Vec3::ZERO; guard.normal_count as usize],
+        texture_coordinates: vec![Vec2::ZERO; guard.texture_count as usize],
+        ..Soup::default()
+    };
+    let mut corners = guard.corners.iter();
+    for tobj::Model { mesh, .. } in models {
+        for (local, corner) in (0..mesh.indices.len()).zip(corners.by_ref()) {
+            let Corner { position, normal, texture } = *corner;
+            let from = mesh.indices[local] as usize * 3;
+            soup.positions[position as usize] = DVec3::from_slice(&mesh.positions[from..from + 3]);
+            if normal != NONE {
+                let from = mesh.normal_indices[local] as usize * 3;
+                soup.normals[normal as usize] = DVec3::from_slice(&mesh.normals[from..from + 3]).as_vec3();
+            }
+            if texture != NONE {
+                let from = mesh.texcoord_indices[local] as usize * 2;
+                let [u, v] = [mesh.texcoords[from], mesh.texcoords[from + 1]].map(|number| number as f32);
+                soup.texture_coordinates[texture as usize] = Vec2::new(u, v);
+            }
+        }
+        let polygons = if mesh.face_arities.is_empty() { mesh.indices.len() / 3 } else { mesh.face_arities.len() };
+        let material = mesh.material_id.map_or(NONE, |id| id as u32);
+        soup.polygon_materials.resize(soup.polygon_materials.len() + polygons, material);
+    }
+    if guard.polygon_sizes.iter().any(|size| *size != 3) {
+        soup.polygon_sizes = guard.polygon_sizes;
+    }
+    soup.corners = guard.corners;
+    soup.defects.degenerate_triangles = guard.degenerate_faces;
+    soup.defects.out_of_range_faces = guard.out_of_range_faces;
+    Ok(soup)
+}
 
 /// A reader over a file's text.
-pub struct Guard<'a> {
+struct Guard<'a> {
     rest: &'a str,
     line: Cow<'a, str>,
     /// How much of `line` was handed on.
@@ -99,7 +197,7 @@ impl<'a> Guard<'a> {
             "usemtl" | "mtllib" => {
                 // Names may hold '#' and blanks; tobj wants exactly one blank before them.
                 let name = line.trim_start()[keyword.len()..].trim();
-                if keyword == "usemtl" {
+                if keyword == "usemtl" && !name.is_empty() {
                     self.materials.insert(name.to_owned());
                 }
                 (!name.is_empty()).then(|| Cow::Owned(format!("{keyword} {name}\n")))
