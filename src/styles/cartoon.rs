@@ -19,7 +19,8 @@ pub struct Cartoon {
     /// Whether a square of the background's colour is drawn behind the scene, as the paper does in every scene.
     /// Default yes; without it the two-pass style loses the outer half of every silhouette (errata E10).
     pub background_square: bool,
-    /// Whether faces turned away from the eye are left out: faster, and the same picture of closed models. Default no.
+    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
+    /// picture of closed models. Default no.
     pub cull_back_faces: bool,
     /// How normals and depth are stored between the passes. Default as in the listing.
     pub map_encoding: MapEncoding,

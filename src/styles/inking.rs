@@ -58,7 +58,8 @@ pub struct Inking {
     pub light: LightOn,
     /// Whether the model's own texture is multiplied in, by the second texture stage. Default no.
     pub has_texture: bool,
-    /// Whether faces turned away from the eye are left out: faster, and the same picture of closed models. Default no.
+    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
+    /// picture of closed models. Default no.
     pub cull_back_faces: bool,
 }
 

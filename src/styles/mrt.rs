@@ -22,7 +22,8 @@ pub struct Mrt {
     /// Whether the map holds behind the scene what the paper's square leaves there, a normal towards the eye. Default yes;
     /// without it outer borders are fainter where the surface is seen at a grazing angle.
     pub background_square: bool,
-    /// Whether faces turned away from the eye are left out: faster, and the same picture of closed models. Default no.
+    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
+    /// picture of closed models. Default no.
     pub cull_back_faces: bool,
     /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge and makes lines finer.
     pub supersample: Supersample,

@@ -15,7 +15,8 @@ pub struct Phong {
     pub specular: f32,
     /// Exponent of the highlight. Default 24; more makes it smaller.
     pub shininess: f32,
-    /// Whether faces turned away from the eye are left out: faster, and the same picture of closed models. Default no.
+    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
+    /// picture of closed models. Default no.
     pub cull_back_faces: bool,
 }
 
