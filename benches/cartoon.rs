@@ -12,7 +12,9 @@ use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::time::Instant;
 use tinta::mesh::Mesh;
-use tinta::styles::{Cartoon, Mrt};
+use tinta::plan::prune::{Pruning, prune};
+use tinta::renderer::milliseconds_since;
+use tinta::styles::{Cartoon, Ink, Mrt};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, load};
 
 const USAGE: &str = "cargo bench --bench cartoon -- MODEL [--python PYTHON] [--rounds N] [--frames N]
@@ -83,15 +85,19 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
     let size = Size { width, height };
     let mut renderer = Renderer::new(Backend::Auto).expect("a context");
     println!("\nframe at {size}, {} triangles, {}", mesh.triangles.len(), renderer.context().renderer);
+    let culled = Cartoon { cull_back_faces: true, ..Cartoon::default() };
     let styles = [
-        ("three-pass", Style::ThreePass(Cartoon::default())),
-        ("three-pass, back faces culled", Style::ThreePass(Cartoon { cull_back_faces: true, ..Cartoon::default() })),
-        ("two-pass", Style::TwoPass(Cartoon::default())),
-        ("two-pass, back faces culled", Style::TwoPass(Cartoon { cull_back_faces: true, ..Cartoon::default() })),
-        ("mrt", Style::Mrt(Mrt::default())),
-        ("mrt, back faces culled", Style::Mrt(Mrt { cull_back_faces: true, ..Mrt::default() })),
+        ("three-pass --full", Style::ThreePass(Cartoon::default()), false),
+        ("three-pass", Style::ThreePass(Cartoon::default()), true),
+        ("three-pass --cull back", Style::ThreePass(culled.clone()), true),
+        ("two-pass --full", Style::TwoPass(Cartoon::default()), false),
+        ("two-pass", Style::TwoPass(Cartoon::default()), true),
+        ("two-pass --cull back", Style::TwoPass(culled), true),
+        ("mrt", Style::Mrt(Mrt::default()), true),
+        ("mrt --cull back", Style::Mrt(Mrt { cull_back_faces: true, ..Mrt::default() }), true),
+        ("ink --cull back", Style::Ink(Ink { cull_back_faces: true, ..Ink::default() }), true),
     ];
-    let mut series: Vec<Series> = styles.iter().map(|(name, _)| Series::new(name)).collect();
+    let mut series: Vec<Series> = styles.iter().map(|(name, ..)| Series::new(name)).collect();
     let with_normals = folder.join("with-normals.obj");
     if settings.python.is_some() {
         write_with_normals(mesh, &with_normals);
@@ -99,13 +105,25 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
     }
     let base = Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() }).expect("a scene");
     let scenes: Vec<Scene> = (0..settings.frames).map(|frame| turned(&base, frame)).collect();
+    let start = Instant::now();
+    base.make_arrays();
+    let counts = base.hiding(&base.objects[0]).counts();
+    println!("  once, not in the frames: what hides what, {:.1} ms; {counts:?}", milliseconds_since(start));
+    let pruning = Pruning::for_context(renderer.context(), u32::MAX);
     for _ in 0..settings.rounds {
-        for ((_, style), series) in styles.iter().zip(&mut series) {
-            let plan = style.plan(&scenes[0], Show::Final).expect("a plan");
-            renderer.time_frames(&scenes[0], &plan, 3, 1).expect("frames");
-            for scene in &scenes {
-                series.times.extend(renderer.time_frames(scene, &plan, 0, 1).expect("a frame"));
-            }
+        for ((_, style, is_pruned), series) in styles.iter().zip(&mut series) {
+            // The plan of a view, and what can be left out of it, are part of its frame.
+            let mut frame = |scene: &Scene| {
+                let start = Instant::now();
+                let mut plan = style.plan(scene, Show::Final).expect("a plan");
+                if *is_pruned {
+                    plan = prune(&plan, scene, &pruning).plan;
+                }
+                renderer.time_frames(scene, &plan, 0, 1).expect("a frame");
+                milliseconds_since(start)
+            };
+            let _warm_up: f64 = (0..3).map(|_| frame(&scenes[0])).sum();
+            series.times.extend(scenes.iter().map(&mut frame));
         }
         if let (Some(python), Some(series)) = (&settings.python, series.last_mut()) {
             series.times.extend(panda_times(python, &with_normals, size, settings.frames));

@@ -7,7 +7,6 @@ mod report;
 #[path = "report/sphere.rs"]
 mod sphere;
 
-use glam::{DVec3, Vec3};
 use plotters::prelude::*;
 use report::{Series, print_table, write_record};
 use serde_json::{Value, json};
@@ -16,7 +15,6 @@ use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::time::Instant;
 use tinta::lines::{LineSettings, LineTimes, VisibleLines};
-use tinta::mesh::Defects;
 use tinta::renderer::{median, milliseconds_since};
 use tinta::{LoadOptions, Mesh, Scene, SceneSettings, load};
 
@@ -168,7 +166,7 @@ fn growth() -> Value {
     let rows: Vec<Value> = SIZES
         .iter()
         .map(|size| {
-            let mesh = Arc::new(bumpy_sphere(*size));
+            let mesh = Arc::new(sphere::bumpy_sphere(*size));
             let count = mesh.triangles.len() as f64;
             let times: Vec<f64> = (0..REPEATS).map(|_| lines_ms(&mesh).0).collect();
             let middle = median(times.clone()).unwrap_or(f64::NAN);
