@@ -44,6 +44,13 @@ pub fn fill_missing(
             // Fans that only touch in the vertex are joined too when they agree so well; that does no harm.
             let mean = corners.iter().map(face_normal).sum::<DVec3>().normalize_or_zero();
             if corners.iter().all(|corner| face_normal(corner).dot(mean) >= cos_half) {
+                let sum = corners.iter().map(|corner| weighted_normal(positions, triangles, *corner)).sum();
+                if let Some(normal) = smooth(sum) {
+                    found.normals.push(normal.as_vec3());
+                    let index = found.normals.len() as u32 - 1;
+                    found.indices.extend(corners.iter().map(|corner| if is_missing(*corner) { index } else { NONE }));
+                    continue;
+                }
                 fan.join_all(corners.len());
             } else {
                 fan.group(triangles, face_normals, corners, cos_smooth);
@@ -76,6 +83,11 @@ fn weighted_normal(positions: &[DVec3], triangles: &[[u32; 3]], corner: u32) -> 
     let [at, next, previous] = [0, 1, 2].map(|step| positions[triangle[(corner as usize % 3 + step) % 3] as usize]);
     let (to_next, to_previous) = (next - at, previous - at);
     to_next.cross(to_previous) / (to_next.length_squared() * to_previous.length_squared())
+}
+
+/// The direction of a sum of normals, if it has one.
+fn smooth(sum: DVec3) -> Option<DVec3> {
+    (sum / sum.abs().max_element()).try_normalize()
 }
 
 /// For every position the triangle corners that meet there, as `3 * triangle + corner`.
@@ -186,8 +198,7 @@ impl Fan {
             }
             let root = self.root(face as u32) as usize;
             // Faces that cancel each other out leave no direction: then the face's own normal is the best there is.
-            let sum = self.sums[root];
-            let smooth = (sum / sum.abs().max_element()).try_normalize();
+            let smooth = smooth(self.sums[root]);
             if smooth.is_none() || self.indices[root] == NONE {
                 found.normals.push(smooth.unwrap_or(face_normals[corner as usize / 3]).as_vec3());
                 self.indices[root] = found.normals.len() as u32 - 1;

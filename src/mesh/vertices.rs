@@ -103,7 +103,10 @@ impl CornerVertices {
             let [x, y, z] = ((point - centre) / unit).as_vec3().to_array();
             corners.clear();
             corners.extend(incidence.corners(position).iter().map(|corner| (keys.of(*corner as usize), *corner)));
-            corners.sort_unstable();
+            // Where all of them are one vertex, as on smooth surfaces, there is nothing to sort.
+            if corners.windows(2).any(|pair| pair[0].0 != pair[1].0) {
+                corners.sort_unstable();
+            }
             position_vertices.push(if corners.is_empty() { NONE } else { vertices.len() as u32 });
             for group in corners.chunk_by(|a, b| a.0 == b.0) {
                 let [normal, texture, _] = group[0].0;
