@@ -96,6 +96,8 @@ pub struct HidingCounts {
     pub flagged_faces: usize,
     /// Faces that some views may leave out.
     pub hideable_faces: usize,
+    /// Share of all faces that a view from far away leaves out, percent, as the mean of fourteen directions.
+    pub usual_percent: usize,
 }
 
 /// The faces that a view needs.
@@ -133,6 +135,7 @@ impl Hiding {
             capped_holes: shells.list.iter().filter(|shell| shell.is_sound).map(|shell| shell.holes as usize).sum(),
             flagged_faces: flags.iter().filter(|flag| **flag).count(),
             hideable_faces: may_hide.iter().filter(|may| **may).count(),
+            usual_percent: 0,
         };
         let threads = threads_for(surface.triangles.len());
         let plane_of = |face: usize| plane(surface.normals[face], surface.points[surface.triangles[face][0] as usize]);
@@ -145,7 +148,7 @@ impl Hiding {
         };
         let is_used = |cap: &&Cap| shells.list[cap.shell as usize].is_sound;
         let is_by_itself = surface.point_of_vertex.iter().enumerate().all(|(vertex, point)| vertex == *point as usize);
-        Self {
+        let mut hiding = Self {
             radius,
             thickness,
             planes,
@@ -159,7 +162,9 @@ impl Hiding {
             points: if is_by_itself { Vec::new() } else { surface.point_of_vertex },
             point_count,
             counts,
-        }
+        };
+        hiding.counts.usual_percent = hiding.usual_percent(arrays);
+        hiding
     }
 
     /// How much of the mesh may be hidden.

@@ -39,6 +39,8 @@ pub struct Pass {
     pub name: &'static str,
     /// What it draws into.
     pub target: Target,
+    /// The pixels that its steps may clear, draw and copy; `None` for all. A step's own scissor lies within.
+    pub scissor: Option<Rectangle>,
     /// In order.
     pub steps: Vec<Step>,
 }
@@ -331,7 +333,7 @@ impl Plan {
 impl Pass {
     /// Steps into the framebuffer.
     pub fn new(name: &'static str, steps: Vec<Step>) -> Self {
-        Self { name, target: Target::Framebuffer, steps }
+        Self { name, target: Target::Framebuffer, scissor: None, steps }
     }
 }
 

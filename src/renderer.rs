@@ -8,7 +8,7 @@ use crate::gl::{Backend, ContextInfo};
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::prune::{Pruning, prune};
-use crate::plan::{Draw, Geometry, LineDrawing, Output, Plan, Step};
+use crate::plan::{Draw, Geometry, LineDrawing, Output, Plan, Program, Step};
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use serde::Serialize;
@@ -173,7 +173,7 @@ impl Renderer {
                     let timer = if has_timers { Some(frame.resources.timer()?) } else { None };
                     let start = Instant::now();
                     timer.iter().for_each(|timer| timer.begin());
-                    frame.resources.begin(pass.target)?;
+                    frame.resources.begin(pass.target, pass.scissor)?;
                     for step in &pass.steps {
                         frame.resources.step(scene, step)?;
                     }
@@ -202,7 +202,7 @@ impl Renderer {
             let mut pictures = Vec::new();
             for pass in &plan.passes {
                 for step in &pass.steps {
-                    frame.resources.begin(pass.target)?;
+                    frame.resources.begin(pass.target, pass.scissor)?;
                     frame.resources.step(scene, step)?;
                     // Before reading: a copy that failed leaves a texture of another size.
                     frame.resources.check(pass.name)?;
@@ -232,6 +232,11 @@ impl Renderer {
     pub fn compile_shader(&mut self, path: &'static str) -> Result<()> {
         let _current = self.context.enter()?;
         self.resources.compile(path)
+    }
+
+    /// The shaders linked so far: those of the plans drawn, and no others.
+    pub fn programs(&self) -> Vec<Program> {
+        self.resources.programs()
     }
 
     /// How many GL objects this renderer holds: constant from frame to frame of one scene and plan.
@@ -306,7 +311,7 @@ struct Frame<'a> {
 impl Frame<'_> {
     fn all_steps(&mut self) -> Result<()> {
         for pass in &self.plan.passes {
-            self.resources.begin(pass.target)?;
+            self.resources.begin(pass.target, pass.scissor)?;
             pass.steps.iter().try_for_each(|step| self.resources.step(self.scene, step))?;
         }
         Ok(())
@@ -314,7 +319,7 @@ impl Frame<'_> {
 
     fn read_back(&mut self) -> Result<()> {
         let size = self.scene.size;
-        self.resources.begin(self.plan.picture_target())?;
+        self.resources.begin(self.plan.picture_target(), None)?;
         self.resources.read_framebuffer(size, &mut self.pixels[..size.pixel_count() * 4]);
         self.resources.check("drawing")
     }

@@ -45,6 +45,51 @@ fn draws(plan: &Plan) -> impl Iterator<Item = &Draw> {
     plan.steps().filter_map(|(_, step)| if let Step::Draw(draw) = step { Some(draw) } else { None })
 }
 
+/// A sphere of 20 * 4^cuts triangles, an icosahedron cut again and again.
+fn ball(cuts: u32) -> Scene {
+    let golden = 0.5 + 1.25f64.sqrt();
+    let corner = |number: usize| {
+        let [a, b] = [number & 1, number >> 1 & 1].map(|bit| if bit == 1 { 1.0 } else { -1.0 });
+        DVec3::from_array([[0.0, a, b * golden], [a, b * golden, 0.0], [b * golden, 0.0, a]][number / 4]).normalize()
+    };
+    let corners: Vec<DVec3> = (0..12).map(corner).collect();
+    let near = |a: DVec3, b: DVec3| a.distance(b) < 1.2;
+    let mut faces = Vec::new();
+    for a in 0..12 {
+        for b in a + 1..12 {
+            for c in b + 1..12 {
+                let [p, q, r] = [a, b, c].map(|number| corners[number]);
+                if near(p, q) && near(q, r) && near(r, p) {
+                    let is_outward = (q - p).cross(r - p).dot(p) > 0.0;
+                    faces.push(if is_outward { [p, q, r] } else { [p, r, q] });
+                }
+            }
+        }
+    }
+    assert_eq!(faces.len(), 20);
+    for _ in 0..cuts {
+        let middle = |a: DVec3, b: DVec3| (a + b).normalize();
+        faces = faces
+            .iter()
+            .flat_map(|&[a, b, c]| {
+                let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+            })
+            .collect();
+    }
+    let mut text = String::new();
+    for point in faces.as_flattened() {
+        text.push_str(&format!("v {} {} {}\n", point.x, point.y, point.z));
+    }
+    (0..faces.len()).for_each(|face| text.push_str(&format!("f {} {} {}\n", face * 3 + 1, face * 3 + 2, face * 3 + 3)));
+    let file = tempfile::Builder::new().suffix(".obj").tempfile().unwrap();
+    std::fs::write(file.path(), text).unwrap();
+    scene_with(
+        file.path().to_str().unwrap(),
+        SceneSettings { size: Size { width: 256, height: 256 }, ..Default::default() },
+    )
+}
+
 /// A scene looked at from the side, so that most of its copies are outside the picture.
 fn beside(model: &str) -> Scene {
     let mesh = Arc::new(load(model, &LoadOptions::default()).unwrap().mesh);
@@ -137,13 +182,16 @@ fn faces_are_left_out_before_the_driver_culls_them_only_where_it_culls() {
 #[test]
 fn hidden_faces_are_left_out_of_a_closed_model_and_not_of_an_open_one_that_is_looked_into() {
     let phong = Style::Phong(Phong::default());
-    assert!(applies(Rule::HiddenFaces, &scene("builtin:gear", 128, 128), &phong));
+    let ball = ball(4);
+    assert!(applies(Rule::HiddenFaces, &ball, &phong));
+    // Most of a gear's faces are near its outlines from every side.
+    assert!(!applies(Rule::HiddenFaces, &scene("builtin:gear", 128, 128), &phong));
     assert!(!applies(Rule::HiddenFaces, &scene("builtin:open-box", 128, 128), &phong));
     // Polygon offset may push a front face behind the back one that it hides.
-    assert!(!applies(Rule::HiddenFaces, &scene("builtin:gear", 128, 128), &Style::Inking(Inking::default())));
-    let gear = scene("builtin:gear", 128, 128);
-    let plan = phong.plan(&gear, Show::Final).unwrap();
-    let once = prune(&plan, &gear, &Pruning { pictures: 1, ..every_rule() });
+    assert!(!applies(Rule::HiddenFaces, &ball, &Style::Inking(Inking::default())));
+    let plan = phong.plan(&ball, Show::Final).unwrap();
+    let fresh = self::ball(3);
+    let once = prune(&plan, &fresh, &Pruning { pictures: 1, ..every_rule() });
     assert!(once.kept.iter().any(|one| one.rule == Rule::HiddenFaces && one.reason.contains("longer")));
 }
 
@@ -325,6 +373,33 @@ fn a_rule_that_is_to_be_kept_is_not_applied() {
     assert_eq!(prune(&plan, &scene, &all).plan, plan);
 }
 
+#[test]
+fn only_the_shaders_that_the_shorter_plan_names_are_compiled_warming_up_included() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let scene = scene("builtin:open-box", 64, 64);
+    let style = cartoon(|cartoon| (cartoon.border, cartoon.tones.count) = (None, 1));
+    let settings = SceneSettings { size: scene.size, ..SceneSettings::default() };
+    let pruning = Pruning::for_context(renderer.context(), 1);
+    renderer.warm_up(&settings, &style, Show::Final, Some(&pruning)).unwrap();
+    let warm = renderer.programs();
+    renderer.render(&scene, &style).unwrap();
+    assert_eq!(renderer.programs(), warm, "nothing is compiled when the models are there");
+    let fragments = vec!["evangelista/toon-settings.frag", "improved/tone-one.frag"];
+    assert_eq!(warm, [tinta::plan::Program { vertex: "evangelista/toon.vert", fragments }]);
+}
+
+#[test]
+fn plain_culling_would_not_pass_these_tests() {
+    let view = View { azimuth_degrees: 30.0, elevation_degrees: 15.0 };
+    let camera = CameraSettings { view, ..CameraSettings::default() };
+    let scene = scene_with("builtin:bust", SceneSettings { camera, ..SceneSettings::default() });
+    let mut renderer = renderer(BACKENDS[0]);
+    let full = renderer.render(&scene, &cartoon(|_| {})).unwrap();
+    let culled = renderer.render(&scene, &cartoon(|cartoon| cartoon.cull_back_faces = true)).unwrap();
+    let difference = full.difference(&culled).unwrap();
+    assert!((1..100).contains(&difference.pixels), "{difference:?}");
+}
+
 /// Numbers from 0 to 1 that look random and are always the same.
 struct Dice(u64);
 
@@ -379,7 +454,10 @@ fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
         for style in &styles {
             let plan = style.plan(&view, Show::Final).unwrap();
             let short = prune(&plan, &view, &pruning);
-            let (full, picture) = (renderer.draw(&view, &plan).unwrap(), renderer.draw(&view, &short.plan).unwrap());
+            let full = renderer.draw(&view, &plan).unwrap();
+            // The second of two frames in a row: nothing of the first may be left in it.
+            renderer.time_frames(&view, &short.plan, 0, 1).unwrap();
+            let picture = renderer.draw(&view, &short.plan).unwrap();
             let difference = full.difference(&picture).unwrap();
             assert!(
                 full == picture,

@@ -87,7 +87,7 @@ struct RunArguments {
     #[arg(long, conflicts_with = "json")]
     explain: bool,
 
-    /// Write what GL holds after every step into this folder, RGBA PNG [default: off]
+    /// Write what GL holds after every step of the published plan into this folder, RGBA PNG [default: off]
     #[arg(long, value_name = "DIR")]
     dump: Option<PathBuf>,
 }
@@ -147,7 +147,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
     let first_frame_ms = milliseconds_since(first_frame);
     target.write(&picture)?;
     if let Some(folder) = &arguments.run.dump {
-        for (number, step) in renderer.step_pictures(&scene, &plan)?.iter().enumerate() {
+        for (number, step) in renderer.step_pictures(&scene, &published)?.iter().enumerate() {
             let name = format!("{:02}-{}-{}.png", number + 1, step.pass, step.step);
             write_rgba_png(&step.picture, &folder.join(name))?;
         }

@@ -29,6 +29,7 @@ pub struct Resources {
     /// The size of what is drawn into: the picture's, or a multiple of it.
     surface: Size,
     targets: Targets,
+    pass_scissor: Option<Rectangle>,
     pub(super) textures: Textures,
     /// The edges last drawn as lines and as points, as indices on the device.
     pub(super) edges: [Option<EdgeIndices>; 2],
@@ -57,6 +58,7 @@ impl Resources {
             squares: None,
             surface: Size { width: 1, height: 1 },
             targets: Targets::default(),
+            pass_scissor: None,
             textures: Textures::default(),
             edges: [None, None],
         }
@@ -69,9 +71,7 @@ impl Resources {
         unsafe {
             gl.glow.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
             gl.glow.pixel_store_i32(glow::UNPACK_ALIGNMENT, 1);
-            for capability in [glow::DITHER, glow::SCISSOR_TEST] {
-                gl.glow.disable(capability);
-            }
+            gl.glow.disable(glow::DITHER);
             gl.glow.color_mask(true, true, true, true);
         }
         self.surface = scene.size.times(plan.supersample);
@@ -103,17 +103,22 @@ impl Resources {
         gl.check("setting up")
     }
 
-    /// What the steps that follow draw into, of a prepared plan.
-    pub fn begin(&self, target: Target) -> Result<()> {
+    /// What the steps that follow draw into, of a prepared plan, and the pixels they may change.
+    pub fn begin(&mut self, target: Target, scissor: Option<Rectangle>) -> Result<()> {
+        self.pass_scissor = scissor;
         self.targets.begin(&self.gl, target)
     }
 
     /// Carries out one step of a prepared plan.
     pub fn step(&mut self, scene: &Scene, step: &Step) -> Result<()> {
+        self.set_scissor(match step {
+            Step::Draw(draw) => draw.scissor.or(self.pass_scissor),
+            _ => self.pass_scissor,
+        });
         match step {
             Step::Clear { color, depth } => {
                 let mut buffers = 0;
-                // SAFETY: the context is current. Clearing obeys the depth mask and the scissor, so both are opened.
+                // SAFETY: the context is current. Clearing obeys the depth mask, so it is opened.
                 unsafe {
                     if let Some([red, green, blue, alpha]) = *color {
                         self.gl.glow.clear_color(red, green, blue, alpha);
@@ -124,7 +129,6 @@ impl Resources {
                         self.gl.glow.clear_depth_f64(1.0);
                         buffers |= glow::DEPTH_BUFFER_BIT;
                     }
-                    self.gl.glow.disable(glow::SCISSOR_TEST);
                     self.gl.glow.clear(buffers);
                 }
                 Ok(())
@@ -134,8 +138,8 @@ impl Resources {
                 Ok(())
             }
             Step::Draw(draw) => self.draw(scene, draw),
-            Step::CopyFramebuffer => self.targets.copy_color(&self.gl, self.surface),
-            Step::CopyDepth => self.targets.copy_depth(&self.gl, self.surface),
+            Step::CopyFramebuffer => self.targets.copy_color(&self.gl, self.surface, self.pass_scissor),
+            Step::CopyDepth => self.targets.copy_depth(&self.gl, self.surface, self.pass_scissor),
         }
     }
 
@@ -223,6 +227,19 @@ impl Resources {
         Ok(())
     }
 
+    fn set_scissor(&self, scissor: Option<Rectangle>) {
+        // SAFETY: the context is current; the rectangle's numbers are below 2^31, as the surface's are.
+        unsafe {
+            match scissor {
+                Some(Rectangle { x, y, width, height }) => {
+                    self.gl.glow.enable(glow::SCISSOR_TEST);
+                    self.gl.glow.scissor(x as i32, y as i32, width as i32, height as i32);
+                }
+                None => self.gl.glow.disable(glow::SCISSOR_TEST),
+            }
+        }
+    }
+
     fn set_state(&self, draw: &Draw) {
         let gl = &self.gl.glow;
         // SAFETY: the context is current; the names are of GL 2.1.
@@ -251,13 +268,6 @@ impl Resources {
                     gl.polygon_offset(factor, units);
                 }
                 None => gl.disable(glow::POLYGON_OFFSET_FILL),
-            }
-            match draw.scissor {
-                Some(Rectangle { x, y, width, height }) => {
-                    gl.enable(glow::SCISSOR_TEST);
-                    gl.scissor(x as i32, y as i32, width as i32, height as i32);
-                }
-                None => gl.disable(glow::SCISSOR_TEST),
             }
             if draw.blend {
                 gl.enable(glow::BLEND);
@@ -320,6 +330,11 @@ impl Resources {
                 pixels[pixel * 4..][..4].copy_from_slice(&[grey, grey, grey, u8::MAX]);
             }
         }
+    }
+
+    /// The shaders linked so far.
+    pub fn programs(&self) -> Vec<plan::Program> {
+        self.programs.keys().cloned().collect()
     }
 
     /// Waits until everything is drawn.

@@ -8,7 +8,7 @@ use super::objects::Texture;
 use super::{Gl, legacy};
 use crate::error::{Error, Result};
 use crate::plan::{Attachments, Drawn, Format, Plan, Sampling, Target};
-use crate::scene::Size;
+use crate::scene::{Rectangle, Size};
 pub use framebuffer::clear_each;
 use framebuffer::{Framebuffer, Renderbuffer};
 use glow::HasContext;
@@ -17,8 +17,8 @@ use std::rc::Rc;
 /// The textures that passes leave for each other.
 #[derive(Default)]
 pub struct Targets {
-    border_map: Option<Texture>,
-    depth_map: Option<Texture>,
+    border_map: Option<Copied>,
+    depth_map: Option<Copied>,
     drawn: Option<TextureTargets>,
 }
 
@@ -52,24 +52,24 @@ impl Targets {
         Ok(())
     }
 
-    /// Copies the framebuffer's colour.
-    pub fn copy_color(&mut self, gl: &Rc<Gl>, size: Size) -> Result<()> {
-        copy(gl, &mut self.border_map, legacy::RGBA, size)
+    /// Copies the framebuffer's colour, all of it or this part.
+    pub fn copy_color(&mut self, gl: &Rc<Gl>, size: Size, part: Option<Rectangle>) -> Result<()> {
+        copy(gl, &mut self.border_map, legacy::RGBA, size, part)
     }
 
-    /// Copies the framebuffer's depth.
-    pub fn copy_depth(&mut self, gl: &Rc<Gl>, size: Size) -> Result<()> {
-        copy(gl, &mut self.depth_map, glow::DEPTH_COMPONENT24, size)
+    /// Copies the framebuffer's depth, all of it or this part.
+    pub fn copy_depth(&mut self, gl: &Rc<Gl>, size: Size, part: Option<Rectangle>) -> Result<()> {
+        copy(gl, &mut self.depth_map, glow::DEPTH_COMPONENT24, size, part)
     }
 
     /// The copy of the colour.
     pub fn border_map(&self) -> Option<&Texture> {
-        self.border_map.as_ref()
+        self.border_map.as_ref().map(|(_, texture)| texture)
     }
 
     /// The copy of the depth.
     pub fn depth_map(&self) -> Option<&Texture> {
-        self.depth_map.as_ref()
+        self.depth_map.as_ref().map(|(_, texture)| texture)
     }
 
     /// The texture of this name that a framebuffer object drew into.
@@ -101,13 +101,27 @@ fn refused(info: &ContextInfo, attachments: &Attachments, lack: &str) -> Error {
     Error::setting(attachments.asked_by, format!("{} {lack}; use {}", info.renderer, attachments.instead))
 }
 
-fn copy(gl: &Rc<Gl>, texture: &mut Option<Texture>, format: u32, size: Size) -> Result<()> {
-    let texture = match texture {
-        Some(texture) => texture,
-        None => texture.insert(Texture::new(gl, glow::TEXTURE_2D, Sampling::NearestClamped)?),
-    };
-    texture.bind(0);
+/// A texture copied from a framebuffer of this size.
+type Copied = (Size, Texture);
+
+fn copy(gl: &Rc<Gl>, copied: &mut Option<Copied>, format: u32, size: Size, part: Option<Rectangle>) -> Result<()> {
     let (width, height) = (size.width as i32, size.height as i32);
+    if let (Some((present, texture)), Some(part)) = (&copied, part)
+        && *present == size
+    {
+        texture.bind(0);
+        let [x, y, width, height] = [part.x, part.y, part.width, part.height].map(|number| number as i32);
+        // SAFETY: the context is current and the texture bound; the part lies within the framebuffer and the texture, which
+        // are of one size.
+        unsafe { gl.glow.copy_tex_sub_image_2d(glow::TEXTURE_2D, 0, x, y, x, y, width, height) };
+        return Ok(());
+    }
+    let (present, texture) = match copied {
+        Some(copied) => copied,
+        None => copied.insert((size, Texture::new(gl, glow::TEXTURE_2D, Sampling::NearestClamped)?)),
+    };
+    *present = size;
+    texture.bind(0);
     // SAFETY: the context is current and the texture bound; the rectangle is the whole framebuffer.
     unsafe { gl.glow.copy_tex_image_2d(glow::TEXTURE_2D, 0, format, 0, 0, width, height, 0) };
     Ok(())

@@ -3,6 +3,7 @@
 //! Some drivers compute depth from a face's true corners and fill it where sub-pixels have put them. Between the two a face
 //! seen edge-on has any depth, and may lose to what it should hide; so nothing is left out behind one.
 
+use crate::mesh::NONE;
 use crate::scene::Size;
 use glam::Vec2;
 
@@ -17,7 +18,8 @@ pub(super) struct Slivers {
     columns: usize,
     rows: usize,
     cells_per_pixel: f32,
-    cells: Vec<bool>,
+    /// In each the shell whose faces these are, [`NONE`] for several.
+    cells: Vec<Option<u32>>,
 }
 
 impl Slivers {
@@ -25,37 +27,71 @@ impl Slivers {
     pub fn new(surface: Size) -> Self {
         let side = surface.width.max(surface.height).div_ceil(MOST_CELLS).max(1);
         let [columns, rows] = [surface.width, surface.height].map(|pixels| pixels.div_ceil(side) as usize);
-        Self { columns, rows, cells_per_pixel: 1.0 / side as f32, cells: vec![false; columns * rows] }
+        Self { columns, rows, cells_per_pixel: 1.0 / side as f32, cells: vec![None; columns * rows] }
     }
 
-    /// Adds a face by its corners' places in the window, pixels.
-    pub fn add(&mut self, corners: [Vec2; 3]) {
-        let [columns, rows] = self.cells_of(corners, MARGIN_PX);
-        for row in rows {
-            self.cells[row * self.columns..][columns.clone()].fill(true);
+    /// Adds a face of a shell, [`NONE`] if it may be of any, by its corners' places in the window, pixels.
+    pub fn add(&mut self, corners: [Vec2; 3], shell: u32) {
+        if !corners.iter().all(|corner| corner.is_finite()) {
+            self.cells.fill(Some(NONE));
+            return;
+        }
+        for row in self.rows_of(corners) {
+            let columns = self.columns_of(corners, row);
+            for cell in &mut self.cells[row * self.columns..][columns] {
+                *cell = Some(if cell.is_none_or(|other| other == shell) { shell } else { NONE });
+            }
         }
     }
 
-    /// Whether a face with these corners overlaps one of them, perhaps.
-    pub fn touch(&self, corners: [Vec2; 3]) -> bool {
-        let [columns, mut rows] = self.cells_of(corners, MARGIN_PX);
-        rows.any(|row| self.cells[row * self.columns..][columns.clone()].contains(&true))
+    /// Whether a face of this shell with these corners overlaps one of its slivers, perhaps.
+    pub fn touch(&self, corners: [Vec2; 3], shell: u32) -> bool {
+        let is_own = |cell: &Option<u32>| cell.is_some_and(|other| other == shell || other == NONE);
+        !corners.iter().all(|corner| corner.is_finite())
+            || self
+                .rows_of(corners)
+                .any(|row| self.cells[row * self.columns..][self.columns_of(corners, row)].iter().any(is_own))
     }
 
-    /// The columns and rows of cells that the corners' box covers.
-    fn cells_of(&self, [a, b, c]: [Vec2; 3], margin: f32) -> [std::ops::Range<usize>; 2] {
-        let cell = |place: f32, last: usize| ((place * self.cells_per_pixel).max(0.0) as usize).min(last);
-        let (low, high) = (a.min(b).min(c) - margin, a.max(b).max(c) + margin);
-        let is_beside = !(high.x >= 0.0 && high.y >= 0.0)
-            || low.x * self.cells_per_pixel >= self.columns as f32
-            || low.y * self.cells_per_pixel >= self.rows as f32;
-        if is_beside {
-            return [0..0, 0..0];
+    /// The rows of cells that a face reaches.
+    fn rows_of(&self, [a, b, c]: [Vec2; 3]) -> std::ops::Range<usize> {
+        self.cells_between(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), self.rows)
+    }
+
+    /// The columns of cells that a face reaches in a row: where its sides pass through the row, and what lies between.
+    fn columns_of(&self, corners: [Vec2; 3], row: usize) -> std::ops::Range<usize> {
+        let (below, above) =
+            (row as f32 / self.cells_per_pixel - MARGIN_PX, (row + 1) as f32 / self.cells_per_pixel + MARGIN_PX);
+        let (mut left, mut right) = (f32::INFINITY, f32::NEG_INFINITY);
+        for (from, to) in [(0, 1), (1, 2), (2, 0)].map(|(from, to)| (corners[from], corners[to])) {
+            let (low, high) = if from.y < to.y { (from, to) } else { (to, from) };
+            if high.y < below || low.y > above {
+                continue;
+            }
+            let at = |y: f32| match (y - low.y) / (high.y - low.y) {
+                share if share > 0.0 && share < 1.0 => low.x + (high.x - low.x) * share,
+                share if share >= 1.0 => high.x,
+                _ => low.x,
+            };
+            for x in [at(below), at(above)] {
+                (left, right) = (left.min(x), right.max(x));
+            }
+            // A level side has no share: it is all in the row, or its ends' sides are.
+            if low.y == high.y {
+                (left, right) = (left.min(low.x).min(high.x), right.max(low.x).max(high.x));
+            }
         }
-        [
-            cell(low.x, self.columns - 1)..cell(high.x, self.columns - 1) + 1,
-            cell(low.y, self.rows - 1)..cell(high.y, self.rows - 1) + 1,
-        ]
+        self.cells_between(left, right, self.columns)
+    }
+
+    /// The cells from one place to another and a margin around them, of so many.
+    fn cells_between(&self, low: f32, high: f32, count: usize) -> std::ops::Range<usize> {
+        let (low, high) = ((low - MARGIN_PX) * self.cells_per_pixel, (high + MARGIN_PX) * self.cells_per_pixel);
+        if high < 0.0 || low >= count as f32 || low > high {
+            return 0..0;
+        }
+        let cell = |place: f32| (place.max(0.0) as usize).min(count - 1);
+        cell(low)..cell(high) + 1
     }
 }
 
@@ -67,15 +103,61 @@ mod tests {
     fn a_face_touches_slivers_within_two_pixels_of_it_and_none_farther_off() {
         let mut slivers = Slivers::new(Size { width: 100, height: 60 });
         let at = |x: f32, y: f32| [Vec2::new(x, y), Vec2::new(x + 3.0, y), Vec2::new(x, y + 0.001)];
-        slivers.add(at(50.0, 30.0));
-        assert!(slivers.touch(at(50.0, 30.0)) && slivers.touch(at(54.5, 30.0)) && slivers.touch(at(45.6, 31.9)));
-        assert!(!slivers.touch(at(57.0, 30.0)) && !slivers.touch(at(50.0, 34.5)) && !slivers.touch(at(43.0, 30.0)));
+        slivers.add(at(50.0, 30.0), 3);
+        assert!(
+            slivers.touch(at(50.0, 30.0), 3) && slivers.touch(at(54.5, 30.0), 3) && slivers.touch(at(45.6, 31.9), 3)
+        );
+        assert!(
+            !slivers.touch(at(57.0, 30.0), 3) && !slivers.touch(at(50.0, 34.5), 3) && !slivers.touch(at(43.0, 30.0), 3)
+        );
         // Beside the picture there is nothing, wherever exactly.
-        slivers.add(at(-20.0, 10.0));
-        slivers.add(at(200.0, 10.0));
-        assert!(!slivers.touch(at(-20.0, 10.0)) && !slivers.touch(at(95.0, 10.0)));
-        let all: usize = slivers.cells.iter().map(|cell| usize::from(*cell)).sum();
+        slivers.add(at(-20.0, 10.0), 3);
+        slivers.add(at(200.0, 10.0), 3);
+        assert!(!slivers.touch(at(-20.0, 10.0), 3) && !slivers.touch(at(95.0, 10.0), 3));
+        let all = slivers.cells.iter().flatten().count();
         assert!(all <= 6 * 4, "{all} cells");
+    }
+
+    #[test]
+    fn a_slanted_sliver_leaves_the_rest_of_its_box_alone() {
+        let mut slivers = Slivers::new(Size { width: 100, height: 100 });
+        slivers.add([Vec2::new(10.0, 10.0), Vec2::new(90.0, 90.0), Vec2::new(50.0, 50.001)], 3);
+        let at = |x: f32, y: f32| [Vec2::new(x, y), Vec2::new(x + 1.0, y), Vec2::new(x, y + 1.0)];
+        assert!((10..90).all(|place| slivers.touch(at(place as f32, place as f32), 3)));
+        assert!(!slivers.touch(at(60.0, 40.0), 3) && !slivers.touch(at(20.0, 70.0), 3));
+        // Every cell that a point of it lies in is marked, whatever its slope.
+        for turn in 0..24 {
+            let (sin, cos) = (turn as f32 * 0.2618).sin_cos();
+            let (from, to) = (Vec2::splat(50.0), Vec2::new(50.0 + 45.0 * cos, 50.0 + 45.0 * sin));
+            let mut slivers = Slivers::new(Size { width: 100, height: 100 });
+            slivers.add([from, to, from.lerp(to, 0.5)], 3);
+            for step in 0..=200 {
+                let point = from.lerp(to, step as f32 / 200.0);
+                assert!(slivers.cells[point.y as usize * 100 + point.x as usize].is_some(), "{turn} {point}");
+            }
+        }
+    }
+
+    #[test]
+    fn another_shells_slivers_do_not_count_and_those_of_any_do() {
+        let mut slivers = Slivers::new(Size { width: 10, height: 10 });
+        let somewhere = [Vec2::ONE, Vec2::splat(2.0), Vec2::new(1.0, 2.0)];
+        slivers.add(somewhere, 3);
+        assert!(slivers.touch(somewhere, 3) && !slivers.touch(somewhere, 4));
+        slivers.add(somewhere, 4);
+        assert!(slivers.touch(somewhere, 3) && slivers.touch(somewhere, 4), "both, so any");
+        let mut slivers = Slivers::new(Size { width: 10, height: 10 });
+        slivers.add(somewhere, NONE);
+        assert!(slivers.touch(somewhere, 0));
+    }
+
+    #[test]
+    fn a_place_that_is_no_number_is_everywhere() {
+        let mut slivers = Slivers::new(Size { width: 10, height: 10 });
+        let somewhere = [Vec2::ONE, Vec2::splat(2.0), Vec2::new(1.0, 2.0)];
+        assert!(!slivers.touch(somewhere, 3) && slivers.touch([Vec2::NAN, Vec2::ONE, Vec2::ONE], 3));
+        slivers.add([Vec2::NAN, Vec2::ONE, Vec2::ONE], 3);
+        assert!(slivers.touch(somewhere, 3));
     }
 
     #[test]
@@ -83,8 +165,8 @@ mod tests {
         let mut slivers = Slivers::new(Size { width: 4096, height: 2048 });
         assert_eq!((slivers.columns, slivers.rows), (512, 256));
         let sliver = [Vec2::new(4000.0, 2000.0), Vec2::new(4040.0, 2000.0), Vec2::new(4000.0, 2040.0)];
-        slivers.add(sliver);
-        assert!(slivers.touch(sliver));
-        assert!(!slivers.touch(sliver.map(|corner| corner - 100.0)));
+        slivers.add(sliver, 3);
+        assert!(slivers.touch(sliver, 3));
+        assert!(!slivers.touch(sliver.map(|corner| corner - 100.0), 3));
     }
 }

@@ -15,7 +15,7 @@ use glam::{Vec2, Vec3};
 pub fn faces_not_culled(scene: &Scene, object: &Object, surface: Size, subpixel_bits: u32) -> Option<DrawnFaces> {
     let arrays = scene.arrays(object);
     let half = Vec2::new(surface.width as f32, surface.height as f32) * 0.5;
-    let places = window_places(scene, object, surface);
+    let places = window_places(scene, object, surface, true);
     // How far GL may have moved a vertex: its sub-pixels, and what f32 makes of a coordinate.
     let moved =
         SUBPIXEL_STEPS as f32 * 0.5f32.powi(subpixel_bits.min(24) as i32) + CLIP_ROUNDING as f32 * half.max_element();
@@ -33,8 +33,9 @@ pub fn faces_not_culled(scene: &Scene, object: &Object, surface: Size, subpixel_
     (drawn.left_out > 0).then_some(drawn)
 }
 
-/// Where an object's vertices lie in the window, pixels; no numbers for one that the near or far plane may cut off.
-pub(super) fn window_places(scene: &Scene, object: &Object, surface: Size) -> Vec<Vec2> {
+/// Where an object's vertices lie in the window, pixels; no numbers for one behind the eye, and if asked for none for one that
+/// the near or far plane may cut off.
+pub(super) fn window_places(scene: &Scene, object: &Object, surface: Size, only_between_planes: bool) -> Vec<Vec2> {
     let arrays = scene.arrays(object);
     let clip_from_object = scene.clip_from_view() * scene.view_from_object(object, arrays.centre);
     let half = Vec2::new(surface.width as f32, surface.height as f32) * 0.5;
@@ -42,7 +43,7 @@ pub(super) fn window_places(scene: &Scene, object: &Object, surface: Size) -> Ve
     filled(arrays.vertices.len(), threads, Vec2::ZERO, |vertex| {
         let [x, y, z, ..] = arrays.vertices[vertex];
         let clip = clip_from_object * Vec3::new(x, y, z).extend(1.0);
-        let is_between = clip.w > 0.0 && clip.z > -clip.w && clip.z < clip.w;
-        if is_between { Vec2::new(clip.x, clip.y) / clip.w * half + half } else { Vec2::NAN }
+        let is_between = !only_between_planes || clip.z > -clip.w && clip.z < clip.w;
+        if clip.w > 0.0 && is_between { Vec2::new(clip.x, clip.y) / clip.w * half + half } else { Vec2::NAN }
     })
 }

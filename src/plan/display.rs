@@ -10,7 +10,9 @@ impl fmt::Display for Plan {
             writeln!(out, "everything drawn {} times as wide and high as the picture", self.supersample)?;
         }
         for (number, pass) in self.passes.iter().enumerate() {
-            writeln!(out, "pass {}: {}{}", number + 1, pass.name, pass.target)?;
+            write!(out, "pass {}: {}{}", number + 1, pass.name, pass.target)?;
+            write_scissor(out, pass.scissor)?;
+            writeln!(out)?;
             for step in &pass.steps {
                 writeln!(out, "  {step}")?;
             }
@@ -99,13 +101,18 @@ impl fmt::Display for Draw {
         if self.blend {
             write!(out, ", blended")?;
         }
-        if let Some(Rectangle { x, y, width, height }) = self.scissor {
-            write!(out, ", only {width} x {height} pixels from ({x}, {y})")?;
-        }
+        write_scissor(out, self.scissor)?;
         if let Some(faces) = &self.faces {
             write_faces(out, faces)?;
         }
         Ok(())
+    }
+}
+
+fn write_scissor(out: &mut fmt::Formatter<'_>, scissor: Option<Rectangle>) -> fmt::Result {
+    match scissor {
+        Some(Rectangle { x, y, width, height }) => write!(out, ", only {width} x {height} pixels from ({x}, {y})"),
+        None => Ok(()),
     }
 }
 

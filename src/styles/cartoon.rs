@@ -162,7 +162,7 @@ impl Cartoon {
         if is_read && encoding == MapEncoding::DepthTexture {
             steps.push(Step::CopyDepth);
         }
-        Pass { name: "map", target, steps }
+        Pass { target, ..Pass::new("map", steps) }
     }
 
     /// Step 2: uniform shading.

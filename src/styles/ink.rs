@@ -138,7 +138,7 @@ impl Ink {
         if is_read && target == Target::Framebuffer {
             steps.push(Step::CopyFramebuffer);
         }
-        Pass { name: "map", target, steps }
+        Pass { target, ..Pass::new("map", steps) }
     }
 
     /// The published tones; the background is cleared and needs no square.

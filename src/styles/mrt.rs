@@ -71,7 +71,7 @@ impl Mrt {
         let square = border.square(scene, surface, MapEncoding::Paper, map);
         let passes = vec![
             self.geometry_pass(scene),
-            Pass { name: "border", target: Target::Textures(&TONES_ALONE), steps: vec![Step::Draw(square)] },
+            Pass { target: Target::Textures(&TONES_ALONE), ..Pass::new("border", vec![Step::Draw(square)]) },
         ];
         let plan = Plan { tone_table: self.tones.table(), ..Plan::new(passes) };
         Ok(self.supersample.finish(plan, scene.size))
@@ -106,10 +106,7 @@ impl Mrt {
         };
         let map = if self.background_square { SQUARE } else { MapEncoding::Paper.empty() };
         let colors = vec![scene.background.clear_color(), map];
-        Pass {
-            name: "tones-and-map",
-            target: Target::Textures(&TONES_AND_MAP),
-            steps: vec![Step::ClearEach { colors }, Step::Draw(objects)],
-        }
+        let steps = vec![Step::ClearEach { colors }, Step::Draw(objects)];
+        Pass { target: Target::Textures(&TONES_AND_MAP), ..Pass::new("tones-and-map", steps) }
     }
 }

@@ -1,9 +1,9 @@
 //! The sentences about made-up measurements.
 
 use super::*;
-use crate::gl::is_software;
 use crate::figures::measure::{BackgroundRow, FilterRow, MixRow, PAPER, Series};
 use crate::figures::mix::Mix;
+use crate::gl::is_software;
 use crate::styles::Filter;
 
 #[test]

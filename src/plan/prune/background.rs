@@ -1,7 +1,7 @@
 //! Pixels without an object: squares that could be a clear, squares that need not reach there, clears that are drawn over.
 
 use super::{Facts, Omission, Rule, counted};
-use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Step, Target, Uniform, Value};
+use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Step, Target, Texture, Uniform, Value};
 use crate::scene::Rectangle;
 use crate::tolerances::EIGHT_BIT_TIE;
 
@@ -101,10 +101,11 @@ pub(super) fn empty_pixels(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omissio
         return Err("no square answers to objects alone, or they fill the picture".to_owned());
     }
     plan.passes.retain(|pass| !pass.steps.is_empty());
+    confine_maps(plan, facts);
     let percent = saved * 100 / (whole * changed.len());
     Ok(Omission {
         rule: Rule::EmptyPixels,
-        what: format!("{percent} % of the pixels of the square in {}", changed.join(", ")),
+        what: format!("{percent} % of the pixels of the square in {}, and of the map it reads", changed.join(", ")),
         reason:
             "no object reaches them, the map is the same all around them, and the filter answers to differences alone"
                 .to_owned(),
@@ -115,6 +116,52 @@ pub(super) fn empty_pixels(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omissio
             None => "no object lies in the picture".to_owned(),
         }],
     })
+}
+
+/// Confines clearing, drawing and copying a map to the pixels that are read of it, where only confined squares and objects do.
+fn confine_maps(plan: &mut Plan, facts: &Facts<'_>) {
+    let Some(extent) = facts.extent() else { return };
+    for number in 0..plan.passes.len() - 1 {
+        let pass = &plan.passes[number];
+        let leaves: Vec<Texture> = match pass.target {
+            Target::Textures(attachments) => {
+                attachments.colors.iter().map(|attachment| Texture::Drawn(attachment.name)).collect()
+            }
+            Target::Framebuffer => pass.steps.iter().filter_map(copied).collect(),
+        };
+        let later = || plan.passes[number + 1..].iter();
+        // What the pass itself draws must be gone, or read by these textures alone.
+        let is_gone = match pass.target {
+            Target::Framebuffer => later()
+                .find(|pass| pass.target == Target::Framebuffer)
+                .is_some_and(|pass| matches!(pass.steps.first(), Some(Step::Clear { color: Some(_), depth: true }))),
+            Target::Textures(_) => !later().any(|later| later.target != Target::Framebuffer),
+        };
+        // The readers end where the texture is copied anew.
+        let reads = |draw: &Draw| draw.textures.iter().any(|(_, texture)| leaves.contains(texture));
+        let steps = later().flat_map(|pass| &pass.steps);
+        let until = steps.take_while(|step| !copied(step).is_some_and(|texture| leaves.contains(&texture)));
+        let readers: Vec<&Draw> = until
+            .filter_map(|step| if let Step::Draw(draw) = step { Some(draw) } else { None })
+            .filter(|d| reads(d))
+            .collect();
+        let is_confined = |draw: &&Draw| draw.scissor.is_some() || draw.is_of_objects();
+        if leaves.is_empty() || readers.is_empty() || !is_gone || !readers.iter().all(is_confined) {
+            continue;
+        }
+        let reach = readers.iter().map(|draw| reach_px(draw)).max().unwrap_or_default();
+        // As far as the squares go, and from there as far as they look.
+        plan.passes[number].scissor = Some(extent.grown(reach.saturating_mul(2), facts.surface));
+    }
+}
+
+/// The texture that a step copies into.
+fn copied(step: &Step) -> Option<Texture> {
+    match step {
+        Step::CopyFramebuffer => Some(Texture::BorderMap),
+        Step::CopyDepth => Some(Texture::DepthMap),
+        Step::Clear { .. } | Step::ClearEach { .. } | Step::Draw(_) => None,
+    }
 }
 
 /// Whether a step is a square that leaves pixels as they are, or cleared, wherever the map is the same all around.

@@ -86,6 +86,9 @@ pub(super) fn culled_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omissio
 /// Pictures from which on finding hidden faces takes less time than drawing them does.
 const WORTH_HIDING: u32 = 16;
 
+/// Share of faces, percent, below which leaving them out saves less time than looking for them takes.
+const LEAST_PERCENT: usize = 16;
+
 /// Leaves out faces that are turned away and behind others of their own closed surface.
 pub(super) fn hidden_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
     let Facts { scene, surface, pruning, .. } = *facts;
@@ -100,6 +103,17 @@ pub(super) fn hidden_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omissio
     let is_known = scene.objects.iter().all(|object| scene.has_hiding(object));
     if !is_known && pruning.pictures < WORTH_HIDING {
         return Err(format!("finding them takes longer than {WORTH_HIDING} pictures like this one save"));
+    }
+    let usual: usize = scene
+        .objects
+        .iter()
+        .map(|object| scene.hiding(object).counts().usual_percent * object.mesh.triangles.len())
+        .sum();
+    let usual_percent = usual / scene.triangle_count().max(1);
+    if usual_percent < LEAST_PERCENT {
+        return Err(format!(
+            "looking for them in every view costs more than it saves: from most sides {usual_percent} % of the faces could be left out"
+        ));
     }
     let is_outside = |object: &Object| scene.is_outside(object, 0.0);
     let lists = |object: &Object| match is_outside(object) {
@@ -138,6 +152,9 @@ fn is_hiding(draw: &Draw) -> bool {
         && !draw.cull_back_faces
 }
 
+/// Which faces of each object a draw draws.
+type Selection = Arc<Vec<Faces>>;
+
 /// Has the draws that `is_meant` draw only the faces listed of objects that they draw whole; how many are left out.
 fn choose(
     plan: &mut Plan,
@@ -165,7 +182,7 @@ fn choose(
         return 0;
     }
     // One list for all draws that drew the same before.
-    let mut made: Vec<(Option<Arc<Vec<Faces>>>, Arc<Vec<Faces>>)> = Vec::new();
+    let mut made: Vec<(Option<Selection>, Selection)> = Vec::new();
     for draw in plan.draws_mut().filter(|draw| draw.is_of_objects() && is_meant(draw)) {
         let before = draw.faces.take();
         let known = made.iter().find(|(old, _)| *old == before).map(|(_, new)| new.clone());
