@@ -6,7 +6,7 @@ use tinta::hiding::{DrawnFaces, Hiding};
 use tinta::mesh::VertexArrays;
 use tinta::{CameraSettings, LoadOptions, Mesh, Renderer, Scene, SceneSettings, Size, Style, StyleName, View, load};
 
-const SIZE: Size = Size { width: 200, height: 150 };
+const SIZE: Size = Size { width: 480, height: 360 };
 
 /// A GL that places vertices to 1/256 of a pixel, as Mesa does.
 const SUBPIXEL_BITS: u32 = 8;
@@ -65,7 +65,7 @@ fn built_in_models_without_the_faces_left_out_give_the_same_pictures() {
     let mut renderer = renderer(BACKENDS[0]);
     for model in ["builtin:bust", "builtin:ant"] {
         let share = share_left_out(&mut renderer, model, 4);
-        assert!(share > 0.05, "{model}: {share}");
+        assert!(share > 0.02, "{model}: {share}");
     }
 }
 
@@ -73,7 +73,7 @@ fn built_in_models_without_the_faces_left_out_give_the_same_pictures() {
 fn public_models_without_the_faces_left_out_give_the_same_pictures() {
     let Some(folder) = public_models() else { return };
     let mut renderer = renderer(BACKENDS[0]);
-    for (file, least_share) in [("cow.obj", 0.15), ("fandisk.obj", 0.25), ("stanford-bunny.obj", 0.2)] {
+    for (file, least_share) in [("cow.obj", 0.1), ("fandisk.obj", 0.25), ("stanford-bunny.obj", 0.2)] {
         let path = folder.join(file);
         if !path.is_file() {
             skip(&format!("{file}: not in {}", folder.display()));

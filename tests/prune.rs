@@ -13,7 +13,7 @@ use tinta::{
 
 /// As if many pictures were to come, so that every rule is worth its time.
 fn every_rule() -> Pruning {
-    Pruning { pictures: u32::MAX, ..Pruning::default() }
+    Pruning { pictures: u32::MAX, subpixel_bits: 8, ..Pruning::default() }
 }
 
 fn pruned(scene: &Scene, style: &Style) -> Pruned {
