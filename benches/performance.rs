@@ -133,15 +133,22 @@ fn rows(series: &[Series]) -> Value {
     series.iter().map(|one| json!({ "name": one.name, "ms": one.times })).collect()
 }
 
-/// Styles in full and pruned: the built-in bust as it is fitted, and a gear that covers a quarter of the picture.
+/// Styles in full and pruned: the bust as it is fitted, gear and open box on about a quarter of the picture.
 fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
     let fitted = |model: &str| {
         let mesh = Arc::new(load(model, &LoadOptions::default()).expect("a model").mesh);
         Scene::new(vec![mesh], &SceneSettings::default()).expect("a scene")
     };
-    let mut quarter = fitted("builtin:gear");
-    quarter.camera.eye = quarter.camera.target + (quarter.camera.eye - quarter.camera.target) * 1.85;
-    let scenes = [("the bust, fitted", fitted("builtin:bust")), ("the gear, on a quarter of the picture", quarter)];
+    let from_afar = |model: &str, times: f64| {
+        let mut scene = fitted(model);
+        scene.camera.eye = scene.camera.target + (scene.camera.eye - scene.camera.target) * times;
+        scene
+    };
+    let scenes = [
+        ("the bust, fitted", fitted("builtin:bust")),
+        ("the gear, on a quarter of the picture", from_afar("builtin:gear", 1.85)),
+        ("the open box, on a quarter of the picture", from_afar("builtin:open-box", 1.85)),
+    ];
     let tables = scenes.iter().map(|(name, scene)| {
         let view = turned(scene, 0.0);
         let extent = view.extent_px(view.objects.iter(), view.size).map_or(0, |extent| extent.pixel_count());

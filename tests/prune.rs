@@ -264,7 +264,13 @@ fn squares_are_confined_to_where_objects_are_unless_they_fill_the_picture() {
 #[test]
 fn a_colour_is_not_cleared_where_a_square_covers_all_of_it() {
     let scene = scene("builtin:bust", 64, 64);
-    assert!(applies(Rule::OverwrittenClear, &scene, &Style::Charcoal(Charcoal::default())));
+    let charcoal = Style::Charcoal(Charcoal::default());
+    let plan = charcoal.plan(&scene, Show::Final).unwrap();
+    let on_a_device = prune(&plan, &scene, &Pruning { is_software: false, ..every_rule() });
+    assert!(on_a_device.omissions.iter().any(|one| one.rule == Rule::OverwrittenClear));
+    let mut renderer = renderer(BACKENDS[0]);
+    assert_eq!(renderer.draw(&scene, &plan).unwrap(), renderer.draw(&scene, &on_a_device.plan).unwrap());
+    assert!(!applies(Rule::OverwrittenClear, &scene, &charcoal), "tiles that are not cleared are read first");
     assert!(!applies(Rule::OverwrittenClear, &scene, &Style::Phong(Phong::default())));
     let transparent = SceneSettings { background: Background::Transparent, ..SceneSettings::default() };
     let transparent = scene_with("builtin:bust", transparent);

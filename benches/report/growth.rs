@@ -33,13 +33,14 @@ impl Curve {
 
 /// Draws the curves to an SVG file.
 pub fn plot(curves: &[Curve], title: &str, sizes: &str, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
-    const COLORS: [RGBColor; 6] = [
+    const COLORS: [RGBColor; 7] = [
         RGBColor(30, 90, 170),
         RGBColor(200, 60, 30),
         RGBColor(40, 130, 60),
         RGBColor(120, 120, 120),
         RGBColor(160, 110, 20),
         RGBColor(110, 60, 150),
+        RGBColor(60, 160, 170),
     ];
     let range = |pick: fn(&(f64, f64)) -> f64, below: f64, above: f64| {
         let values = || curves.iter().flat_map(|curve| curve.points.iter().map(pick));

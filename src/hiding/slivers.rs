@@ -5,13 +5,17 @@
 
 use crate::mesh::NONE;
 use crate::scene::Size;
+use crate::tolerances::WINDOW_ROUNDING_PX;
 use glam::Vec2;
 
 /// Cells on a side at most: they are cleared for every view.
 const MOST_CELLS: u32 = 512;
 
 /// Pixels around a face that it may be drawn in.
-const MARGIN_PX: f32 = 1.0;
+const MARGIN_PX: f32 = WINDOW_ROUNDING_PX as f32;
+
+/// Cells of a box that are looked at faster than the triangle in it is found.
+const SMALL_BOX: usize = 64;
 
 /// Which cells of the picture such faces touch.
 pub(super) struct Slivers {
@@ -47,10 +51,16 @@ impl Slivers {
     /// Whether a face of this shell with these corners overlaps one of its slivers, perhaps.
     pub fn touch(&self, corners: [Vec2; 3], shell: u32) -> bool {
         let is_own = |cell: &Option<u32>| cell.is_some_and(|other| other == shell || other == NONE);
-        !corners.iter().all(|corner| corner.is_finite())
-            || self
-                .rows_of(corners)
-                .any(|row| self.cells[row * self.columns..][self.columns_of(corners, row)].iter().any(is_own))
+        if !corners.iter().all(|corner| corner.is_finite()) {
+            return true;
+        }
+        let [a, b, c] = corners;
+        let mut rows = self.rows_of(corners);
+        let columns = self.cells_between(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), self.columns);
+        if rows.len() * columns.len() <= SMALL_BOX {
+            return rows.any(|row| self.cells[row * self.columns..][columns.clone()].iter().any(is_own));
+        }
+        rows.any(|row| self.cells[row * self.columns..][self.columns_of(corners, row)].iter().any(is_own))
     }
 
     /// The rows of cells that a face reaches.
@@ -100,22 +110,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_face_touches_slivers_within_two_pixels_of_it_and_none_farther_off() {
+    fn a_face_touches_slivers_in_pixels_they_share_and_none_farther_off() {
         let mut slivers = Slivers::new(Size { width: 100, height: 60 });
         let at = |x: f32, y: f32| [Vec2::new(x, y), Vec2::new(x + 3.0, y), Vec2::new(x, y + 0.001)];
         slivers.add(at(50.0, 30.0), 3);
-        assert!(
-            slivers.touch(at(50.0, 30.0), 3) && slivers.touch(at(54.5, 30.0), 3) && slivers.touch(at(45.6, 31.9), 3)
-        );
-        assert!(
-            !slivers.touch(at(57.0, 30.0), 3) && !slivers.touch(at(50.0, 34.5), 3) && !slivers.touch(at(43.0, 30.0), 3)
-        );
+        assert!(slivers.touch(at(50.0, 30.0), 3) && slivers.touch(at(53.0, 30.0), 3));
+        assert!(!slivers.touch(at(55.0, 30.0), 3) && !slivers.touch(at(50.0, 32.5), 3));
+        assert!(!slivers.touch(at(45.0, 30.0), 3));
         // Beside the picture there is nothing, wherever exactly.
         slivers.add(at(-20.0, 10.0), 3);
         slivers.add(at(200.0, 10.0), 3);
         assert!(!slivers.touch(at(-20.0, 10.0), 3) && !slivers.touch(at(95.0, 10.0), 3));
         let all = slivers.cells.iter().flatten().count();
-        assert!(all <= 6 * 4, "{all} cells");
+        assert!((4..=5 * 2).contains(&all), "{all} cells");
     }
 
     #[test]

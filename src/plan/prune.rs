@@ -77,7 +77,7 @@ impl Rule {
             Self::BackgroundSquare => background::square(plan),
             Self::EmptyPixels => background::empty_pixels(plan, facts),
             Self::UnreadMap => dead::unread_map(plan),
-            Self::OverwrittenClear => background::overwritten_clear(plan),
+            Self::OverwrittenClear => background::overwritten_clear(plan, facts),
             Self::UnreadTextures => dead::unread_textures(plan),
         }
     }
