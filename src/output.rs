@@ -99,6 +99,12 @@ fn cannot_write(path: &Path, error: &std::io::Error) -> String {
     use std::io::ErrorKind;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory if folder.is_file() => {
+            format!("{} is a file, not a folder; name another", folder.display())
+        }
+        ErrorKind::NotFound | ErrorKind::NotADirectory if folder.is_dir() => {
+            format!("nothing can be written in the folder {}; choose another", folder.display())
+        }
         ErrorKind::NotFound | ErrorKind::NotADirectory => {
             format!("the folder {} is not there; make it first", folder.display())
         }

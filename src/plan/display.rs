@@ -128,7 +128,7 @@ fn write_faces(out: &mut fmt::Formatter<'_>, faces: &[Faces]) -> fmt::Result {
         .collect();
     match lists.as_slice() {
         [] => Ok(()),
-        lists => write!(out, ", {} faces of those that can hide some", lists.iter().sum::<usize>()),
+        lists => write!(out, ", {} faces of them", lists.iter().sum::<usize>()),
     }
 }
 

@@ -165,7 +165,7 @@ pub fn prune(plan: &Plan, scene: &Scene, pruning: &Pruning) -> Pruned {
     let facts = Facts { scene, surface: scene.size.times(plan.supersample), pruning, extent: OnceCell::new() };
     for (_, rule) in Rule::ALL {
         let result = match pruning.keep.contains(&rule) {
-            true => Err("it is asked for".to_owned()),
+            true => Err("--keep asks for it".to_owned()),
             false => rule.apply(&mut pruned.plan, &facts),
         };
         match result {

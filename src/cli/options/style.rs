@@ -22,7 +22,7 @@ pub struct StyleArguments {
     #[arg(long)]
     pub no_borders: bool,
 
-    /// Leave out faces turned away: none, back; faster, and nearly the same picture of closed models [default: none]
+    /// Leave out faces turned away: none, back; faster, and nearly the same picture of closed models (inking: a few more pixels) [default: none]
     #[arg(long, value_name = "FACES", action = clap::ArgAction::Set, value_parser = parse_cull, default_value = "none", hide_default_value = true)]
     cull: bool,
 

@@ -8,7 +8,7 @@ use crate::tolerances::EIGHT_BIT_TIE;
 /// Clears to what the background square would draw.
 pub(super) fn square(plan: &mut Plan) -> Result<Omission, String> {
     let mut passes = Vec::new();
-    let mut kept = "no plan step draws a background square".to_owned();
+    let mut kept = "no step draws one".to_owned();
     for pass in &mut plan.passes {
         let [Step::Clear { color: Some(color), depth: true }, Step::Draw(draw), ..] = pass.steps.as_mut_slice() else {
             continue;

@@ -18,7 +18,7 @@ pub(super) fn border(plan: &mut Plan) -> Result<Omission, String> {
         _ => false,
     };
     if !plan.steps().any(|(_, step)| is_invisible(step)) {
-        return Err("no border of this plan is invisible".to_owned());
+        return Err("there is no border that is multiplied by 0".to_owned());
     }
     plan.passes.iter_mut().for_each(|pass| pass.steps.retain(|step| !is_invisible(step)));
     plan.passes.retain(|pass| !pass.steps.is_empty());
