@@ -27,6 +27,7 @@ mod measure;
 mod mrt;
 mod pipeline;
 mod prune;
+mod prune_pictures;
 mod report;
 mod report_page;
 mod shapes;

@@ -1,14 +1,14 @@
 //! Leaving out what a scene does not need: each rule where it applies and where it must not, and pictures byte for byte.
 
-use crate::support::{BACKENDS, public_models, renderer, scene, scene_with, skip};
+use crate::support::{BACKENDS, ball, renderer, scene, scene_with};
 use glam::DVec3;
 use std::sync::Arc;
 use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
 use tinta::plan::{Draw, Faces, Geometry, Plan, Step};
 use tinta::styles::{Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, MapEncoding, Phong, Supersample};
 use tinta::{
-    Backend, Background, CameraSettings, Color, LoadOptions, Mesh, Renderer, Scene, SceneSettings, Show, Size, Style,
-    StyleName, View, load,
+    Background, CameraSettings, Color, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, View,
+    load,
 };
 
 /// As if many pictures were to come, so that every rule is worth its time.
@@ -30,7 +30,7 @@ fn applies(rule: Rule, scene: &Scene, style: &Style) -> bool {
     !found.is_empty()
 }
 
-fn cartoon(change: impl FnOnce(&mut Cartoon)) -> Style {
+pub fn cartoon(change: impl FnOnce(&mut Cartoon)) -> Style {
     let mut cartoon = Cartoon::default();
     change(&mut cartoon);
     Style::ThreePass(cartoon)
@@ -45,53 +45,8 @@ fn draws(plan: &Plan) -> impl Iterator<Item = &Draw> {
     plan.steps().filter_map(|(_, step)| if let Step::Draw(draw) = step { Some(draw) } else { None })
 }
 
-/// A sphere of 20 * 4^cuts triangles, an icosahedron cut again and again.
-fn ball(cuts: u32) -> Scene {
-    let golden = 0.5 + 1.25f64.sqrt();
-    let corner = |number: usize| {
-        let [a, b] = [number & 1, number >> 1 & 1].map(|bit| if bit == 1 { 1.0 } else { -1.0 });
-        DVec3::from_array([[0.0, a, b * golden], [a, b * golden, 0.0], [b * golden, 0.0, a]][number / 4]).normalize()
-    };
-    let corners: Vec<DVec3> = (0..12).map(corner).collect();
-    let near = |a: DVec3, b: DVec3| a.distance(b) < 1.2;
-    let mut faces = Vec::new();
-    for a in 0..12 {
-        for b in a + 1..12 {
-            for c in b + 1..12 {
-                let [p, q, r] = [a, b, c].map(|number| corners[number]);
-                if near(p, q) && near(q, r) && near(r, p) {
-                    let is_outward = (q - p).cross(r - p).dot(p) > 0.0;
-                    faces.push(if is_outward { [p, q, r] } else { [p, r, q] });
-                }
-            }
-        }
-    }
-    assert_eq!(faces.len(), 20);
-    for _ in 0..cuts {
-        let middle = |a: DVec3, b: DVec3| (a + b).normalize();
-        faces = faces
-            .iter()
-            .flat_map(|&[a, b, c]| {
-                let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
-                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-            })
-            .collect();
-    }
-    let mut text = String::new();
-    for point in faces.as_flattened() {
-        text.push_str(&format!("v {} {} {}\n", point.x, point.y, point.z));
-    }
-    (0..faces.len()).for_each(|face| text.push_str(&format!("f {} {} {}\n", face * 3 + 1, face * 3 + 2, face * 3 + 3)));
-    let file = tempfile::Builder::new().suffix(".obj").tempfile().unwrap();
-    std::fs::write(file.path(), text).unwrap();
-    scene_with(
-        file.path().to_str().unwrap(),
-        SceneSettings { size: Size { width: 256, height: 256 }, ..Default::default() },
-    )
-}
-
 /// A scene looked at from the side, so that most of its copies are outside the picture.
-fn beside(model: &str) -> Scene {
+pub fn beside(model: &str) -> Scene {
     let mesh = Arc::new(load(model, &LoadOptions::default()).unwrap().mesh);
     let mut scene = Scene::new(
         vec![mesh],
@@ -182,15 +137,15 @@ fn faces_are_left_out_before_the_driver_culls_them_only_where_it_culls() {
 #[test]
 fn hidden_faces_are_left_out_of_a_closed_model_and_not_of_an_open_one_that_is_looked_into() {
     let phong = Style::Phong(Phong::default());
-    let ball = ball(4);
-    assert!(applies(Rule::HiddenFaces, &ball, &phong));
+    let sphere = ball(4);
+    assert!(applies(Rule::HiddenFaces, &sphere, &phong));
     // Most of a gear's faces are near its outlines from every side.
     assert!(!applies(Rule::HiddenFaces, &scene("builtin:gear", 128, 128), &phong));
     assert!(!applies(Rule::HiddenFaces, &scene("builtin:open-box", 128, 128), &phong));
     // Polygon offset may push a front face behind the back one that it hides.
-    assert!(!applies(Rule::HiddenFaces, &ball, &Style::Inking(Inking::default())));
-    let plan = phong.plan(&ball, Show::Final).unwrap();
-    let fresh = self::ball(3);
+    assert!(!applies(Rule::HiddenFaces, &sphere, &Style::Inking(Inking::default())));
+    let plan = phong.plan(&sphere, Show::Final).unwrap();
+    let fresh = ball(3);
     let once = prune(&plan, &fresh, &Pruning { pictures: 1, ..every_rule() });
     assert!(once.kept.iter().any(|one| one.rule == Rule::HiddenFaces && one.reason.contains("longer")));
 }
@@ -317,7 +272,7 @@ fn edges_turned_away_and_joints_are_options_of_a_style_for_they_show_a_little() 
 }
 
 /// Settings under which plans differ.
-fn many_styles() -> Vec<Style> {
+pub fn many_styles() -> Vec<Style> {
     let border = |change: fn(&mut Border)| {
         move |cartoon: &mut Cartoon| {
             let mut border = Border::default();
@@ -404,134 +359,4 @@ fn plain_culling_would_not_pass_these_tests() {
     let culled = renderer.render(&scene, &cartoon(|cartoon| cartoon.cull_back_faces = true)).unwrap();
     let difference = full.difference(&culled).unwrap();
     assert!((1..100).contains(&difference.pixels), "{difference:?}");
-}
-
-/// Numbers from 0 to 1 that look random and are always the same.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
-/// The scene from a view of its own: any direction, sometimes from nearer or looking past it, sometimes in parallel.
-fn random_view(scene: &Scene, dice: &mut Dice) -> Scene {
-    let view =
-        View { azimuth_degrees: dice.roll() * 360.0, elevation_degrees: (dice.roll() * 2.0 - 1.0).asin().to_degrees() };
-    let parallel = dice.roll() < 0.2;
-    let settings = SceneSettings {
-        size: Size { width: 40 + (dice.roll() * 120.0) as u32, height: 40 + (dice.roll() * 120.0) as u32 },
-        camera: CameraSettings {
-            view,
-            parallel,
-            fov_y_degrees: 10.0 + dice.roll() * 60.0,
-            ..CameraSettings::default()
-        },
-        ..SceneSettings::default()
-    };
-    let meshes = scene.objects.iter().map(|object| object.mesh.clone()).collect();
-    let fitted = Scene::new(meshes, &settings).unwrap();
-    let mut scene = Scene { camera: fitted.camera, size: fitted.size, ..scene.clone() };
-    if dice.roll() < 0.3 {
-        let aside = DVec3::new(dice.roll() - 0.5, dice.roll() - 0.5, dice.roll() - 0.5) * scene.radius;
-        (scene.camera.eye, scene.camera.target) = (scene.camera.eye + aside, scene.camera.target + aside);
-        scene.camera.near *= 0.5;
-        scene.camera.far *= 1.5;
-    }
-    scene
-}
-
-/// Draws many views of a model in every style, in full and pruned, and compares the bytes.
-fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
-    let scene = Scene::new(vec![mesh.clone()], &SceneSettings::default()).unwrap();
-    let has_skin = !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.texture.is_some());
-    let mut styles: Vec<Style> = StyleName::ALL
-        .iter()
-        .filter(|(name, _)| *name != "sand" || has_skin)
-        .map(|(_, style)| Style::named(*style))
-        .collect();
-    styles.push(cartoon(|cartoon| (cartoon.cull_back_faces, cartoon.tones.count) = (true, 2)));
-    let pruning = Pruning { pictures: u32::MAX, ..Pruning::for_context(renderer.context(), 1) };
-    let mut dice = Dice(mesh.triangles.len() as u64);
-    for number in 0..views {
-        let view = random_view(&scene, &mut dice);
-        for style in &styles {
-            let plan = style.plan(&view, Show::Final).unwrap();
-            let short = prune(&plan, &view, &pruning);
-            let full = renderer.draw(&view, &plan).unwrap();
-            // The second of two frames in a row: nothing of the first may be left in it.
-            renderer.time_frames(&view, &short.plan, 0, 1).unwrap();
-            let picture = renderer.draw(&view, &short.plan).unwrap();
-            let difference = full.difference(&picture).unwrap();
-            assert!(
-                full == picture,
-                "{} view {number} in {}: {difference:?} without {:?}",
-                mesh.name,
-                style.name(),
-                short.omissions
-            );
-        }
-    }
-}
-
-/// All models there are, by the name of each.
-fn all_models() -> Vec<String> {
-    let mut models: Vec<String> =
-        tinta::mesh::BUILTINS.iter().map(|builtin| format!("builtin:{}", builtin.name)).collect();
-    if let Some(folder) = public_models() {
-        let files = ["ant.ply", "beethoven.obj", "cow.obj", "faerie.md2", "fandisk.obj", "spot/spot_triangulated.obj"];
-        for file in files.into_iter().chain(["stanford-bunny.obj", "suzanne.obj", "teapot.obj"]) {
-            let path = folder.join(file);
-            match path.is_file() {
-                true => models.push(path.display().to_string()),
-                false => skip(&format!("{file}: not in {}", folder.display())),
-            }
-        }
-    }
-    models
-}
-
-fn verify_all(backend: Backend) {
-    let mut renderer = renderer(backend);
-    for model in all_models() {
-        let mesh = Arc::new(load(&model, &LoadOptions::default()).unwrap().mesh);
-        verify(&mut renderer, &mesh, 50);
-    }
-}
-
-#[test]
-fn fifty_views_of_every_model_in_every_style_are_the_same_bytes_by_egl() {
-    verify_all(Backend::Egl);
-}
-
-#[test]
-fn fifty_views_of_every_model_in_every_style_are_the_same_bytes_by_osmesa() {
-    verify_all(Backend::OsMesa);
-}
-
-#[test]
-fn every_setting_draws_the_same_bytes_pruned() {
-    for backend in BACKENDS {
-        let mut renderer = renderer(backend);
-        let pruning = Pruning { pictures: u32::MAX, ..Pruning::for_context(renderer.context(), 1) };
-        let grey = Background::Color(Color([0.5, 0.25, 0.125]));
-        for background in [Background::Color(Color([1.0; 3])), grey, Background::Transparent] {
-            let settings =
-                SceneSettings { background, copies: 2, size: Size { width: 150, height: 90 }, ..Default::default() };
-            for scene in [scene_with("builtin:gear", settings.clone()), Scene { background, ..beside("builtin:bust") }]
-            {
-                for style in many_styles() {
-                    for show in [Show::Final, Show::Tones, Show::Borders, Show::Map] {
-                        let Ok(plan) = style.plan(&scene, show) else { continue };
-                        let short = prune(&plan, &scene, &pruning);
-                        let full = renderer.draw(&scene, &plan).unwrap();
-                        let picture = renderer.draw(&scene, &short.plan).unwrap();
-                        assert!(full == picture, "{backend:?} {background:?}\n{plan}\n{}", short.plan);
-                    }
-                }
-            }
-        }
-    }
 }

@@ -130,7 +130,11 @@ pub fn explanation(
     let mut text = format!("\n{:<50}{full_ms:>10.3}\n", "whole picture as published (--full)");
     for (omission, with_ms) in omissions.iter().zip(medians) {
         let Omission { rule, what, reason, facts } = omission;
-        text.push_str(&format!("left out {rule}: {what}\n  {}; {reason}; {}\n", saved(with_ms, pruned_ms), facts.join("; ")));
+        text.push_str(&format!(
+            "left out {rule}: {what}\n  {}; {reason}; {}\n",
+            saved(with_ms, pruned_ms),
+            facts.join("; ")
+        ));
     }
     for one in kept {
         text.push_str(&format!("kept {}: {}\n", one.rule, one.reason));

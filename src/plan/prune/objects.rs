@@ -102,7 +102,9 @@ pub(super) fn hidden_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omissio
     }
     let is_known = scene.objects.iter().all(|object| scene.has_hiding(object));
     if !is_known && pruning.pictures < WORTH_HIDING {
-        return Err(format!("finding them takes longer than a picture saves; it pays from {WORTH_HIDING} pictures on (--frames, --turntable)"));
+        return Err(format!(
+            "finding them takes longer than a picture saves; it pays from {WORTH_HIDING} pictures on (--frames, --turntable)"
+        ));
     }
     let usual: usize = scene
         .objects

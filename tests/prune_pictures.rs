@@ -1,0 +1,141 @@
+//! Pictures of pruned plans beside those of full ones: the same bytes, whatever the model, the style, the view, the backend.
+
+use crate::prune::{beside, cartoon, many_styles};
+use crate::support::{BACKENDS, public_models, renderer, scene_with, skip};
+use glam::DVec3;
+use std::sync::Arc;
+use tinta::plan::prune::{Pruning, prune};
+use tinta::{
+    Backend, Background, CameraSettings, Color, LoadOptions, Mesh, Renderer, Scene, SceneSettings, Show, Size, Style,
+    StyleName, View, load,
+};
+
+/// Numbers from 0 to 1 that look random and are always the same.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// The scene from a view of its own: any direction, sometimes from nearer or looking past it, sometimes in parallel.
+fn random_view(scene: &Scene, dice: &mut Dice) -> Scene {
+    let view =
+        View { azimuth_degrees: dice.roll() * 360.0, elevation_degrees: (dice.roll() * 2.0 - 1.0).asin().to_degrees() };
+    let parallel = dice.roll() < 0.2;
+    let settings = SceneSettings {
+        size: Size { width: 40 + (dice.roll() * 120.0) as u32, height: 40 + (dice.roll() * 120.0) as u32 },
+        camera: CameraSettings {
+            view,
+            parallel,
+            fov_y_degrees: 10.0 + dice.roll() * 60.0,
+            ..CameraSettings::default()
+        },
+        ..SceneSettings::default()
+    };
+    let meshes = scene.objects.iter().map(|object| object.mesh.clone()).collect();
+    let fitted = Scene::new(meshes, &settings).unwrap();
+    let mut scene = Scene { camera: fitted.camera, size: fitted.size, ..scene.clone() };
+    if dice.roll() < 0.3 {
+        let aside = DVec3::new(dice.roll() - 0.5, dice.roll() - 0.5, dice.roll() - 0.5) * scene.radius;
+        (scene.camera.eye, scene.camera.target) = (scene.camera.eye + aside, scene.camera.target + aside);
+        scene.camera.near *= 0.5;
+        scene.camera.far *= 1.5;
+    }
+    scene
+}
+
+/// Draws many views of a model in every style, in full and pruned, and compares the bytes.
+fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
+    let scene = Scene::new(vec![mesh.clone()], &SceneSettings::default()).unwrap();
+    let has_skin = !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.texture.is_some());
+    let mut styles: Vec<Style> = StyleName::ALL
+        .iter()
+        .filter(|(name, _)| *name != "sand" || has_skin)
+        .map(|(_, style)| Style::named(*style))
+        .collect();
+    styles.push(cartoon(|cartoon| (cartoon.cull_back_faces, cartoon.tones.count) = (true, 2)));
+    let pruning = Pruning { pictures: u32::MAX, ..Pruning::for_context(renderer.context(), 1) };
+    let mut dice = Dice(mesh.triangles.len() as u64);
+    for number in 0..views {
+        let view = random_view(&scene, &mut dice);
+        for style in &styles {
+            let plan = style.plan(&view, Show::Final).unwrap();
+            let short = prune(&plan, &view, &pruning);
+            let full = renderer.draw(&view, &plan).unwrap();
+            // The second of two frames in a row: nothing of the first may be left in it.
+            renderer.time_frames(&view, &short.plan, 0, 1).unwrap();
+            let picture = renderer.draw(&view, &short.plan).unwrap();
+            let difference = full.difference(&picture).unwrap();
+            assert!(
+                full == picture,
+                "{} view {number} in {}: {difference:?} without {:?}",
+                mesh.name,
+                style.name(),
+                short.omissions
+            );
+        }
+    }
+}
+
+/// All models there are, by the name of each.
+fn all_models() -> Vec<String> {
+    let mut models: Vec<String> =
+        tinta::mesh::BUILTINS.iter().map(|builtin| format!("builtin:{}", builtin.name)).collect();
+    if let Some(folder) = public_models() {
+        let files = ["ant.ply", "beethoven.obj", "cow.obj", "faerie.md2", "fandisk.obj", "spot/spot_triangulated.obj"];
+        for file in files.into_iter().chain(["stanford-bunny.obj", "suzanne.obj", "teapot.obj"]) {
+            let path = folder.join(file);
+            match path.is_file() {
+                true => models.push(path.display().to_string()),
+                false => skip(&format!("{file}: not in {}", folder.display())),
+            }
+        }
+    }
+    models
+}
+
+fn verify_all(backend: Backend) {
+    let mut renderer = renderer(backend);
+    for model in all_models() {
+        let mesh = Arc::new(load(&model, &LoadOptions::default()).unwrap().mesh);
+        verify(&mut renderer, &mesh, 50);
+    }
+}
+
+#[test]
+fn fifty_views_of_every_model_in_every_style_are_the_same_bytes_by_egl() {
+    verify_all(Backend::Egl);
+}
+
+#[test]
+fn fifty_views_of_every_model_in_every_style_are_the_same_bytes_by_osmesa() {
+    verify_all(Backend::OsMesa);
+}
+
+#[test]
+fn every_setting_draws_the_same_bytes_pruned() {
+    for backend in BACKENDS {
+        let mut renderer = renderer(backend);
+        let pruning = Pruning { pictures: u32::MAX, ..Pruning::for_context(renderer.context(), 1) };
+        let grey = Background::Color(Color([0.5, 0.25, 0.125]));
+        for background in [Background::Color(Color([1.0; 3])), grey, Background::Transparent] {
+            let settings =
+                SceneSettings { background, copies: 2, size: Size { width: 150, height: 90 }, ..Default::default() };
+            for scene in [scene_with("builtin:gear", settings.clone()), Scene { background, ..beside("builtin:bust") }]
+            {
+                for style in many_styles() {
+                    for show in [Show::Final, Show::Tones, Show::Borders, Show::Map] {
+                        let Ok(plan) = style.plan(&scene, show) else { continue };
+                        let short = prune(&plan, &scene, &pruning);
+                        let full = renderer.draw(&scene, &plan).unwrap();
+                        let picture = renderer.draw(&scene, &short.plan).unwrap();
+                        assert!(full == picture, "{backend:?} {background:?}\n{plan}\n{}", short.plan);
+                    }
+                }
+            }
+        }
+    }
+}
