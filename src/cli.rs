@@ -10,6 +10,7 @@ mod options;
 mod progress;
 mod render;
 mod shell;
+mod stress;
 mod textures;
 
 use clap::{Parser, Subcommand};
@@ -30,6 +31,7 @@ Examples:
   tinta measure cow.obj -o cow --quick           every style's error against its run time
   tinta textures -o textures                     a charcoal drawing's grain, noise and paper
   tinta figures -o figures                       the three texts' figures, drawn and measured again
+  tinta stress -o stress                         stiff and extreme cases, and what came of each
   tinta info                                     which OpenGL is there
 
 Exit codes: 0 done, 1 a check found a difference, 2 could not be done; the reason is one sentence on standard error.")]
@@ -46,6 +48,7 @@ enum Command {
     Measure(Box<measure::Arguments>),
     Textures(textures::Arguments),
     Figures(figures::Arguments),
+    Stress(stress::Arguments),
     Info(info::Arguments),
 }
 
@@ -54,7 +57,7 @@ enum Command {
 pub enum Verdict {
     /// Well.
     Good,
-    /// Two pictures that should be equal differ.
+    /// Two pictures that should be equal differ, or a case did not end as it must.
     Different,
 }
 
@@ -74,6 +77,7 @@ pub fn run() -> Result<Verdict> {
         Command::Measure(arguments) => measure::run(&arguments),
         Command::Textures(arguments) => textures::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
+        Command::Stress(arguments) => return stress::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
     .map(|()| Verdict::Good)
@@ -122,9 +126,14 @@ fn make_folder(folder: &Path) -> Result<()> {
 
 /// Writes a value as JSON to standard output.
 fn print_json(value: &impl serde::Serialize) -> Result<()> {
+    print(&json_text(value)?)
+}
+
+/// A value as JSON, a line to each of its parts.
+fn json_text(value: &impl serde::Serialize) -> Result<String> {
     let text = serde_json::to_string_pretty(value).map_err(|error| Error::Output {
         path: "-".to_owned(),
         problem: format!("the record cannot be written as JSON ({error}); leave out --json and report this"),
     })?;
-    print(&(text + "\n"))
+    Ok(text + "\n")
 }

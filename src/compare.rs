@@ -30,9 +30,37 @@ impl InkMask {
         Self { size: lines.size, ink: lines.pixels.chunks_exact(4).map(is_ink).collect() }
     }
 
+    /// A mask of these pixels' darkness, of 255, row by row from the top: ink from a quarter on.
+    pub fn of_darkness(size: Size, darkness: &[u8]) -> Self {
+        Self { size, ink: darkness.iter().map(|darkness| *darkness >= INK_FROM).collect() }
+    }
+
+    /// The pixels in which points lie, given from the upper left corner, y down; those outside the picture are left out.
+    pub fn of_points(size: Size, points: impl Iterator<Item = glam::DVec2>) -> Self {
+        let mut ink = vec![false; size.pixel_count()];
+        for point in points {
+            let (x, y) = (point.x.floor(), point.y.floor());
+            if x >= 0.0 && y >= 0.0 && x < f64::from(size.width) && y < f64::from(size.height) {
+                ink[y as usize * size.width as usize + x as usize] = true;
+            }
+        }
+        Self { size, ink }
+    }
+
+    /// Number of pixels that are ink in one and not in the other.
+    pub fn differing(&self, other: &Self) -> usize {
+        self.ink.iter().zip(&other.ink).filter(|(ink, other)| ink != other).count()
+    }
+
     /// Number of pixels with ink.
     pub fn count(&self) -> usize {
         self.ink.iter().filter(|ink| **ink).count()
+    }
+
+    /// Pixels with ink that have none of the other picture's, which is of the same size, within `radius_px`: ink that was not
+    /// merely moved.
+    pub fn count_far_from(&self, other: &Self, radius_px: u32) -> usize {
+        self.ink.iter().zip(other.grown(radius_px)).filter(|(ink, near)| **ink && !near).count()
     }
 
     /// The pixels whose middle lies within `radius_px` of the middle of a pixel with ink.

@@ -112,6 +112,23 @@ pub enum Error {
 }
 
 impl Error {
+    /// What kind of error this is, in a word: for records, where the sentence would say too much.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Model { .. } => "model",
+            Self::Picture { .. } => "picture",
+            Self::Strict { .. } => "strict",
+            Self::Setting { .. } => "setting",
+            Self::CommandLine { .. } => "command-line",
+            Self::Output { .. } => "output",
+            Self::Rows { .. } => "rows",
+            Self::NoContext { .. } => "no-context",
+            Self::PictureTooLarge { .. } => "picture-too-large",
+            Self::Shader { .. } => "shader",
+            Self::Gl { .. } => "gl",
+        }
+    }
+
     /// A model error without a line.
     pub(crate) fn model(path: &str, problem: impl Into<String>) -> Self {
         Self::Model { path: path.to_owned(), line: None, problem: problem.into() }

@@ -44,6 +44,7 @@ pub mod renderer;
 pub mod report;
 pub mod scene;
 pub mod sheet;
+pub mod stress;
 pub mod styles;
 pub mod textures;
 pub mod tolerances;
@@ -51,6 +52,7 @@ pub mod tolerances;
 mod bytes;
 mod markup;
 mod names;
+mod random;
 mod threads;
 
 pub use animation::{AnimationTarget, AnimationWriter};

@@ -93,6 +93,29 @@ impl Mesh {
         }
     }
 
+    /// A mesh of a program's own: triangles, counter-clockwise seen from outside, over positions in units of your choice.
+    ///
+    /// It goes the way of a file's: vertices are welded, triangles without area dropped and counted, normals computed.
+    ///
+    /// # Errors
+    ///
+    /// [`crate::Error::Model`] when a triangle names a position that there is not, coordinates are too large, or nothing is
+    /// left to draw; [`crate::Error::Strict`] and [`crate::Error::Setting`] as [`load`] has them.
+    pub fn of_triangles(
+        name: &str,
+        positions: Vec<DVec3>,
+        triangles: &[[u32; 3]],
+        options: &LoadOptions,
+    ) -> crate::Result<Self> {
+        load::check(options)?;
+        if triangles.as_flattened().iter().any(|index| *index as usize >= positions.len()) {
+            let problem = format!("a triangle names a position beyond the {} there are", positions.len());
+            return Err(crate::Error::model(name, problem));
+        }
+        let corners = triangles.as_flattened().iter().map(|index| soup::Corner::at(*index)).collect();
+        soup::Soup { positions, corners, ..soup::Soup::default() }.into_mesh(name, options)
+    }
+
     /// Bytes of main memory the mesh takes, materials' names aside.
     pub fn memory_bytes(&self) -> usize {
         bytes_of(&self.positions)

@@ -266,6 +266,24 @@ impl Scene {
 }
 
 impl Object {
+    /// A mesh at its own coordinates.
+    fn at_home(mesh: Arc<Mesh>) -> Self {
+        Self {
+            mesh,
+            offset: DVec3::ZERO,
+            arrays: Arc::default(),
+            boxes: Arc::default(),
+            hiding: Arc::default(),
+            edges: Arc::default(),
+            pictures: Arc::default(),
+        }
+    }
+
+    /// Another mesh in this object's place.
+    pub(crate) fn with_mesh(&self, mesh: Arc<Mesh>) -> Self {
+        Self { offset: self.offset, ..Self::at_home(mesh) }
+    }
+
     fn box_corners(&self) -> [DVec3; 8] {
         let (low, high) = self.mesh.bounds();
         std::array::from_fn(|i| {
@@ -282,16 +300,7 @@ fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
     // Models that are flat along an axis would otherwise stand in one another.
     let step = (high - low) + (high - low).max_element() * COPY_GAP;
     let columns = f64::from(copies).sqrt().ceil() as u32;
-    let at_home = |mesh: &Arc<Mesh>| Object {
-        mesh: mesh.clone(),
-        offset: DVec3::ZERO,
-        arrays: Arc::default(),
-        boxes: Arc::default(),
-        hiding: Arc::default(),
-        edges: Arc::default(),
-        pictures: Arc::default(),
-    };
-    let originals: Vec<Object> = meshes.iter().map(at_home).collect();
+    let originals: Vec<Object> = meshes.iter().map(|mesh| Object::at_home(mesh.clone())).collect();
     (0..copies)
         .flat_map(|copy| {
             let offset = DVec3::new(f64::from(copy % columns) * step.x, 0.0, -f64::from(copy / columns) * step.z);

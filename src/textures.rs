@@ -10,7 +10,6 @@ mod blur;
 mod contrast;
 mod noise;
 mod paper;
-mod random;
 
 pub use contrast::{ContrastTexture, Grains};
 pub use noise::NoiseTexture;

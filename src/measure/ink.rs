@@ -2,9 +2,13 @@
 
 use super::LineError;
 use super::reference::{Reference, SOFT_CREASE_DEGREES, distance, tree};
+use crate::compare::InkMask;
 use crate::edges::Class;
+use crate::error::Result;
 use crate::picture::Picture;
-use crate::scene::Size;
+use crate::renderer::Renderer;
+use crate::scene::{Scene, Size};
+use crate::styles::{Show, Style};
 use glam::DVec2;
 use std::collections::BTreeMap;
 
@@ -41,6 +45,29 @@ pub enum Verdict {
 }
 
 impl Ink {
+    /// The lines that a style draws of a scene; `None` for a style without any.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::draw`], and the style's own.
+    pub fn of_style(renderer: &mut Renderer, scene: &Scene, style: &Style) -> Result<Option<Self>> {
+        if !style.has_lines() {
+            return Ok(None);
+        }
+        if !matches!(style, Style::TwoPass(_)) {
+            return Ok(Some(Self::on_white(&renderer.draw(scene, &style.plan(scene, Show::Borders)?)?)));
+        }
+        // Two passes never draw the border by itself: it is what their picture is darker than its tones.
+        let whole = renderer.draw(scene, &style.plan(scene, Show::Final)?)?;
+        let tones = renderer.draw(scene, &style.plan(scene, Show::Tones)?)?;
+        Ok(Some(Self::over(&tones, &whole)))
+    }
+
+    /// Which pixels are ink.
+    pub fn mask(&self) -> InkMask {
+        InkMask::of_darkness(self.size, &self.darkness)
+    }
+
     /// The ink of a picture of lines on white: how far a pixel is from white in its darkest channel.
     pub fn on_white(picture: &Picture) -> Self {
         let darkness = |pixel: &[u8]| u8::MAX - pixel[..3].iter().copied().min().unwrap_or(u8::MAX);

@@ -173,17 +173,8 @@ fn contestant(
     renderer.draw(scene, &plan)?;
     let first_frame_ms = milliseconds_since(start);
     renderer.time_frames(scene, &plan, WARM_UP, 1)?;
-    let ink = match style.has_lines() {
-        // Two passes never draw the border by itself: it is what their picture is darker than its tones.
-        true if matches!(style, Style::TwoPass(_)) => {
-            let whole = renderer.draw(scene, &plan)?;
-            let tones = renderer.draw(scene, &style.plan(scene, Show::Tones)?)?;
-            Some(Ink::over(&tones, &whole))
-        }
-        true => Some(Ink::on_white(&renderer.draw(scene, &style.plan(scene, Show::Borders)?)?)),
-        false => None,
-    };
-    let shown = if style.has_tones() { Show::Tones } else { Show::Final };
+    let ink = Ink::of_style(renderer, scene, style)?;
+    let shown = shading_of(style);
     let tones = match style {
         Style::Inking(_) | Style::Dietrich(_) => None,
         _ => {
@@ -217,6 +208,11 @@ fn contestant(
     };
     let error_picture = ink.map(|ink| error_picture(&ink, &subject.reference, how.tolerance_px));
     Ok(Contestant { plan, measured: Measured { row, error_picture } })
+}
+
+/// The picture of a style that its shading alone makes.
+pub(crate) fn shading_of(style: &Style) -> Show {
+    if style.has_tones() { Show::Tones } else { Show::Final }
 }
 
 fn quartiles(times: &[f64]) -> [f64; 2] {

@@ -43,6 +43,23 @@ impl ReferenceLight {
         Self { surfaces: first_hits(scene).into_iter().enumerate().map(surface).collect() }
     }
 
+    /// A style's shading by these rays on white, as GL would draw it without error; `None` for one that is not computed here.
+    ///
+    /// # Errors
+    ///
+    /// As the style's own when its textures cannot be had.
+    pub fn picture(&self, style: &Style, scene: &Scene) -> Result<Option<Picture>> {
+        let Some(shading) = Shading::of(style, scene)? else { return Ok(None) };
+        let pixel = |surface: &Option<Surface>| match surface {
+            None => [u8::MAX; 4],
+            Some(surface) => {
+                let [red, green, blue] = (shading.color(surface) * 255.0).round().to_array().map(|channel| channel as u8);
+                [red, green, blue, u8::MAX]
+            }
+        };
+        Ok(Some(Picture { size: scene.size, pixels: self.surfaces.iter().flat_map(pixel).collect() }))
+    }
+
     /// The error of a style's picture without lines; `None` for a style whose shading is not computed here.
     ///
     /// # Errors

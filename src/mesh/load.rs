@@ -175,7 +175,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
     Ok(Loaded { mesh, frames, remarks })
 }
 
-fn check(options: &LoadOptions) -> Result<()> {
+pub(super) fn check(options: &LoadOptions) -> Result<()> {
     if !(0.0..=LARGEST_WELD).contains(&options.weld) {
         return Err(Error::setting(
             format!("--weld {}", options.weld),

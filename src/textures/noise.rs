@@ -1,6 +1,6 @@
 //! The noise texture: each pixel a random red, green and blue (Valente 2007, section 3.1), read where GLSL has no `noise`.
 
-use super::random::Random;
+use crate::random::Random;
 use super::{DEFAULT_SIZE, check_size, opaque};
 use crate::error::Result;
 use crate::picture::Picture;

@@ -4,7 +4,7 @@
 //! pulp, cloudy where it is thicker, slightly yellow. It repeats in both directions.
 
 use super::blur::{Rows, gaussian};
-use super::random::Random;
+use crate::random::Random;
 use super::{DEFAULT_SIZE, check_size, opaque};
 use crate::error::Result;
 use crate::picture::Picture;

@@ -1,7 +1,7 @@
 //! Random numbers that are the same everywhere: SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number
 //! generators", 2014). Ten lines instead of a crate, whose next version could give other numbers.
 
-pub(super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
     /// Numbers for one purpose: textures of one seed must not be made of the same numbers.
@@ -22,6 +22,16 @@ impl Random {
     /// A number from -1 up to but not 1.
     pub fn signed(&mut self) -> f32 {
         (self.bits() >> 40) as f32 / (1u64 << 23) as f32 - 1.0
+    }
+
+    /// A number from -1 up to but not 1, with all the digits an f64 has there.
+    pub fn signed_f64(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// A number below `count`, which is at least 1.
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.bits() % count as u64) as usize
     }
 
     /// A number from 0 up to but not 1.

@@ -1,0 +1,75 @@
+//! `tinta stress`: the program attacks itself and says how it held.
+
+use super::Verdict;
+use super::progress::Progress;
+use std::path::PathBuf;
+use tinta::stress::{StressSettings, Summary, run as stress};
+use tinta::{Result, TextTarget};
+
+/// Try the program on stiff and extreme cases and print what came of each
+#[derive(clap::Args)]
+#[command(after_help = "\
+Files: stress.json, every case in every style by every backend with its verdict and figures, and stress.md, the same as a
+table. Exit code 0 when every case ends as it must, 1 otherwise. docs/stability.md says what the figures mean.")]
+pub struct Arguments {
+    /// Folder to write into; made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+
+    /// Only cases with this in their name, or the group of this name: scale, depth, topology, thresholds, pictures, mixes, turns [default: all]
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
+
+    /// Where the random numbers of the mixes begin [default: 0]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    seed: u64,
+
+    /// How many mixes are drawn at random [default: 24]
+    #[arg(long, value_name = "N", default_value_t = 24, hide_default_value = true)]
+    mixes: usize,
+
+    /// Print stress.json to standard output too [default: off]
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the cases, writes both files, prints the table's end.
+pub fn run(arguments: &Arguments) -> Result<Verdict> {
+    super::make_folder(&arguments.output)?;
+    let target = |name: &str| TextTarget::check(&arguments.output.join(name).to_string_lossy());
+    let (json, table) = (target("stress.json")?, target("stress.md")?);
+    let settings = StressSettings {
+        seed: arguments.seed,
+        mixes: arguments.mixes,
+        only: arguments.only.clone(),
+        ..StressSettings::default()
+    };
+    let progress = Progress::new("attacking", 0);
+    let summary = stress(&settings, |done, count| progress.set(done as u64, count as u64))?;
+    drop(progress);
+    let record = super::json_text(&summary)?;
+    json.write(&record)?;
+    table.write(&summary.table())?;
+    if arguments.json {
+        super::print(&record)?;
+    } else {
+        super::print(&said(&summary))?;
+    }
+    Ok(if summary.failures().next().is_none() { Verdict::Good } else { Verdict::Different })
+}
+
+/// Each case that failed, and how many did not.
+fn said(summary: &Summary) -> String {
+    let mut text = String::new();
+    for row in summary.failures() {
+        let remark = row.remark.as_deref().unwrap_or_default();
+        text += &format!("FAILED {}, {}, {}: {} ({remark})\n", row.name, row.style, row.backend, row.verdict);
+    }
+    let failed = summary.failures().count();
+    text + &format!(
+        "{} cases, {} pictures and refusals: {} as they must be, {failed} not\n",
+        summary.case_count,
+        summary.cases.len(),
+        summary.cases.len() - failed
+    )
+}

@@ -1,0 +1,19 @@
+//! Stiff and extreme cases, each with what must come of it: the program attacks its own numbers and its own input.
+//!
+//! In: [`cases`], plain values that say what is extreme, what must happen and which number shows it. Out: a [`Row`] for each
+//! case, style and backend with its verdict. What the figures mean, and what they were, stands in docs/stability.md.
+
+mod cases;
+mod drawing;
+mod figures;
+mod jitter;
+mod run;
+mod shapes;
+mod table;
+mod variants;
+
+pub use cases::{Case, Check, Drawing, Expected, Group, Study, Work, cases};
+pub use jitter::{Flips, Popped};
+pub use run::{Row, StressSettings, Summary, run};
+pub use shapes::Shape;
+pub use variants::Variant;

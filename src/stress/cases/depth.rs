@@ -1,0 +1,77 @@
+//! Planes far apart, angles near their ends, eyes where no eye should be.
+
+use super::{Case, Drawing, Group};
+use crate::camera::CameraSettings;
+use crate::stress::{Shape, Variant};
+use crate::styles::{Border, Cartoon, MapEncoding, Style, StyleName};
+use glam::DVec3;
+
+pub(super) fn cases() -> Vec<Case> {
+    let mut all = Vec::new();
+    for ratio in [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9] {
+        let camera = CameraSettings {
+            eye: Some(DVec3::new(1.4, 1.6, 2.6)),
+            target: Some(DVec3::splat(0.5)),
+            near: Some(8.0 / ratio),
+            far: Some(8.0),
+            ..CameraSettings::default()
+        };
+        let drawing = Drawing { shape: Shape::Contact, camera, variants: encodings(), ..Drawing::default() };
+        all.push(rendered(format!("far {ratio:e} times as far as near"), drawing));
+    }
+    let camera = |eye: DVec3, target: DVec3| CameraSettings { eye: Some(eye), target: Some(target), ..Default::default() };
+    let middle = DVec3::splat(0.5);
+    let cube = |camera| Drawing { camera, ..Drawing::default() };
+    for degrees in [0.1, 1.0, 150.0, 179.0] {
+        let settings = CameraSettings { fov_y_degrees: degrees, ..CameraSettings::default() };
+        all.push(rendered(format!("a field of view of {degrees} degrees"), cube(settings)));
+    }
+    for degrees in [0.0, 180.0, f64::NAN, 1e-4] {
+        let settings = CameraSettings { fov_y_degrees: degrees, ..CameraSettings::default() };
+        let name = format!("a field of view of {degrees} degrees");
+        all.push(Case::refused(Group::Depth, name, cube(settings), "setting", "--fov"));
+    }
+    let places = [
+        ("the eye on a vertex", DVec3::ONE, middle),
+        ("the eye on an edge", DVec3::new(0.5, 1.0, 1.0), middle),
+        ("the eye on a face", DVec3::new(0.5, 0.5, 1.0), DVec3::new(0.5, 0.4, 0.0)),
+        ("the eye inside", middle, DVec3::new(0.4, 0.45, 0.0)),
+        ("the eye in the plane of a face", DVec3::new(1.0, 0.3, 5.0), middle),
+        ("the eye in the planes of two faces", DVec3::new(1.0, 1.0, 4.0), middle),
+        ("the eye on the line of an edge", DVec3::new(1.0, 1.0, 5.0), DVec3::new(1.0, 1.0, 0.0)),
+        ("everything behind the eye", DVec3::new(0.5, 0.5, 5.0), DVec3::new(0.5, 0.5, 9.0)),
+        ("the eye 19000 radii away", DVec3::new(0.5, 0.5, 16_000.0), middle),
+    ];
+    for (name, eye, target) in places {
+        all.push(rendered(name.to_owned(), cube(camera(eye, target))));
+    }
+    let far_away = camera(DVec3::new(0.5, 0.5, 1e6), middle);
+    all.push(Case::refused(Group::Depth, "the eye a million radii away", cube(far_away), "setting", "--eye"));
+    let same = camera(middle, middle);
+    all.push(Case::refused(Group::Depth, "the eye at its target", cube(same), "setting", "same point"));
+    let through = CameraSettings { near: Some(0.6), ..camera(DVec3::new(0.7, 0.8, 1.5), middle) };
+    all.push(rendered("edges through the near plane".to_owned(), cube(through)));
+    let slice = CameraSettings { near: Some(3.9), far: Some(3.900_001), ..camera(DVec3::new(0.5, 0.5, 4.5), middle) };
+    all.push(rendered("planes a millionth of a unit apart".to_owned(), cube(slice)));
+    let crossed = CameraSettings { near: Some(3.0), far: Some(2.0), ..camera(DVec3::new(0.5, 0.5, 4.5), middle) };
+    all.push(Case::refused(Group::Depth, "near beyond far", cube(crossed), "setting", "--near"));
+    let parallel = CameraSettings { parallel: true, ..camera(DVec3::new(1.0, 0.5, 5.0), DVec3::new(1.0, 0.5, 0.0)) };
+    all.push(rendered("in parallel, two faces edge-on".to_owned(), cube(parallel)));
+    all
+}
+
+fn rendered(name: String, drawing: Drawing) -> Case {
+    Case::rendered(Group::Depth, name, drawing)
+}
+
+/// The three passes by every encoding of the map, and the styles with depth of their own.
+fn encodings() -> Vec<Variant> {
+    let encodings = MapEncoding::ALL.iter().map(|(name, encoding)| {
+        let border = Some(Border { detection_factor: 1.0, ..Border::default() });
+        let cartoon = Cartoon { border, map_encoding: *encoding, ..Cartoon::default() };
+        let name = format!("three-pass --detection-factor 1 --map-encoding {name}");
+        Variant::new(name, Style::ThreePass(cartoon))
+    });
+    let others = [Variant::mended_three_pass(), Variant::published(StyleName::Ink), Variant::exact_inking()];
+    encodings.chain(others).collect()
+}

@@ -1,0 +1,31 @@
+//! Faces that meet in ways a textbook's do not.
+
+use super::{Case, Drawing, Group, Study};
+use crate::stress::{Shape, Variant};
+
+pub(super) fn cases() -> Vec<Case> {
+    let rendered = |name: &str, shape| Case::rendered(Group::Topology, name, Drawing { shape, ..Drawing::default() });
+    let large = |name: &str, shape| {
+        let variants = Variant::of_lines();
+        Case::rendered(Group::Topology, name, Drawing { shape, variants, study: Study::Picture, ..Drawing::default() })
+    };
+    let infinite = f64::INFINITY;
+    vec![
+        rendered("one triangle", Shape::Triangle).with("boundary", 3.0, 3.0),
+        rendered("a needle a million times as long as wide", Shape::Needle(1e6)).with("boundary", 6.0, 6.0),
+        rendered("triangles without area among others", Shape::ZeroAreas).with("boundary", 0.0, 0.0),
+        rendered("each triangle three times", Shape::Duplicates).with("non_manifold", 0.0, 0.0),
+        rendered("each triangle also the other way round", Shape::OppositeDuplicates).with("non_manifold", 18.0, 18.0),
+        rendered("five faces on an edge", Shape::Fins(5)).with("non_manifold", 1.0, 1.0),
+        rendered("a Moebius strip", Shape::Moebius).with("boundary", 128.0, 128.0),
+        rendered("inside out", Shape::InsideOut(3)).with("boundary", 0.0, 0.0),
+        rendered("T-junctions", Shape::TJunction),
+        rendered("cubes that share part of a face", Shape::Contact),
+        rendered("cubes that pass through one another", Shape::Piercing).with("intersection", 1.0, 40.0),
+        rendered("a vertex that is not a number", Shape::BadVertex(f64::NAN)).with("boundary", 0.0, 0.0),
+        rendered("a vertex at infinity", Shape::BadVertex(infinite)).with("boundary", 0.0, 0.0),
+        rendered("a vertex 1e50 away", Shape::BadVertex(1e50)),
+        large("a fan of 100,000 triangles", Shape::Fan(100_000)),
+        large("a million triangles that share nothing", Shape::Isolated(1_000_000)),
+    ]
+}

@@ -1,0 +1,40 @@
+//! The rows as a Markdown table.
+
+use super::run::{Row, Summary};
+use std::fmt::Write;
+
+impl Summary {
+    /// Every row: what had to come of it, what did, and its figures.
+    pub fn table(&self) -> String {
+        let failed = self.failures().count();
+        let mut text = format!(
+            "# Stiff and extreme cases\n\ntinta {}, {}: {} cases, {} rows, {failed} not as they must be.\n\n\
+             | case | style | backend | verdict | as expected | figures |\n|---|---|---|---|---|---|\n",
+            self.version,
+            self.renderers.join(" and "),
+            self.case_count,
+            self.cases.len()
+        );
+        for row in &self.cases {
+            let passed = if row.passed { "yes" } else { "**no**" };
+            // Writing to a String cannot fail.
+            let _ = writeln!(
+                text,
+                "| {} | `{}` | {} | {} | {passed} | {} |",
+                row.name,
+                row.style,
+                row.backend,
+                row.verdict,
+                numbers(row)
+            );
+        }
+        text
+    }
+}
+
+/// The figures in a line, and what is remarked.
+fn numbers(row: &Row) -> String {
+    let figures = row.figures.iter().map(|(name, value)| format!("{name} {value:.4}").trim_end_matches(".0000").to_owned());
+    let remark = row.remark.iter().map(|remark| remark.replace('|', "\\|"));
+    figures.chain(remark).collect::<Vec<_>>().join(", ")
+}
