@@ -5,7 +5,7 @@ use super::shells::{Shells, Surface};
 use crate::lines::boxes::{Box3, BoxTree};
 use crate::threads::{cores, in_chunks};
 use glam::DVec3;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Groups of the hierarchy's boxes that a thread takes at a time.
 const GROUPS_AT_A_TIME: usize = 512;
@@ -17,6 +17,13 @@ const CAPS_AT_A_TIME: usize = 64;
 /// open sheet has, meets all of its faces, and nothing would be gained by asking them all.
 const BOXES_OF_CAPS: usize = 4_000_000;
 const BOXES_OF_A_CAP: usize = 256;
+
+/// Pairs of boxes that meet, as a multiple of the faces, beyond which nothing is said to be hidden: a sound mesh has a dozen or
+/// two, a fan of a hundred thousand faces around one point has as many thousands, and takes minutes.
+const PAIRS_OF_A_FACE: usize = 200;
+
+/// Pairs that a thread counts by itself before it says so.
+const PAIRS_AT_A_TIME: usize = 4096;
 
 /// The faces of sound shells by their boxes, which are half the thickness larger all around: where two overlap the faces
 /// may come near each other.
@@ -52,19 +59,29 @@ pub(super) fn flagged(surface: &Surface, shells: &mut Shells, hierarchy: &Hierar
         (points, Triangle { corners: surface.corners(points), normal: surface.normals[face as usize] })
     };
     let Hierarchy { tree, faces } = hierarchy;
-    in_chunks(tree.group_count(), GROUPS_AT_A_TIME, cores(), |groups| {
+    let most_pairs = faces.len().saturating_mul(PAIRS_OF_A_FACE);
+    let pairs = AtomicUsize::new(0);
+    let too_many = in_chunks(tree.group_count(), GROUPS_AT_A_TIME, cores(), |groups| {
+        let mut own = 0;
         tree.pairs(groups, |first, second| {
+            own += 1;
+            if own % PAIRS_AT_A_TIME == 0 && pairs.fetch_add(PAIRS_AT_A_TIME, Ordering::Relaxed) > most_pairs {
+                return true;
+            }
             let [first, second] = [first, second].map(|place| faces[place as usize]);
             let is_one_shell = shells.of_face[first as usize] == shells.of_face[second as usize];
-            if !is_one_shell || (is_set(first) && is_set(second)) {
-                return;
-            }
-            if are_too_near(&face_of(first), &face_of(second), thickness) {
+            let is_open = is_one_shell && !(is_set(first) && is_set(second));
+            if is_open && are_too_near(&face_of(first), &face_of(second), thickness) {
                 set(first);
                 set(second);
             }
-        });
+            false
+        })
     });
+    if too_many.contains(&true) {
+        shells.list.iter_mut().for_each(|shell| shell.is_sound = false);
+        return vec![true; surface.triangles.len()];
+    }
     let most_boxes = (BOXES_OF_CAPS / shells.caps.len().max(1)).max(BOXES_OF_A_CAP);
     let too_large = in_chunks(shells.caps.len(), CAPS_AT_A_TIME, cores(), |caps| {
         let mut too_large = Vec::new();

@@ -56,7 +56,12 @@ pub(crate) struct BoxTree {
     /// The boxes, leaf by leaf.
     boxes: Vec<Box3>,
     leaves: Vec<u32>,
+    /// Each node's family, if all things below it are of one, else [`NO_FAMILY`]; empty where there are no families.
+    families: Vec<u32>,
 }
+
+/// Of things that belong to no family.
+pub(crate) const NO_FAMILY: u32 = u32::MAX;
 
 /// Most things in a leaf.
 pub(crate) const LARGEST_LEAF: u32 = 8;
@@ -76,12 +81,42 @@ impl BoxTree {
         nodes.parents = Vec::new();
         let order = std::mem::take(&mut nodes.primitive_indices);
         let leaves = (0..nodes.nodes.len() as u32).filter(|node| nodes.nodes[*node as usize].is_leaf()).collect();
-        (Self { boxes: order.iter().map(|index| boxes[*index as usize]).collect(), leaves, nodes }, order)
+        let boxes = order.iter().map(|index| boxes[*index as usize]).collect();
+        (Self { boxes, leaves, nodes, families: Vec::new() }, order)
+    }
+
+    /// Says of the thing at each place which family it is of: [`BoxTree::pairs`] then leaves out pairs of one family, and
+    /// takes no time over them.
+    pub fn set_families(&mut self, family_of: &[u32]) {
+        let nodes = &self.nodes.nodes;
+        let mut families = vec![NO_FAMILY; nodes.len()];
+        let common = |first: u32, second: u32| if first == second { first } else { NO_FAMILY };
+        // Each node after its children: they are found before it, and gone through backwards.
+        let mut order: Vec<u32> = if nodes.is_empty() { Vec::new() } else { vec![0] };
+        let mut next = 0;
+        while let Some(&index) = order.get(next) {
+            let node = &nodes[index as usize];
+            if !node.is_leaf() {
+                order.extend([node.first_index, node.first_index + 1]);
+            }
+            next += 1;
+        }
+        for index in order.into_iter().rev() {
+            let node = &nodes[index as usize];
+            let first = node.first_index as usize;
+            families[index as usize] = if node.is_leaf() {
+                let things = &family_of[range(node.first_index, node.prim_count)];
+                things.iter().copied().reduce(common).unwrap_or(NO_FAMILY)
+            } else {
+                common(families[first], families[first + 1])
+            };
+        }
+        self.families = families;
     }
 
     /// Calls `visit` with each thing whose box overlaps `query` until it returns true; returns whether it did.
     pub fn any(&self, query: &Box3, mut visit: impl FnMut(u32) -> bool) -> bool {
-        self.any_leaf(query, |leaf| {
+        self.any_leaf(query, NO_FAMILY, |leaf| {
             range(leaf.first_index, leaf.prim_count)
                 .any(|place| query.overlaps(&self.boxes[place]) && visit(place as u32))
         })
@@ -92,38 +127,41 @@ impl BoxTree {
         self.leaves.len()
     }
 
-    /// Calls `visit` with each pair of things whose boxes overlap, one of them in one of these groups; over all groups each
-    /// pair comes once.
-    pub fn pairs(&self, groups: std::ops::Range<usize>, mut visit: impl FnMut(u32, u32)) {
-        for leaf in &self.leaves[groups] {
-            let node = &self.nodes.nodes[*leaf as usize];
+    /// Calls `visit` with each pair of things whose boxes overlap, one of them in one of these groups, until it returns true;
+    /// over all groups each pair comes once. Returns whether it did. Pairs of one family are left out as far as whole leaves
+    /// are of it.
+    pub fn pairs(&self, groups: std::ops::Range<usize>, mut visit: impl FnMut(u32, u32) -> bool) -> bool {
+        self.leaves[groups].iter().any(|index| {
+            let node = &self.nodes.nodes[*index as usize];
             let own = range(node.first_index, node.prim_count);
-            self.any_leaf(&Box3(*node.aabb()), |leaf| {
+            self.any_leaf(&Box3(*node.aabb()), self.family(*index), |leaf| {
                 let other = range(leaf.first_index, leaf.prim_count);
                 if other.start < own.start {
                     return false;
                 }
                 let around = Box3(*leaf.aabb());
-                for first in own.clone().filter(|first| self.boxes[*first].overlaps(&around)) {
-                    for second in other.start.max(first + 1)..other.end {
-                        if self.boxes[first].overlaps(&self.boxes[second]) {
-                            visit(first as u32, second as u32);
-                        }
-                    }
-                }
-                false
-            });
-        }
+                own.clone().filter(|first| self.boxes[*first].overlaps(&around)).any(|first| {
+                    (other.start.max(first + 1)..other.end).any(|second| {
+                        self.boxes[first].overlaps(&self.boxes[second]) && visit(first as u32, second as u32)
+                    })
+                })
+            })
+        })
     }
 
-    /// Calls `visit` with each leaf that overlaps until it returns true.
-    fn any_leaf(&self, query: &Box3, mut visit: impl FnMut(&Bvh2Node) -> bool) -> bool {
+    fn family(&self, node: u32) -> u32 {
+        self.families.get(node as usize).copied().unwrap_or(NO_FAMILY)
+    }
+
+    /// Calls `visit` with each leaf that overlaps and is not of this family, until it returns true.
+    fn any_leaf(&self, query: &Box3, family: u32, mut visit: impl FnMut(&Bvh2Node) -> bool) -> bool {
         let nodes = &self.nodes.nodes;
         if nodes.is_empty() || !nodes[0].aabb().intersect_aabb(&query.0) {
             return false;
         }
+        let is_other = |node: u32| family == NO_FAMILY || self.family(node) != family;
         let mut open = Vec::with_capacity(64);
-        open.push(0);
+        open.extend(is_other(0).then_some(0));
         while let Some(index) = open.pop() {
             let node = &nodes[index as usize];
             if node.is_leaf() {
@@ -132,9 +170,8 @@ impl BoxTree {
                 }
             } else {
                 let children = [node.first_index, node.first_index + 1];
-                open.extend(
-                    children.into_iter().filter(|child| nodes[*child as usize].aabb().intersect_aabb(&query.0)),
-                );
+                let overlaps = |child: &u32| nodes[*child as usize].aabb().intersect_aabb(&query.0) && is_other(*child);
+                open.extend(children.into_iter().filter(overlaps));
             }
         }
         false

@@ -1,6 +1,6 @@
 //! All faces of a scene in the eye's space, and which of them hide a point.
 
-use super::boxes::{Box3, BoxTree};
+use super::boxes::{Box3, BoxTree, NO_FAMILY};
 use super::space::Space;
 use crate::mesh::Mesh;
 use crate::scene::Object;
@@ -26,6 +26,9 @@ pub(super) struct Faces {
     pub edge_on: Vec<u32>,
     /// By their boxes of pixels and keys.
     pub tree: BoxTree,
+    /// For each place the position that it shares with very many faces, or [`NO_FAMILY`]; empty where there is none. The boxes
+    /// of all these overlap, so that the tree leaves their pairs to whoever knows better.
+    pub hubs: Vec<u32>,
     /// Each object's first position and the distance below which its positions count as one, file units.
     welds: Vec<(u32, f64)>,
 }
@@ -53,6 +56,9 @@ pub(super) enum Own {
     /// The intersection of two faces.
     Faces([u32; 2]),
 }
+
+/// Faces around one position from which on they are compared by their outer sides only: below, comparing all costs less.
+const HUB: u32 = 256;
 
 impl Faces {
     /// Puts the objects' faces together; the meshes may be mended ones.
@@ -87,7 +93,7 @@ impl Faces {
             first_number += mesh.triangles.len();
         }
         drop(projected);
-        let (tree, order) = BoxTree::new(&sorted.boxes);
+        let (mut tree, order) = BoxTree::new(&sorted.boxes);
         let numbers: Vec<u32> = order.iter().map(|index| sorted.numbers[*index as usize]).collect();
         let starts: Vec<u32> = parts
             .iter()
@@ -97,11 +103,15 @@ impl Faces {
             let part = starts.partition_point(|start| start <= number) - 1;
             parts[part].1.triangles[(number - starts[part]) as usize].map(|corner| corner + welds[part].0)
         };
-        let triangles = numbers.iter().map(triangle).collect();
+        let triangles: Vec<[u32; 3]> = numbers.iter().map(triangle).collect();
         let is_cut = |place: &u32| sorted.cut_by_near.binary_search(&numbers[*place as usize]).is_ok();
         let cut_by_near =
             if sorted.cut_by_near.is_empty() { Vec::new() } else { (0..numbers.len() as u32).filter(is_cut).collect() };
-        Self { positions, triangles, cut_by_near, edge_on: sorted.edge_on, tree, numbers, welds }
+        let hubs = hubs(&triangles, positions.len(), &cut_by_near);
+        if !hubs.is_empty() {
+            tree.set_families(&hubs);
+        }
+        Self { positions, triangles, cut_by_near, edge_on: sorted.edge_on, tree, hubs, numbers, welds }
     }
 
     /// The distance below which positions of the object with this one count as one, file units.
@@ -237,6 +247,23 @@ impl Sorted {
             self.numbers.push(number);
         }
     }
+}
+
+/// For each face the position of it that is the corner of most faces, if these are more than [`HUB`]; nothing if there is no
+/// such position. Faces that the near plane cuts have no image of their own sides and are left out.
+fn hubs(triangles: &[[u32; 3]], positions: usize, cut_by_near: &[u32]) -> Vec<u32> {
+    let mut counts = vec![0u32; positions];
+    triangles.as_flattened().iter().for_each(|position| counts[*position as usize] += 1);
+    if counts.iter().all(|count| *count <= HUB) {
+        return Vec::new();
+    }
+    let hub = |triangle: &[u32; 3]| {
+        let most = triangle.iter().copied().max_by_key(|position| counts[*position as usize]);
+        most.filter(|position| counts[*position as usize] > HUB).unwrap_or(NO_FAMILY)
+    };
+    let mut hubs: Vec<u32> = triangles.iter().map(hub).collect();
+    cut_by_near.iter().for_each(|place| hubs[*place as usize] = NO_FAMILY);
+    hubs
 }
 
 /// Where the line between two points passes the near plane, if it does.

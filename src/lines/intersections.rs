@@ -5,7 +5,7 @@
 //! exactly on another surface the line is found once, on one side; faces of which neither has corners clearly on both sides
 //! of the other lie on one another and do not intersect.
 
-use super::boxes::LARGEST_LEAF;
+use super::boxes::{Box3, LARGEST_LEAF, NO_FAMILY};
 use super::faces::Faces;
 use super::space::Space;
 use crate::threads::{cores, in_chunks};
@@ -43,17 +43,43 @@ pub(super) fn intersections(space: &Space, faces: &Faces) -> (Vec<Intersection>,
             if kept.as_ref().is_none_or(|plate| plate.place != first) {
                 *kept = Some(Plate::new(space, faces, first));
             }
-            let Some(first) = kept else { return };
-            found.extend(first.meet(space, faces, second));
+            found.extend(kept.as_ref().and_then(|first| first.meet(space, faces, second)));
+            false
         });
         found
     });
     let mut found: Vec<Found> = parts.concat();
+    found.extend(around_hubs(space, faces));
     found.sort_by_key(|found| found.faces.map(|face| faces.numbers[face as usize]));
     let piercings = found.iter().flat_map(|found| found.piercings).flatten().collect();
     let through = Through::new(space, faces, &found);
     let lines = found.iter().filter(|found| found.is_line && through.allows(found));
     (lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect(), piercings)
+}
+
+/// What faces around one hub have in common but for it: from the hub on, until a side opposite to it passes through a face.
+fn around_hubs(space: &Space, faces: &Faces) -> Vec<Found> {
+    let mut pairs = Vec::new();
+    for place in (0..faces.hubs.len() as u32).filter(|place| faces.hubs[*place as usize] != NO_FAMILY) {
+        let hub = faces.hubs[place as usize];
+        let opposite = faces.triangles[place as usize].into_iter().filter(|position| *position != hub);
+        let images = opposite.map(|position| {
+            let (px, key) = space.project(faces.positions[position as usize]);
+            px.extend(key)
+        });
+        let (low, high) = crate::mesh::bounds(&images.collect::<Vec<_>>());
+        // What counts as touching is a hundred-thousandth of a side.
+        let margin = (high - low).max_element() * (8.0 * CONTACT);
+        faces.tree.any(&Box3::new(low - margin, high + margin), |other| {
+            if other != place && faces.hubs[other as usize] == hub {
+                pairs.push([place.min(other), place.max(other)]);
+            }
+            false
+        });
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs.into_iter().filter_map(|[first, second]| Plate::new(space, faces, first).meet(space, faces, second)).collect()
 }
 
 /// What two faces have in common.

@@ -163,6 +163,15 @@ fn row(case: &Case, style: &str, backend: &'static str, outcome: Outcome) -> Row
     }
 }
 
+/// A failure for a check whose figure no row has: it would check nothing.
+fn never_checked(case: &Case, rows: &[Row]) -> Option<Row> {
+    let is_known = |figure: &str| rows.iter().any(|row| row.figures.contains_key(figure));
+    let missing = case.checks.iter().find(|check| !is_known(check.figure))?;
+    let verdict = "unchecked".to_owned();
+    let remark = Some(format!("no row says what {} is", missing.figure));
+    Some(Row { verdict, remark, passed: false, ..row(case, "", "", Outcome::Rendered(Figures::new())) })
+}
+
 /// Carries out all cases, on as many threads as the machine has; `progress` is told how many of how many are done.
 ///
 /// # Errors
@@ -254,6 +263,7 @@ impl Worker<'_> {
             self.renderers.clear();
             rows.push(row(case, "", "", Outcome::Panicked));
         }
+        rows.extend(never_checked(case, &rows));
         rows
     }
 }

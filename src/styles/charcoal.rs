@@ -93,6 +93,16 @@ const PAPER: usize = 2;
 /// The ground of the light and the contrast-enhanced model, shown by themselves.
 const WHITE: [f32; 4] = [1.0; 4];
 
+/// A light whose length the shader's `normalize` can compute: as it is, or one as long as 1 where the square of its length is
+/// beyond f32.
+fn measurable(light: [f32; 3]) -> [f32; 3] {
+    const SQUARES: std::ops::RangeInclusive<f32> = 1e-30..=1e30;
+    if SQUARES.contains(&light.iter().map(|x| x * x).sum()) {
+        return light;
+    }
+    glam::DVec3::from_array(light.map(f64::from)).normalize_or_zero().as_vec3().to_array()
+}
+
 impl Charcoal {
     /// The settings of one of the text's recipes.
     pub fn recipe(recipe: Recipe) -> Self {
@@ -168,8 +178,8 @@ impl Charcoal {
     fn objects(&self, scene: &Scene, show: Show, is_sand: bool) -> Draw {
         let uniform = |name, value| Uniform { name, value };
         let mut uniforms = vec![
-            uniform("inputLight1", Value::Vec3(self.lights[0])),
-            uniform("inputLight2", Value::Vec3(self.lights[1])),
+            uniform("inputLight1", Value::Vec3(measurable(self.lights[0]))),
+            uniform("inputLight2", Value::Vec3(measurable(self.lights[1]))),
             uniform("contrastExp", Value::Float(self.contrast_exponent)),
             uniform("saturationFactor", Value::Float(self.saturation)),
             uniform("smudge", Value::Int(self.smudge.into())),
@@ -271,8 +281,8 @@ impl Charcoal {
             ));
         }
         for (light, option) in self.lights.iter().zip(["--light-1", "--light-2"]) {
-            let length = light.iter().map(|x| x * x).sum::<f32>().sqrt();
-            if !above_zero(length) {
+            let is_direction = light.iter().all(|x| x.is_finite()) && light.iter().any(|x| *x != 0.0);
+            if !is_direction {
                 return Err(Error::setting(option, "a light's direction is three finite numbers, not all 0"));
             }
         }

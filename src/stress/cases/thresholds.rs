@@ -132,7 +132,7 @@ fn charcoal() -> Vec<Case> {
         ("a contrast exponent of 0", exponent(0.0), "--contrast-exponent"),
         ("a negative contrast exponent", exponent(-1.0), "--contrast-exponent"),
         ("a contrast exponent that is no number", exponent(f32::NAN), "--contrast-exponent"),
-        ("a density of 101 percent", density(101.0), "--cet-density"),
+        ("a density of 101 percent", density(101.0), "--density"),
         ("a light without direction", lights([[0.0; 3], [1.0; 3]]), "--light"),
     ];
     all.extend(never.map(|(name, variant, words)| refused(name, variant, words)));
