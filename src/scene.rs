@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::hiding::Hiding;
 use crate::mesh::{Material, Mesh, NONE, VertexArrays, bounds};
 use crate::picture::Picture;
-use crate::tolerances::{LARGEST_DISTANCE, SCENE_RADIUS};
+use crate::tolerances::{LARGEST_DISTANCE, LEAST_DEPTH_STEPS, SCENE_RADIUS};
 use glam::{DMat4, DVec3, Mat4, Vec3};
 use std::sync::{Arc, OnceLock};
 
@@ -104,8 +104,8 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for what cannot be drawn: no mesh, no copy, a size of 0, a nonsensical camera, a scene whose
-    /// coordinates are beyond [`SCENE_RADIUS`].
+    /// [`Error::Setting`] for what cannot be drawn: no mesh, no copy, a size of 0, a nonsensical camera, planes so far apart that
+    /// depth cannot tell what is in front, a scene whose coordinates are beyond [`SCENE_RADIUS`].
     pub fn new(meshes: Vec<Arc<Mesh>>, settings: &SceneSettings) -> Result<Self> {
         if meshes.is_empty() || !(1..=LARGEST_COPIES).contains(&settings.copies) {
             return Err(Error::setting(
@@ -162,6 +162,32 @@ impl Scene {
                 format!(
                     "the eye is {distance:.3e} scene radii away, more than the {LARGEST_DISTANCE:e} GL can resolve, or the \
                      planes are too far apart; use --parallel, or bring them closer"
+                ),
+            ));
+        }
+        self.check_depth()
+    }
+
+    /// Refuses planes so far apart that the depth buffer has next to no steps left for the scene between them.
+    fn check_depth(&self) -> Result<()> {
+        let Camera { near, far, .. } = self.camera;
+        let middle = (self.centre - self.camera.eye).dot(-self.camera.backward());
+        let (nearest, farthest) = (near.max(middle - self.radius), far.min(middle + self.radius));
+        // Nothing between the planes, or an eye within the scene, before which something may be as near as the plane.
+        if nearest >= farthest || nearest == near {
+            return Ok(());
+        }
+        let share = match self.camera.projection {
+            Projection::Perspective { .. } => near * far / (far - near) * (1.0 / nearest - 1.0 / farthest),
+            Projection::Parallel { .. } => (farthest - nearest) / (far - near),
+        };
+        let steps = share * f64::from(1u32 << 24);
+        if steps < LEAST_DEPTH_STEPS {
+            return Err(Error::setting(
+                format!("--near {near} --far {far}"),
+                format!(
+                    "the planes are so far apart that {steps:.0} of the depth buffer's 16777216 steps are left for the scene, \
+                     which is {nearest:.3} to {farthest:.3} away; leave the options out, or bring the planes closer to that"
                 ),
             ));
         }

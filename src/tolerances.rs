@@ -37,6 +37,10 @@ pub const NEAREST_FRACTION: f64 = 1e-3;
 /// thousand steps for the whole scene.
 pub const LARGEST_DISTANCE: f64 = 2e4;
 
+/// Least steps of a 24-bit depth buffer from the scene's nearest point to its farthest: with fewer, what is behind shows through
+/// what is in front of it.
+pub const LEAST_DEPTH_STEPS: f64 = 256.0;
+
 /// Distance of the background square from the eye, scene radii: so far that light, view and normal are parallel on all of
 /// it and the paper's highlight tone, 1, leaves its colour as given.
 pub const BACKGROUND_DISTANCE: f32 = 1000.0;

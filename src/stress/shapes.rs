@@ -35,6 +35,8 @@ pub enum Shape {
     Needle(f64),
     /// A ball with triangles without area strewn over its edges.
     ZeroAreas,
+    /// A ball with triangles on its edges whose third corner lies between the others but for rounding.
+    Slivers,
     /// Every triangle of a cube three times.
     Duplicates,
     /// Every triangle of a cube also the other way round.
@@ -55,6 +57,8 @@ pub enum Shape {
     Fan(u32),
     /// Two squares whose normals differ by this angle, degrees.
     Hinge(f64),
+    /// Four squares side by side, each a tenth of a unit behind the last: seen from the front they differ by depth only.
+    Terraces,
     /// A wavy sheet, pressed flat along z.
     Flat,
     /// A square of two triangles with a picture on it.
@@ -119,10 +123,17 @@ impl Shape {
             }
             Self::ZeroAreas => {
                 let (mut points, mut faces) = ball(2);
-                let sound = faces.clone();
-                for [a, b, _] in sound {
-                    points.push(points[a as usize].midpoint(points[b as usize]));
+                for [a, b, _] in faces.clone() {
+                    points.push(points[a as usize]);
                     faces.extend([[a, b, points.len() as u32 - 1], [a, b, b], [a, a, a]]);
+                }
+                (points, faces)
+            }
+            Self::Slivers => {
+                let (mut points, mut faces) = ball(2);
+                for [a, b, _] in faces.clone() {
+                    points.push(points[a as usize].midpoint(points[b as usize]));
+                    faces.push([a, b, points.len() as u32 - 1]);
                 }
                 (points, faces)
             }
@@ -164,6 +175,13 @@ impl Shape {
                 let leaf = DVec3::new(cos, -sin, 0.0);
                 let points = vec![DVec3::ZERO, DVec3::Z, DVec3::Z - DVec3::X, DVec3::NEG_X, leaf, leaf + DVec3::Z];
                 (points, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [0, 5, 1]])
+            }
+            Self::Terraces => {
+                let points = (0..4).flat_map(|step| {
+                    let (left, back) = (f64::from(step) * 0.5, f64::from(step) * -0.1);
+                    [(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(left + x, y, back))
+                });
+                (points.collect(), (0..4).flat_map(|step| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|i| i + step * 4))).collect())
             }
             Self::Flat => sheet(12),
             Self::Textured => {

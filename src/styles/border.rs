@@ -147,7 +147,7 @@ impl Border {
         }
         if self.slope_threshold {
             let gap = [LEAST_GAP[0] * scale as f32, LEAST_GAP[1] * encoding.depth_step()];
-            uniforms.push(lens::footprint(scene, surface));
+            uniforms.push(lens::footprint(scene, surface, lens::DepthRange::of_camera(scene)));
             uniforms.push(Uniform { name: "leastGap", value: Value::Vec2(gap) });
         }
         uniforms

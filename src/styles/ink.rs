@@ -4,6 +4,7 @@
 //! whether neighbouring planes meet. What was measured is in `docs/ink.md`.
 
 use super::border::{check_width, reach};
+use super::lens::DepthRange;
 use super::map::map_texture;
 use super::{MapTarget, Show, Supersample, Tones, lens, supersample};
 use crate::edges::CreaseAngle;
@@ -127,8 +128,9 @@ impl Ink {
     /// Each pixel's plane.
     fn map_pass(&self, scene: &Scene, surface: Size, is_read: bool) -> Pass {
         let program = Program { vertex: "improved/plane-map.vert", fragments: vec!["improved/plane-map.frag"] };
+        let depth = DepthRange::of_scene(scene);
         let objects = Draw {
-            uniforms: vec![lens::footprint(scene, surface)],
+            uniforms: vec![lens::footprint(scene, surface, depth), depth.of_distance(scene)],
             cull_back_faces: self.cull_back_faces,
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
@@ -165,7 +167,7 @@ impl Ink {
         let gap = [self.least_gap_px * scale as f32, self.gap_per_slope];
         let mut uniforms = vec![
             supersample::texture_unit(surface),
-            lens::footprint(scene, surface),
+            lens::footprint(scene, surface, DepthRange::of_scene(scene)),
             Uniform { name: "gapThreshold", value: Value::Vec2(gap) },
             float("creaseCosine", self.crease_angle.cosine),
             reach(Some(self.line_width_px), scale, false),

@@ -17,7 +17,23 @@ pub(super) fn cases() -> Vec<Case> {
             ..CameraSettings::default()
         };
         let drawing = Drawing { shape: Shape::Contact, camera, variants: encodings(), ..Drawing::default() };
-        all.push(rendered(format!("far {ratio:e} times as far as near"), drawing));
+        let name = format!("far {ratio:e} times as far as near");
+        all.push(match ratio <= 1e5 {
+            // Normals show these cubes' edges; what is behind must not show through.
+            true => rendered(name, drawing).with("precision", 0.95, 1.0),
+            false => Case::refused(Group::Depth, name, drawing, "setting", "--near"),
+        });
+    }
+    for ratio in [1.3, 3.0, 10.0, 1e2, 1e3, 1e4, 1e5] {
+        let camera = CameraSettings {
+            eye: Some(DVec3::new(1.0, 0.5, 4.0)),
+            target: Some(DVec3::new(1.0, 0.5, 0.0)),
+            near: Some(4.6 / ratio),
+            far: Some(4.6),
+            ..CameraSettings::default()
+        };
+        let drawing = Drawing { shape: Shape::Terraces, camera, variants: encodings(), ..Drawing::default() };
+        all.push(rendered(format!("steps in depth, far {ratio:e} times as far as near"), drawing));
     }
     let camera = |eye: DVec3, target: DVec3| CameraSettings { eye: Some(eye), target: Some(target), ..Default::default() };
     let middle = DVec3::splat(0.5);
