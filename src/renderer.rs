@@ -308,9 +308,10 @@ impl Renderer {
             self.resize(surface, plan.supersample)?;
         }
         let current: Current<'_> = self.context.enter()?;
-        let result = self.resources.prepare(scene, plan).and_then(|()| {
-            work(&mut Frame { resources: &mut self.resources, pixels: &mut self.pixels, scene, plan })
-        });
+        let result = self
+            .resources
+            .prepare(scene, plan)
+            .and_then(|()| work(&mut Frame { resources: &mut self.resources, pixels: &mut self.pixels, scene, plan }));
         let explained = self.resources.explain("drawing", result);
         if explained.is_err() {
             // What was half made must not be taken for whole by the next picture.

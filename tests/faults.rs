@@ -10,6 +10,9 @@ use tinta::{Backend, Error, Picture, Renderer, Scene, Show, Style, StyleName};
 /// Styles that need every kind of object: tone tables, copies, textures drawn into, pictures, lists of edges.
 const STYLES: [StyleName; 4] = [StyleName::ThreePass, StyleName::Mrt, StyleName::Inking, StyleName::Charcoal];
 
+/// A fault that comes after so many calls.
+type MakeFault = fn(u32) -> Fault;
+
 fn small() -> Scene {
     scene("builtin:open-box", 48, 40)
 }
@@ -52,7 +55,7 @@ fn a_shader_that_is_refused_is_named_with_the_drivers_reason_and_the_next_pictur
             assert_eq!(draw(&mut renderer, &scene, &style).unwrap(), expected, "{backend:?} after shader {after}");
             assert_eq!(renderer.close(), 0);
         }
-        let names = ["map", "tones", "border"].map(|name| refused.iter().any(|path| path.contains(name)));
+        let names = ["map", "toon", "border"].map(|name| refused.iter().any(|path| path.contains(name)));
         assert_eq!((refused.len(), names), (6, [true; 3]), "{backend:?}: {refused:?}");
     }
 }
@@ -90,7 +93,7 @@ fn memory_that_runs_out_is_named_wherever_it_does_and_the_next_picture_is_right(
 fn a_lost_context_is_named_whenever_it_is_lost_and_for_ever_and_a_new_renderer_draws() {
     let (scene, style) = (small(), Style::named(StyleName::Mrt));
     let plan = style.plan(&scene, Show::Final).unwrap();
-    let faults: [(fn(u32) -> Fault, &str); 2] = [
+    let faults: [(MakeFault, &str); 2] = [
         (|after| Fault::ContextLost { after }, "GL_CONTEXT_LOST"),
         (|after| Fault::ContextReset { after }, "GL_GUILTY_CONTEXT_RESET"),
     ];
@@ -132,10 +135,7 @@ fn a_context_lost_while_a_shader_compiles_is_not_blamed_on_the_shader() {
         let mut renderer = Renderer::with_fault(backend, Fault::ContextLost { after: 0 }).unwrap();
         // The first call that counts; the fault is in effect from then on.
         let scene = small();
-        assert!(matches!(
-            draw(&mut renderer, &scene, &Style::named(StyleName::Phong)),
-            Err(Error::ContextLost { .. })
-        ));
+        assert!(matches!(draw(&mut renderer, &scene, &Style::named(StyleName::Phong)), Err(Error::ContextLost { .. })));
         assert!(matches!(renderer.compile_shader("evangelista/map.vert"), Err(Error::ContextLost { .. })));
     }
 }
@@ -158,7 +158,8 @@ fn a_faulty_context_leaves_others_on_its_thread_alone() {
 /// The program in a changed environment.
 fn tinta(environment: &[(&str, &Path)], arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tinta"));
-    for name in ["__EGL_VENDOR_LIBRARY_DIRS", "__EGL_VENDOR_LIBRARY_FILENAMES", "LIBGL_DRIVERS_PATH", "GALLIUM_DRIVER"] {
+    for name in ["__EGL_VENDOR_LIBRARY_DIRS", "__EGL_VENDOR_LIBRARY_FILENAMES", "LIBGL_DRIVERS_PATH", "GALLIUM_DRIVER"]
+    {
         command.env_remove(name);
     }
     command.envs(environment.iter().copied()).args(arguments).current_dir(root()).output().unwrap()
@@ -203,7 +204,8 @@ fn without_a_driver_the_error_names_what_was_missing() {
         fails(&[("LIBGL_DRIVERS_PATH", &folder)], "egl", &["EGL device 0", "opening the display failed"]);
     }
     // The other way still works, and is taken.
-    let output = tinta(&[("__EGL_VENDOR_LIBRARY_DIRS", &folder)], &["render", "builtin:ant", "-o", "-", "--size", "32"]);
+    let output =
+        tinta(&[("__EGL_VENDOR_LIBRARY_DIRS", &folder)], &["render", "builtin:ant", "-o", "-", "--size", "32"]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(image::load_from_memory(&output.stdout).unwrap().width(), 32);
 }
@@ -228,7 +230,8 @@ fn a_wrong_driver_library_is_named_and_what_it_lacks() {
         skip("a driver library without a driver's functions: no other library is loaded here to copy");
     }
     let text = [&b"dear diary "[..]; 1000].concat();
-    let kinds = [(Some(Vec::new()), "file too short"), (Some(text), "invalid ELF header"), (library, "undefined symbol")];
+    let kinds =
+        [(Some(Vec::new()), "file too short"), (Some(text), "invalid ELF header"), (library, "undefined symbol")];
     for (bytes, reason) in kinds {
         let Some(bytes) = bytes else { continue };
         let folder = Folder::new();
@@ -291,7 +294,10 @@ fn a_shader_the_driver_refuses_ends_the_program_with_its_name_and_the_drivers_re
         let output = tinta(&[("MESA_SHADER_READ_PATH", &place), off], &arguments);
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{backend}: {said}");
-        assert!(said.starts_with("tinta: glsl/evangelista/") && said.contains("refused on purpose"), "{backend}: {said}");
+        assert!(
+            said.starts_with("tinta: glsl/evangelista/") && said.contains("refused on purpose"),
+            "{backend}: {said}"
+        );
         assert_eq!(said.lines().count(), 1, "{said}");
         assert!(!Path::new(&out).exists());
     }

@@ -108,7 +108,8 @@ fn assert_refused_at_end(output: &Output, words: &str) {
 fn standard_output_that_takes_nothing_is_an_error() {
     let folder = Folder::new();
     let json = format!("render builtin:ant --size 32 --json -o {}", folder.path("a.png"));
-    let commands = ["render builtin:ant --size 32 -o -", "info", "info --json", "edges builtin:ant", "edges builtin:ant --json"];
+    let commands =
+        ["render builtin:ant --size 32 -o -", "info", "info --json", "edges builtin:ant", "edges builtin:ant --json"];
     for command in commands.into_iter().chain([json.as_str()]) {
         let full = File::options().write(true).open("/dev/full").unwrap();
         let output = Command::new(env!("CARGO_BIN_EXE_tinta")).args(command.split(' ')).stdout(full).output().unwrap();
@@ -153,9 +154,9 @@ fn a_full_disk_leaves_the_old_file_and_nothing_else() {
     for (command, file) in WRITERS {
         let folder = Folder::new();
         let command = command.replace("{}", "\"$D\"");
-        // 16 KiB in all, 4 of them taken by the old file.
+        // 8 KiB in all, 4 of them taken by the old file.
         let script = format!(
-            "{TRY} mount -t tmpfs -o size=16k none \"$D\"; head -c 4096 /dev/zero > \"$D/{file}\"; \
+            "{TRY} mount -t tmpfs -o size=8k none \"$D\"; head -c 4096 /dev/zero > \"$D/{file}\"; \
              try {command}; hold; head -c 4096 /dev/zero | cmp - \"$D/{file}\" && echo same; \
              rm \"$D/{file}\"; try {command}; hold"
         );
@@ -197,11 +198,16 @@ fn a_read_only_folder_is_refused_before_the_work() {
         folder.file(file, OLD);
         // The model is not there either: that would be noticed later.
         let command = command.replace("{}", "\"$D\"").replace("builtin:ant", "no-such.obj");
-        let script =
-            format!("{TRY} mount --bind \"$D\" \"$D\"; mount -o remount,ro,bind \"$D\"; try {command}; hold; cat \"$D/{file}\"");
+        let script = format!(
+            "{TRY} mount --bind \"$D\" \"$D\"; mount -o remount,ro,bind \"$D\"; try {command}; hold; cat \"$D/{file}\""
+        );
         let Some(text) = where_mounts_are_ours(&script, &folder.path("")) else { return };
         let [exit, said, holds, old] = text.lines().collect::<Vec<_>>()[..] else { panic!("{text}") };
-        assert_eq!((exit, holds.trim_end(), old), ("exit 2", format!("holds {file}").as_str(), "what was there"), "{text}");
+        assert_eq!(
+            (exit, holds.trim_end(), old),
+            ("exit 2", format!("holds {file}").as_str(), "what was there"),
+            "{text}"
+        );
         assert!(said.contains(file) && said.ends_with("may not be written; choose another"), "{said}");
     }
 }

@@ -122,8 +122,7 @@ fn allowed(name: &CStr, call: Call) -> Option<*const c_void> {
     if !faults.allows(call) {
         return None;
     }
-    let real = faults.real.borrow().get(name).copied();
-    real
+    faults.real.borrow().get(name).copied()
 }
 
 /// Functions of the C types the specification gives them that do nothing, and return 0, when it is their turn to fail.
@@ -190,7 +189,9 @@ unsafe extern "system" fn get_error() -> u32 {
 
 unsafe extern "system" fn reset_status() -> u32 {
     match current() {
-        Some(faults) if faults.is_lost() => glow::GUILTY_CONTEXT_RESET,
+        Some(faults) if faults.is_lost() && matches!(faults.fault, Fault::ContextReset { .. }) => {
+            glow::GUILTY_CONTEXT_RESET
+        }
         _ => glow::NO_ERROR,
     }
 }

@@ -84,9 +84,7 @@ fn unnamed(folder: &Path) -> Result<Option<File>> {
 #[cfg(target_os = "linux")]
 fn name(file: &File, target: &Path) -> Result<()> {
     use rustix::fs::{AtFlags, CWD, linkat};
-    let link = |name: &Path| -> Result<()> {
-        Ok(linkat(CWD, &door(file), CWD, name, AtFlags::SYMLINK_FOLLOW)?)
-    };
+    let link = |name: &Path| -> Result<()> { Ok(linkat(CWD, door(file), CWD, name, AtFlags::SYMLINK_FOLLOW)?) };
     match link(target) {
         Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
         done => return done,

@@ -142,7 +142,8 @@ fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
         ErrorKind::NotFound | ErrorKind::NotADirectory => "its folder is not there; make it first".to_owned(),
         ErrorKind::StorageFull => "the disk is full; free some space and go on by --resume".to_owned(),
         ErrorKind::FileTooLarge => {
-            "it would be larger than files may be here (see ulimit -f); raise the limit and go on by --resume".to_owned()
+            "it would be larger than files may be here (see ulimit -f); raise the limit and go on by --resume"
+                .to_owned()
         }
         _ => format!("it cannot be written ({error})"),
     };

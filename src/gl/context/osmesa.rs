@@ -84,9 +84,9 @@ const DRIVERS: [&str; 3] = ["", "llvmpipe", "softpipe"];
 /// Refuses a GALLIUM_DRIVER that OSMesa does not have: Mesa itself then goes on without a driver, into a crash.
 fn check_driver(chosen: Option<&str>) -> Result<(), String> {
     match chosen {
-        Some(chosen) if !DRIVERS.contains(&chosen) => {
-            Err(format!("it has no driver {chosen:?}, which GALLIUM_DRIVER asks for; choose llvmpipe or softpipe, or unset it"))
-        }
+        Some(chosen) if !DRIVERS.contains(&chosen) => Err(format!(
+            "it has no driver {chosen:?}, which GALLIUM_DRIVER asks for; choose llvmpipe or softpipe, or unset it"
+        )),
         _ => Ok(()),
     }
 }
@@ -134,7 +134,9 @@ impl OsMesaContext {
             (self.functions.make_current)(self.context, memory.as_mut_ptr().cast(), glow::UNSIGNED_BYTE, width, height)
         };
         match made {
-            0 => Err(NotCurrent { is_lost: false, reason: format!("it cannot be made current at {} pixels", self.size) }),
+            0 => {
+                Err(NotCurrent { is_lost: false, reason: format!("it cannot be made current at {} pixels", self.size) })
+            }
             _ => Ok(()),
         }
     }
