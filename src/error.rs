@@ -109,6 +109,16 @@ pub enum Error {
         /// The GL error by name.
         what: String,
     },
+    /// The driver has taken the GL context away, as it does when a device hangs or its driver is replaced.
+    #[error(
+        "the GL context was lost in {during} ({what}): the driver has reset its device; draw again, and if that fails too, try --backend osmesa or a smaller --size"
+    )]
+    ContextLost {
+        /// The pass or call.
+        during: String,
+        /// What said so, by GL's name.
+        what: String,
+    },
 }
 
 impl Error {

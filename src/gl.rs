@@ -9,6 +9,7 @@
 pub mod context;
 mod edges;
 pub(crate) mod execute;
+mod faults;
 mod legacy;
 mod meshes;
 mod objects;
@@ -17,6 +18,7 @@ mod targets;
 mod textures;
 
 pub use context::{Attempt, Backend, ContextInfo, is_software};
+pub use faults::Fault;
 
 use crate::error::{Error, Result};
 use glow::HasContext;
@@ -29,18 +31,37 @@ pub(crate) struct Gl {
     legacy: Legacy,
     info: ContextInfo,
     live_objects: Cell<usize>,
+    /// Once the context is lost: what said so.
+    lost: Cell<Option<&'static str>>,
 }
 
 impl Gl {
-    /// Returns the error GL noted since the last call, if any, as ours.
+    /// Refuses to go on with a context that is lost.
+    pub(crate) fn refuse_if_lost(&self, during: &str) -> Result<()> {
+        match self.lost.get() {
+            None => Ok(()),
+            Some(what) => Err(Error::ContextLost { during: during.to_owned(), what: what.to_owned() }),
+        }
+    }
+
+    /// Returns the error GL noted since the last call, if any, as ours. That the context is lost goes before any other.
     pub(crate) fn check(&self, during: &str) -> Result<()> {
         // SAFETY: the context is current: only its holder calls this, between make_current and release.
         let code = unsafe { self.glow.get_error() };
+        // SAFETY: as above; the driver has the function where the table does.
+        match unsafe { self.legacy.reset_status() } {
+            glow::NO_ERROR if code == glow::CONTEXT_LOST => self.lost.set(Some("GL_CONTEXT_LOST")),
+            glow::NO_ERROR => {}
+            glow::GUILTY_CONTEXT_RESET => self.lost.set(Some("GL_GUILTY_CONTEXT_RESET")),
+            glow::INNOCENT_CONTEXT_RESET => self.lost.set(Some("GL_INNOCENT_CONTEXT_RESET")),
+            _ => self.lost.set(Some("GL_UNKNOWN_CONTEXT_RESET")),
+        }
+        self.refuse_if_lost(during)?;
         if code == glow::NO_ERROR {
             return Ok(());
         }
         // One call may leave several flags; they must not be blamed on the next.
-        // SAFETY: as above. A lost context could report errors for ever, hence the bound.
+        // SAFETY: as above. A driver that is broken could report errors for ever, hence the bound.
         (0..16).take_while(|_| unsafe { self.glow.get_error() } != glow::NO_ERROR).count();
         let what = match code {
             glow::INVALID_ENUM => "GL_INVALID_ENUM".to_owned(),
@@ -48,7 +69,6 @@ impl Gl {
             glow::INVALID_OPERATION => "GL_INVALID_OPERATION".to_owned(),
             glow::INVALID_FRAMEBUFFER_OPERATION => "GL_INVALID_FRAMEBUFFER_OPERATION".to_owned(),
             glow::OUT_OF_MEMORY => "GL_OUT_OF_MEMORY".to_owned(),
-            glow::CONTEXT_LOST => "GL_CONTEXT_LOST".to_owned(),
             other => format!("GL error {other:#06x}"),
         };
         Err(Error::gl(during, what))

@@ -5,6 +5,7 @@ mod cli;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    outlive_the_limit_on_files();
     match cli::run() {
         Ok(cli::Verdict::Good) => ExitCode::SUCCESS,
         Ok(cli::Verdict::Different) => ExitCode::FAILURE,
@@ -13,4 +14,12 @@ fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Lets a write beyond the limit on files' sizes (`ulimit -f`) fail like any other, whoever writes, the GL driver too: by
+/// default it ends the program by a signal. A handler that does nothing is the safe way to ignore it.
+fn outlive_the_limit_on_files() {
+    // Where it cannot be had the program is as it would be without.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }

@@ -1,9 +1,13 @@
-//! Whole files or none: checked before the work, written beside their place, then renamed into it.
+//! Whole files or none: checked before the work, written without a name, then put in their place.
 //!
-//! Pictures, animations and texts all go through here. Nothing half is left when the program is interrupted, without
-//! handling signals: what is written is complete in memory first. The price is its size in memory.
+//! Pictures, animations and texts all go through here. Nothing half is left however the program ends, without handling
+//! signals: what is written is complete in memory first, and on the disk before it gets its name. The price is its size in
+//! memory. What holds when, and what no program can promise: docs/faults.md.
+
+mod beside;
 
 use crate::error::{Error, Result};
+use beside::Beside;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -63,31 +67,56 @@ pub(crate) fn check_file(file: &Path) -> Result<()> {
     if file.symlink_metadata().is_ok() && !file.is_file() {
         return Err(refuse("this is no ordinary file; name another, or - for standard output".to_owned()));
     }
-    temporary_beside(file).map(drop).map_err(|error| refuse(cannot_write(file, &error)))
+    Beside::open(&resolved(file)).map(drop).map_err(|error| refuse(cannot_write(file, &error)))
 }
 
-/// Writes beside the file, then renames: a link is followed, a file replaced only by a whole one.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let written = temporary_beside(path).and_then(|mut file| {
-        file.write_all(bytes)?;
-        // A file that is replaced keeps its permissions.
-        if let Ok(metadata) = path.metadata() {
-            file.as_file().set_permissions(metadata.permissions())?;
+/// A file's new contents, whole on the disk, under no name yet or under one that goes away with this.
+pub(crate) struct Staged {
+    path: PathBuf,
+    beside: Beside,
+}
+
+impl Staged {
+    /// Writes the contents beside the place of `path`, which stays as it is.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Output`] when the disk is full, the folder gone.
+    pub(crate) fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
+        let written = Beside::open(&resolved(path)).and_then(|mut beside| {
+            let file = beside.file();
+            file.write_all(bytes)?;
+            if let Ok(metadata) = path.metadata() {
+                // A file that is replaced keeps its permissions. And what replaces it must have reached the disk: a power
+                // cut would otherwise leave neither. Of a new file nothing is lost, so nothing waits for it.
+                file.set_permissions(metadata.permissions())?;
+                file.sync_data()?;
+            }
+            Ok(beside)
+        });
+        match written {
+            Ok(beside) => Ok(Self { path: path.to_owned(), beside }),
+            Err(error) => Err(refused(path, &error)),
         }
-        file.persist(resolved(path)).map_err(|error| error.error)?;
-        Ok(())
-    });
-    written.map_err(|error| Error::Output { path: path.display().to_string(), problem: cannot_write(path, &error) })
+    }
+
+    /// Gives the contents their name: a link is followed, an old file replaced.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Output`] when the folder is gone.
+    pub(crate) fn put_in_place(self) -> Result<()> {
+        self.beside.put_in_place(&resolved(&self.path)).map_err(|error| refused(&self.path, &error))
+    }
 }
 
-/// A file that deletes itself, in the folder of `path`, with the permissions a new file there would get.
-fn temporary_beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
-    let target = resolved(path);
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.prefix(".tinta-").tempfile_in(folder)
+/// Writes a file whole, or leaves what is there.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+    Staged::new(path, bytes)?.put_in_place()
+}
+
+fn refused(path: &Path, error: &std::io::Error) -> Error {
+    Error::Output { path: path.display().to_string(), problem: cannot_write(path, error) }
 }
 
 /// The file a link at `path` points to, so that the link stays.
@@ -112,6 +141,9 @@ fn cannot_write(path: &Path, error: &std::io::Error) -> String {
             format!("the folder {} may not be written; choose another", folder.display())
         }
         ErrorKind::StorageFull => "the disk is full; free some space".to_owned(),
+        ErrorKind::QuotaExceeded => "your share of the disk is full; free some space".to_owned(),
+        ErrorKind::FileTooLarge => "it would be larger than files may be here (see ulimit -f); write less".to_owned(),
+        ErrorKind::IsADirectory => "this is a directory; name a file in it".to_owned(),
         _ => format!("it cannot be written ({error})"),
     }
 }

@@ -4,7 +4,7 @@ mod pcx;
 mod read;
 
 use crate::error::{Error, Result};
-use crate::output::{check_file, write_standard_output, write_whole};
+use crate::output::{Staged, check_file, write_standard_output, write_whole};
 use crate::scene::Size;
 use image::codecs::{bmp::BmpEncoder, jpeg::JpegEncoder, png, pnm, tga::TgaEncoder};
 use image::{ExtendedColorType, ImageEncoder};
@@ -217,6 +217,24 @@ impl Target {
             Self::File { path, format } => write_file(path, |out| picture.encode(*format, false, out)),
         }
     }
+
+    /// Writes pictures that belong together: no file appears or changes before all of them are on the disk.
+    ///
+    /// # Errors
+    ///
+    /// As [`Target::write`].
+    pub fn write_all<'a>(pictures: impl IntoIterator<Item = (&'a Self, &'a Picture)>) -> Result<()> {
+        let mut staged = Vec::new();
+        for (target, picture) in pictures {
+            match target {
+                Self::Stdout => target.write(picture)?,
+                Self::File { path, format } => {
+                    staged.push(Staged::new(path, &encoded(path, |out| picture.encode(*format, false, out))?)?);
+                }
+            }
+        }
+        staged.into_iter().try_for_each(Staged::put_in_place)
+    }
 }
 
 /// Writes a picture as RGBA PNG whatever its alpha: what GL held, byte for byte.
@@ -229,12 +247,17 @@ pub fn write_rgba_png(picture: &Picture, path: &Path) -> Result<()> {
 }
 
 fn write_file(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResult<()>) -> Result<()> {
+    write_whole(path, &encoded(path, encode)?)
+}
+
+/// A picture's file, in memory.
+fn encoded(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResult<()>) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     encode(&mut bytes).map_err(|error| Error::Output {
         path: path.display().to_string(),
         problem: format!("the picture cannot be encoded ({error}); try .png"),
     })?;
-    write_whole(path, &bytes)
+    Ok(bytes)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use crate::camera::CameraSettings;
 use crate::error::{Error, Result};
 use crate::gl::context::{Context, Current};
 use crate::gl::execute::Resources;
-use crate::gl::{Backend, ContextInfo};
+use crate::gl::{Backend, ContextInfo, Fault};
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::prune::{Pruning, prune};
@@ -16,6 +16,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Draws scenes. Keeps meshes, shaders and textures between pictures; belongs to the thread that made it.
+///
+/// After an error it holds nothing and can go on with the next picture, unless its context is lost: then every further call
+/// says so again ([`Error::ContextLost`]), and a new renderer has to be made.
 pub struct Renderer {
     // Dropped with the context current: see `Drop`.
     resources: Resources,
@@ -54,7 +57,19 @@ impl Renderer {
     ///
     /// [`Error::NoContext`] with every attempt when none of this backend's ways works.
     pub fn new(backend: Backend) -> Result<Self> {
-        let context = Context::open(backend)?;
+        Self::of(Context::open(backend)?)
+    }
+
+    /// The same, but something will go wrong in it: for tests and `tinta stress`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::new`].
+    pub fn with_fault(backend: Backend, fault: Fault) -> Result<Self> {
+        Self::of(Context::open_with(backend, Some(fault))?)
+    }
+
+    fn of(context: Context) -> Result<Self> {
         Ok(Self { resources: Resources::new(context.gl()), context, surface: None, pixels: Vec::new() })
     }
 
@@ -230,8 +245,10 @@ impl Renderer {
     ///
     /// [`Error::Shader`] with the driver's log.
     pub fn compile_shader(&mut self, path: &'static str) -> Result<()> {
+        self.resources.refuse_if_lost("compiling a shader")?;
         let _current = self.context.enter()?;
-        self.resources.compile(path)
+        let compiled = self.resources.compile(path);
+        self.resources.explain("compiling a shader", compiled)
     }
 
     /// The shaders linked so far: those of the plans drawn, and no others.
@@ -285,18 +302,23 @@ impl Renderer {
         plan: &Plan,
         work: impl FnOnce(&mut Frame<'_>) -> Result<T>,
     ) -> Result<T> {
+        self.resources.refuse_if_lost("drawing")?;
         let surface = scene.size.times(plan.supersample);
         if self.surface != Some(surface) {
             self.resize(surface, plan.supersample)?;
         }
         let current: Current<'_> = self.context.enter()?;
-        self.resources.prepare(scene, plan)?;
-        let mut frame = Frame { resources: &mut self.resources, pixels: &mut self.pixels, scene, plan };
-        let result = work(&mut frame);
-        let checked = self.resources.check("drawing");
+        let result = self
+            .resources
+            .prepare(scene, plan)
+            .and_then(|()| work(&mut Frame { resources: &mut self.resources, pixels: &mut self.pixels, scene, plan }));
+        let explained = self.resources.explain("drawing", result);
+        if explained.is_err() {
+            // What was half made must not be taken for whole by the next picture.
+            self.resources.clear();
+        }
         drop(current);
-        let value = result?;
-        checked.map(|()| value)
+        explained
     }
 }
 

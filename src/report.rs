@@ -23,7 +23,7 @@ pub use settings::{Machine, Measure, Point, Points, machines, pareto, points};
 
 use crate::error::{Error, Result};
 use crate::measure::Row;
-use crate::output::write_whole;
+use crate::output::Staged;
 use columns::Value;
 use std::path::Path;
 
@@ -85,8 +85,9 @@ pub fn write(folder: &Path, rows: &[Row], info: &ReportInfo) -> Result<()> {
             problem: "there is no row to report on; measure something first".to_owned(),
         });
     }
-    let write = |name: &str, text: &str| write_whole(&folder.join(name), text.as_bytes());
-    write("results.csv", &csv(rows))?;
+    // They belong together: none appears before all are on the disk.
+    let stage = |name: &str, text: &str| Staged::new(&folder.join(name), text.as_bytes());
+    let mut staged = vec![stage("results.csv", &csv(rows))?];
     let machines = machines(rows);
     for (number, machine) in machines.iter().enumerate() {
         // Machines have long names that files cannot have.
@@ -94,9 +95,10 @@ pub fn write(folder: &Path, rows: &[Row], info: &ReportInfo) -> Result<()> {
         for (name, measure) in Measure::ALL {
             let subtitle = plot::subtitle(machine, measure);
             if let Some(svg) = plot(&points(&machine.rows, measure), measure, Shape::Wide, &subtitle)? {
-                write(&format!("plot-{name}{suffix}.svg"), &svg)?;
+                staged.push(stage(&format!("plot-{name}{suffix}.svg"), &svg)?);
             }
         }
     }
-    write("report.html", &html(rows, info)?)
+    staged.push(stage("report.html", &html(rows, info)?)?);
+    staged.into_iter().try_for_each(Staged::put_in_place)
 }

@@ -212,7 +212,7 @@ impl Output {
             Self::File(target) => target.write(sheet),
             Self::Folder(targets) => {
                 let pictures = [sheet].into_iter().chain(panels.iter().map(|panel| &panel.picture));
-                targets.iter().zip(pictures).try_for_each(|(target, picture)| target.write(picture))
+                Target::write_all(targets.iter().zip(pictures))
             }
         }
     }

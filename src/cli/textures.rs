@@ -35,7 +35,7 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Makes all textures, then writes them: nonsense leaves no file.
+/// Makes all textures, then writes them: nonsense leaves no file, a full disk none of them.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let mut made = Vec::new();
     let contrast = arguments.contrast();
@@ -58,7 +58,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         Target::check(&path.to_string_lossy(), false)
     });
     let targets = targets.collect::<Result<Vec<_>>>()?;
-    made.iter().zip(targets).try_for_each(|(texture, target)| target.write(&texture.picture))?;
+    Target::write_all(targets.iter().zip(made.iter().map(|texture| &texture.picture)))?;
     if arguments.json {
         let rows: Vec<_> = made
             .iter()

@@ -4,6 +4,7 @@ mod egl;
 mod osmesa;
 
 use super::Gl;
+use super::faults::{self, Fault, Faults};
 use super::legacy::{self, Legacy};
 use crate::error::{Error, Result};
 use crate::names::find;
@@ -14,6 +15,12 @@ use std::cell::Cell;
 use std::ffi::{CStr, c_void};
 use std::rc::Rc;
 use std::str::FromStr;
+
+/// The OpenGL that contexts are asked for.
+const VERSION: (u8, u8) = (2, 1);
+
+/// One that no driver has, for [`Fault::ContextRefused`].
+const NO_VERSION: (u8, u8) = (9, 9);
 
 /// Fewest bits of the depth buffer: with fewer, surfaces of a fitted scene show through each other.
 const DEPTH_BITS: i32 = 24;
@@ -139,6 +146,13 @@ pub enum Outcome {
 pub(crate) struct Context {
     platform: Platform,
     gl: Rc<Gl>,
+    faults: Option<Rc<Faults>>,
+}
+
+/// Why a context cannot be made current.
+struct NotCurrent {
+    is_lost: bool,
+    reason: String,
 }
 
 /// The platforms' contexts.
@@ -181,15 +195,15 @@ impl Candidate {
         }
     }
 
-    fn open(self) -> std::result::Result<Context, String> {
+    fn open(self, fault: Option<Fault>) -> std::result::Result<Context, String> {
         let device = self.name();
-        match self {
-            Self::Egl(device_found) => {
-                Context::load(Platform::Egl(egl::EglContext::open(&device_found)?), "egl", device)
-            }
-            Self::OsMesa => Context::load(Platform::OsMesa(osmesa::OsMesaContext::open()?), "osmesa", device),
-            Self::Missing { reason, .. } => Err(reason),
-        }
+        let version = if fault == Some(Fault::ContextRefused) { NO_VERSION } else { VERSION };
+        let (platform, backend) = match self {
+            Self::Egl(found) => (Platform::Egl(egl::EglContext::open(&found, version)?), "egl"),
+            Self::OsMesa => (Platform::OsMesa(osmesa::OsMesaContext::open(version)?), "osmesa"),
+            Self::Missing { reason, .. } => return Err(reason),
+        };
+        Context::load(platform, backend, device, fault)
     }
 }
 
@@ -199,7 +213,7 @@ pub fn attempts(backend: Backend) -> Vec<Attempt> {
         .into_iter()
         .map(|candidate| {
             let device = candidate.name();
-            let outcome = match candidate.open() {
+            let outcome = match candidate.open(None) {
                 Ok(context) => Outcome::Context(Box::new(context.info().clone())),
                 Err(reason) => Outcome::Error(reason),
             };
@@ -211,10 +225,15 @@ pub fn attempts(backend: Backend) -> Vec<Attempt> {
 impl Context {
     /// The first way of this backend that works.
     pub fn open(backend: Backend) -> Result<Self> {
+        Self::open_with(backend, None)
+    }
+
+    /// The same, with something that will go wrong.
+    pub fn open_with(backend: Backend, fault: Option<Fault>) -> Result<Self> {
         let mut attempts = Vec::new();
         for candidate in Candidate::all(backend) {
             let name = candidate.name();
-            match candidate.open() {
+            match candidate.open(fault) {
                 Ok(context) => return Ok(context),
                 Err(reason) => attempts.push(format!("{name}: {reason}")),
             }
@@ -222,11 +241,18 @@ impl Context {
         Err(Error::NoContext { attempts })
     }
 
-    fn load(platform: Platform, backend: &'static str, device: String) -> std::result::Result<Self, String> {
-        platform.make_current()?;
-        let loaded = load_functions(&platform, backend, device);
-        platform.release();
-        Ok(Self { platform, gl: Rc::new(loaded?) })
+    fn load(
+        platform: Platform,
+        backend: &'static str,
+        device: String,
+        fault: Option<Fault>,
+    ) -> std::result::Result<Self, String> {
+        let faults = fault.map(|fault| Rc::new(Faults::new(fault)));
+        platform.make_current().map_err(|failed| failed.reason)?;
+        let current = Current::new(&platform, faults.as_ref());
+        let loaded = load_functions(&platform, faults.as_deref(), backend, device);
+        drop(current);
+        Ok(Self { platform, gl: Rc::new(loaded?), faults })
     }
 
     pub fn info(&self) -> &ContextInfo {
@@ -259,8 +285,14 @@ impl Context {
     /// Makes the context current until the guard is dropped. Contexts of both platforms share one dispatch table inside
     /// Mesa, so none is left current when another may be entered.
     pub fn enter(&self) -> Result<Current<'_>> {
-        self.platform.make_current().map_err(|reason| Error::gl("making the context current", reason))?;
-        Ok(Current { platform: &self.platform })
+        self.platform.make_current().map_err(|NotCurrent { is_lost, reason }| {
+            let during = "making the context current";
+            match is_lost {
+                true => Error::ContextLost { during: during.to_owned(), what: reason },
+                false => Error::gl(during, reason),
+            }
+        })?;
+        Ok(Current::new(&self.platform, self.faults.as_ref()))
     }
 }
 
@@ -269,14 +301,22 @@ pub(crate) struct Current<'a> {
     platform: &'a Platform,
 }
 
+impl<'a> Current<'a> {
+    fn new(platform: &'a Platform, faults: Option<&Rc<Faults>>) -> Self {
+        faults::set_current(faults);
+        Self { platform }
+    }
+}
+
 impl Drop for Current<'_> {
     fn drop(&mut self) {
+        faults::set_current(None);
         self.platform.release();
     }
 }
 
 impl Platform {
-    fn make_current(&self) -> std::result::Result<(), String> {
+    fn make_current(&self) -> std::result::Result<(), NotCurrent> {
         match self {
             Self::Egl(context) => context.make_current(),
             Self::OsMesa(context) => context.make_current(),
@@ -305,15 +345,43 @@ impl Platform {
     }
 }
 
+/// The two numbers a GL_VERSION begins with.
+fn version_numbers(version: &str) -> Option<(u32, u32)> {
+    let mut numbers = version.split(['.', ' ']).map(|number| number.parse().ok());
+    Some((numbers.next()??, numbers.next()??))
+}
+
 /// Loads GL for the current context and asks it about itself; an error is why it cannot serve.
-fn load_functions(platform: &Platform, backend: &'static str, device: String) -> std::result::Result<Gl, String> {
+fn load_functions(
+    platform: &Platform,
+    faults: Option<&Faults>,
+    backend: &'static str,
+    device: String,
+) -> std::result::Result<Gl, String> {
+    let load = |name: &CStr| {
+        let address = platform.proc_address(name);
+        faults.map_or(address, |faults| faults.load(name, address))
+    };
     // SAFETY: the platform's context is current, and its loader returns GL functions of that context.
-    let legacy = unsafe { Legacy::load(|name| platform.proc_address(name)) }?;
+    let mut legacy = unsafe { Legacy::load(load) }?;
+    // Before anything else is asked: glow takes for granted that a context knows its version.
+    // SAFETY: the context is current.
+    let version = unsafe { legacy.string(glow::VERSION) }.ok_or("it does not know its own version")?;
+    match version_numbers(&version) {
+        Some((major, minor)) if (major, minor) >= (2, 1) => {}
+        Some(_) => return Err(format!("it is OpenGL {version}, older than 2.1")),
+        None => return Err(format!("it calls itself {version:?}, which is no version of OpenGL")),
+    }
     // SAFETY: as above.
-    let glow = unsafe { glow::Context::from_loader_function_cstr(|name| platform.proc_address(name)) };
+    let glow = unsafe { glow::Context::from_loader_function_cstr(load) };
+    let has = |name: &str| glow.supported_extensions().contains(name);
+    if has("GL_ARB_robustness") || has("GL_KHR_robustness") {
+        // SAFETY: as above; the context has the extension.
+        unsafe { legacy.load_robustness(load) };
+    }
     let text = |name: u32| {
         // SAFETY: the context is current; `name` is one of the string names of GL 2.1.
-        unsafe { glow.get_parameter_string(name) }
+        unsafe { legacy.string(name) }.unwrap_or_default()
     };
     let integer = |name: u32| {
         // SAFETY: the context is current; `name` is a parameter of one integer.
@@ -333,10 +401,7 @@ fn load_functions(platform: &Platform, backend: &'static str, device: String) ->
     let limit = |viewport: i32, surface: u32| (viewport.min(texture).max(0) as u32).min(surface);
     let version = glow.version();
     let version = (version.major, version.minor);
-    let timer_queries = version >= (3, 3)
-        || glow.supported_extensions().contains("GL_ARB_timer_query")
-        || glow.supported_extensions().contains("GL_EXT_timer_query");
-    let has = |name: &str| glow.supported_extensions().contains(name);
+    let timer_queries = version >= (3, 3) || has("GL_ARB_timer_query") || has("GL_EXT_timer_query");
     let framebuffer_objects = version >= (3, 0) || has("GL_ARB_framebuffer_object");
     let float_targets = framebuffer_objects && (version >= (3, 0) || has("GL_ARB_texture_float"));
     let info = ContextInfo {
@@ -361,12 +426,12 @@ fn load_functions(platform: &Platform, backend: &'static str, device: String) ->
         subpixel_bits: integer(glow::SUBPIXEL_BITS).max(LEAST_SUBPIXEL_BITS) as u32,
         timer_queries,
     };
-    let gl = Gl { glow, legacy, info, live_objects: Cell::new(0) };
+    let gl = Gl { glow, legacy, info, live_objects: Cell::new(0), lost: Cell::new(None) };
     // A core profile answers the questions about alpha and lines with an error: it lacks what the papers use.
-    gl.check("asking the context about itself").map_err(|_| "it is not a compatibility context".to_owned())?;
-    if version < (2, 1) {
-        return Err(format!("it is OpenGL {}, older than 2.1", gl.info.version));
-    }
+    gl.check("asking the context about itself").map_err(|error| match error {
+        Error::ContextLost { what, .. } => format!("the context was lost at once ({what})"),
+        _ => "it is not a compatibility context".to_owned(),
+    })?;
     if gl.info.alpha_bits < 8 || gl.info.depth_bits < DEPTH_BITS {
         return Err(format!(
             "its framebuffer has {} alpha and {} depth bits, fewer than 8 and {DEPTH_BITS}",

@@ -353,6 +353,20 @@ impl Resources {
         self.gl.check(during)
     }
 
+    /// Refuses to go on with a context that is lost.
+    pub fn refuse_if_lost(&self, during: &str) -> Result<()> {
+        self.gl.refuse_if_lost(during)
+    }
+
+    /// What came of some work, and GL's own error where the work has met none. That the context is lost explains any other.
+    pub fn explain<T>(&self, during: &str, result: Result<T>) -> Result<T> {
+        match (result, self.check(during)) {
+            (Err(lost @ Error::ContextLost { .. }), _) | (_, Err(lost @ Error::ContextLost { .. })) => Err(lost),
+            (Err(error), _) => Err(error),
+            (Ok(value), checked) => checked.map(|()| value),
+        }
+    }
+
     /// Compiles a shader by itself and lets go of it.
     pub fn compile(&self, path: &'static str) -> Result<()> {
         let kind = if path.ends_with(".vert") { glow::VERTEX_SHADER } else { glow::FRAGMENT_SHADER };

@@ -1,6 +1,6 @@
 //! The fixed-function entry points of OpenGL 2.1 that glow lacks, loaded by name into one small table.
 
-use std::ffi::{CStr, c_void};
+use std::ffi::{CStr, c_char, c_void};
 
 /// `GL_MODELVIEW`
 pub const MODELVIEW: u32 = 0x1700;
@@ -50,6 +50,8 @@ type VertexPointer = unsafe extern "system" fn(i32, u32, i32, *const c_void);
 type NormalPointer = unsafe extern "system" fn(u32, i32, *const c_void);
 type TextureEnvironment = unsafe extern "system" fn(u32, u32, i32);
 type PointSize = unsafe extern "system" fn(f32);
+type GetString = unsafe extern "system" fn(u32) -> *const c_char;
+type ResetStatus = unsafe extern "system" fn() -> u32;
 
 /// The functions, each of the type the specification gives it.
 pub struct Legacy {
@@ -64,6 +66,8 @@ pub struct Legacy {
     texture_coordinate_pointer: VertexPointer,
     texture_environment: TextureEnvironment,
     point_size: PointSize,
+    get_string: GetString,
+    reset_status: Option<ResetStatus>,
 }
 
 impl Legacy {
@@ -98,7 +102,46 @@ impl Legacy {
                 )?),
                 texture_environment: std::mem::transmute::<*const c_void, TextureEnvironment>(find(c"glTexEnvi")?),
                 point_size: std::mem::transmute::<*const c_void, PointSize>(find(c"glPointSize")?),
+                get_string: std::mem::transmute::<*const c_void, GetString>(find(c"glGetString")?),
+                reset_status: None,
             })
+        }
+    }
+
+    /// Adds what ARB_robustness has, for [`Legacy::reset_status`].
+    ///
+    /// # Safety
+    ///
+    /// As [`Legacy::load`], and the context has the extension: drivers give addresses for functions they do not have.
+    pub unsafe fn load_robustness(&mut self, mut load: impl FnMut(&CStr) -> *const c_void) {
+        // The extension's own name, then that of KHR_robustness and OpenGL 4.5.
+        let names = [c"glGetGraphicsResetStatusARB", c"glGetGraphicsResetStatus"];
+        if let Some(address) = names.into_iter().map(&mut load).find(|address| !address.is_null()) {
+            // SAFETY: the address is that of the function named, whose C type this is.
+            self.reset_status = Some(unsafe { std::mem::transmute::<*const c_void, ResetStatus>(address) });
+        }
+    }
+
+    /// glGetGraphicsResetStatusARB: why the context is lost, GL_NO_ERROR if it is not or nobody knows.
+    ///
+    /// # Safety
+    ///
+    /// The context is current.
+    pub unsafe fn reset_status(&self) -> u32 {
+        // SAFETY: the caller's promise.
+        self.reset_status.map_or(glow::NO_ERROR, |reset_status| unsafe { reset_status() })
+    }
+
+    /// glGetString; `None` where the context does not know the name, or is lost.
+    ///
+    /// # Safety
+    ///
+    /// The context is current.
+    pub unsafe fn string(&self, name: u32) -> Option<String> {
+        // SAFETY: the caller's promise; GL's strings end with 0 and live as long as the context.
+        unsafe {
+            let text = (self.get_string)(name);
+            (!text.is_null()).then(|| CStr::from_ptr(text).to_string_lossy().into_owned())
         }
     }
 

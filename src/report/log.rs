@@ -77,8 +77,13 @@ impl RowLog {
             return Err(problem(format!("the row of {key} holds a number that is not finite; please report this")));
         }
         line.push('\n');
-        let written = self.file.write_all(line.as_bytes()).and_then(|()| self.file.sync_data());
-        written.map_err(|error| cannot_write(&self.path, &error))
+        let append = |file: &mut File| {
+            let sound_bytes = file.metadata()?.len();
+            let written = file.write_all(line.as_bytes()).and_then(|()| file.sync_data());
+            // No half row stays on a full disk. Were even that refused, `resume` would cut it off.
+            written.inspect_err(|_| drop(file.set_len(sound_bytes)))
+        };
+        append(&mut self.file).map_err(|error| cannot_write(&self.path, &error))
     }
 }
 
@@ -136,6 +141,10 @@ fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
     let problem = match error.kind() {
         ErrorKind::NotFound | ErrorKind::NotADirectory => "its folder is not there; make it first".to_owned(),
         ErrorKind::StorageFull => "the disk is full; free some space and go on by --resume".to_owned(),
+        ErrorKind::FileTooLarge => {
+            "it would be larger than files may be here (see ulimit -f); raise the limit and go on by --resume"
+                .to_owned()
+        }
         _ => format!("it cannot be written ({error})"),
     };
     Error::Output { path: path.display().to_string(), problem }

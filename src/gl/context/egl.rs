@@ -1,13 +1,71 @@
 //! EGL on a device, without a window system, through glutin.
 
+use super::NotCurrent;
 use crate::scene::Size;
 use glutin::api::egl::{config::Config, context::PossiblyCurrentContext, device, display::Display, surface::Surface};
 use glutin::config::{Api, AsRawConfig, ConfigSurfaceTypes, ConfigTemplateBuilder, GlConfig, RawConfig};
-use glutin::context::{ContextApi, ContextAttributesBuilder, NotCurrentGlContext, PossiblyCurrentGlContext, Version};
+use glutin::context::{
+    ContextApi, ContextAttributesBuilder, NotCurrentGlContext, PossiblyCurrentGlContext, Robustness, Version,
+};
 use glutin::display::{AsRawDisplay, GlDisplay, RawDisplay};
+use glutin::error::ErrorKind;
 use glutin::surface::{PbufferSurface, SurfaceAttributesBuilder};
+use libloading::Library;
 use std::ffi::{CStr, c_void};
 use std::num::NonZeroU32;
+use std::sync::OnceLock;
+
+/// The library's names, in the order glutin tries them.
+#[cfg(not(windows))]
+const LIBRARIES: [&str; 2] = ["libEGL.so.1", "libEGL.so"];
+#[cfg(windows)]
+const LIBRARIES: [&str; 2] = ["libEGL.dll", "atioglxx.dll"];
+
+/// What of it is called here and by glutin, which takes for granted that a library of this name has it.
+const FUNCTIONS: [&CStr; 15] = [
+    c"eglBindAPI",
+    c"eglChooseConfig",
+    c"eglCreateContext",
+    c"eglCreatePbufferSurface",
+    c"eglDestroyContext",
+    c"eglDestroySurface",
+    c"eglGetConfigAttrib",
+    c"eglGetCurrentContext",
+    c"eglGetError",
+    c"eglGetProcAddress",
+    c"eglInitialize",
+    c"eglMakeCurrent",
+    c"eglQueryString",
+    c"eglQuerySurface",
+    c"eglTerminate",
+];
+
+/// Makes sure that the library is there and is EGL, once.
+fn check_library() -> Result<(), String> {
+    static CHECKED: OnceLock<Result<(), String>> = OnceLock::new();
+    let check = || {
+        let mut reasons = Vec::new();
+        for name in LIBRARIES {
+            // SAFETY: loading EGL runs its initialisers, which have no preconditions.
+            let library = match unsafe { Library::new(name) } {
+                // It stays for the life of the process, as glutin's own.
+                Ok(library) => Box::leak(Box::new(library)),
+                Err(error) => {
+                    reasons.push(error.to_string());
+                    continue;
+                }
+            };
+            for function in FUNCTIONS {
+                // SAFETY: the symbol is only looked for.
+                let found = unsafe { library.get::<*const c_void>(function.to_bytes_with_nul()) };
+                found.map_err(|error| format!("the library lacks a function ({error})"))?;
+            }
+            return Ok(());
+        }
+        Err(format!("the library cannot be loaded ({})", reasons.join("; ")))
+    };
+    CHECKED.get_or_init(check).clone()
+}
 
 /// A device EGL knows.
 pub struct Device {
@@ -18,6 +76,7 @@ pub struct Device {
 
 /// The devices, hardware before software.
 pub fn devices() -> Result<Vec<Device>, String> {
+    check_library()?;
     let found = device::Device::query_devices().map_err(|error| format!("no devices ({error})"))?;
     let is_software = |device: &device::Device| device.extensions().contains("EGL_MESA_device_software");
     let mut devices: Vec<device::Device> = found.collect();
@@ -51,8 +110,8 @@ pub struct EglContext {
 }
 
 impl EglContext {
-    /// A GL 2.1 compatibility context on this device with a surface of one pixel.
-    pub fn open(device: &Device) -> Result<Self, String> {
+    /// A compatibility context of this version of OpenGL on this device with a surface of one pixel.
+    pub fn open(device: &Device, (major, minor): (u8, u8)) -> Result<Self, String> {
         let step = |what: &'static str| move |error: glutin::error::Error| format!("{what} failed ({error})");
         // SAFETY: the device was given by EGL and no native display handle is passed.
         let display = unsafe { Display::with_device(&device.device, None) }.map_err(step("opening the display"))?;
@@ -69,11 +128,17 @@ impl EglContext {
             .filter(|config| config.alpha_size() == 8 && config.depth_size() >= 24 && !config.float_pixels())
             .min_by_key(|config| (config.num_samples(), config.depth_size(), config.stencil_size()))
             .ok_or("it has no off-screen format with 8 alpha and 24 depth bits")?;
-        let attributes =
-            ContextAttributesBuilder::new().with_context_api(ContextApi::OpenGl(Some(Version::new(2, 1)))).build(None);
-        // SAFETY: config and display belong together; no native window is involved.
-        let context =
-            unsafe { display.create_context(&config, &attributes) }.map_err(step("making a GL 2.1 context"))?;
+        let create = |robustness: Robustness| {
+            let api = ContextApi::OpenGl(Some(Version::new(major, minor)));
+            let attributes =
+                ContextAttributesBuilder::new().with_context_api(api).with_robustness(robustness).build(None);
+            // SAFETY: config and display belong together; no native window is involved.
+            unsafe { display.create_context(&config, &attributes) }
+        };
+        // One that says when it is lost where the driver has such, which software does not; else any.
+        let context = create(Robustness::RobustLoseContextOnReset)
+            .or_else(|_| create(Robustness::NotRobust))
+            .map_err(|error| format!("making a GL {major}.{minor} context failed ({error})"))?;
         let size = Size { width: 1, height: 1 };
         let surface = create_surface(&display, &config, size)?;
         Ok(Self { context: context.treat_as_possibly_current(), surface, size, config, display })
@@ -87,8 +152,11 @@ impl EglContext {
         Ok(())
     }
 
-    pub fn make_current(&self) -> Result<(), String> {
-        self.context.make_current(&self.surface).map_err(|error| format!("it cannot be made current ({error})"))
+    pub fn make_current(&self) -> Result<(), NotCurrent> {
+        self.context.make_current(&self.surface).map_err(|error| NotCurrent {
+            is_lost: matches!(error.error_kind(), ErrorKind::ContextLost),
+            reason: format!("it cannot be made current ({error})"),
+        })
     }
 
     pub fn release(&self) {

@@ -1,5 +1,6 @@
 //! Mesa's off-screen library: a context that draws into our memory, with no device at all.
 
+use super::NotCurrent;
 use crate::scene::Size;
 use libloading::{Library, Symbol};
 use std::cell::RefCell;
@@ -77,6 +78,19 @@ fn find_functions(name: &'static str, library: &'static Library) -> Result<Funct
     }
 }
 
+/// The drivers inside OSMesa; GALLIUM_DRIVER may choose one.
+const DRIVERS: [&str; 3] = ["", "llvmpipe", "softpipe"];
+
+/// Refuses a GALLIUM_DRIVER that OSMesa does not have: Mesa itself then goes on without a driver, into a crash.
+fn check_driver(chosen: Option<&str>) -> Result<(), String> {
+    match chosen {
+        Some(chosen) if !DRIVERS.contains(&chosen) => Err(format!(
+            "it has no driver {chosen:?}, which GALLIUM_DRIVER asks for; choose llvmpipe or softpipe, or unset it"
+        )),
+        _ => Ok(()),
+    }
+}
+
 /// A context and the memory it draws into.
 pub struct OsMesaContext {
     functions: &'static Functions,
@@ -87,15 +101,17 @@ pub struct OsMesaContext {
 }
 
 impl OsMesaContext {
-    /// A GL 2.1 compatibility context with a surface of one pixel.
-    pub fn open() -> Result<Self, String> {
+    /// A compatibility context of this version of OpenGL with a surface of one pixel.
+    pub fn open((major, minor): (u8, u8)) -> Result<Self, String> {
         let functions = functions()?;
-        // OSMESA_FORMAT RGBA, DEPTH_BITS 24, STENCIL_BITS 0, ACCUM_BITS 0, PROFILE compatibility, VERSION 2.1, end.
-        let attributes = [0x22, 0x1908, 0x30, 24, 0x31, 0, 0x32, 0, 0x33, 0x35, 0x36, 2, 0x37, 1, 0, 0];
+        check_driver(std::env::var_os("GALLIUM_DRIVER").map(|name| name.to_string_lossy().into_owned()).as_deref())?;
+        let [major, minor] = [major, minor].map(i32::from);
+        // OSMESA_FORMAT RGBA, DEPTH_BITS 24, STENCIL_BITS 0, ACCUM_BITS 0, PROFILE compatibility, VERSION, end.
+        let attributes = [0x22, 0x1908, 0x30, 24, 0x31, 0, 0x32, 0, 0x33, 0x35, 0x36, major, 0x37, minor, 0, 0];
         // SAFETY: the list ends with 0 and nothing is shared with another context.
         let context = unsafe { (functions.create_context)(attributes.as_ptr(), ptr::null_mut()) };
         if context.is_null() {
-            return Err("making a GL 2.1 context failed".to_owned());
+            return Err(format!("making a GL {major}.{minor} context failed"));
         }
         Ok(Self { functions, context, size: Size { width: 1, height: 1 }, memory: RefCell::new(vec![0]) })
     }
@@ -109,7 +125,7 @@ impl OsMesaContext {
         Ok(())
     }
 
-    pub fn make_current(&self) -> Result<(), String> {
+    pub fn make_current(&self) -> Result<(), NotCurrent> {
         let mut memory = self.memory.borrow_mut();
         let (width, height) = (self.size.width as i32, self.size.height as i32);
         // SAFETY: the context is alive, and the memory holds width x height RGBA8 pixels and is only replaced while the
@@ -117,7 +133,12 @@ impl OsMesaContext {
         let made = unsafe {
             (self.functions.make_current)(self.context, memory.as_mut_ptr().cast(), glow::UNSIGNED_BYTE, width, height)
         };
-        if made == 0 { Err(format!("it cannot be made current at {} pixels", self.size)) } else { Ok(()) }
+        match made {
+            0 => {
+                Err(NotCurrent { is_lost: false, reason: format!("it cannot be made current at {} pixels", self.size) })
+            }
+            _ => Ok(()),
+        }
     }
 
     pub fn release(&self) {
