@@ -136,6 +136,7 @@ impl Error {
             Self::PictureTooLarge { .. } => "picture-too-large",
             Self::Shader { .. } => "shader",
             Self::Gl { .. } => "gl",
+            Self::ContextLost { .. } => "context-lost",
         }
     }
 

@@ -5,6 +5,7 @@
 
 mod cases;
 mod drawing;
+mod failing;
 mod figures;
 mod jitter;
 mod run;

@@ -36,6 +36,7 @@ mod report_page;
 mod shapes;
 mod shared_models;
 mod silhouettes;
+mod stress;
 mod support;
 mod svg;
 mod textures;

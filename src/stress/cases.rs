@@ -1,6 +1,7 @@
 //! What is attacked: each case is data.
 
 mod depth;
+mod faults;
 mod mixes;
 mod pictures;
 mod scale;
@@ -10,6 +11,7 @@ mod turns;
 
 use super::{Shape, Variant};
 use crate::camera::CameraSettings;
+use crate::gl::Fault;
 use crate::scene::Size;
 use glam::DVec3;
 use serde::Serialize;
@@ -32,6 +34,8 @@ pub enum Group {
     Mixes,
     /// A turn by small steps.
     Turns,
+    /// A driver that fails.
+    Faults,
 }
 
 /// What must come of a case.
@@ -132,6 +136,8 @@ impl Default for Drawing {
 pub enum Work {
     /// A picture.
     Draw(Box<Drawing>),
+    /// A cube in this style by a driver that fails, and once more by one that does not.
+    Fail(Fault, Variant),
 }
 
 /// A case.
@@ -181,6 +187,7 @@ impl Case {
     pub fn variants(&self) -> &[Variant] {
         match &self.work {
             Work::Draw(drawing) => &drawing.variants,
+            Work::Fail(_, variant) => std::slice::from_ref(variant),
         }
     }
 }
@@ -194,6 +201,7 @@ pub fn cases(seed: u64, mixes: usize) -> Vec<Case> {
     all.extend(pictures::cases());
     all.extend(mixes::cases(seed, mixes));
     all.extend(turns::cases());
+    all.extend(faults::cases());
     all
 }
 
@@ -208,15 +216,15 @@ mod tests {
         let mut names: Vec<&str> = all.iter().map(|case| case.name.as_str()).collect();
         names.sort_unstable();
         names.windows(2).for_each(|pair| assert_ne!(pair[0], pair[1]));
-        use Group::{Depth, Mixes, Pictures, Scale, Thresholds, Topology, Turns};
-        for group in [Scale, Depth, Topology, Thresholds, Pictures, Mixes, Turns] {
+        use Group::{Depth, Faults, Mixes, Pictures, Scale, Thresholds, Topology, Turns};
+        for group in [Scale, Depth, Topology, Thresholds, Pictures, Mixes, Turns, Faults] {
             assert!(all.iter().any(|case| case.group == group && !case.variants().is_empty()), "{group:?}");
         }
     }
 
     #[test]
     fn the_mixes_follow_from_the_seed() {
-        let text = |seed| format!("{:?}", cases(seed, 5).split_off(cases(seed, 0).len() - 3));
+        let text = |seed| format!("{:?}", mixes::cases(seed, 5));
         assert_eq!(text(3), text(3));
         assert_ne!(text(3), text(4));
     }

@@ -1,7 +1,7 @@
 //! Cases carried out, several at once, and judged.
 
 use super::cases::{Case, Expected, Group, Work, cases};
-use super::drawing;
+use super::{drawing, failing};
 use super::figures::Figures;
 use crate::error::{Error, Result};
 use crate::gl::Backend;
@@ -255,6 +255,12 @@ impl Worker<'_> {
                     drawing::outcomes(drawing, &mut self.renderers, self.folder, |variant, backend, outcome| {
                         rows.push(row(case, &variant.name, backend, outcome));
                     });
+                }
+                Work::Fail(fault, variant) => {
+                    for (backend, (name, renderer)) in self.backends.iter().zip(&mut self.renderers) {
+                        let outcome = failing::outcome(*backend, *fault, variant, renderer);
+                        rows.push(row(case, &variant.name, name, outcome));
+                    }
                 }
             }
         }));

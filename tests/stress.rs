@@ -1,0 +1,120 @@
+//! Stiff and extreme cases end as they must, on both backends; and would not, if something were wrong.
+
+use crate::support::root;
+use std::collections::BTreeMap;
+use std::process::Command;
+use std::sync::OnceLock;
+use tinta::Backend;
+use tinta::stress::{Group, Row, StressSettings, Summary, run};
+
+/// All cases, carried out once for all tests.
+fn summary() -> &'static Summary {
+    static SUMMARY: OnceLock<Summary> = OnceLock::new();
+    SUMMARY.get_or_init(|| run(&StressSettings::default(), |_, _| {}).unwrap_or_else(|error| panic!("{error}")))
+}
+
+#[test]
+fn every_case_ends_as_it_must_on_both_backends() {
+    let summary = summary();
+    let failures: Vec<String> = summary
+        .failures()
+        .map(|row| format!("{}, {}, {}: {} {:?}", row.name, row.style, row.backend, row.verdict, row.remark))
+        .collect();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    assert!(summary.case_count >= 60, "{} cases", summary.case_count);
+    // Nothing was left out silently: each case has as many rows by one backend as by the other.
+    let mut rows: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
+    for row in &summary.cases {
+        let backend = ["egl", "osmesa"].iter().position(|backend| *backend == row.backend);
+        rows.entry(&row.name).or_default()[backend.unwrap_or_else(|| panic!("{row:?}"))] += 1;
+    }
+    assert_eq!(rows.len(), summary.case_count);
+    rows.iter().for_each(|(name, [egl, osmesa])| assert!(egl == osmesa && *egl > 0, "{name}"));
+}
+
+#[test]
+fn pictures_of_stiff_cases_are_compared_between_backends_and_against_the_whole_plan() {
+    let compared = |figure: &str| summary().cases.iter().filter(|row| row.figures.contains_key(figure)).count();
+    let rendered = summary().cases.iter().filter(|row| row.verdict == "rendered").count();
+    assert_eq!(compared("pruned_differing_px"), rendered);
+    // All by the second backend but the largest pictures, which are not of one size.
+    let second = summary().cases.iter().filter(|row| row.verdict == "rendered" && row.backend == "osmesa").count();
+    let largest = summary().cases.iter().filter(|row| row.backend == "osmesa" && row.name.starts_with("the widest")).count();
+    assert_eq!(compared("backends_differing_px"), second - 2 * largest);
+}
+
+#[test]
+fn no_edge_flips_under_jitter_unless_its_predicate_changes_its_sign() {
+    let (mut flipped, mut edges_rows) = (0.0, 0);
+    for row in summary().cases.iter().filter(|row| row.figures.contains_key("edges_flipped")) {
+        assert_eq!(row.figures["edges_flipped_unexplained"], 0.0, "{}", row.name);
+        flipped += row.figures["edges_flipped"];
+        edges_rows += 1;
+    }
+    assert!(edges_rows > 300 && flipped > 100.0, "{edges_rows} rows, {flipped} flips: too few to have shown anything");
+}
+
+/// The mean of one figure less another over the rows of a style.
+fn excess(group: Option<Group>, style: &str, figure: &'static str, less: &'static str) -> f64 {
+    let of_style = |row: &&Row| row.style == style && group.is_none_or(|group| group == row.group);
+    let rows = summary().cases.iter().filter(of_style).filter_map(|row| Some((row.figures.get(figure)?, row.figures.get(less)?)));
+    let differences: Vec<f64> = rows.map(|(figure, less)| figure - less).collect();
+    assert!(differences.len() >= 4, "{style} has {} rows with {figure}", differences.len());
+    differences.iter().sum::<f64>() / differences.len() as f64
+}
+
+#[test]
+fn the_mended_forms_flicker_less_than_the_published_ones() {
+    let turning = |style, figure, less| excess(Some(Group::Turns), style, figure, less);
+    let ink = |style| turning(style, "turn_ink", "turn_lines");
+    let published = ink("three-pass");
+    let mended = [ink("ink"), ink("three-pass --map-encoding float --slope-threshold on --detection-factor 1")];
+    mended.iter().for_each(|mended| assert!(*mended < published / 2.0, "{mended} of published {published}"));
+    let shades = |style| turning(style, "turn_shades", "turn_exact_shades");
+    let [published, mended] = [shades("charcoal"), shades("charcoal --improve all")];
+    assert!(mended < published / 2.0, "{mended} of published {published}");
+}
+
+#[test]
+fn exact_lines_do_not_change_with_scale() {
+    let scaled = summary().cases.iter().filter(|row| row.group == Group::Scale && row.name.starts_with("a gear"));
+    let mut count = 0;
+    for row in scaled.filter(|row| row.name.ends_with("times as large")) {
+        assert_eq!(row.figures["unit_lines_differing"], 0.0, "{}", row.name);
+        count += 1;
+    }
+    assert!(count > 0);
+}
+
+#[test]
+fn the_command_writes_its_rows_and_says_how_it_went() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_tinta")).arg("stress").args(arguments).current_dir(&folder).output();
+        let output = output.unwrap();
+        (output.status.code(), String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, out, _) = run(&["-o", "out", "--only", "T-junctions"]);
+    assert_eq!(code, Some(0), "{out}");
+    assert!(out.starts_with("1 cases, 22 pictures and refusals: 22 as they must be, 0 not"), "{out}");
+    let json: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(folder.path().join("out/stress.json")).unwrap()).unwrap();
+    let rows = json["cases"].as_array().unwrap();
+    assert_eq!(rows.len(), 22);
+    for key in ["name", "group", "style", "backend", "verdict", "expected", "figures"] {
+        rows.iter().for_each(|row| assert!(!row[key].is_null(), "{key}"));
+    }
+    let table = std::fs::read_to_string(folder.path().join("out/stress.md")).unwrap();
+    assert_eq!(table.lines().filter(|line| line.contains("T-junctions")).count(), 22);
+    let (code, _, message) = run(&["-o", "out", "--only", "no such case"]);
+    assert_eq!(code, Some(2));
+    assert!(message.contains("--only no such case: no case and no group has such a name"), "{message}");
+}
+
+#[test]
+fn a_backend_that_is_not_there_is_an_error_and_no_failed_case() {
+    let settings = StressSettings { only: Some("one triangle".to_owned()), backends: vec![Backend::Egl], ..StressSettings::default() };
+    let alone = run(&settings, |_, _| {}).unwrap();
+    assert!(alone.cases.iter().all(|row| row.passed && row.backend == "egl"));
+    assert!(root().join("docs/stability.md").is_file());
+}
