@@ -2,7 +2,7 @@
 
 use super::models::load_meshes;
 use super::progress::Progress;
-use super::shell::quoted;
+use tinta::shell::quoted;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

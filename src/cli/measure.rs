@@ -3,8 +3,10 @@
 mod settings;
 
 use super::options::{CameraArguments, ModelArguments};
+use super::preset::{Given, PresetArguments};
 use super::progress::Progress;
-use settings::settings;
+pub use settings::StyleOptions;
+use settings::{of_words, settings};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -69,6 +71,9 @@ pub struct Arguments {
     backend: Backend,
 
     #[command(flatten)]
+    preset: PresetArguments,
+
+    #[command(flatten)]
     camera: CameraArguments,
 
     #[command(flatten)]
@@ -96,7 +101,7 @@ const SETTINGS_IN_TURN: usize = 8;
 /// How long a setting takes besides its frames, seconds: its pictures drawn and compared.
 const SECONDS_A_SETTING: f64 = 0.35;
 
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
     if !arguments.merge.is_empty() {
         return merge(arguments);
     }
@@ -109,8 +114,12 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             .filter(|name| !name.trim().is_empty())
             .unwrap_or_else(|| MeasureSettings::default().machine),
     };
-    let of_scene = scene_options(words());
+    let of_scene = scene_options(given.words.iter().cloned());
     let mut settings = settings(&arguments.styles, arguments.quick)?;
+    // A preset's style is measured beside the others, unless it is one of them.
+    if let Some(setting) = of_words(&given.setting)?.filter(|own| settings.iter().all(|other| other.style != own.style)) {
+        settings.push(setting);
+    }
     settings.iter_mut().for_each(|setting| setting.options.push_str(&of_scene));
     let models: Vec<&str> = match arguments.suite {
         Some(suite) => suite.iter().copied().chain(arguments.models.iter().map(String::as_str)).collect(),
@@ -226,10 +235,10 @@ fn scene_options(words: impl Iterator<Item = String>) -> String {
     while let Some(word) = words.next() {
         let name = word.split('=').next().unwrap_or_default();
         if name == "--parallel" || (WITH_VALUE.contains(&name) && name != word) {
-            options = options + " " + &super::shell::quoted(&word);
+            options = options + " " + &tinta::shell::quoted(&word);
         } else if WITH_VALUE.contains(&name) {
             let value = words.next().unwrap_or_default();
-            options = options + " " + &super::shell::quoted(&format!("{word}={value}"));
+            options = options + " " + &tinta::shell::quoted(&format!("{word}={value}"));
         }
     }
     options
@@ -342,7 +351,7 @@ fn report(arguments: &Arguments, rows: &[Row], pictures: Vec<ReportPicture>) -> 
 }
 
 fn command() -> String {
-    super::shell::command_line(words())
+    tinta::shell::command_line(words())
 }
 
 /// The command line's words after the program's name.
