@@ -221,9 +221,9 @@ impl Target {
         };
         let mut bytes = Vec::new();
         let encoded = match note.filter(|_| format == PictureFormat::Png) {
-            Some(Note { keyword, text }) => png_text::encode(picture, keyword, text)
-                .map(|whole| bytes = whole)
-                .map_err(|error| error.to_string()),
+            Some(Note { keyword, text }) => {
+                png_text::encode(picture, keyword, text).map(|whole| bytes = whole).map_err(|error| error.to_string())
+            }
             None => picture.encode(format, false, &mut bytes).map_err(|error| error.to_string()),
         };
         encoded.map_err(|error| Error::Output {

@@ -180,9 +180,11 @@ fn scalar(value: &DeValue<'_>) -> std::result::Result<String, String> {
             .map(|number| number.to_string())
             .map_err(|_| "this number is too long; write a shorter one".to_owned()),
         DeValue::Float(number) => Ok(number.as_str().trim_start_matches('+').to_owned()),
-        _ => Err("write a text, a number, true or false, or several numbers or texts in brackets; a preset is one table \
+        _ => Err(
+            "write a text, a number, true or false, or several numbers or texts in brackets; a preset is one table \
                   without others in it"
-            .to_owned()),
+                .to_owned(),
+        ),
     }
 }
 

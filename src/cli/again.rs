@@ -47,15 +47,18 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
 
 /// What is compared afterwards must be of one kind, and the old picture still there.
 fn check_output(arguments: &Arguments) -> Result<()> {
-    let refuse = |problem: String| {
-        Err(Error::Output { path: arguments.output.display().to_string(), problem })
-    };
+    let refuse = |problem: String| Err(Error::Output { path: arguments.output.display().to_string(), problem });
     let kind = |path: &Path| path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
     let wanted = if is_png(&arguments.picture)? { "png" } else { "svg" };
     if kind(&arguments.output).as_deref() != Some(wanted) {
-        return refuse(format!("the picture is {}, and what is compared with it must be too; name a .{wanted} file", wanted.to_uppercase()));
+        return refuse(format!(
+            "the picture is {}, and what is compared with it must be too; name a .{wanted} file",
+            wanted.to_uppercase()
+        ));
     }
-    let same = |other: &Path| arguments.output.canonicalize().is_ok_and(|output| other.canonicalize().is_ok_and(|other| other == output));
+    let same = |other: &Path| {
+        arguments.output.canonicalize().is_ok_and(|output| other.canonicalize().is_ok_and(|other| other == output))
+    };
     match same(&arguments.picture) {
         true => refuse("this is the picture itself, which is compared; name another file".to_owned()),
         false => Ok(()),
@@ -106,12 +109,17 @@ fn models(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<String>> {
 fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()> {
     let refuse = |problem: String| Error::Picture { path: arguments.picture.display().to_string(), problem };
     if recipe.command != "render" {
-        return Err(refuse(format!("its recipe is for tinta {}, which is not drawn again; use tinta render", recipe.command)));
+        return Err(refuse(format!(
+            "its recipe is for tinta {}, which is not drawn again; use tinta render",
+            recipe.command
+        )));
     }
     let mut words: Vec<OsString> = ["tinta", "render"].map(OsString::from).to_vec();
     for (name, value) in &recipe.options {
         if !super::preset::is_kept(name) || name.contains(['=', ' ']) {
-            return Err(refuse(format!("its recipe has the option {name}, which is no part of a picture; it is not drawn")));
+            return Err(refuse(format!(
+                "its recipe has the option {name}, which is no part of a picture; it is not drawn"
+            )));
         }
         match value {
             OptionValue::Text(value) => words.push(format!("--{name}={value}").into()),
@@ -124,7 +132,9 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     words.push("--".into());
     words.extend(models.iter().map(OsString::from));
     let (parsed, given) = parse(words).map_err(|error| match error {
-        Error::CommandLine { problem } => refuse(format!("its recipe has an option that is not understood ({problem}); this may be an older tinta")),
+        Error::CommandLine { problem } => {
+            refuse(format!("its recipe has an option that is not understood ({problem}); this may be an older tinta"))
+        }
         error => error,
     })?;
     let Command::Render(render) = parsed.command else {
@@ -151,7 +161,10 @@ fn compare_pictures(arguments: &Arguments) -> Result<Verdict> {
         }
         Some(difference) => {
             let all = after.size.pixel_count();
-            say(&format!("tinta: {name} differs in {} of {all} pixels, by at most {} of 255", difference.pixels, difference.largest));
+            say(&format!(
+                "tinta: {name} differs in {} of {all} pixels, by at most {} of 255",
+                difference.pixels, difference.largest
+            ));
             Ok(Verdict::Different)
         }
         None => {
@@ -165,7 +178,9 @@ fn compare_pictures(arguments: &Arguments) -> Result<Verdict> {
 fn compare_drawings(arguments: &Arguments, before: &[u8], after: &[u8], then: &Recipe, now: &Recipe) -> Verdict {
     let drawn = |bytes: &[u8]| -> Vec<String> {
         let text = String::from_utf8_lossy(bytes);
-        let is_about = |line: &str| ["<tinta:recipe", "<dc:description", "<dc:title", "<title"].iter().any(|start| line.starts_with(start));
+        let is_about = |line: &str| {
+            ["<tinta:recipe", "<dc:description", "<dc:title", "<title"].iter().any(|start| line.starts_with(start))
+        };
         text.lines().filter(|line| !is_about(line)).map(str::to_owned).collect()
     };
     let (before, after) = (drawn(before), drawn(after));

@@ -117,7 +117,8 @@ pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
     let of_scene = scene_options(given.words.iter().cloned());
     let mut settings = settings(&arguments.styles, arguments.quick)?;
     // A preset's style is measured beside the others, unless it is one of them.
-    if let Some(setting) = of_words(&given.setting)?.filter(|own| settings.iter().all(|other| other.style != own.style)) {
+    if let Some(setting) = of_words(&given.setting)?.filter(|own| settings.iter().all(|other| other.style != own.style))
+    {
         settings.push(setting);
     }
     settings.iter_mut().for_each(|setting| setting.options.push_str(&of_scene));
@@ -319,9 +320,23 @@ fn is_shown(row: &Row) -> bool {
 /// Where the picture of a row's errors lies.
 fn error_path(arguments: &Arguments, row: &Row) -> PathBuf {
     let model: String = row.model.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ','], "-");
+    let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ',', '/', '\\'], "-");
+    let options = shortened(options);
     let name = format!("{}-{}x{}-{options}.png", model.trim_matches('-'), row.size[0], row.size[1]);
     arguments.output.join("errors").join(name)
+}
+
+/// A name that every file system takes: of a long one the beginning, and a number that stands for the rest.
+fn shortened(name: String) -> String {
+    const MOST_LETTERS: usize = 120;
+    if name.chars().count() <= MOST_LETTERS {
+        return name;
+    }
+    // FNV-1a: the same number wherever a run is resumed.
+    let number = name
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325, |number: u64, byte| (number ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
+    format!("{}-{number:016x}", name.chars().take(MOST_LETTERS).collect::<String>())
 }
 
 /// Writes a picture of the error and hands it over for the page.

@@ -22,8 +22,23 @@ pub struct PresetArguments {
 
 /// Options that say what is done with a picture, not which picture it is: they are in no preset and no recipe.
 const OF_ONE_RUN: [&str; 17] = [
-    "dump", "explain", "frames", "help", "json", "machine", "merge", "no-recipe", "output", "preset", "quick", "resume",
-    "save-preset", "styles", "suite", "tolerance", "verify",
+    "dump",
+    "explain",
+    "frames",
+    "help",
+    "json",
+    "machine",
+    "merge",
+    "no-recipe",
+    "output",
+    "preset",
+    "quick",
+    "resume",
+    "save-preset",
+    "styles",
+    "suite",
+    "tolerance",
+    "verify",
 ];
 
 /// What a command line gives, its preset's options among it.
@@ -101,7 +116,8 @@ impl<'a> Merge<'a> {
     /// Reads the preset that is named, if one is.
     fn of(whole: &'a Command, matches: &'a ArgMatches) -> Result<Option<Self>> {
         let Some((name, given)) = matches.subcommand() else { return Ok(None) };
-        let (Some(command), Ok(Some(file))) = (whole.find_subcommand(name), given.try_get_one::<String>("preset")) else {
+        let (Some(command), Ok(Some(file))) = (whole.find_subcommand(name), given.try_get_one::<String>("preset"))
+        else {
             return Ok(None);
         };
         Ok(Some(Self { preset: Preset::read(file)?, name, command, given }))
@@ -138,7 +154,8 @@ impl<'a> Merge<'a> {
         let left: Vec<&Words<'_>> = own.iter().filter(|option| !self.is_beaten(option.arg)).collect();
         let beaten = |key: &String| own.iter().any(|option| option.key == *key && self.is_beaten(option.arg));
         used.retain(|(_, key)| !beaten(key));
-        let words = head.chain(left.iter().flat_map(|option| &option.words)).chain(words.iter().skip(2)).cloned().collect();
+        let words =
+            head.chain(left.iter().flat_map(|option| &option.words)).chain(words.iter().skip(2)).cloned().collect();
         let setting = setting.iter().map(|word| word.to_string_lossy().into_owned()).collect();
         Ok((Given { setting, preset: Some(self.preset), used, ..Given::default() }, words))
     }

@@ -132,7 +132,13 @@ impl Changed {
         }
     }
 
-    pub(super) fn choice<T: Copy + PartialEq>(&mut self, name: &str, table: &[(&'static str, T)], value: T, default: T) {
+    pub(super) fn choice<T: Copy + PartialEq>(
+        &mut self,
+        name: &str,
+        table: &[(&'static str, T)],
+        value: T,
+        default: T,
+    ) {
         if value != default {
             self.set(name, name_of(table, value));
         }

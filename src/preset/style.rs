@@ -62,15 +62,8 @@ impl Changed {
     }
 
     fn cartoon(&mut self, cartoon: &Cartoon) {
-        let Cartoon {
-            tones,
-            border,
-            background_square,
-            cull_back_faces,
-            map_encoding,
-            map_target,
-            supersample,
-        } = cartoon;
+        let Cartoon { tones, border, background_square, cull_back_faces, map_encoding, map_target, supersample } =
+            cartoon;
         let default = Cartoon::default();
         self.tones(tones);
         match border {

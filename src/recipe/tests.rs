@@ -36,7 +36,9 @@ fn picture() -> Picture {
 fn png() -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.png");
-    Target::File { path: path.clone(), format: PictureFormat::Png }.write_with(&picture(), recipe().note().as_ref()).unwrap();
+    Target::File { path: path.clone(), format: PictureFormat::Png }
+        .write_with(&picture(), recipe().note().as_ref())
+        .unwrap();
     assert_eq!(Picture::read_png(&path).unwrap(), picture());
     assert_eq!(Recipe::read(&path).unwrap(), recipe());
     std::fs::read(&path).unwrap()

@@ -3,6 +3,9 @@
 use super::super::options::StyleArguments;
 use clap::Parser;
 use tinta::measure::Setting;
+use tinta::preset::of_style;
+use tinta::recipe::option_words;
+use tinta::shell::quoted;
 use tinta::{Error, Result, Style, StyleName};
 
 /// A setting's options by themselves.
@@ -82,7 +85,8 @@ pub fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setting>> {
 
 fn setting(options: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
     let words = std::iter::once("tinta").chain(options.split_whitespace());
-    let parsed = StyleOptions::try_parse_from(words).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
+    let parsed =
+        StyleOptions::try_parse_from(words).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
     let style = parsed.styles.style(parsed.style)?;
     Ok((parsed.style, Setting { style, options, is_faithful }))
 }
@@ -93,13 +97,15 @@ pub fn of_words(words: &[String]) -> Result<Option<Setting>> {
         return Ok(None);
     }
     let given = std::iter::once("tinta".to_owned()).chain(words.iter().cloned());
-    let parsed = StyleOptions::try_parse_from(given).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
+    let parsed =
+        StyleOptions::try_parse_from(given).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
     let style = parsed.styles.style(parsed.style)?;
     let is_faithful = style == Style::named(parsed.style);
-    let mut options = format!("--style {}", parsed.style.name());
-    for word in words.iter().filter(|word| !word.starts_with("--style=")) {
-        options = options + " " + &tinta::shell::quoted(word);
-    }
+    // What is as by default is left out, as in the settings above.
+    let mut changed = of_style(&style)?;
+    changed.remove("style");
+    let words = changed.iter().flat_map(|(name, value)| option_words(name, value));
+    let options = words.fold(format!("--style {}", parsed.style.name()), |text, word| text + " " + &quoted(&word));
     Ok(Some(Setting { style, options, is_faithful }))
 }
 

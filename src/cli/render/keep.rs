@@ -73,12 +73,15 @@ pub fn files(arguments: &Arguments, scene: &Scene, beside: &[PathBuf], style: Op
     if arguments.keep.no_recipe {
         return Vec::new();
     }
-    let mut paths: Vec<PathBuf> = arguments.models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
+    let mut paths: Vec<PathBuf> =
+        arguments.models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
     paths.extend(beside.iter().cloned());
     if let Some(style) = style {
         if recipe::draws_with_textures(style) {
             let objects = scene.objects.iter().take(arguments.models.len());
-            paths.extend(objects.flat_map(|object| &object.mesh.materials).filter_map(|material| material.texture.clone()));
+            paths.extend(
+                objects.flat_map(|object| &object.mesh.materials).filter_map(|material| material.texture.clone()),
+            );
         }
         paths.extend(recipe::files_of(style));
     }

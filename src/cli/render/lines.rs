@@ -8,9 +8,9 @@ use std::str::FromStr;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 use tinta::lines::{ClassWidths, Hidden, LineSettings, PaperSize, Progress as LineProgress, chain, svg_of_paths};
+use tinta::preset::Options;
 use tinta::record::{CameraRecord, LineCounts, LinesRecord, LinesStyle, ModelRecord, lines_json};
 use tinta::renderer::milliseconds_since;
-use tinta::preset::Options;
 use tinta::{Error, Recipe, Result, Scene, Show, StyleName, SvgSettings, TextTarget, VisibleLines};
 
 /// What `--style` takes: a style that GL draws, or lines.

@@ -161,8 +161,7 @@ fn picture_file() -> tempfile::NamedTempFile {
 
 #[test]
 fn every_option_has_a_sample_here() {
-    let known: BTreeSet<&str> =
-        SAMPLES.iter().map(|(name, _)| *name).chain(OTHERS).chain(SWITCHES_OF_LINES).collect();
+    let known: BTreeSet<&str> = SAMPLES.iter().map(|(name, _)| *name).chain(OTHERS).chain(SWITCHES_OF_LINES).collect();
     let command = Line::command();
     let options: BTreeSet<&str> = command
         .get_arguments()
