@@ -197,6 +197,7 @@ fn a_recipe_that_means_harm_writes_nothing() {
         ("tones --output=c.png", text("2".to_owned())),
         ("tones=2 --dump", text(target.clone())),
         ("json", OptionValue::Switch(true)),
+        ("allow-external", OptionValue::Switch(true)),
         ("oil", text("2".to_owned())),
         ("", text("2".to_owned())),
         ("tones", text(format!("2 --dump={target}"))),

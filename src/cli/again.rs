@@ -24,6 +24,9 @@ pub struct Arguments {
     model: Vec<String>,
 }
 
+/// What a picture may not allow itself, whatever it says of how it was made: that is for whoever has it.
+const NOT_GRANTED: [&str; 1] = ["allow-external"];
+
 /// Draws the picture again; exit code 1 if it comes out otherwise.
 pub fn run(arguments: &Arguments) -> Result<Verdict> {
     let recipe = Recipe::read(&arguments.picture)?;
@@ -116,7 +119,7 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     }
     let mut words: Vec<OsString> = ["tinta", "render"].map(OsString::from).to_vec();
     for (name, value) in &recipe.options {
-        if !super::preset::is_kept(name) || name.contains(['=', ' ']) {
+        if !super::preset::is_kept(name) || NOT_GRANTED.contains(&name.as_str()) || name.contains(['=', ' ']) {
             return Err(refuse(format!(
                 "its recipe has the option {name}, which is no part of a picture; it is not drawn"
             )));

@@ -1,10 +1,12 @@
 //! `tinta measure`: every style's error against its run time, on the user's own models and machine.
 
+mod errors;
 mod settings;
 
 use super::options::{CameraArguments, ModelArguments};
 use super::preset::{Given, PresetArguments};
 use super::progress::Progress;
+use errors::{error_page, is_shown, known_picture};
 pub use settings::StyleOptions;
 use settings::{of_words, settings};
 use std::path::{Path, PathBuf};
@@ -12,12 +14,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tinta::measure::{MeasureSettings, Measured, Row, Setting, Subject, measure, steps};
 use tinta::mesh::load;
-use tinta::picture::PictureFormat;
 use tinta::renderer::milliseconds_since;
 use tinta::report::{ReportInfo, ReportPicture, RowLog, read_rows};
-use tinta::{
-    Backend, Error, Mesh, Picture, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName, Target,
-};
+use tinta::{Backend, Error, Mesh, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
 
 /// Measure every style's error against its run time; a table, plots and a page come out
 #[derive(clap::Args)]
@@ -308,54 +307,6 @@ fn make_folder(folder: &Path) -> Result<()> {
             false => format!("the folder cannot be made ({error}); choose another"),
         },
     })
-}
-
-/// Whether the page shows where a row's errors lie: of each style's published settings, and of the best.
-fn is_shown(row: &Row) -> bool {
-    let is_exact = row.options.starts_with("--style inking --silhouette exact")
-        && !["smooth", "line-", "polygon", "classes", "ink-depth"].iter().any(|other| row.options.contains(other));
-    row.lines.is_some() && (row.is_faithful || row.style == "ink" || is_exact)
-}
-
-/// Where the picture of a row's errors lies.
-fn error_path(arguments: &Arguments, row: &Row) -> PathBuf {
-    let model: String = row.model.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ',', '/', '\\'], "-");
-    let options = shortened(options);
-    let name = format!("{}-{}x{}-{options}.png", model.trim_matches('-'), row.size[0], row.size[1]);
-    arguments.output.join("errors").join(name)
-}
-
-/// A name that every file system takes: of a long one the beginning, and a number that stands for the rest.
-fn shortened(name: String) -> String {
-    const MOST_LETTERS: usize = 120;
-    if name.chars().count() <= MOST_LETTERS {
-        return name;
-    }
-    // FNV-1a: the same number wherever a run is resumed.
-    let number = name
-        .bytes()
-        .fold(0xcbf2_9ce4_8422_2325, |number: u64, byte| (number ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
-    format!("{}-{number:016x}", name.chars().take(MOST_LETTERS).collect::<String>())
-}
-
-/// Writes a picture of the error and hands it over for the page.
-fn error_page(arguments: &Arguments, row: &Row, picture: &Picture) -> Result<ReportPicture> {
-    make_folder(&arguments.output.join("errors"))?;
-    let path = error_path(arguments, row);
-    Target::File { path: path.clone(), format: PictureFormat::Png }.write(picture)?;
-    known_picture(arguments, row).ok_or_else(|| Error::Output {
-        path: path.display().to_string(),
-        problem: "it cannot be read again; choose another folder".to_owned(),
-    })
-}
-
-/// The picture of a row's errors for the page, if it is there.
-fn known_picture(arguments: &Arguments, row: &Row) -> Option<ReportPicture> {
-    let png = std::fs::read(error_path(arguments, row)).ok()?;
-    let f1 = row.lines.as_ref().map(|lines| format!(", F1 {:.3}", lines.f1)).unwrap_or_default();
-    let caption = format!("{}, {}x{}: {}{f1}", row.model, row.size[0], row.size[1], row.options);
-    Some(ReportPicture { caption, model: Some(row.model.clone()), png })
 }
 
 fn report(arguments: &Arguments, rows: &[Row], pictures: Vec<ReportPicture>) -> Result<()> {
