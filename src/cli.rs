@@ -1,5 +1,6 @@
 //! The commands, one file each. clap is known here and below, and nowhere else.
 
+mod again;
 mod compare;
 mod edges;
 mod figures;
@@ -7,13 +8,14 @@ mod info;
 mod measure;
 mod models;
 mod options;
+mod preset;
 mod progress;
 mod render;
-mod shell;
 mod stress;
 mod textures;
 
 use clap::{Parser, Subcommand};
+use preset::Given;
 use std::io::Write;
 use std::path::Path;
 use tinta::{Error, Result};
@@ -26,6 +28,9 @@ Examples:
   tinta render builtin:bust -o bust.png          a drawing without any file of your own
   tinta render cow.obj -o cow.png --style two-pass --tones 2
   tinta render cow.obj -o cow.gif --turntable 60 a turn around it
+  tinta render cow.obj -o cow.png --preset mine.toml
+                                                 with options kept in a file
+  tinta again cow.png -o again.png               a picture made anew by the recipe it carries
   tinta compare builtin:gear -o both.png         two styles' lines, what both drew and what only one
   tinta edges cow.obj                            its edges, counted by class
   tinta measure cow.obj -o cow --quick           every style's error against its run time
@@ -43,6 +48,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Render(Box<render::Arguments>),
+    Again(again::Arguments),
     Compare(Box<compare::Arguments>),
     Edges(Box<edges::Arguments>),
     Measure(Box<measure::Arguments>),
@@ -63,18 +69,17 @@ pub enum Verdict {
 
 /// Parses the command line and does what it says.
 pub fn run() -> Result<Verdict> {
-    let arguments = Arguments::try_parse().map_err(|error| {
-        use clap::error::ErrorKind::{DisplayHelp, DisplayHelpOnMissingArgumentOrSubcommand, DisplayVersion};
-        if matches!(error.kind(), DisplayHelp | DisplayVersion | DisplayHelpOnMissingArgumentOrSubcommand) {
-            error.exit();
-        }
-        Error::CommandLine { problem: in_one_sentence(&error) }
-    })?;
-    match arguments.command {
-        Command::Render(arguments) => return render::run(&arguments),
+    let (arguments, given) = preset::parse(std::env::args_os().collect())?;
+    carry_out(arguments.command, &given).map_err(|error| given.attributed(error))
+}
+
+fn carry_out(command: Command, given: &Given) -> Result<Verdict> {
+    match command {
+        Command::Render(arguments) => return render::run(&arguments, &given.options),
+        Command::Again(arguments) => return again::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Edges(arguments) => edges::run(&arguments),
-        Command::Measure(arguments) => measure::run(&arguments),
+        Command::Measure(arguments) => measure::run(&arguments, given),
         Command::Textures(arguments) => textures::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Stress(arguments) => return stress::run(&arguments),

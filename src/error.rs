@@ -44,6 +44,16 @@ pub enum Error {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// A preset cannot be read, or sets what cannot be set so.
+    #[error("{path}{}: {problem}", line.map(|line| format!(": line {line}")).unwrap_or_default())]
+    Preset {
+        /// The file as the user named it, or `paper:…`.
+        path: String,
+        /// The line at fault, 1-based; `None` for the preset as a whole.
+        line: Option<u64>,
+        /// The option by its long name, what is wrong and what to do.
+        problem: String,
+    },
     /// The command line is not understood.
     #[error("{problem}; see --help")]
     CommandLine {
@@ -130,6 +140,7 @@ impl Error {
             Self::Strict { .. } => "strict",
             Self::Setting { .. } => "setting",
             Self::CommandLine { .. } => "command-line",
+            Self::Preset { .. } => "preset",
             Self::Output { .. } => "output",
             Self::Rows { .. } => "rows",
             Self::NoContext { .. } => "no-context",

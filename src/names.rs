@@ -7,3 +7,8 @@ pub(crate) fn find<T: Copy>(table: &[(&str, T)], text: &str) -> Result<T, String
         format!("choose one of {}", names.join(", "))
     })
 }
+
+/// The name of a value in such a table; every value of a setting is in its table.
+pub(crate) fn name_of<T: Copy + PartialEq>(table: &[(&'static str, T)], value: T) -> &'static str {
+    table.iter().find(|(_, known)| *known == value).map_or("", |(name, _)| name)
+}

@@ -1,6 +1,7 @@
 //! A picture: RGBA8 and its size; written to files and read from them. The image crate is known here and in `src/picture/read.rs` only.
 
 mod pcx;
+pub(crate) mod png_text;
 mod read;
 
 use crate::error::{Error, Result};
@@ -205,16 +206,36 @@ impl Target {
     ///
     /// [`Error::Output`] when the disk is full, the folder gone, the pipe closed.
     pub fn write(&self, picture: &Picture) -> Result<()> {
-        match self {
-            Self::Stdout => {
-                let mut bytes = Vec::new();
-                picture.encode(PictureFormat::Png, false, &mut bytes).map_err(|error| Error::Output {
-                    path: "-".to_owned(),
-                    problem: format!("the picture cannot be encoded ({error}); name a file"),
-                })?;
-                write_standard_output(&bytes)
+        self.write_with(picture, None)
+    }
+
+    /// Writes the picture with a note in it, where the format is PNG; the others hold none.
+    ///
+    /// # Errors
+    ///
+    /// As [`Target::write`].
+    pub fn write_with(&self, picture: &Picture, note: Option<&Note>) -> Result<()> {
+        let (name, format) = match self {
+            Self::Stdout => ("-".to_owned(), PictureFormat::Png),
+            Self::File { path, format } => (path.display().to_string(), *format),
+        };
+        let mut bytes = Vec::new();
+        let encoded = match note.filter(|_| format == PictureFormat::Png) {
+            Some(Note { keyword, text }) => {
+                png_text::encode(picture, keyword, text).map(|whole| bytes = whole).map_err(|error| error.to_string())
             }
-            Self::File { path, format } => write_file(path, |out| picture.encode(*format, false, out)),
+            None => picture.encode(format, false, &mut bytes).map_err(|error| error.to_string()),
+        };
+        encoded.map_err(|error| Error::Output {
+            path: name,
+            problem: match self {
+                Self::Stdout => format!("the picture cannot be encoded ({error}); name a file"),
+                Self::File { .. } => format!("the picture cannot be encoded ({error}); try .png"),
+            },
+        })?;
+        match self {
+            Self::Stdout => write_standard_output(&bytes),
+            Self::File { path, .. } => write_whole(path, &bytes),
         }
     }
 
@@ -237,17 +258,22 @@ impl Target {
     }
 }
 
+/// A text that a PNG carries beside its pixels.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// What it is found by, 1 to 79 letters.
+    pub keyword: &'static str,
+    /// ASCII.
+    pub text: String,
+}
+
 /// Writes a picture as RGBA PNG whatever its alpha: what GL held, byte for byte.
 ///
 /// # Errors
 ///
 /// [`Error::Output`] when the file cannot be written.
 pub fn write_rgba_png(picture: &Picture, path: &Path) -> Result<()> {
-    write_file(path, |out| picture.encode(PictureFormat::Png, true, out))
-}
-
-fn write_file(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResult<()>) -> Result<()> {
-    write_whole(path, &encoded(path, encode)?)
+    write_whole(path, &encoded(path, |out| picture.encode(PictureFormat::Png, true, out))?)
 }
 
 /// A picture's file, in memory.
@@ -282,6 +308,28 @@ mod tests {
             let path = folder.path().join(name);
             Target::check(path.to_str().unwrap(), false).unwrap().write(&picture).unwrap();
             assert_eq!(Picture::read_png(&path).unwrap(), picture);
+        }
+    }
+
+    #[test]
+    fn a_note_changes_nothing_but_its_own_chunk() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str, note: Option<&Note>, picture: &Picture| {
+            let path = folder.path().join(name);
+            Target::check(path.to_str().unwrap(), false).unwrap().write_with(picture, note).unwrap();
+            std::fs::read(path).unwrap()
+        };
+        let note = Note { keyword: "word", text: "{}".to_owned() };
+        // Length, type, keyword, a zero, text, checksum.
+        let length = 4 + 4 + 4 + 1 + 2 + 4;
+        for picture in [picture(), picture().opaque()] {
+            let (plain, noted) = (file("a.png", None, &picture), file("b.png", Some(&note), &picture));
+            assert_eq!(noted.len(), plain.len() + length);
+            let start = noted.windows(4).position(|word| word == b"tEXt").unwrap() - 4;
+            assert_eq!([&noted[..start], &noted[start + length..]].concat(), plain);
+            for name in ["a.bmp", "a.jpg", "a.tga", "a.ppm"] {
+                assert_eq!(file(name, Some(&note), &picture), file(name, None, &picture), "{name}");
+            }
         }
     }
 

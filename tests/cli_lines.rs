@@ -18,7 +18,7 @@ fn a_drawing_is_written_as_svg_with_the_command_that_made_it() {
     let document = roxmltree::Document::parse(&text).unwrap();
     assert_eq!(document.root_element().attribute("viewBox"), Some("0 0 96 64"));
     let said = document.descendants().find(|node| node.tag_name().name() == "description").unwrap();
-    assert_eq!(said.text(), Some("tinta render builtin:gear -o drawing.svg --size 96x64 --hidden dashed"));
+    assert_eq!(said.text(), Some("tinta render builtin:gear -o drawing.svg --hidden dashed --size 96x64"));
     let again = folder.path("again.svg");
     made(&["render", "builtin:gear", "-o", &again, "--size", "96x64", "--hidden", "dashed"]);
     assert_eq!(std::fs::read_to_string(&again).unwrap(), text);

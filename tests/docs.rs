@@ -16,10 +16,11 @@ fn documents() -> Vec<(PathBuf, String)> {
 
 /// The words of a document that stand in backquotes and begin like a path of this project.
 fn quoted_paths(text: &str) -> Vec<&str> {
-    const FOLDERS: [&str; 13] = [
+    const FOLDERS: [&str; 14] = [
         "src/",
         "glsl/",
         "models/",
+        "presets/",
         "tests/",
         "docs/",
         "scripts/",
@@ -68,7 +69,8 @@ fn every_option_named_in_the_documents_exists() {
         let output = Command::new(env!("CARGO_BIN_EXE_tinta")).args([command, "--help"]).output().unwrap();
         String::from_utf8(output.stdout).unwrap()
     };
-    let known: String = ["render", "compare", "edges", "textures", "figures", "measure", "info"].map(help).concat();
+    let known: String =
+        ["render", "again", "compare", "edges", "textures", "figures", "measure", "info"].map(help).concat();
     for (document, text) in documents() {
         for line in text.lines().filter(|line| line.contains("tinta ")) {
             for option in line.split([' ', '`']).filter(|word| word.starts_with("--") && word.len() > 2) {

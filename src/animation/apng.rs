@@ -1,4 +1,5 @@
-//! Animated PNG: lossless, with alpha. The png crate is known here only; the image crate has no animations of it.
+//! Animated PNG: lossless, with alpha. The png crate is known here and in
+//! `src/picture/png_text.rs` only; the image crate has no animations of it.
 
 use super::changes::Rectangle;
 use crate::picture::Picture;

@@ -2,6 +2,7 @@
 
 use super::models::load_meshes;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
+use super::preset::PresetArguments;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::compare::{Agreement, AgreementNumbers, BOTH_COLOR, InkMask, LEFT_COLOR, RIGHT_COLOR};
@@ -44,6 +45,9 @@ pub struct Arguments {
     /// Print one JSON record [default: off]
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    preset: PresetArguments,
 
     #[command(flatten)]
     scene: SceneArguments,

@@ -2,7 +2,6 @@
 
 use super::models::load_meshes;
 use super::progress::Progress;
-use super::shell::quoted;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,6 +10,7 @@ use tinta::figures::plot::{PLOT_SIZE, plot, title};
 use tinta::figures::{
     Artist, Content, Drawing, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel, TRIANGLES, figures, measure, only, steps,
 };
+use tinta::shell::quoted;
 use tinta::{Backend, Error, LoadOptions, Mesh, Picture, Renderer, Result, Size, Target, TextTarget};
 
 /// Draw and measure the figures of the three texts again; pictures, plots and a page come out

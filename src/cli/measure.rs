@@ -1,21 +1,22 @@
 //! `tinta measure`: every style's error against its run time, on the user's own models and machine.
 
+mod errors;
 mod settings;
 
 use super::options::{CameraArguments, ModelArguments};
+use super::preset::{Given, PresetArguments};
 use super::progress::Progress;
-use settings::settings;
+use errors::{error_page, is_shown, known_picture};
+pub use settings::StyleOptions;
+use settings::{of_words, settings};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tinta::measure::{MeasureSettings, Measured, Row, Setting, Subject, measure, steps};
 use tinta::mesh::load;
-use tinta::picture::PictureFormat;
 use tinta::renderer::milliseconds_since;
 use tinta::report::{ReportInfo, ReportPicture, RowLog, read_rows};
-use tinta::{
-    Backend, Error, Mesh, Picture, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName, Target,
-};
+use tinta::{Backend, Error, Mesh, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
 
 /// Measure every style's error against its run time; a table, plots and a page come out
 #[derive(clap::Args)]
@@ -69,6 +70,9 @@ pub struct Arguments {
     backend: Backend,
 
     #[command(flatten)]
+    preset: PresetArguments,
+
+    #[command(flatten)]
     camera: CameraArguments,
 
     #[command(flatten)]
@@ -96,7 +100,7 @@ const SETTINGS_IN_TURN: usize = 8;
 /// How long a setting takes besides its frames, seconds: its pictures drawn and compared.
 const SECONDS_A_SETTING: f64 = 0.35;
 
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
     if !arguments.merge.is_empty() {
         return merge(arguments);
     }
@@ -109,8 +113,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             .filter(|name| !name.trim().is_empty())
             .unwrap_or_else(|| MeasureSettings::default().machine),
     };
-    let of_scene = scene_options(words());
+    let of_scene = scene_options(given.words.iter().cloned());
     let mut settings = settings(&arguments.styles, arguments.quick)?;
+    // A preset's style is measured beside the others, unless it is one of them.
+    if let Some(setting) = of_words(&given.setting)?.filter(|own| settings.iter().all(|other| other.style != own.style))
+    {
+        settings.push(setting);
+    }
     settings.iter_mut().for_each(|setting| setting.options.push_str(&of_scene));
     let models: Vec<&str> = match arguments.suite {
         Some(suite) => suite.iter().copied().chain(arguments.models.iter().map(String::as_str)).collect(),
@@ -226,10 +235,10 @@ fn scene_options(words: impl Iterator<Item = String>) -> String {
     while let Some(word) = words.next() {
         let name = word.split('=').next().unwrap_or_default();
         if name == "--parallel" || (WITH_VALUE.contains(&name) && name != word) {
-            options = options + " " + &super::shell::quoted(&word);
+            options = options + " " + &tinta::shell::quoted(&word);
         } else if WITH_VALUE.contains(&name) {
             let value = words.next().unwrap_or_default();
-            options = options + " " + &super::shell::quoted(&format!("{word}={value}"));
+            options = options + " " + &tinta::shell::quoted(&format!("{word}={value}"));
         }
     }
     options
@@ -300,40 +309,6 @@ fn make_folder(folder: &Path) -> Result<()> {
     })
 }
 
-/// Whether the page shows where a row's errors lie: of each style's published settings, and of the best.
-fn is_shown(row: &Row) -> bool {
-    let is_exact = row.options.starts_with("--style inking --silhouette exact")
-        && !["smooth", "line-", "polygon", "classes", "ink-depth"].iter().any(|other| row.options.contains(other));
-    row.lines.is_some() && (row.is_faithful || row.style == "ink" || is_exact)
-}
-
-/// Where the picture of a row's errors lies.
-fn error_path(arguments: &Arguments, row: &Row) -> PathBuf {
-    let model: String = row.model.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ','], "-");
-    let name = format!("{}-{}x{}-{options}.png", model.trim_matches('-'), row.size[0], row.size[1]);
-    arguments.output.join("errors").join(name)
-}
-
-/// Writes a picture of the error and hands it over for the page.
-fn error_page(arguments: &Arguments, row: &Row, picture: &Picture) -> Result<ReportPicture> {
-    make_folder(&arguments.output.join("errors"))?;
-    let path = error_path(arguments, row);
-    Target::File { path: path.clone(), format: PictureFormat::Png }.write(picture)?;
-    known_picture(arguments, row).ok_or_else(|| Error::Output {
-        path: path.display().to_string(),
-        problem: "it cannot be read again; choose another folder".to_owned(),
-    })
-}
-
-/// The picture of a row's errors for the page, if it is there.
-fn known_picture(arguments: &Arguments, row: &Row) -> Option<ReportPicture> {
-    let png = std::fs::read(error_path(arguments, row)).ok()?;
-    let f1 = row.lines.as_ref().map(|lines| format!(", F1 {:.3}", lines.f1)).unwrap_or_default();
-    let caption = format!("{}, {}x{}: {}{f1}", row.model, row.size[0], row.size[1], row.options);
-    Some(ReportPicture { caption, model: Some(row.model.clone()), png })
-}
-
 fn report(arguments: &Arguments, rows: &[Row], pictures: Vec<ReportPicture>) -> Result<()> {
     let info =
         ReportInfo { command: command(), version: env!("CARGO_PKG_VERSION").to_owned(), notes: Vec::new(), pictures };
@@ -342,7 +317,7 @@ fn report(arguments: &Arguments, rows: &[Row], pictures: Vec<ReportPicture>) -> 
 }
 
 fn command() -> String {
-    super::shell::command_line(words())
+    tinta::shell::command_line(words())
 }
 
 /// The command line's words after the program's name.

@@ -1,11 +1,14 @@
 //! `tinta render`: models to a picture.
 
 mod animate;
+mod keep;
 mod lines;
 mod prune;
+#[cfg(test)]
+mod round_trip;
 
 use super::Verdict;
-use super::models::load_meshes;
+use super::models::load_with_files;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -13,6 +16,7 @@ use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
 use tinta::plan::Plan;
 use tinta::plan::prune::Pruned;
+use tinta::preset::Options;
 use tinta::record::{CameraRecord, ModelRecord, Record, Summary};
 use tinta::renderer::{PassTime, milliseconds_since};
 use tinta::{Backend, Error, Renderer, Result, Scene, SceneSettings, Style, StyleName, Target};
@@ -55,10 +59,18 @@ pub struct Arguments {
     prune: prune::PruneArguments,
 
     #[command(flatten)]
+    keep: keep::KeepArguments,
+
+    #[command(flatten)]
     run: RunArguments,
 }
 
 impl Arguments {
+    /// The same picture into another file, by another way to OpenGL.
+    pub fn with_backend(self, backend: Backend) -> Self {
+        Self { run: RunArguments { backend, ..self.run }, ..self }
+    }
+
     /// The style of a picture.
     fn style_name(&self) -> StyleName {
         match self.style {
@@ -98,12 +110,18 @@ const WARM_UP: usize = 2;
 /// Most frames drawn again to time single passes.
 const PASS_FRAMES: usize = 21;
 
-/// Draws what the arguments say.
-pub fn run(arguments: &Arguments) -> Result<Verdict> {
+/// Draws what the arguments say; `options` are those of them that make the picture, by name.
+pub fn run(arguments: &Arguments, options: &Options) -> Result<Verdict> {
     keep_the_models(arguments)?;
+    let preset = arguments.keep.preset_target(&arguments.output)?;
+    let verdict = draw(arguments, options)?;
+    preset.map_or(Ok(()), |target| keep::save_preset(&target, options)).map(|()| verdict)
+}
+
+fn draw(arguments: &Arguments, options: &Options) -> Result<Verdict> {
     if let Some(format) = lines::format(arguments)? {
         arguments.prune.refuse()?;
-        return lines::run(arguments, format).map(|()| Verdict::Good);
+        return lines::run(arguments, options, format).map(|()| Verdict::Good);
     }
     arguments.lines.refuse("only style lines has this; leave it out, or write a .svg")?;
     if let Some(target) = arguments.animation.target(&arguments.output, arguments.scene.transparent)? {
@@ -133,7 +151,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
             Err(panic) => std::panic::resume_unwind(panic),
         }
     });
-    let Loaded { scene, published, load_ms, plan_ms } = loaded?;
+    let Loaded { scene, files, published, load_ms, plan_ms } = loaded?;
     let Opened { mut renderer, context_ms, warm_up_ms } = renderer?;
     let pruning = Instant::now();
     let Pruned { plan, omissions, kept } =
@@ -145,7 +163,9 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
     let first_frame = Instant::now();
     let picture = renderer.draw(&scene, &plan)?;
     let first_frame_ms = milliseconds_since(first_frame);
-    target.write(&picture)?;
+    let files = keep::files(arguments, &scene, &files, Some(&style));
+    let recipe = keep::recipe(arguments, options, scene.size, files, Some(renderer.context()));
+    target.write_with(&picture, recipe.and_then(|recipe| recipe.note()).as_ref())?;
     if let Some(folder) = &arguments.run.dump {
         for (number, step) in renderer.step_pictures(&scene, &published)?.iter().enumerate() {
             let name = format!("{:02}-{}-{}.png", number + 1, step.pass, step.step);
@@ -230,6 +250,8 @@ fn open_renderer(
 /// A scene ready to be drawn, what is to be done for it, and how long both took.
 struct Loaded {
     scene: Scene,
+    /// What was read besides the models' own files.
+    files: Vec<PathBuf>,
     /// As the style has it.
     published: Plan,
     load_ms: f64,
@@ -239,13 +261,13 @@ struct Loaded {
 /// Reads the models, puts the scene together and plans it, which finds its edges where the style draws them.
 fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style) -> Result<Loaded> {
     let start = Instant::now();
-    let meshes = load_meshes(&arguments.models, &arguments.model.options())?;
+    let (meshes, files) = load_with_files(&arguments.models, &arguments.model.options())?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, settings)?;
     scene.make_arrays();
     let start = Instant::now();
     let published = style.plan(&scene, arguments.styles.show)?;
-    Ok(Loaded { scene, published, load_ms, plan_ms: milliseconds_since(start) })
+    Ok(Loaded { scene, files, published, load_ms, plan_ms: milliseconds_since(start) })
 }
 
 /// Refuses to write over a model that is to be read.
@@ -333,7 +355,7 @@ mod tests {
         }
         assert_eq!(arguments.style_name(), StyleName::ThreePass);
         assert_eq!(arguments.styles.line_settings().unwrap(), LineSettings::default());
-        let drawn = SvgSettings { title: String::new(), command: String::new(), ..lines::svg_settings(&arguments) };
+        let drawn = SvgSettings { title: String::new(), ..lines::svg_settings(&arguments, None) };
         assert_eq!(drawn, SvgSettings::default());
         assert_eq!(arguments.model.options(), LoadOptions::default());
         let (asked, default) = (arguments.scene.settings(arguments.camera.settings()), SceneSettings::default());

@@ -134,7 +134,11 @@ impl CreaseAngle {
     /// [`Error::Setting`] for any other.
     pub fn from_degrees(degrees: f64) -> Result<Self> {
         if (0.0..=180.0).contains(&degrees) {
-            return Ok(Self { cosine: degrees.to_radians().cos() });
+            let cosine = degrees.to_radians().cos();
+            // No angle in f64 has exactly the listing's cosine, which must be possible to write down.
+            let listing = Self::default();
+            let is_the_listings = (cosine - listing.cosine).abs() <= 4.0 * f64::EPSILON;
+            return Ok(if is_the_listings { listing } else { Self { cosine } });
         }
         Err(Error::setting(format!("--crease-angle {degrees}"), "the angle is between 0 and 180 degrees"))
     }

@@ -16,6 +16,7 @@ use super::{LineSegment, VisibleLines};
 use crate::edges::Class;
 use crate::error::{Error, Result};
 use crate::markup::escaped;
+use crate::recipe::svg_element;
 use crate::scene::{Background, Size};
 use std::fmt::Write;
 use text::{hexadecimal, number, path_data};
@@ -106,6 +107,7 @@ fn begin(size: Size, settings: &SvgSettings, out: &mut String) {
     };
     let [title, title_again] = ["title", "dc:title"].map(|name| element(name, &settings.title));
     let command = element("dc:description", &settings.command);
+    let recipe = svg_element(&settings.recipe);
     let _ = write!(
         out,
         r#"<?xml version="1.0" encoding="UTF-8"?>
@@ -116,7 +118,7 @@ fn begin(size: Size, settings: &SvgSettings, out: &mut String) {
 <dc:format>image/svg+xml</dc:format>
 {title_again}{command}</cc:Work>
 </rdf:RDF>
-</metadata>
+{recipe}</metadata>
 "#
     );
     if let (Background::Color(color), false) = (settings.background, settings.is_for_pen) {

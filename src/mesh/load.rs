@@ -141,6 +141,8 @@ pub struct Loaded {
     pub mesh: Mesh,
     /// The names of the file's frames in order, as `LoadOptions::model_frame` takes them; empty where it has none.
     pub frames: Vec<String>,
+    /// The files that were read besides the model's own: its material libraries. Pictures are read when a style needs them.
+    pub files: Vec<PathBuf>,
     /// Sentences about the file, each naming it: a format other than the name says, defects, missing materials, skins.
     pub remarks: Vec<String>,
 }
@@ -166,13 +168,14 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
         skin::put_on(&mut soup, skin, path)?;
     }
     let frames = std::mem::take(&mut soup.frames);
+    let files = std::mem::take(&mut soup.files);
     let mesh = soup.into_mesh(path, options)?;
     // Missing materials have had a remark of their own from the reader, which knows their names.
     let others = Defects { missing_materials: 0, ..mesh.defects.clone() };
     if !others.is_empty() {
         remarks.push(format!("{path}: {others}"));
     }
-    Ok(Loaded { mesh, frames, remarks })
+    Ok(Loaded { mesh, frames, files, remarks })
 }
 
 pub(super) fn check(options: &LoadOptions) -> Result<()> {

@@ -33,10 +33,10 @@ pub enum Materials {
 }
 
 impl Materials {
-    /// The text of a material library; a name that is no file is taken for several names with blanks between them.
-    fn find(&self, name: &Path) -> Option<Cow<'static, [u8]>> {
+    /// The text of a material library, and its files; a name that is no file is taken for several names with blanks between them.
+    fn find(&self, name: &Path) -> Option<(Cow<'static, [u8]>, Vec<PathBuf>)> {
         let folder = match self {
-            Self::Text(text) => return Some(Cow::Borrowed(text)),
+            Self::Text(text) => return Some((Cow::Borrowed(text), Vec::new())),
             Self::Beside(folder) => folder,
         };
         // Only files: a pipe or device would never end.
@@ -46,9 +46,11 @@ impl Materials {
         };
         let several = || {
             let texts: Vec<Vec<u8>> = name.to_str()?.split_whitespace().map_while(|name| read(name.as_ref())).collect();
-            (texts.len() == name.to_str()?.split_whitespace().count()).then(|| texts.join(&b'\n'))
+            let files: Vec<PathBuf> = name.to_str()?.split_whitespace().map(|name| folder.join(name)).collect();
+            (texts.len() == files.len()).then(|| (texts.join(&b'\n'), files))
         };
-        read(name).or_else(several).map(Cow::Owned)
+        let found = read(name).map(|text| (text, vec![folder.join(name)])).or_else(several);
+        found.map(|(text, files)| (Cow::Owned(text), files))
     }
 }
 
@@ -142,13 +144,14 @@ fn put_on_materials(
     for (before, naming) in namings {
         match naming {
             Naming::Library(name) => {
-                let text = materials.find(Path::new(name)).unwrap_or_else(|| {
+                let (text, files) = materials.find(Path::new(name)).unwrap_or_else(|| {
                     missing_files += 1;
                     remarks.push(format!(
                         "{path}: the material file {name} is not there; its faces get the default colour"
                     ));
-                    Cow::Borrowed(b"")
+                    (Cow::Borrowed(b""), Vec::new())
                 });
+                soup.files.extend(files);
                 let (more, more_numbers) = tobj::load_mtl_buf(&mut sound_material_lines(&text).as_slice())
                     .map_err(|error| Error::model(path, format!("its materials cannot be read ({error})")))?;
                 numbers.extend(more_numbers.into_iter().map(|(name, number)| (name, found.len() + number)));

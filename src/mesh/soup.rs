@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 use crate::tolerances::LARGEST_COORDINATE;
 use glam::{DVec3, Vec2, Vec3};
 use std::borrow::Cow;
+use std::path::PathBuf;
 
 /// A file's contents, unchecked but for two things: every index is [`NONE`] or within its array, and every polygon has at
 /// least three corners.
@@ -32,6 +33,8 @@ pub struct Soup {
     pub frames: Vec<String>,
     /// What the reader already found.
     pub defects: Defects,
+    /// The files that were read besides the model's own: its material libraries.
+    pub files: Vec<PathBuf>,
 }
 
 /// One corner of a polygon: indices into the soup's arrays, [`NONE`] where it has none.

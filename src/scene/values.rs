@@ -97,6 +97,19 @@ impl FromStr for Color {
     }
 }
 
+impl fmt::Display for Color {
+    /// As `#rrggbb` where that is exactly this colour, else with all digits: reading it gives the same colour.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [red, green, blue] = self.0.map(|channel| (channel * 255.0).round() as u8);
+        let hexadecimal = format!("#{red:02x}{green:02x}{blue:02x}");
+        let [red, green, blue] = self.0;
+        match hexadecimal.parse() == Ok(*self) {
+            true => out.write_str(&hexadecimal),
+            false => write!(out, "color(srgb {red} {green} {blue})"),
+        }
+    }
+}
+
 /// What is behind the objects.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -131,6 +144,10 @@ mod tests {
         }
         assert_eq!("#ff0000".parse(), Ok(Color([1.0, 0.0, 0.0])));
         assert_eq!("white".parse(), Ok(Color([1.0; 3])));
+        for color in [[1.0, 0.0, 0.2], [0.1, 0.333_333_34, 1e-7], [0.9, 0.05, 0.05], [f32::MIN_POSITIVE, 0.5, 1.0]] {
+            assert_eq!(Color(color).to_string().parse(), Ok(Color(color)));
+        }
+        assert_eq!(Color([1.0, 0.0, 0.2]).to_string(), "#ff0033");
         assert!("#ff000080".parse::<Color>().is_err());
         assert!("no-colour".parse::<Color>().is_err());
     }

@@ -3,12 +3,15 @@
 use super::super::options::StyleArguments;
 use clap::Parser;
 use tinta::measure::Setting;
-use tinta::{Error, Result, StyleName};
+use tinta::preset::of_style;
+use tinta::recipe::option_words;
+use tinta::shell::quoted;
+use tinta::{Error, Result, Style, StyleName};
 
 /// A setting's options by themselves.
 #[derive(Parser)]
-struct Options {
-    #[arg(long)]
+pub struct StyleOptions {
+    #[arg(long, default_value = "three-pass")]
     style: StyleName,
 
     #[command(flatten)]
@@ -82,15 +85,33 @@ pub fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setting>> {
 
 fn setting(options: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
     let words = std::iter::once("tinta").chain(options.split_whitespace());
-    let parsed = Options::try_parse_from(words).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
+    let parsed =
+        StyleOptions::try_parse_from(words).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
     let style = parsed.styles.style(parsed.style)?;
     Ok((parsed.style, Setting { style, options, is_faithful }))
+}
+
+/// The setting that a preset's words make; none for no words.
+pub fn of_words(words: &[String]) -> Result<Option<Setting>> {
+    if words.is_empty() {
+        return Ok(None);
+    }
+    let given = std::iter::once("tinta".to_owned()).chain(words.iter().cloned());
+    let parsed =
+        StyleOptions::try_parse_from(given).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
+    let style = parsed.styles.style(parsed.style)?;
+    let is_faithful = style == Style::named(parsed.style);
+    // What is as by default is left out, as in the settings above.
+    let mut changed = of_style(&style)?;
+    changed.remove("style");
+    let words = changed.iter().flat_map(|(name, value)| option_words(name, value));
+    let options = words.fold(format!("--style {}", parsed.style.name()), |text, word| text + " " + &quoted(&word));
+    Ok(Some(Setting { style, options, is_faithful }))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tinta::Style;
 
     #[test]
     fn every_setting_is_one_that_render_takes_and_none_comes_twice() {

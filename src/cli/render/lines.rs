@@ -1,17 +1,17 @@
 //! `tinta render` into an SVG or JSON file: exact lines. No OpenGL is opened.
 
-use super::super::models::load_meshes;
+use super::super::models::load_with_files;
 use super::super::progress::Progress;
-use super::super::shell::command_line;
-use super::{Arguments, model_records};
+use super::{Arguments, keep, model_records};
 use std::path::Path;
 use std::str::FromStr;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 use tinta::lines::{ClassWidths, Hidden, LineSettings, PaperSize, Progress as LineProgress, chain, svg_of_paths};
+use tinta::preset::Options;
 use tinta::record::{CameraRecord, LineCounts, LinesRecord, LinesStyle, ModelRecord, lines_json};
 use tinta::renderer::milliseconds_since;
-use tinta::{Error, Result, Scene, Show, StyleName, SvgSettings, TextTarget, VisibleLines};
+use tinta::{Error, Recipe, Result, Scene, Show, StyleName, SvgSettings, TextTarget, VisibleLines};
 
 /// What `--style` takes: a style that GL draws, or lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -130,14 +130,13 @@ fn is_of_a_picture(extension: &str) -> bool {
 }
 
 /// Finds the lines and writes them.
-pub fn run(arguments: &Arguments, format: Format) -> Result<()> {
+pub fn run(arguments: &Arguments, options: &Options, format: Format) -> Result<()> {
     let target = TextTarget::check(&arguments.output)?;
     refuse_what_lines_have_not(arguments, format, &target)?;
     let settings = arguments.styles.line_settings()?;
-    let drawn = svg_settings(arguments);
-    drawn.check()?;
+    svg_settings(arguments, None).check()?;
     let start = Instant::now();
-    let meshes = load_meshes(&arguments.models, &arguments.model.options())?;
+    let (meshes, files) = load_with_files(&arguments.models, &arguments.model.options())?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()))?;
     let lines = find(&scene, &settings)?;
@@ -145,6 +144,14 @@ pub fn run(arguments: &Arguments, format: Format) -> Result<()> {
         super::super::say("tinta: no line of these classes is seen in this picture; see --classes, --eye and --target");
     }
 
+    let recipe = match format {
+        Format::Svg => {
+            let files = keep::files(arguments, &scene, &files, None);
+            keep::recipe(arguments, options, scene.size, files, None)
+        }
+        Format::Json => None,
+    };
+    let drawn = svg_settings(arguments, recipe.as_ref());
     let start = Instant::now();
     let paths = if format == Format::Svg || arguments.run.json { chain(&lines.segments) } else { Vec::new() };
     let counts = LineCounts::new(&lines, &paths);
@@ -206,15 +213,17 @@ fn find(scene: &Scene, settings: &LineSettings) -> Result<VisibleLines> {
     })
 }
 
-/// How the SVG is to be written.
-pub fn svg_settings(arguments: &Arguments) -> SvgSettings {
+/// How the SVG is to be written. Its command has a name of its own for the output: the same drawing is the same bytes wherever
+/// it is written.
+pub fn svg_settings(arguments: &Arguments, recipe: Option<&Recipe>) -> SvgSettings {
     let options = &arguments.lines;
     let (class_colors, line_width_px) = arguments.styles.line_look();
     let names =
         arguments.models.iter().map(|path| Path::new(path).file_name().map_or(path.into(), |n| n.to_string_lossy()));
     SvgSettings {
         title: names.collect::<Vec<_>>().join(", "),
-        command: command(std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned())),
+        command: recipe.map(|recipe| recipe.command_line("drawing.svg")).unwrap_or_default(),
+        recipe: recipe.and_then(Recipe::json).unwrap_or_default(),
         hidden: options.hidden.unwrap_or_default(),
         class_colors,
         line_width_px,
@@ -253,52 +262,5 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &Te
         Format::Json => arguments
             .lines
             .refuse("a .json file has all lines and where they come from, and no looks; leave it out, or write a .svg"),
-    }
-}
-
-/// The command line as a shell takes it, with `drawing` in the place of the output's own name: the same drawing is the same
-/// bytes wherever it is written.
-fn command(words: impl Iterator<Item = String>) -> String {
-    let mut is_output = false;
-    command_line(words.map(|word| {
-        let named = |prefix: &str| word.strip_prefix(prefix).map(|name| format!("{prefix}{}", without_name(name)));
-        let plain = if is_output {
-            without_name(&word)
-        } else if word.starts_with("--") {
-            named("--output=").unwrap_or_else(|| word.clone())
-        } else if word == "-o" {
-            word.clone()
-        } else {
-            named("-o=").or_else(|| named("-o")).unwrap_or_else(|| word.clone())
-        };
-        is_output = !is_output && (word == "-o" || word == "--output");
-        plain
-    }))
-}
-
-fn without_name(output: &str) -> String {
-    match Path::new(output).extension() {
-        Some(extension) => format!("drawing.{}", extension.to_string_lossy()),
-        None => output.to_owned(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_command_is_written_for_a_shell_and_without_the_outputs_name() {
-        let made = |words: &[&str]| command(words.iter().map(|word| (*word).to_owned()));
-        let expected = "tinta render 'my cow.obj' -o drawing.svg --background '#fff'";
-        for output in [&["-o", "/tmp/a b.svg"][..], &["-o", "c.svg"]] {
-            let words = [&["render", "my cow.obj"], output, &["--background", "#fff"]].concat();
-            assert_eq!(made(&words), expected);
-        }
-        assert_eq!(
-            made(&["-oa.svg", "--output=b.svg", "--output", "c.svg"]),
-            "tinta -odrawing.svg --output=drawing.svg --output drawing.svg"
-        );
-        assert_eq!(made(&["it's", "", "-o", "-"]), r"tinta 'it'\''s' '' -o -");
     }
 }

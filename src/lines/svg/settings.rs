@@ -17,6 +17,9 @@ pub struct SvgSettings {
     /// The command that made it, kept in its metadata. Default none.
     #[serde(skip)]
     pub command: String,
+    /// The recipe to make it again, JSON, kept in its metadata too. Default none.
+    #[serde(skip)]
+    pub recipe: String,
     /// What becomes of hidden lines. Default none of them is written.
     pub hidden: Hidden,
     /// Each class's colour. Default black.
@@ -41,6 +44,7 @@ impl Default for SvgSettings {
         Self {
             title: String::new(),
             command: String::new(),
+            recipe: String::new(),
             hidden: Hidden::None,
             class_colors: ClassColors::default(),
             line_width_px: 2.0,

@@ -20,9 +20,9 @@ pub fn read(bytes: &[u8], path: &str, materials: &Materials, remarks: &mut Vec<S
     let mut guard = Guard::new(&text);
     let missing_files = RefCell::new(Vec::new());
     let load_material = |name: &Path| {
-        let text = materials.find(name).unwrap_or_else(|| {
+        let (text, _) = materials.find(name).unwrap_or_else(|| {
             missing_files.borrow_mut().push(name.display().to_string());
-            Cow::Borrowed(b"")
+            (Cow::Borrowed(&b""[..]), Vec::new())
         });
         tobj::load_mtl_buf(&mut sound_material_lines(&text).as_slice())
     };

@@ -1,4 +1,4 @@
-//! Command lines as a shell takes them, for files that carry the command that made them.
+//! Command lines as a shell takes them, for files and reports that carry the command that made them.
 
 /// The program's name and its words, quoted where that is needed.
 pub fn command_line(words: impl Iterator<Item = String>) -> String {

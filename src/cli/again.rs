@@ -1,0 +1,200 @@
+//! `tinta again`: a picture made anew by the recipe it carries, and compared with what it was.
+
+use super::preset::parse;
+use super::{Command, Verdict, render, say};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use tinta::preset::OptionValue;
+use tinta::recipe::option_words;
+use tinta::{Backend, Error, Picture, Recipe, Result};
+
+/// Make a picture anew by the recipe it carries, and compare both
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Picture that `tinta render` wrote, .png or .svg
+    #[arg(value_name = "PICTURE")]
+    picture: PathBuf,
+
+    /// File to write, of the same kind
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+
+    /// Where a model lies now, for each of several in their order [default: where it lay]
+    #[arg(long, value_name = "FILE")]
+    model: Vec<String>,
+}
+
+/// What a picture may not allow itself, whatever it says of how it was made: that is for whoever has it.
+const NOT_GRANTED: [&str; 1] = ["allow-external"];
+
+/// Draws the picture again; exit code 1 if it comes out otherwise.
+pub fn run(arguments: &Arguments) -> Result<Verdict> {
+    let recipe = Recipe::read(&arguments.picture)?;
+    check_output(arguments)?;
+    let models = models(arguments, &recipe)?;
+    let before = std::fs::read(&arguments.picture).map_err(|error| failed(&arguments.picture, &error))?;
+    draw(arguments, &recipe, &models)?;
+    let after = std::fs::read(&arguments.output).map_err(|error| failed(&arguments.output, &error))?;
+    let name = arguments.output.display();
+    let now = Recipe::read(&arguments.output)?;
+    recipe.differences(&now).iter().for_each(|difference| say(&format!("tinta: {difference}")));
+    if before == after {
+        say(&format!("tinta: {name} is the same, byte for byte"));
+        return Ok(Verdict::Good);
+    }
+    match is_svg(&arguments.output) {
+        true => Ok(compare_drawings(arguments, &before, &after, &recipe, &now)),
+        false => compare_pictures(arguments),
+    }
+}
+
+/// What is compared afterwards must be of one kind, and the old picture still there.
+fn check_output(arguments: &Arguments) -> Result<()> {
+    let refuse = |problem: String| Err(Error::Output { path: arguments.output.display().to_string(), problem });
+    let kind = |path: &Path| path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
+    let wanted = if is_png(&arguments.picture)? { "png" } else { "svg" };
+    if kind(&arguments.output).as_deref() != Some(wanted) {
+        return refuse(format!(
+            "the picture is {}, and what is compared with it must be too; name a .{wanted} file",
+            wanted.to_uppercase()
+        ));
+    }
+    let same = |other: &Path| {
+        arguments.output.canonicalize().is_ok_and(|output| other.canonicalize().is_ok_and(|other| other == output))
+    };
+    match same(&arguments.picture) {
+        true => refuse("this is the picture itself, which is compared; name another file".to_owned()),
+        false => Ok(()),
+    }
+}
+
+fn is_svg(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg"))
+}
+
+/// By its content, for it may have been renamed.
+fn is_png(path: &Path) -> Result<bool> {
+    use std::io::Read;
+    let mut first = [0];
+    let read = std::fs::File::open(path).and_then(|mut file| file.read(&mut first));
+    read.map(|_| first == [0x89]).map_err(|error| failed(path, &error))
+}
+
+fn failed(path: &Path, error: &std::io::Error) -> Error {
+    Error::Picture { path: path.display().to_string(), problem: format!("it cannot be read ({error}); check the file") }
+}
+
+/// The models to draw, which must be where they are said to be.
+fn models(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<String>> {
+    let refuse = |setting: &str, problem: String| Err(Error::Setting { setting: setting.to_owned(), problem });
+    if !arguments.model.is_empty() && arguments.model.len() != recipe.models.len() {
+        let problem = format!(
+            "the picture has {} models ({}) and {} are given; give each, in this order",
+            recipe.models.len(),
+            recipe.models.join(", "),
+            arguments.model.len()
+        );
+        return refuse("--model", problem);
+    }
+    let models = if arguments.model.is_empty() { &recipe.models } else { &arguments.model };
+    match models.iter().find(|model| !model.starts_with("builtin:") && !Path::new(model).exists()) {
+        Some(model) => Err(Error::Model {
+            path: model.clone(),
+            line: None,
+            problem: "the picture's model is not there; say where it is now with --model FILE".to_owned(),
+        }),
+        None => Ok(models.clone()),
+    }
+}
+
+/// Draws by the recipe. Its options pass through the same parser as a user's, and what is not part of a picture, such as a
+/// file to write, has no place among them: a recipe may come from anyone.
+fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()> {
+    let refuse = |problem: String| Error::Picture { path: arguments.picture.display().to_string(), problem };
+    if recipe.command != "render" {
+        return Err(refuse(format!(
+            "its recipe is for tinta {}, which is not drawn again; use tinta render",
+            recipe.command
+        )));
+    }
+    let mut words: Vec<OsString> = ["tinta", "render"].map(OsString::from).to_vec();
+    for (name, value) in &recipe.options {
+        if !super::preset::is_kept(name) || NOT_GRANTED.contains(&name.as_str()) || name.contains(['=', ' ']) {
+            return Err(refuse(format!(
+                "its recipe has the option {name}, which is no part of a picture; it is not drawn"
+            )));
+        }
+        match value {
+            OptionValue::Text(value) => words.push(format!("--{name}={value}").into()),
+            switch => words.extend(option_words(name, switch).into_iter().map(OsString::from)),
+        }
+    }
+    let mut output = OsString::from("--output=");
+    output.push(&arguments.output);
+    words.push(output);
+    words.push("--".into());
+    words.extend(models.iter().map(OsString::from));
+    let (parsed, given) = parse(words).map_err(|error| match error {
+        Error::CommandLine { problem } => {
+            refuse(format!("its recipe has an option that is not understood ({problem}); this may be an older tinta"))
+        }
+        error => error,
+    })?;
+    let Command::Render(render) = parsed.command else {
+        return Err(refuse("its recipe is for another command; use tinta render".to_owned()));
+    };
+    let backend = recipe.gl.as_ref().and_then(|gl| gl.backend.parse().ok()).unwrap_or_default();
+    let render = render.with_backend(backend);
+    match render::run(&render, &given.options) {
+        // Another way to OpenGL is better than none; that it is another is said.
+        Err(Error::NoContext { .. }) if backend != Backend::Auto => {
+            render::run(&render.with_backend(Backend::Auto), &given.options).map(drop)
+        }
+        result => result.map(drop),
+    }
+}
+
+fn compare_pictures(arguments: &Arguments) -> Result<Verdict> {
+    let (before, after) = (Picture::read(&arguments.picture)?, Picture::read(&arguments.output)?);
+    let name = arguments.output.display();
+    match before.difference(&after) {
+        Some(difference) if difference.pixels == 0 => {
+            say(&format!("tinta: {name} has the same pixels; the file differs in its recipe or in how it was packed"));
+            Ok(Verdict::Good)
+        }
+        Some(difference) => {
+            let all = after.size.pixel_count();
+            say(&format!(
+                "tinta: {name} differs in {} of {all} pixels, by at most {} of 255",
+                difference.pixels, difference.largest
+            ));
+            Ok(Verdict::Different)
+        }
+        None => {
+            say(&format!("tinta: {name} is {} pixels large, the picture {}", after.size, before.size));
+            Ok(Verdict::Different)
+        }
+    }
+}
+
+/// Line by line, without the lines that hold recipe and command.
+fn compare_drawings(arguments: &Arguments, before: &[u8], after: &[u8], then: &Recipe, now: &Recipe) -> Verdict {
+    let drawn = |bytes: &[u8]| -> Vec<String> {
+        let text = String::from_utf8_lossy(bytes);
+        let is_about = |line: &str| {
+            ["<tinta:recipe", "<dc:description", "<dc:title", "<title"].iter().any(|start| line.starts_with(start))
+        };
+        text.lines().filter(|line| !is_about(line)).map(str::to_owned).collect()
+    };
+    let (before, after) = (drawn(before), drawn(after));
+    let name = arguments.output.display();
+    if before == after {
+        let why = if then.models == now.models { "recipe" } else { "recipe, which names other models" };
+        say(&format!("tinta: {name} has the same lines; the file differs in its {why}"));
+        return Verdict::Good;
+    }
+    let shared = before.iter().zip(&after).filter(|(before, after)| before == after).count();
+    let count = before.len().max(after.len()) - shared;
+    say(&format!("tinta: {name} differs in {count} of {} lines of the file", after.len()));
+    Verdict::Different
+}

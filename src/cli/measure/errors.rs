@@ -1,0 +1,56 @@
+//! Pictures of where a row's errors lie, beside the page that shows them.
+
+use super::{Arguments, make_folder};
+use std::path::PathBuf;
+use tinta::measure::Row;
+use tinta::picture::PictureFormat;
+use tinta::report::ReportPicture;
+use tinta::{Error, Picture, Result, Target};
+
+/// Whether the page shows where a row's errors lie: of each style's published settings, and of the best.
+pub fn is_shown(row: &Row) -> bool {
+    let is_exact = row.options.starts_with("--style inking --silhouette exact")
+        && !["smooth", "line-", "polygon", "classes", "ink-depth"].iter().any(|other| row.options.contains(other));
+    row.lines.is_some() && (row.is_faithful || row.style == "ink" || is_exact)
+}
+
+/// Where the picture of a row's errors lies.
+fn error_path(arguments: &Arguments, row: &Row) -> PathBuf {
+    let model: String = row.model.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+    let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ',', '/', '\\'], "-");
+    let options = shortened(options);
+    let name = format!("{}-{}x{}-{options}.png", model.trim_matches('-'), row.size[0], row.size[1]);
+    arguments.output.join("errors").join(name)
+}
+
+/// A name that every file system takes: of a long one the beginning, and a number that stands for the rest.
+fn shortened(name: String) -> String {
+    const MOST_LETTERS: usize = 120;
+    if name.chars().count() <= MOST_LETTERS {
+        return name;
+    }
+    // FNV-1a: the same number wherever a run is resumed.
+    let number = name
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325, |number: u64, byte| (number ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
+    format!("{}-{number:016x}", name.chars().take(MOST_LETTERS).collect::<String>())
+}
+
+/// Writes a picture of the error and hands it over for the page.
+pub fn error_page(arguments: &Arguments, row: &Row, picture: &Picture) -> Result<ReportPicture> {
+    make_folder(&arguments.output.join("errors"))?;
+    let path = error_path(arguments, row);
+    Target::File { path: path.clone(), format: PictureFormat::Png }.write(picture)?;
+    known_picture(arguments, row).ok_or_else(|| Error::Output {
+        path: path.display().to_string(),
+        problem: "it cannot be read again; choose another folder".to_owned(),
+    })
+}
+
+/// The picture of a row's errors for the page, if it is there.
+pub fn known_picture(arguments: &Arguments, row: &Row) -> Option<ReportPicture> {
+    let png = std::fs::read(error_path(arguments, row)).ok()?;
+    let f1 = row.lines.as_ref().map(|lines| format!(", F1 {:.3}", lines.f1)).unwrap_or_default();
+    let caption = format!("{}, {}x{}: {}{f1}", row.model, row.size[0], row.size[1], row.options);
+    Some(ReportPicture { caption, model: Some(row.model.clone()), png })
+}

@@ -1,0 +1,246 @@
+//! `--preset`: a file's options put before those of the command line, so that clap reads and checks both alike.
+//!
+//! The words are read twice: once as given, to know the preset and what else is given; then with the preset's options before
+//! them. An option given on the command line beats the preset's, and so does one that excludes it.
+
+use super::measure::StyleOptions;
+use super::{Arguments, in_one_sentence};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::parser::ValueSource;
+use clap::{Arg, ArgMatches, Command, CommandFactory, FromArgMatches};
+use std::ffi::OsString;
+use tinta::preset::{OptionValue, Options, Preset};
+use tinta::{Error, Result};
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "Presets")]
+pub struct PresetArguments {
+    /// Options from this TOML file, under their long names, or a paper's constants: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand; what is given beside it counts more [default: none]
+    #[arg(long, value_name = "FILE|paper:NAME")]
+    preset: Option<String>,
+}
+
+/// Options that say what is done with a picture, not which picture it is: they are in no preset and no recipe.
+const OF_ONE_RUN: [&str; 17] = [
+    "dump",
+    "explain",
+    "frames",
+    "help",
+    "json",
+    "machine",
+    "merge",
+    "no-recipe",
+    "output",
+    "preset",
+    "quick",
+    "resume",
+    "save-preset",
+    "styles",
+    "suite",
+    "tolerance",
+    "verify",
+];
+
+/// What a command line gives, its preset's options among it.
+#[derive(Default)]
+pub struct Given {
+    /// The words after the program's name.
+    pub words: Vec<String>,
+    /// The options that make the picture.
+    pub options: Options,
+    /// Words for a style and its settings, which `measure` measures besides.
+    pub setting: Vec<String>,
+    preset: Option<Preset>,
+    /// The preset's options that count: name on the command line and in the file.
+    used: Vec<(String, String)>,
+}
+
+impl Given {
+    /// An error about an option that the preset gave, with the preset's name and line.
+    pub fn attributed(&self, error: Error) -> Error {
+        let (Some(preset), Error::Setting { setting, problem }) = (&self.preset, &error) else { return error };
+        let is_named = |option: &str| {
+            let mut words = setting.split([' ', ',', '=']);
+            words.any(|word| word.strip_prefix("--") == Some(option))
+        };
+        match self.used.iter().find(|(option, _)| is_named(option)) {
+            Some((_, key)) => preset.refuse(key, format!("{setting}: {problem}")),
+            None => error,
+        }
+    }
+}
+
+/// Reads a command line, and the preset it names.
+pub fn parse(words: Vec<OsString>) -> Result<(Arguments, Given)> {
+    let mut whole = Arguments::command();
+    let matches = whole.try_get_matches_from_mut(&words).map_err(refused)?;
+    let (mut given, words) = match Merge::of(&whole, &matches)? {
+        None => (Given::default(), words),
+        Some(merge) => merge.merged(&whole, &words)?,
+    };
+    let matches = whole.try_get_matches_from_mut(&words).map_err(refused)?;
+    if let Some((name, matches)) = matches.subcommand()
+        && let Some(command) = whole.find_subcommand(name)
+    {
+        given.options = kept_options(command, matches);
+    }
+    given.words = words.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+    Arguments::from_arg_matches(&matches).map(|arguments| (arguments, given)).map_err(refused)
+}
+
+fn refused(error: clap::Error) -> Error {
+    use ErrorKind::{DisplayHelp, DisplayHelpOnMissingArgumentOrSubcommand, DisplayVersion};
+    if matches!(error.kind(), DisplayHelp | DisplayVersion | DisplayHelpOnMissingArgumentOrSubcommand) {
+        error.exit();
+    }
+    Error::CommandLine { problem: in_one_sentence(&error) }
+}
+
+/// A preset on its way into a command line.
+struct Merge<'a> {
+    preset: Preset,
+    name: &'a str,
+    command: &'a Command,
+    /// What the command line gives by itself.
+    given: &'a ArgMatches,
+}
+
+/// An option of the preset as words.
+struct Words<'a> {
+    arg: &'a Arg,
+    key: String,
+    words: Vec<OsString>,
+}
+
+impl<'a> Merge<'a> {
+    /// Reads the preset that is named, if one is.
+    fn of(whole: &'a Command, matches: &'a ArgMatches) -> Result<Option<Self>> {
+        let Some((name, given)) = matches.subcommand() else { return Ok(None) };
+        let (Some(command), Ok(Some(file))) = (whole.find_subcommand(name), given.try_get_one::<String>("preset"))
+        else {
+            return Ok(None);
+        };
+        Ok(Some(Self { preset: Preset::read(file)?, name, command, given }))
+    }
+
+    /// The command line with the preset's options.
+    fn merged(self, whole: &Command, words: &[OsString]) -> Result<(Given, Vec<OsString>)> {
+        let of_styles = StyleOptions::command();
+        let (mut own, mut setting, mut used) = (Vec::new(), Vec::new(), Vec::new());
+        for (key, value) in &self.preset.options {
+            // The style of a comparison is the one on the left.
+            let option = if self.name == "compare" && key == "style" { "left" } else { key };
+            let find = |command: &'a Command| command.get_arguments().find(|arg| arg.get_long() == Some(option));
+            if !is_kept(option) {
+                let problem = "this is for one run and in no preset; give it on the command line";
+                return Err(self.preset.refuse(key, format!("{key}: {problem}")));
+            }
+            if let Some(arg) = find(self.command) {
+                own.push(Words { arg, key: key.clone(), words: self.words(arg, key, value)? });
+            } else if let (true, Some(arg)) = (self.name == "measure", long(&of_styles, option)) {
+                setting.extend(self.words(arg, key, value)?);
+            } else {
+                return Err(self.unknown(whole, key));
+            }
+            used.push((option.to_owned(), key.clone()));
+        }
+        let head = words.iter().take(2);
+        let all = head.clone().chain(own.iter().flat_map(|option| &option.words));
+        self.check(whole.clone(), all)?;
+        if !setting.is_empty() {
+            let program = OsString::from("tinta");
+            self.check(of_styles.clone(), [&program].into_iter().chain(&setting))?;
+        }
+        let left: Vec<&Words<'_>> = own.iter().filter(|option| !self.is_beaten(option.arg)).collect();
+        let beaten = |key: &String| own.iter().any(|option| option.key == *key && self.is_beaten(option.arg));
+        used.retain(|(_, key)| !beaten(key));
+        let words =
+            head.chain(left.iter().flat_map(|option| &option.words)).chain(words.iter().skip(2)).cloned().collect();
+        let setting = setting.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+        Ok((Given { setting, preset: Some(self.preset), used, ..Given::default() }, words))
+    }
+
+    /// An option's words: what a switch is, the option itself knows.
+    fn words(&self, arg: &Arg, key: &str, value: &OptionValue) -> Result<Vec<OsString>> {
+        let takes_value = arg.get_action().takes_values();
+        let may_stand_alone = !takes_value || arg.get_num_args().is_some_and(|count| count.min_values() == 0);
+        let name = arg.get_long().unwrap_or_default();
+        let is_on_off = arg.get_value_names().is_some_and(|names| names.iter().any(|name| name.as_str() == ON_OFF));
+        match value {
+            OptionValue::Text(value) if takes_value => Ok(vec![format!("--{name}={value}").into()]),
+            OptionValue::Text(_) => Err(self.preset.refuse(key, format!("{key}: write true or false, without quotes"))),
+            OptionValue::Switch(switch) if is_on_off => {
+                Ok(vec![format!("--{name}={}", if *switch { "on" } else { "off" }).into()])
+            }
+            OptionValue::Switch(true) if may_stand_alone => Ok(vec![format!("--{name}").into()]),
+            OptionValue::Switch(false) if may_stand_alone => Ok(Vec::new()),
+            OptionValue::Switch(_) => {
+                let values = arg.get_value_names().unwrap_or_default().join(" ");
+                Err(self.preset.refuse(key, format!("{key}: this takes a value ({values}), not true or false")))
+            }
+        }
+    }
+
+    /// Refuses values that an option refuses, and options that exclude each other, with the preset's line.
+    fn check<'w>(&self, mut command: Command, words: impl Iterator<Item = &'w OsString>) -> Result<()> {
+        let error = match command.try_get_matches_from_mut(words) {
+            Err(error) if error.kind() != ErrorKind::MissingRequiredArgument => error,
+            _ => return Ok(()),
+        };
+        let named = match error.get(ContextKind::InvalidArg) {
+            Some(ContextValue::String(arg)) => arg.split([' ', '=']).next().unwrap_or_default().to_owned(),
+            _ => String::new(),
+        };
+        let key = named.trim_start_matches('-');
+        let key = if self.name == "compare" && key == "left" { "style" } else { key };
+        Err(self.preset.refuse(key, in_one_sentence(&error)))
+    }
+
+    /// Whether the command line gives this option itself, or one that excludes it.
+    fn is_beaten(&self, arg: &Arg) -> bool {
+        let is_given = |arg: &Arg| self.given.value_source(arg.get_id().as_str()) == Some(ValueSource::CommandLine);
+        let excludes = |one: &Arg, other: &Arg| {
+            self.command.get_arg_conflicts_with(one).iter().any(|excluded| excluded.get_id() == other.get_id())
+        };
+        let mut all = self.command.get_arguments().filter(|other| is_given(other));
+        all.any(|other| other.get_id() == arg.get_id() || excludes(other, arg) || excludes(arg, other))
+    }
+
+    fn unknown(&self, whole: &Command, key: &str) -> Error {
+        let is_renders = whole.find_subcommand("render").is_some_and(|render| long(render, key).is_some());
+        let problem = match is_renders {
+            true => format!("{key}: tinta {} has no such option, only tinta render; leave it out here", self.name),
+            false => format!("{key}: there is no option --{key}; see tinta {} --help", self.name),
+        };
+        self.preset.refuse(key, problem)
+    }
+}
+
+/// How options that are on or off call their value.
+const ON_OFF: &str = "ON|OFF";
+
+fn long<'a>(command: &'a Command, name: &str) -> Option<&'a Arg> {
+    command.get_arguments().find(|arg| arg.get_long() == Some(name))
+}
+
+/// Whether a preset or recipe may hold this option, if there is one of this name.
+pub fn is_kept(option: &str) -> bool {
+    !OF_ONE_RUN.contains(&option)
+}
+
+/// The options given that make the picture, as a preset or recipe keeps them.
+fn kept_options(command: &Command, matches: &ArgMatches) -> Options {
+    let mut options = Options::new();
+    for arg in command.get_arguments() {
+        let (Some(name), id) = (arg.get_long(), arg.get_id().as_str()) else { continue };
+        if !is_kept(name) || matches.value_source(id) != Some(ValueSource::CommandLine) {
+            continue;
+        }
+        let texts: Vec<String> =
+            matches.get_raw(id).into_iter().flatten().map(|raw| raw.to_string_lossy().into_owned()).collect();
+        let value = texts.join(",");
+        let is_switch = !arg.get_action().takes_values() || value.is_empty();
+        options.insert(name.to_owned(), if is_switch { OptionValue::Switch(true) } else { OptionValue::Text(value) });
+    }
+    options
+}

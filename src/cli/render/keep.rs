@@ -1,0 +1,92 @@
+//! What is kept of a rendering besides the picture: its recipe in the picture, its options as a preset.
+
+use super::super::preset::PresetArguments;
+use super::Arguments;
+use std::path::PathBuf;
+use tinta::gl::ContextInfo;
+use tinta::preset::{Options, to_toml};
+use tinta::recipe::{self, Driver, FileRecord};
+use tinta::{Error, Recipe, Result, Scene, Size, Style, TextTarget};
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "Presets")]
+pub struct KeepArguments {
+    #[command(flatten)]
+    preset: PresetArguments,
+
+    /// Write the options given here and by --preset as a preset, once the picture is drawn [default: off]
+    #[arg(long, value_name = "FILE")]
+    save_preset: Option<String>,
+
+    /// Leave out the recipe, with which `tinta again` makes a .png or .svg anew, and the names of files with it [default: off]
+    #[arg(long)]
+    pub no_recipe: bool,
+}
+
+impl KeepArguments {
+    /// Where the preset goes, checked before the work.
+    pub fn preset_target(&self, output: &str) -> Result<Option<TextTarget>> {
+        let Some(path) = &self.save_preset else { return Ok(None) };
+        let refuse = |problem: &str| {
+            Err(Error::Setting { setting: format!("--save-preset {path}"), problem: problem.to_owned() })
+        };
+        match TextTarget::check(path)? {
+            TextTarget::Stdout => refuse("a preset is a file; name one"),
+            TextTarget::File(_) if path == output => refuse("this is the picture's file; name another"),
+            target => Ok(Some(target)),
+        }
+    }
+}
+
+/// Writes the options as a preset.
+pub fn save_preset(target: &TextTarget, options: &Options) -> Result<()> {
+    let comment = format!(
+        "A preset of tinta {}: options by their long names; any of them may be left out.\n\
+         tinta render MODEL -o picture.png --preset THIS-FILE",
+        env!("CARGO_PKG_VERSION")
+    );
+    target.write(&to_toml(options, &comment))
+}
+
+/// The recipe of a picture of these models; `None` where it is not wanted.
+pub fn recipe(
+    arguments: &Arguments,
+    options: &Options,
+    size: Size,
+    files: Vec<FileRecord>,
+    context: Option<&ContextInfo>,
+) -> Option<Recipe> {
+    (!arguments.keep.no_recipe).then(|| Recipe {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        command: "render".to_owned(),
+        style: if context.is_some() { arguments.style_name().name().to_owned() } else { "lines".to_owned() },
+        size: [size.width, size.height],
+        models: arguments.models.clone(),
+        options: options.clone(),
+        files,
+        gl: context.map(Driver::new),
+    })
+}
+
+/// The files that a picture was made of: models, what they brought with them, what the style draws with.
+pub fn files(arguments: &Arguments, scene: &Scene, beside: &[PathBuf], style: Option<&Style>) -> Vec<FileRecord> {
+    if arguments.keep.no_recipe {
+        return Vec::new();
+    }
+    let mut paths: Vec<PathBuf> =
+        arguments.models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
+    paths.extend(beside.iter().cloned());
+    if let Some(style) = style {
+        if recipe::draws_with_textures(style) {
+            let objects = scene.objects.iter().take(arguments.models.len());
+            paths.extend(
+                objects.flat_map(|object| &object.mesh.materials).filter_map(|material| material.texture.clone()),
+            );
+        }
+        paths.extend(recipe::files_of(style));
+    }
+    let mut seen = std::collections::HashSet::new();
+    paths.retain(|path| seen.insert(path.clone()));
+    // One that has gone since it was read is left out: the picture is there, and says so by drawing otherwise.
+    paths.iter().filter_map(|path| FileRecord::of(path).ok()).collect()
+}

@@ -1,0 +1,45 @@
+//! PNG with a text in it, written and read: what the image crate does not do.
+
+use super::Picture;
+use crate::scene::Size;
+use png::{BitDepth, ColorType, Compression, Decoder, Encoder, Filter, Limits};
+use std::io::Cursor;
+
+/// What reading a text may take, bytes.
+const LARGEST_BYTES: usize = 4 << 20;
+
+/// Encodes as the image crate is asked to elsewhere, with a `tEXt` chunk; `text` is ASCII.
+pub(super) fn encode(picture: &Picture, keyword: &str, text: &str) -> Result<Vec<u8>, png::EncodingError> {
+    let Size { width, height } = picture.size;
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, width, height);
+    let rgb: Vec<u8>;
+    let (pixels, color) = if picture.is_opaque() {
+        rgb = picture.pixels.chunks_exact(4).flat_map(|pixel| &pixel[..3]).copied().collect();
+        (&rgb, ColorType::Rgb)
+    } else {
+        (&picture.pixels, ColorType::Rgba)
+    };
+    encoder.set_color(color);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(Compression::Fast);
+    encoder.set_filter(Filter::Adaptive);
+    encoder.add_text_chunk(keyword.to_owned(), text.to_owned())?;
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+/// Whether a file begins as PNG does.
+pub(crate) fn is_png(head: &[u8]) -> bool {
+    head.starts_with(b"\x89PNG\r\n\x1a\n")
+}
+
+/// The `tEXt` chunk of this keyword, if it stands before the pixels; the error is a sentence without the file's name.
+pub(crate) fn find(head: &[u8], keyword: &str) -> Result<Option<String>, String> {
+    let decoder = Decoder::new_with_limits(Cursor::new(head), Limits { bytes: LARGEST_BYTES });
+    let reader = decoder.read_info().map_err(|error| format!("the PNG is damaged ({error}); draw it again"))?;
+    let texts = &reader.info().uncompressed_latin1_text;
+    Ok(texts.iter().find(|text| text.keyword == keyword).map(|text| text.text.clone()))
+}

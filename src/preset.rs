@@ -1,0 +1,294 @@
+//! Presets: settings kept in a TOML file under the long names of the command line's options, and those that ship.
+//!
+//! A preset is exactly a command line kept in a file: `line-width = 3` is `--line-width 3`. What names and values there are
+//! is known where the options are defined, so this module keeps [`Options`] as names and texts; `settings.rs` and `style.rs` say
+//! which options make given settings, which is how a window writes down what it shows.
+
+mod settings;
+mod shipped;
+mod style;
+
+pub use settings::{of_lines, of_load, of_scene, of_show};
+pub use shipped::SHIPPED;
+pub use style::of_style;
+
+use crate::error::{Error, Result};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::io::Read;
+use std::path::Path;
+use toml::de::{DeTable, DeValue};
+
+/// The longest preset read, bytes: some hundred times what all options need.
+pub const LARGEST_BYTES: u64 = 64 << 10;
+
+/// How the names of presets that ship begin.
+pub const PREFIX: &str = "paper:";
+
+/// Options by their long names without dashes, each at most once.
+pub type Options = BTreeMap<String, OptionValue>;
+
+/// What is given for an option.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum OptionValue {
+    /// `true` or `false`: an option without a value that is given or not, or `on` and `off`.
+    Switch(bool),
+    /// The value as it is written on the command line.
+    Text(String),
+}
+
+impl OptionValue {
+    /// A value that is written as a text.
+    pub fn text(text: impl Into<String>) -> Self {
+        Self::Text(text.into())
+    }
+}
+
+/// A preset: the options it sets, and where each stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Preset {
+    /// The file as the user named it, or `paper:…`.
+    pub name: String,
+    /// What it sets.
+    pub options: Options,
+    lines: BTreeMap<String, u64>,
+}
+
+impl Preset {
+    /// Reads a file, or one of [`SHIPPED`] by its name `paper:…`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Preset`] when it is missing, no ordinary file, longer than [`LARGEST_BYTES`], or no flat table of TOML; for
+    /// an unknown name with those there are.
+    pub fn read(name: &str) -> Result<Self> {
+        if name.starts_with(PREFIX) {
+            let found = SHIPPED.iter().find(|(known, _)| *known == name);
+            return match found {
+                Some((_, text)) => Self::parse(name, text),
+                None => Err(refused(name, format!("no preset of this name ships; there are {}", shipped_names()))),
+            };
+        }
+        let path = Path::new(name);
+        let cannot_read = |error: std::io::Error| match error.kind() {
+            std::io::ErrorKind::NotFound => {
+                refused(name, format!("there is no such file; name a preset, or one that ships: {}", shipped_names()))
+            }
+            _ => refused(name, format!("it cannot be read ({error}); check the file")),
+        };
+        // Only files: a pipe or device would never end.
+        if !path.metadata().map_err(cannot_read)?.is_file() {
+            return Err(refused(name, "this is no ordinary file; name a preset's file"));
+        }
+        let mut bytes = Vec::new();
+        let file = std::fs::File::open(path).map_err(cannot_read)?;
+        file.take(LARGEST_BYTES + 1).read_to_end(&mut bytes).map_err(cannot_read)?;
+        if bytes.len() as u64 > LARGEST_BYTES {
+            return Err(refused(name, format!("it is longer than {LARGEST_BYTES} bytes, so it is hardly a preset")));
+        }
+        let text = String::from_utf8(bytes).map_err(|_| refused(name, "it is not UTF-8 text; save it as that"))?;
+        Self::parse(name, &text)
+    }
+
+    /// Reads a preset's text; `name` is what errors call it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Preset`] with the line when it is no TOML, has a table within a table, or a value that no option takes.
+    pub fn parse(name: &str, text: &str) -> Result<Self> {
+        let line_of = |offset: usize| {
+            let before = text.as_bytes().iter().take(offset);
+            1 + before.filter(|byte| **byte == b'\n').count() as u64
+        };
+        let at = |offset: usize, problem: String| Error::Preset {
+            path: name.to_owned(),
+            line: Some(line_of(offset)),
+            problem,
+        };
+        let table = DeTable::parse(text).map_err(|error| {
+            let message = error.message().split_whitespace().collect::<Vec<_>>().join(" ");
+            let offset = error.span().map_or(0, |span| span.start);
+            at(offset, format!("this is no TOML ({message}); write lines such as line-width = 3"))
+        })?;
+        let mut preset = Self { name: name.to_owned(), options: Options::new(), lines: BTreeMap::new() };
+        for (key, value) in table.into_inner() {
+            let start = key.span().start;
+            let key = key.into_inner().into_owned();
+            let value = option_value(value.get_ref()).map_err(|problem| at(start, format!("{key}: {problem}")))?;
+            preset.lines.insert(key.clone(), line_of(start));
+            preset.options.insert(key, value);
+        }
+        Ok(preset)
+    }
+
+    /// Where an option stands, 1-based.
+    pub fn line_of(&self, option: &str) -> Option<u64> {
+        self.lines.get(option).copied()
+    }
+
+    /// An error about one of its options.
+    pub fn refuse(&self, option: &str, problem: impl Into<String>) -> Error {
+        Error::Preset { path: self.name.clone(), line: self.line_of(option), problem: problem.into() }
+    }
+}
+
+/// The names of all presets that ship, with commas between.
+pub fn shipped_names() -> String {
+    SHIPPED.map(|(name, _)| name).join(", ")
+}
+
+/// A preset's text: a line for each option, the style first; `comment` stands above them.
+pub fn to_toml(options: &Options, comment: &str) -> String {
+    let mut text = String::new();
+    comment.lines().for_each(|line| {
+        let _ = writeln!(text, "# {line}");
+    });
+    let style = |(name, _): &(&String, &OptionValue)| *name == "style";
+    for (name, value) in options.iter().filter(style).chain(options.iter().filter(|option| !style(option))) {
+        let _ = match value {
+            OptionValue::Switch(switch) => writeln!(text, "{name} = {switch}"),
+            OptionValue::Text(value) if is_number(value) => writeln!(text, "{name} = {value}"),
+            OptionValue::Text(value) => writeln!(text, "{name} = {}", quoted(value)),
+        };
+    }
+    text
+}
+
+fn refused(name: &str, problem: impl Into<String>) -> Error {
+    Error::Preset { path: name.to_owned(), line: None, problem: problem.into() }
+}
+
+/// A value of the file as an option takes it.
+fn option_value(value: &DeValue<'_>) -> std::result::Result<OptionValue, String> {
+    match value {
+        DeValue::Boolean(switch) => Ok(OptionValue::Switch(*switch)),
+        DeValue::Array(values) => {
+            let texts: std::result::Result<Vec<String>, String> =
+                values.iter().map(|value| scalar(value.get_ref())).collect();
+            Ok(OptionValue::Text(texts?.join(",")))
+        }
+        value => scalar(value).map(OptionValue::Text),
+    }
+}
+
+fn scalar(value: &DeValue<'_>) -> std::result::Result<String, String> {
+    match value {
+        DeValue::String(text) => Ok(text.clone().into_owned()),
+        DeValue::Integer(number) => i128::from_str_radix(number.as_str(), number.radix())
+            .map(|number| number.to_string())
+            .map_err(|_| "this number is too long; write a shorter one".to_owned()),
+        DeValue::Float(number) => Ok(number.as_str().trim_start_matches('+').to_owned()),
+        _ => Err(
+            "write a text, a number, true or false, or several numbers or texts in brackets; a preset is one table \
+                  without others in it"
+                .to_owned(),
+        ),
+    }
+}
+
+/// Whether TOML reads the text as a number and gives the same text back.
+fn is_number(text: &str) -> bool {
+    let digits = text.strip_prefix('-').unwrap_or(text);
+    let (whole, fraction) = digits.split_once('.').map_or((digits, "0"), |(whole, fraction)| (whole, fraction));
+    let is_plain = |part: &str| (1..=15).contains(&part.len()) && part.bytes().all(|byte| byte.is_ascii_digit());
+    is_plain(whole) && is_plain(fraction) && (whole == "0" || !whole.starts_with('0')) && text != "-0"
+}
+
+/// A text as TOML writes it.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' => quoted.extend(['\\', letter]),
+            letter if letter.is_control() => {
+                let _ = write!(quoted, "\\u{:04X}", letter as u32);
+            }
+            letter => quoted.push(letter),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Preset {
+        Preset::parse("a.toml", text).unwrap()
+    }
+
+    #[test]
+    fn every_kind_of_value_becomes_what_the_command_line_takes() {
+        let text = "# mine\nstyle = \"inking\"\ntones = 2\nweld = 1e-7\nparallel = true # flat\n\
+                    tone-levels = [0.5, 1, \"2\"]\nseed = 0xFF\nfov = -1_0.5\neye = \"1,2,3\"\n";
+        let preset = parsed(text);
+        let expected = [
+            ("eye", OptionValue::text("1,2,3")),
+            ("fov", OptionValue::text("-10.5")),
+            ("parallel", OptionValue::Switch(true)),
+            ("seed", OptionValue::text("255")),
+            ("style", OptionValue::text("inking")),
+            ("tone-levels", OptionValue::text("0.5,1,2")),
+            ("tones", OptionValue::text("2")),
+            ("weld", OptionValue::text("1e-7")),
+        ];
+        assert_eq!(preset.options, expected.map(|(name, value)| (name.to_owned(), value)).into());
+        assert_eq!((preset.line_of("style"), preset.line_of("eye"), preset.line_of("no")), (Some(2), Some(9), None));
+    }
+
+    #[test]
+    fn what_is_no_preset_is_refused_with_its_line() {
+        let message = |text: &str| Preset::parse("a.toml", text).unwrap_err().to_string();
+        for (text, start) in [
+            ("style = \"inking\"\ntones =\n", "a.toml: line 2: this is no TOML"),
+            ("tones = 1\ntones = 2\n", "a.toml: line 2: this is no TOML"),
+            ("\n\n[style]\ntones = 2\n", "a.toml: line 3: style: write a text"),
+            ("tones = 1\nstyle.tones = 2\n", "a.toml: line 2: style: write a text"),
+            ("size = 1979-05-27\n", "a.toml: line 1: size: write a text"),
+            ("tone-levels = [[1, 2], 3]\n", "a.toml: line 1: tone-levels: write a text"),
+            ("\u{0}\u{ffff}", "a.toml: line 1: this is no TOML"),
+        ] {
+            let message = message(text);
+            assert!(message.starts_with(start) && message.lines().count() == 1, "{message}");
+        }
+    }
+
+    #[test]
+    fn files_that_are_none_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let message = |name: &str| Preset::read(name).unwrap_err().to_string();
+        assert!(message(folder.path().to_str().unwrap()).contains("no ordinary file"));
+        let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+        assert!(message(&at("none.toml")).contains("no such file"));
+        std::fs::write(at("long.toml"), vec![b'#'; LARGEST_BYTES as usize + 1]).unwrap();
+        assert!(message(&at("long.toml")).contains("longer than 65536 bytes"));
+        std::fs::write(at("long.toml"), vec![b'#'; LARGEST_BYTES as usize]).unwrap();
+        assert_eq!(Preset::read(&at("long.toml")).unwrap().options.len(), 0);
+        std::fs::write(at("latin.toml"), b"# caf\xe9").unwrap();
+        assert!(message(&at("latin.toml")).contains("UTF-8"));
+        let unknown = message("paper:nobody");
+        assert!(SHIPPED.iter().all(|(name, _)| unknown.contains(name)), "{unknown}");
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn what_is_written_is_read_back(
+            texts in proptest::collection::btree_map("[a-z]{1,8}(-[a-z]{1,5})?", "\\PC*|[-0-9.e]{1,9}|[\u{0}-\u{ff}]*", 0..8),
+            switch in proptest::bool::ANY,
+        ) {
+            let mut options: Options = texts.into_iter().map(|(name, text)| (name, OptionValue::Text(text))).collect();
+            options.insert("style".to_owned(), OptionValue::Switch(switch));
+            let text = to_toml(&options, "two\nlines");
+            assert!(text.starts_with("# two\n# lines\nstyle = "), "{text}");
+            assert_eq!(parsed(&text).options, options, "{text}");
+        }
+
+        #[test]
+        fn no_text_makes_the_reader_panic(text in "[a-z0-9=\"'\\[\\]{}.,# \n\u{0}-\u{1f}-]{0,60}|\\PC*") {
+            let _ = Preset::parse("a.toml", &text);
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! The presets that ship: the papers' constants, each a TOML file in `presets/` that names its source.
+
+/// Their names and texts.
+pub const SHIPPED: [(&str, &str); 5] = [
+    ("paper:evangelista-three-pass", include_str!("../../presets/evangelista-three-pass.toml")),
+    ("paper:evangelista-two-pass", include_str!("../../presets/evangelista-two-pass.toml")),
+    ("paper:dachsbacher-inking", include_str!("../../presets/dachsbacher-inking.toml")),
+    ("paper:valente-charcoal", include_str!("../../presets/valente-charcoal.toml")),
+    ("paper:valente-sand", include_str!("../../presets/valente-sand.toml")),
+];

@@ -1,0 +1,281 @@
+//! A picture's recipe: all that is needed to make it again, carried in the picture itself.
+//!
+//! In PNG it is a `tEXt` chunk, in SVG an element of `<metadata>`; both hold the same JSON in ASCII. There is no date in it, nor
+//! where the picture was written: the same drawing is the same bytes.
+
+use crate::error::{Error, Result};
+use crate::gl::ContextInfo;
+use crate::markup::escaped;
+use crate::picture::{Note, png_text};
+use crate::preset::{OptionValue, Options};
+use crate::shell;
+use crate::styles::{Charcoal, Paper, Style};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// The keyword of the PNG chunk.
+pub const KEYWORD: &str = "tinta-recipe";
+
+/// The longest recipe written or read, bytes of JSON.
+pub const LARGEST_BYTES: usize = 256 << 10;
+
+/// How much of an SVG is looked through: its metadata stands at its head.
+const HEAD_BYTES: u64 = 2 << 20;
+
+/// What a picture was made of.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Recipe {
+    /// tinta's version.
+    pub version: String,
+    /// The command: `render`.
+    pub command: String,
+    /// The style's name, given or by default.
+    pub style: String,
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// The models as the user named them.
+    pub models: Vec<String>,
+    /// Every option given, by its long name; the others are the version's defaults.
+    pub options: Options,
+    /// The files read: models, their materials, pictures that were drawn with.
+    pub files: Vec<FileRecord>,
+    /// The driver; `None` for lines, which need none.
+    pub gl: Option<Driver>,
+}
+
+/// A file as it was when it was read.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRecord {
+    /// As the user, or a model, named it.
+    pub path: String,
+    /// Its length.
+    pub bytes: u64,
+    /// SHA-256 of its content, hexadecimal.
+    pub sha256: String,
+}
+
+/// Who drew.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Driver {
+    /// `egl` or `osmesa`.
+    pub backend: String,
+    /// The library, and the device where there is a choice.
+    pub device: String,
+    /// GL_VENDOR
+    pub vendor: String,
+    /// GL_RENDERER
+    pub renderer: String,
+    /// GL_VERSION
+    pub version: String,
+}
+
+impl Driver {
+    /// A context's.
+    pub fn new(context: &ContextInfo) -> Self {
+        Self {
+            backend: context.backend.to_owned(),
+            device: context.device.clone(),
+            vendor: context.vendor.clone(),
+            renderer: context.renderer.clone(),
+            version: context.version.clone(),
+        }
+    }
+}
+
+impl FileRecord {
+    /// Reads the file through.
+    ///
+    /// # Errors
+    ///
+    /// What reading it gives.
+    pub fn of(path: &Path) -> std::io::Result<Self> {
+        let mut file = File::open(path)?;
+        let (mut hash, mut bytes, mut buffer) = (Sha256::new(), 0, vec![0; 1 << 16]);
+        loop {
+            match file.read(&mut buffer)? {
+                0 => break,
+                count => {
+                    hash.update(&buffer[..count]);
+                    bytes += count as u64;
+                }
+            }
+        }
+        let sha256 = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(Self { path: path.to_string_lossy().into_owned(), bytes, sha256 })
+    }
+}
+
+/// The picture files that a style was given.
+pub fn files_of(style: &Style) -> Vec<PathBuf> {
+    match style {
+        Style::Inking(inking) => inking.ramp.path.iter().cloned().collect(),
+        Style::Charcoal(Charcoal { paper: Paper::File { path, .. }, .. })
+        | Style::Sand(Charcoal { paper: Paper::File { path, .. }, .. }) => vec![path.clone()],
+        _ => Vec::new(),
+    }
+}
+
+/// Whether a style draws with the pictures on the models.
+pub fn draws_with_textures(style: &Style) -> bool {
+    match style {
+        Style::Inking(inking) => inking.has_texture,
+        Style::Sand(_) => true,
+        _ => false,
+    }
+}
+
+impl Recipe {
+    /// The recipe as ASCII JSON on one line; `None` when it is longer than [`LARGEST_BYTES`].
+    pub fn json(&self) -> Option<String> {
+        let text = serde_json::to_string(self).ok()?;
+        let mut ascii = String::with_capacity(text.len());
+        let mut units = [0; 2];
+        for letter in text.chars() {
+            // Outside of texts JSON is ASCII, and in them every letter may be written by its number.
+            match letter {
+                ' '..='~' => ascii.push(letter),
+                letter => letter.encode_utf16(&mut units).iter().for_each(|unit| ascii += &format!("\\u{unit:04x}")),
+            }
+        }
+        (ascii.len() <= LARGEST_BYTES).then_some(ascii)
+    }
+
+    /// The recipe as a PNG carries it; `None` as [`Recipe::json`].
+    pub fn note(&self) -> Option<Note> {
+        self.json().map(|text| Note { keyword: KEYWORD, text })
+    }
+
+    /// Finds the recipe in a PNG or SVG file.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Picture`] when the file cannot be read, is of another kind, or has no recipe that can be understood.
+    pub fn read(path: &Path) -> Result<Self> {
+        let failed = |problem: String| Error::picture(path, problem);
+        let cannot_read = |error: std::io::Error| match error.kind() {
+            std::io::ErrorKind::NotFound => failed("there is no such file; check the name".to_owned()),
+            _ => failed(format!("it cannot be read ({error}); check the file")),
+        };
+        // Only files: a pipe or device would never end.
+        if !path.metadata().map_err(cannot_read)?.is_file() {
+            return Err(failed("this is no ordinary file; name a picture".to_owned()));
+        }
+        let mut head = Vec::new();
+        File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head)).map_err(cannot_read)?;
+        Self::in_bytes(&head).map_err(failed)
+    }
+
+    /// Finds the recipe at the beginning of a PNG or SVG; the error is a sentence without the file's name.
+    fn in_bytes(head: &[u8]) -> std::result::Result<Self, String> {
+        let json = match png_text::is_png(head) {
+            true => png_text::find(head, KEYWORD)?,
+            false => in_svg(head)?,
+        };
+        let none = "it carries no recipe; draw it without --no-recipe as .png or .svg with tinta";
+        let json = json.ok_or_else(|| none.to_owned())?;
+        if json.len() > LARGEST_BYTES {
+            return Err(format!("its recipe is longer than {LARGEST_BYTES} bytes, so it is hardly one"));
+        }
+        serde_json::from_str(&json)
+            .map_err(|error| format!("its recipe cannot be understood ({error}); draw it again with tinta render"))
+    }
+
+    /// The command line that makes the picture, for a shell.
+    pub fn command_line(&self, output: &str) -> String {
+        let mut words = vec![self.command.clone()];
+        // A name that begins with a dash would be taken for an option.
+        let is_plain = |model: &String| !model.starts_with('-');
+        words.extend(self.models.iter().filter(|model| is_plain(model)).cloned());
+        words.extend(["-o".to_owned(), output.to_owned()]);
+        words.extend(self.options.iter().flat_map(|(name, value)| option_words(name, value)));
+        let (plain, others): (Vec<_>, Vec<_>) = self.models.iter().partition(|model| is_plain(model));
+        if plain.len() < self.models.len() {
+            words.push("--".to_owned());
+            words.extend(others.into_iter().cloned());
+        }
+        shell::command_line(words.into_iter())
+    }
+
+    /// What is not as it was when `self` was made: version, files, driver, size; a sentence each.
+    pub fn differences(&self, now: &Self) -> Vec<String> {
+        let mut all = Vec::new();
+        let mut say = |what: &str, then: &dyn std::fmt::Display, now: &dyn std::fmt::Display| {
+            all.push(format!("{what} was {then} and is {now} now"));
+        };
+        if self.version != now.version {
+            say("tinta's version", &self.version, &now.version);
+        }
+        if self.files.len() != now.files.len() {
+            say("the number of files read", &self.files.len(), &now.files.len());
+        }
+        for (then, now) in self.files.iter().zip(&now.files) {
+            if (then.bytes, &then.sha256) != (now.bytes, &now.sha256) {
+                let content = |file: &FileRecord| {
+                    format!("{} bytes with SHA-256 {}…", file.bytes, file.sha256.chars().take(16).collect::<String>())
+                };
+                say(&now.path, &content(then), &content(now));
+            }
+        }
+        let none = || Driver {
+            backend: "none".to_owned(),
+            device: "none".to_owned(),
+            vendor: "none".to_owned(),
+            renderer: "none".to_owned(),
+            version: "none".to_owned(),
+        };
+        let (then, is) = (self.gl.clone().unwrap_or_else(none), now.gl.clone().unwrap_or_else(none));
+        for (what, then, now) in [
+            ("the backend", &then.backend, &is.backend),
+            ("the device", &then.device, &is.device),
+            ("the driver's vendor", &then.vendor, &is.vendor),
+            ("the driver", &then.renderer, &is.renderer),
+            ("the driver's version", &then.version, &is.version),
+        ] {
+            if then != now {
+                say(what, then, now);
+            }
+        }
+        if self.size != now.size {
+            let text = |[width, height]: [u32; 2]| format!("{width}x{height}");
+            say("the size", &text(self.size), &text(now.size));
+        }
+        all
+    }
+}
+
+/// The words that give an option on the command line; none for a switch that is off.
+pub fn option_words(name: &str, value: &OptionValue) -> Vec<String> {
+    match value {
+        OptionValue::Switch(false) => Vec::new(),
+        OptionValue::Switch(true) => vec![format!("--{name}")],
+        // Beside its name it would be taken for an option.
+        OptionValue::Text(value) if value.starts_with('-') => vec![format!("--{name}={value}")],
+        OptionValue::Text(value) => vec![format!("--{name}"), value.clone()],
+    }
+}
+
+const BEGIN: &str = "<tinta:recipe xmlns:tinta=\"urn:tinta:recipe\">";
+const END: &str = "</tinta:recipe>";
+
+/// The recipe as an element of an SVG's metadata, with a line end; nothing for no recipe.
+pub(crate) fn svg_element(json: &str) -> String {
+    if json.is_empty() { String::new() } else { format!("{BEGIN}{}{END}\n", escaped(json)) }
+}
+
+fn in_svg(head: &[u8]) -> std::result::Result<Option<String>, String> {
+    let text = String::from_utf8_lossy(head);
+    if !text.contains("<svg") {
+        return Err("this is neither PNG nor SVG, and other files carry no recipe".to_owned());
+    }
+    let inner = text.split_once(BEGIN).and_then(|(_, rest)| rest.split_once(END));
+    Ok(inner.map(|(json, _)| {
+        let plain = [("&quot;", "\""), ("&lt;", "<"), ("&gt;", ">"), ("&#39;", "'"), ("&amp;", "&")];
+        plain.iter().fold(json.to_owned(), |text, (written, letter)| text.replace(written, letter))
+    }))
+}
+
+#[cfg(test)]
+mod tests;
