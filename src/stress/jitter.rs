@@ -227,9 +227,12 @@ mod tests {
         let back = scene(Shape::Cube, CameraSettings { view: "200,15".parse().unwrap(), ..CameraSettings::default() });
         let view = View::of(&front, &front.objects[0], CreaseAngle::default());
         let other = View::of(&back, &back.objects[0], CreaseAngle::default());
-        let changed: Vec<u32> = (0..18).filter(|edge| view.is_silhouette(*edge) != other.is_silhouette(*edge)).collect();
+        let changed: Vec<u32> =
+            (0..18).filter(|edge| view.is_silhouette(*edge) != other.is_silhouette(*edge)).collect();
         assert!(!changed.is_empty());
-        let unexplained = |edge: &&u32| view.list.faces(**edge).iter().all(|face| !may_have_changed(view.side(*face), view.side(*face)));
+        let unexplained = |edge: &&u32| {
+            view.list.faces(**edge).iter().all(|face| !may_have_changed(view.side(*face), view.side(*face)))
+        };
         assert_eq!(changed.iter().filter(unexplained).count(), changed.len());
     }
 }
