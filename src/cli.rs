@@ -13,6 +13,7 @@ mod shell;
 mod textures;
 
 use clap::{Parser, Subcommand};
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
 use tinta::{Error, Result};
@@ -33,7 +34,7 @@ Examples:
   tinta info                                     which OpenGL is there
 
 Exit codes: 0 done, 1 a check found a difference, 2 could not be done; the reason is one sentence on standard error.")]
-struct Arguments {
+pub struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
@@ -60,13 +61,7 @@ pub enum Verdict {
 
 /// Parses the command line and does what it says.
 pub fn run() -> Result<Verdict> {
-    let arguments = Arguments::try_parse().map_err(|error| {
-        use clap::error::ErrorKind::{DisplayHelp, DisplayHelpOnMissingArgumentOrSubcommand, DisplayVersion};
-        if matches!(error.kind(), DisplayHelp | DisplayVersion | DisplayHelpOnMissingArgumentOrSubcommand) {
-            error.exit();
-        }
-        Error::CommandLine { problem: in_one_sentence(&error) }
-    })?;
+    let arguments = parse(std::env::args_os()).unwrap_or_else(|help| help.exit())?;
     match arguments.command {
         Command::Render(arguments) => return render::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
@@ -77,6 +72,18 @@ pub fn run() -> Result<Verdict> {
         Command::Info(arguments) => info::run(&arguments),
     }
     .map(|()| Verdict::Good)
+}
+
+/// What the words say, the program's name first; the outer error is help or the version, which was asked for.
+pub fn parse(words: impl IntoIterator<Item = OsString>) -> std::result::Result<Result<Arguments>, clap::Error> {
+    use clap::error::ErrorKind::{DisplayHelp, DisplayHelpOnMissingArgumentOrSubcommand, DisplayVersion};
+    match Arguments::try_parse_from(words) {
+        Ok(arguments) => Ok(Ok(arguments)),
+        Err(error) => match error.kind() {
+            DisplayHelp | DisplayVersion | DisplayHelpOnMissingArgumentOrSubcommand => Err(error),
+            _ => Ok(Err(Error::CommandLine { problem: in_one_sentence(&error) })),
+        },
+    }
 }
 
 /// clap's message without its usage lines and hints, which `--help` has.
@@ -90,10 +97,16 @@ fn in_one_sentence(error: &clap::Error) -> String {
 
 /// Says a line to the person, on standard error; nobody listening is no error.
 pub fn say(line: &str) {
-    // A file's name may hold anything; it must neither break the line nor command the terminal.
-    let plain: String =
-        line.chars().flat_map(|c| if c.is_control() { c.escape_default().collect() } else { vec![c] }).collect();
-    let _ = writeln!(std::io::stderr(), "{plain}");
+    let _ = writeln!(std::io::stderr(), "{}", plain(line));
+}
+
+/// A line that is one: a file's name may hold anything, and must neither break the line nor turn it around nor command the
+/// terminal.
+pub fn plain(line: &str) -> String {
+    let is_unseen = |c: char| matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    line.chars()
+        .flat_map(|c| if c.is_control() || is_unseen(c) { c.escape_unicode().collect() } else { vec![c] })
+        .collect()
 }
 
 /// Writes text to standard output; a reader that has heard enough (`| head`) is no error.
