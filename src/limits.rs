@@ -39,8 +39,15 @@ pub const PIXELS_A_BYTE: u64 = 8 * 1032;
 /// Most triangles of a model: their corners are counted in 32 bits.
 pub const TRIANGLES: usize = 1 << 30;
 
+/// Most corners of a polygon that crosses itself: cutting it takes the square of their number. Longer ones are left out and
+/// counted as triangles without area.
+pub const CROSSING_CORNERS: usize = 1024;
+
 /// Longest header of a PLY file, bytes.
 pub const PLY_HEADER_BYTES: usize = 64 << 10;
+
+/// Longest line of a text STL file, bytes; the names of its solids aside.
+pub const STL_LINE_BYTES: usize = 1024;
 
 /// Most materials of a model.
 pub const MATERIALS: usize = 16_384;

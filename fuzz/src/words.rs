@@ -1,7 +1,7 @@
 //! The command line out of any bytes: one word a line.
 
 /// The program's own source, of which only the parsing runs here.
-#[allow(dead_code, reason = "only the parsing of the program's own source is run here")]
+#[expect(dead_code, reason = "only the parsing of the program's own source is run here")]
 #[path = "../../src"]
 mod program {
     pub mod cli;

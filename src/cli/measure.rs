@@ -5,6 +5,7 @@ mod settings;
 use super::options::{CameraArguments, ModelArguments};
 use super::progress::Progress;
 use settings::settings;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -310,7 +311,7 @@ fn is_shown(row: &Row) -> bool {
 /// Where the picture of a row's errors lies.
 fn error_path(arguments: &Arguments, row: &Row) -> PathBuf {
     let model: String = row.model.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ','], "-");
+    let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ',', '/', '\\'], "-");
     let name = format!("{}-{}x{}-{options}.png", model.trim_matches('-'), row.size[0], row.size[1]);
     arguments.output.join("errors").join(name)
 }
@@ -353,6 +354,8 @@ fn words() -> impl Iterator<Item = String> {
 /// Puts the rows of several files together.
 fn merge(arguments: &Arguments) -> Result<()> {
     let mut rows: Vec<Row> = Vec::new();
+    // Where the row of a key was first seen.
+    let mut places: HashMap<String, usize> = HashMap::new();
     for path in &arguments.merge {
         let of_file = read_rows(path)?;
         if of_file.is_empty() {
@@ -362,7 +365,8 @@ fn merge(arguments: &Arguments) -> Result<()> {
             });
         }
         for row in of_file {
-            if let Some(known) = rows.iter().find(|known| known.key() == row.key() && **known != row) {
+            let place = *places.entry(row.key()).or_insert(rows.len());
+            if let Some(known) = rows.get(place).filter(|known| **known != row) {
                 return Err(Error::Output {
                     path: path.display().to_string(),
                     problem: format!(

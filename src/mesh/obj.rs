@@ -166,7 +166,7 @@ fn put_on_materials(
                 let text = sound_material_lines(&text, MATERIALS - found.len())
                     .ok_or_else(|| Error::model(path, format!("it has more than {MATERIALS} materials; merge some")))?;
                 let (more, more_numbers) = tobj::load_mtl_buf(&mut text.as_slice())
-                    .map_err(|error| Error::model(path, format!("its materials cannot be read ({error})")))?;
+                    .map_err(|error| Error::model(path, format!("its materials cannot be read ({})", shown(&error.to_string()))))?;
                 numbers.extend(more_numbers.into_iter().map(|(name, number)| (name, found.len() + number)));
                 found.extend(more);
             }

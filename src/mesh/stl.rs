@@ -4,6 +4,8 @@
 
 use super::soup::{Corner, Soup};
 use crate::error::{Error, Result};
+use crate::files::shown;
+use crate::limits::STL_LINE_BYTES;
 use glam::DVec3;
 use std::io::Cursor;
 
@@ -27,7 +29,7 @@ fn facet_count(bytes: &[u8]) -> Option<usize> {
 
 /// Reads an STL file's bytes. `path` is for messages.
 pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
-    let damaged = |error: std::io::Error| Error::model(path, format!("it is damaged ({error}); export it again"));
+    let damaged = |error: std::io::Error| Error::model(path, format!("it is damaged ({}); export it again", shown(&error.to_string())));
     let mut non_finite = Vec::new();
     // Some programs leave a few bytes behind the last facet.
     let holds_all = facet_count(bytes).is_some_and(|count| bytes.len() >= HEADER_BYTES + count * FACET_BYTES);
@@ -59,7 +61,10 @@ fn one_solid(text: &str, path: &str, non_finite: &mut Vec<usize>) -> Result<Stri
     let mut vertex_count = 0;
     let mut last = "";
     let lower = text.to_ascii_lowercase();
-    for line in lower.lines().map(str::trim).filter(|line| !line.is_empty()) {
+    for (number, line) in (1..).zip(lower.lines()).map(|(number, line)| (number, line.trim())) {
+        if line.is_empty() {
+            continue;
+        }
         let mut words = line.split_whitespace();
         last = words.next().unwrap_or_default();
         match last {
@@ -68,6 +73,14 @@ fn one_solid(text: &str, path: &str, non_finite: &mut Vec<usize>) -> Result<Stri
             "vertex" if words.by_ref().filter_map(|word| word.parse::<f32>().ok()).any(|x| !x.is_finite()) => {
                 non_finite.push(vertex_count);
                 whole.push_str("vertex 0 0 0");
+            }
+            // stl_io makes a text of every word.
+            _ if line.len() > STL_LINE_BYTES => {
+                return Err(Error::Model {
+                    path: path.to_owned(),
+                    line: Some(number),
+                    problem: "it is longer than any line of an STL file; the file is damaged, export it again".to_owned(),
+                });
             }
             _ => whole.push_str(line),
         }
@@ -141,6 +154,16 @@ mod tests {
         assert_eq!(soup.positions.len(), 6);
         assert_eq!(soup.positions[0].x, 2.0);
         assert!(soup.positions[3].is_nan());
+    }
+
+    #[test]
+    fn lines_without_end_are_refused_by_number_and_not_quoted_without_end() {
+        let facet = format!("solid x\nsolidfacet {}\nendsolid x\n", "\u{4} ".repeat(400));
+        let message = read(facet.as_bytes(), "t.stl").unwrap_err().to_string();
+        assert!(message.starts_with("t.stl: it is damaged (") && message.len() < 1000, "{message}");
+        let vertex = format!("solid x\nfacet normal 0 0 1\nouter loop\nvertex{}\nendsolid x\n", " 0".repeat(1_000_000));
+        let message = read(vertex.as_bytes(), "t.stl").unwrap_err().to_string();
+        assert!(message.starts_with("t.stl: line 4: it is longer than any line"), "{message}");
     }
 
     #[test]
