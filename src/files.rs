@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn memory_that_is_not_there_is_a_sentence() {
         let failure = read_from(Liar { count: 10 }, u64::MAX >> 2, u64::MAX >> 1).unwrap_err();
-        assert!(failure.problem("a model file").starts_with("there is no memory for its 4398046511104 MiB"));
+        assert!(failure.problem("a model file").starts_with("there is no memory for its 4294967296 GiB"));
     }
 
     #[test]

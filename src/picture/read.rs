@@ -1,6 +1,7 @@
 //! Picture files to pictures: skins and textures. Known by content, where that says too little by extension.
 
 use super::{Picture, pcx};
+use crate::bytes::Bytes;
 use crate::error::{Error, Result};
 use crate::files::{self, shown};
 use crate::limits::{
@@ -84,6 +85,9 @@ fn decode(bytes: &[u8], extension: &str, most: u64) -> std::result::Result<Pictu
             return Err("this is not a picture in a format known here; use PNG, BMP, TGA, JPEG, PPM or PCX".to_owned());
         }
     };
+    if format == ImageFormat::Png && !has_sound_palette(bytes) {
+        return Err("its palette is no list of up to 256 colours; it is damaged, save it again".to_owned());
+    }
     let mut limits = Limits::default();
     limits.max_image_width = Some(PICTURE_SIDE_PX);
     limits.max_image_height = Some(PICTURE_SIDE_PX);
@@ -100,6 +104,24 @@ fn decode(bytes: &[u8], extension: &str, most: u64) -> std::result::Result<Pictu
         return Err("it has no pixels; save it again".to_owned());
     }
     Ok(Picture { size, pixels: picture.into_raw() })
+}
+
+/// Whether a PNG file's palette, if it has one, is whole colours and not too many: the png crate (0.18) panics where it is not.
+fn has_sound_palette(file: &[u8]) -> bool {
+    const SIGNATURE_BYTES: usize = 8;
+    let mut bytes = Bytes(file);
+    bytes.take(SIGNATURE_BYTES);
+    loop {
+        let length = bytes.u32().map(|length| length.swap_bytes() as usize);
+        let (Some(length), Some(kind)) = (length, bytes.take(4)) else { return true };
+        if kind == b"PLTE" && (length > 256 * 3 || length % 3 != 0) {
+            return false;
+        }
+        // A checksum of four bytes follows; where the file ends too early the decoder says so.
+        if bytes.take(length).and_then(|_| bytes.take(4)).is_none() {
+            return true;
+        }
+    }
 }
 
 fn in_words(error: &ImageError) -> String {
@@ -172,6 +194,23 @@ mod tests {
         assert!(ppm(16_385, 1).contains("longer than 16384 pixels"));
         assert!(ppm(1, 100_000).contains("longer than 16384 pixels"));
         assert!(ppm(100, 100).contains("damaged"));
+    }
+
+    #[test]
+    fn palettes_of_broken_colours_or_too_many_are_refused() {
+        // A PNG of 4 x 1 pixels with a palette of so many bytes; its checksums do not count here.
+        let with = |length: u32| {
+            let chunk = |kind: &[u8], data: &[u8]| [&(data.len() as u32).to_be_bytes(), kind, data, &[0; 4]].concat();
+            let header = chunk(b"IHDR", &[0, 0, 0, 4, 0, 0, 0, 1, 8, 3, 0, 0, 0]);
+            let palette = chunk(b"PLTE", &vec![7; length as usize]);
+            [b"\x89PNG\r\n\x1a\n".as_slice(), &header, &palette, &chunk(b"IDAT", &[0; 9])].concat()
+        };
+        for length in [1, 2, 4, 5, 766, 767, 769, 771, 3000] {
+            assert!(decode(&with(length), "png", u64::MAX).unwrap_err().contains("palette"), "{length}");
+        }
+        for length in [0, 3, 6, 768] {
+            assert!(has_sound_palette(&with(length)), "{length}");
+        }
     }
 
     #[test]
