@@ -110,8 +110,9 @@ fn the_limits_are_documented_as_they_are() {
     for (name, value) in limits {
         // | `NAME` | 64 MiB | why |
         let row = document.lines().find_map(|line| line.strip_prefix(&format!("| `{name}` | "))).expect(name);
-        let (number, unit) = row.split(" |").next().unwrap().split_once(' ').unwrap_or((row, ""));
-        let number: u64 = number.trim_end_matches(" |").replace(',', "").parse().expect(row);
+        let cell = row.split(" |").next().unwrap();
+        let (number, unit) = cell.split_once(' ').unwrap_or((cell, ""));
+        let number: u64 = number.replace(',', "").parse().expect(row);
         let documented = match unit {
             "GiB" => number << 30,
             "MiB" => number << 20,

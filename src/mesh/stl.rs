@@ -1,8 +1,9 @@
-//! STL, binary and text, through the stl_io crate.
+//! STL: text through the stl_io crate, binary here, where the crate would want a copy of the file.
 //!
 //! The file's facet normals are not used: the corners' order says the same and is what edges are found by.
 
 use super::soup::{Corner, Soup};
+use crate::bytes::Bytes;
 use crate::error::{Error, Result};
 use crate::files::shown;
 use crate::limits::STL_LINE_BYTES;
@@ -34,14 +35,13 @@ pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
     // Some programs leave a few bytes behind the last facet.
     let holds_all = facet_count(bytes).is_some_and(|count| bytes.len() >= HEADER_BYTES + count * FACET_BYTES);
     let text = is_text(&bytes[..bytes.len().min(4096)]);
-    let whole = if is_binary(bytes) || (holds_all && !text) {
-        // Keeps stl_io from taking a binary file whose header begins with "solid " for text.
-        [b"     ", &bytes[5..]].concat()
-    } else if text {
-        one_solid(&String::from_utf8_lossy(bytes), path, &mut non_finite)?.into_bytes()
-    } else {
+    if is_binary(bytes) || (holds_all && !text) {
+        return Ok(binary(bytes));
+    }
+    if !text {
         return Err(Error::model(path, truncated(bytes)));
-    };
+    }
+    let whole = one_solid(&String::from_utf8_lossy(bytes), path, &mut non_finite)?.into_bytes();
     let mut cursor = Cursor::new(whole);
     let mut soup = Soup::default();
     for facet in stl_io::create_stl_reader(&mut cursor).map_err(damaged)? {
@@ -52,6 +52,24 @@ pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
     }
     non_finite.into_iter().for_each(|index: usize| soup.positions[index] = DVec3::NAN);
     Ok(soup)
+}
+
+/// A binary file's facets, which are all there.
+fn binary(bytes: &[u8]) -> Soup {
+    let mut rest = Bytes(bytes.get(HEADER_BYTES..).unwrap_or_default());
+    let count = facet_count(bytes).unwrap_or_default();
+    let mut soup = Soup::default();
+    soup.positions.reserve_exact(count * 3);
+    soup.corners.reserve_exact(count * 3);
+    for facet in rest.records(count, FACET_BYTES).into_iter().flatten() {
+        let mut facet = Bytes(facet);
+        let [_normal, corners @ ..]: [Option<[f32; 3]>; 4] = std::array::from_fn(|_| facet.floats());
+        for corner in corners {
+            soup.corners.push(Corner::at(soup.positions.len() as u32));
+            soup.positions.push(DVec3::from_array(corner.unwrap_or_default().map(f64::from)));
+        }
+    }
+    soup
 }
 
 /// Text STL the way stl_io wants it: one named solid without facet normals, and without numbers that are not finite, whose

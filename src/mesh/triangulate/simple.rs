@@ -1,13 +1,13 @@
 //! Whether a polygon's sides cross each other: earcut takes the square of the corners' number or more where they do.
 //!
-//! The sides are laid into a grid of about sixteen sides a cell and compared within each cell. A polygon whose sides are so long
-//! that they fill the grid takes earcut as long, and counts as crossing itself.
+//! The sides are laid into a grid whose cells are twice as wide as a side is long, and compared within each cell. A polygon with
+//! hundreds of sides a cell takes earcut as long, and counts as crossing itself.
 
 use glam::DVec2;
 use robust::{Coord, orient2d};
 
-/// Sides in a cell of the grid, on average, where they are short.
-const SIDES_A_CELL: f64 = 16.0;
+/// Width of a cell in mean lengths of sides.
+const CELL_WIDTH: f64 = 2.0;
 
 /// Most cells that a side lies in, on average.
 const CELLS_A_SIDE: usize = 8;
@@ -17,15 +17,14 @@ const PAIRS_A_SIDE: usize = 512;
 
 /// Whether no two sides of a polygon cross. Sides may touch and lie on one another, as where a hole is joined to the rim.
 pub fn is_simple(points: &[DVec2]) -> bool {
-    let (low, high) =
-        points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
-    let extent = (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
-    let cells_a_row = (points.len() as f64 / SIDES_A_CELL).sqrt().ceil().max(1.0);
-    let scale = DVec2::splat(cells_a_row) / extent;
-    let cell = |coordinate: f64| (coordinate as u32).min(cells_a_row as u32 - 1);
     let side = |index: u32| [points[index as usize], points[(index as usize + 1) % points.len()]];
+    let low = points.iter().fold(DVec2::INFINITY, |low, point| low.min(*point));
+    let length: f64 = (0..points.len() as u32).map(side).map(|[from, to]| from.distance(to)).sum();
+    let scale = points.len() as f64 / (length * CELL_WIDTH).max(f64::MIN_POSITIVE);
+    // A closed polygon is at least twice as long as it is wide, so that a quarter of its corners' number is enough cells.
+    let cell = |coordinate: f64| coordinate as u32;
 
-    let mut places: Vec<(u32, u32)> = Vec::new();
+    let mut places: Vec<(u64, u32)> = Vec::new();
     for index in 0..points.len() as u32 {
         let [from, to] = side(index).map(|point| (point - low) * scale);
         let (lower, upper) = if from.y <= to.y { (from, to) } else { (to, from) };
@@ -37,7 +36,7 @@ pub fn is_simple(points: &[DVec2]) -> bool {
             };
             let ([a, b], [c, d]) = (at(f64::from(row)), at(f64::from(row) + 1.0));
             for column in cell(a.min(b).min(c).min(d))..=cell(a.max(b).max(c).max(d)) {
-                places.push((row * cells_a_row as u32 + column, index));
+                places.push((u64::from(row) << 32 | u64::from(column), index));
             }
             if places.len() > points.len() * CELLS_A_SIDE {
                 return false;
