@@ -103,7 +103,8 @@ pub fn say(line: &str) {
 /// A line that is one: a file's name may hold anything, and must neither break the line nor turn it around nor command the
 /// terminal.
 pub fn plain(line: &str) -> String {
-    let is_unseen = |c: char| matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let is_unseen =
+        |c: char| matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     line.chars()
         .flat_map(|c| if c.is_control() || is_unseen(c) { c.escape_unicode().collect() } else { vec![c] })
         .collect()

@@ -76,10 +76,17 @@ fn files_that_lie_about_their_counts_are_refused_without_the_memory() {
     };
     let three_ds = |number: u16| {
         let mesh = chunk(0x4100, &chunk(number, &[0xff, 0xff, 1, 2, 3]));
-        chunk(0x4d4d, &[chunk(2, &[3, 0, 0, 0]), chunk(0x3d3d, &chunk(0x4000, &[b"o\0", mesh.as_slice()].concat()))].concat())
+        chunk(
+            0x4d4d,
+            &[chunk(2, &[3, 0, 0, 0]), chunk(0x3d3d, &chunk(0x4000, &[b"o\0", mesh.as_slice()].concat()))].concat(),
+        )
     };
     let files = [
-        ("vertices.ply", ply("binary_little_endian", header, &[0; 30]), "ends before the last of the file's 4000000000 vertex"),
+        (
+            "vertices.ply",
+            ply("binary_little_endian", header, &[0; 30]),
+            "ends before the last of the file's 4000000000 vertex",
+        ),
         ("vertices-text.ply", ply("ascii", header, b"0 0 0\n"), "line 9: it is damaged or cut off"),
         ("faces.ply", ply("binary_big_endian", faces, &[0; 30]), "3000000000 face"),
         ("list.ply", ply("binary_little_endian", faces, &[0xff; 30]), "3000000000 face"),
@@ -158,9 +165,11 @@ fn a_gibibyte_of_zeros_is_refused_whatever_it_is_called() {
     let zeros = folder.file("zeros.obj", b"");
     std::fs::File::options().write(true).open(&zeros).unwrap().set_len(1 << 30).unwrap();
     refused(&tinta_within(1600, &["edges", &zeros]), &["zeros.obj: it holds no vertices and no faces"]);
-    for (name, sentence) in
-        [("zeros.stl", "it holds no vertices"), ("zeros.ply", "does not begin like"), ("zeros.3ds", "does not begin like")]
-    {
+    for (name, sentence) in [
+        ("zeros.stl", "it holds no vertices"),
+        ("zeros.ply", "does not begin like"),
+        ("zeros.3ds", "does not begin like"),
+    ] {
         let link = folder.path(name);
         std::os::unix::fs::symlink(&zeros, &link).unwrap();
         refused(&tinta_within(1600, &["edges", &link]), &[name, sentence]);
@@ -187,7 +196,9 @@ fn pipes_and_folders_are_refused_wherever_a_file_is_read_and_nobody_waits_for_th
         refused(&tinta(&["measure", "--merge", file, "-o", &new]), &[what]);
     }
     refused(&tinta(&["edges", "builtin:ant", "--skin", &pipe]), &["no ordinary file"]);
-    for open in [tinta::report::RowLog::create, |folder: &Path| tinta::report::RowLog::resume(folder).map(|(log, _)| log)] {
+    for open in
+        [tinta::report::RowLog::create, |folder: &Path| tinta::report::RowLog::resume(folder).map(|(log, _)| log)]
+    {
         let message = open(Path::new(&inside)).unwrap_err().to_string();
         assert!(message.contains("results.jsonl: this is no ordinary file"), "{message}");
     }
@@ -201,7 +212,8 @@ fn pipes_and_folders_are_refused_wherever_a_file_is_read_and_nobody_waits_for_th
 fn faces_of_a_million_corners_are_cut_into_triangles() {
     let corners = 1_000_000;
     let turn = |i: u32| f64::from(i) / f64::from(corners) * std::f64::consts::TAU;
-    let shapes: [(&str, &dyn Fn(u32) -> f64); 2] = [("a circle", &|_| 1.0), ("a star", &|i| 1.0 + f64::from(i % 2) * 2e-4)];
+    let shapes: [(&str, &dyn Fn(u32) -> f64); 2] =
+        [("a circle", &|_| 1.0), ("a star", &|i| 1.0 + f64::from(i % 2) * 2e-4)];
     for (name, radius) in shapes {
         let mut text = String::new();
         for i in 0..corners {
@@ -246,7 +258,8 @@ fn corners_of_two_bytes_each_are_refused_before_they_take_more_than_twenty_times
     drop(file);
     assert_eq!(bytes >> 20, 19);
     // 20 times the file, the slack of docs/limits.md, and what any process takes of its address space.
-    let sentence = "corners.obj: its 4 vertices and 9999998 triangles take more than 20 times the file's size in memory";
+    let sentence =
+        "corners.obj: its 4 vertices and 9999998 triangles take more than 20 times the file's size in memory";
     refused(&tinta_within(20 * 20 + 64 + 300, &["edges", &model]), &[sentence]);
 }
 
@@ -337,7 +350,10 @@ fn material_files_outside_the_models_folder_are_followed_only_when_asked_to() {
     for name in ["../secret.mtl", &absolute, "link.mtl", "up/secret.mtl", "art/../../secret.mtl"] {
         let (color, remarks) = with(name, false);
         assert_eq!((color, remarks.len()), (None, 1), "{name}: {remarks:?}");
-        assert!(remarks[0].contains("lies outside its folder") && remarks[0].contains("--allow-external"), "{remarks:?}");
+        assert!(
+            remarks[0].contains("lies outside its folder") && remarks[0].contains("--allow-external"),
+            "{remarks:?}"
+        );
         assert_eq!(with(name, true), (Some([1.0, 0.0, 0.0]), vec![]), "{name}");
     }
     for name in ["art/inside.mtl", "../model/art/inside.mtl", "./art/../art/inside.mtl"] {
@@ -362,7 +378,10 @@ fn pictures_outside_the_models_folder_are_followed_only_when_asked_to() {
     for name in ["../secret.png", &absolute, "link.png", "up/secret.png", "..\\secret.png"] {
         let (is_there, remarks) = with(name, false);
         assert!(!is_there && remarks.len() == 1, "{name}: {remarks:?}");
-        assert!(remarks[0].contains("lies outside its folder") && remarks[0].contains("--allow-external"), "{remarks:?}");
+        assert!(
+            remarks[0].contains("lies outside its folder") && remarks[0].contains("--allow-external"),
+            "{remarks:?}"
+        );
         assert_eq!(with(name, true), (true, vec![]), "{name}");
     }
     for name in ["art/inside.png", "inside-link.png", "../model/art/inside.png"] {

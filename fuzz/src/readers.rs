@@ -42,7 +42,8 @@ pub fn load(bytes: &[u8]) {
     let Some((how, bytes)) = bytes.split_first() else { return };
     let options = LoadOptions {
         weld: if how & 1 == 0 { 0.0 } else { 0.05 },
-        normals: [tinta::mesh::Normals::File, tinta::mesh::Normals::Smooth, tinta::mesh::Normals::Flat][usize::from(how >> 1) % 3],
+        normals: [tinta::mesh::Normals::File, tinta::mesh::Normals::Smooth, tinta::mesh::Normals::Flat]
+            [usize::from(how >> 1) % 3],
         strict: how & 8 != 0,
         ..LoadOptions::default()
     };

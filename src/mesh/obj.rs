@@ -52,7 +52,9 @@ impl<'a> Materials<'a> {
         match several() {
             Some(texts) => Ok(Cow::Owned(texts.join(&b'\n'))),
             None => Err(match failure {
-                Failure::Outside => format!("{}; its faces get the default colour", skin::outside("material file", name)),
+                Failure::Outside => {
+                    format!("{}; its faces get the default colour", skin::outside("material file", name))
+                }
                 Failure::TooLarge(_) | Failure::NoMemory(_) => {
                     format!("the material file {}: {}", shown(name), failure.problem("a material file"))
                 }
@@ -165,8 +167,9 @@ fn put_on_materials(
                 });
                 let text = sound_material_lines(&text, MATERIALS - found.len())
                     .ok_or_else(|| Error::model(path, format!("it has more than {MATERIALS} materials; merge some")))?;
-                let (more, more_numbers) = tobj::load_mtl_buf(&mut text.as_slice())
-                    .map_err(|error| Error::model(path, format!("its materials cannot be read ({})", shown(&error.to_string()))))?;
+                let (more, more_numbers) = tobj::load_mtl_buf(&mut text.as_slice()).map_err(|error| {
+                    Error::model(path, format!("its materials cannot be read ({})", shown(&error.to_string())))
+                })?;
                 numbers.extend(more_numbers.into_iter().map(|(name, number)| (name, found.len() + number)));
                 found.extend(more);
             }
@@ -370,7 +373,8 @@ mod tests {
     #[test]
     fn a_material_file_that_is_a_device_is_not_read() {
         let text = format!("mtllib /dev/zero\n{SQUARE}f 1 2 3\n");
-        let soup = read(text.as_bytes(), "t.obj", &Materials::Beside(&Folder::of("/t.obj", true)), &mut Vec::new()).unwrap();
+        let soup =
+            read(text.as_bytes(), "t.obj", &Materials::Beside(&Folder::of("/t.obj", true)), &mut Vec::new()).unwrap();
         assert_eq!(soup.defects.missing_materials, 1);
     }
 
@@ -378,7 +382,9 @@ mod tests {
     fn a_missing_material_file_is_remarked_and_counted() {
         let mut remarks = Vec::new();
         let text = format!("mtllib no-such.mtl\n{SQUARE}f 1 2 3\n");
-        let soup = read(text.as_bytes(), "t.obj", &Materials::Beside(&Folder::of("/nowhere/t.obj", false)), &mut remarks).unwrap();
+        let soup =
+            read(text.as_bytes(), "t.obj", &Materials::Beside(&Folder::of("/nowhere/t.obj", false)), &mut remarks)
+                .unwrap();
         assert_eq!(soup.defects.missing_materials, 1);
         assert!(remarks[0].starts_with("t.obj: the material file no-such.mtl"), "{remarks:?}");
     }

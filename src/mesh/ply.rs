@@ -24,7 +24,8 @@ pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
     }
     let head = &bytes[..bytes.len().min(PLY_HEADER_BYTES)];
     if head.len() < bytes.len() && memchr::memmem::find(head, b"end_header").is_none() {
-        let problem = format!("its header does not end within {PLY_HEADER_BYTES} bytes; it is damaged, export it again");
+        let problem =
+            format!("its header does not end within {PLY_HEADER_BYTES} bytes; it is damaged, export it again");
         return Err(Error::model(path, problem));
     }
     let damaged = |line: Option<u64>, cause: &str| Error::Model {
@@ -47,7 +48,9 @@ pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
             "face" => contents.faces(&mut payload, element),
             _ => (0..element.count).try_for_each(|_| payload.element(element, |_, _| {})),
         };
-        read.map_err(|Damage(cause)| damaged(payload.line(), &format!("{cause} of the file's {} {name}", element.count)))?;
+        read.map_err(|Damage(cause)| {
+            damaged(payload.line(), &format!("{cause} of the file's {} {name}", element.count))
+        })?;
     }
     Ok(contents.soup)
 }

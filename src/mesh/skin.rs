@@ -177,7 +177,8 @@ mod tests {
     #[test]
     fn a_skin_goes_onto_all_materials_and_faces_without_one_get_one() {
         let corner = |position| Corner { texture: 0, ..Corner::at(position) };
-        let material = Material { name: "red".to_owned(), color: Some([1.0, 0.0, 0.0]), texture: None, texture_within: None };
+        let material =
+            Material { name: "red".to_owned(), color: Some([1.0, 0.0, 0.0]), texture: None, texture_within: None };
         let mut soup = Soup {
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
             texture_coordinates: vec![Vec2::ZERO],

@@ -30,7 +30,9 @@ fn facet_count(bytes: &[u8]) -> Option<usize> {
 
 /// Reads an STL file's bytes. `path` is for messages.
 pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
-    let damaged = |error: std::io::Error| Error::model(path, format!("it is damaged ({}); export it again", shown(&error.to_string())));
+    let damaged = |error: std::io::Error| {
+        Error::model(path, format!("it is damaged ({}); export it again", shown(&error.to_string())))
+    };
     let mut non_finite = Vec::new();
     // Some programs leave a few bytes behind the last facet.
     let holds_all = facet_count(bytes).is_some_and(|count| bytes.len() >= HEADER_BYTES + count * FACET_BYTES);
@@ -97,7 +99,8 @@ fn one_solid(text: &str, path: &str, non_finite: &mut Vec<usize>) -> Result<Stri
                 return Err(Error::Model {
                     path: path.to_owned(),
                     line: Some(number),
-                    problem: "it is longer than any line of an STL file; the file is damaged, export it again".to_owned(),
+                    problem: "it is longer than any line of an STL file; the file is damaged, export it again"
+                        .to_owned(),
                 });
             }
             _ => whole.push_str(line),

@@ -50,13 +50,19 @@ impl Picture {
 }
 
 /// Refuses a picture whose pixels would take more than they may, `most` bytes among it, or more than its file can hold.
-pub(super) fn check_size(Size { width, height }: Size, file_bytes: usize, most: u64) -> std::result::Result<(), String> {
+pub(super) fn check_size(
+    Size { width, height }: Size,
+    file_bytes: usize,
+    most: u64,
+) -> std::result::Result<(), String> {
     if width.max(height) > PICTURE_SIDE_PX {
         return Err(too_large());
     }
     let (pixels, file_bytes) = (u64::from(width) * u64::from(height), file_bytes as u64);
     if pixels > file_bytes.saturating_mul(PIXELS_A_BYTE) {
-        return Err(format!("its {file_bytes} bytes cannot hold {width} x {height} pixels; it is damaged, save it again"));
+        return Err(format!(
+            "its {file_bytes} bytes cannot hold {width} x {height} pixels; it is damaged, save it again"
+        ));
     }
     if pixels * 4 > PICTURE_BYTES.max(file_bytes.saturating_mul(MEMORY_FACTOR as u64)).min(most) {
         return Err(format!(
@@ -189,8 +195,9 @@ mod tests {
 
     #[test]
     fn pictures_that_are_too_long_are_refused_before_they_are_decoded() {
-        let ppm =
-            |width: u32, height: u32| decode(format!("P6\n{width} {height}\n255\n").as_bytes(), "ppm", u64::MAX).unwrap_err();
+        let ppm = |width: u32, height: u32| {
+            decode(format!("P6\n{width} {height}\n255\n").as_bytes(), "ppm", u64::MAX).unwrap_err()
+        };
         assert!(ppm(16_385, 1).contains("longer than 16384 pixels"));
         assert!(ppm(1, 100_000).contains("longer than 16384 pixels"));
         assert!(ppm(100, 100).contains("damaged"));

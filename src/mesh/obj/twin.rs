@@ -1,8 +1,8 @@
 //! A second opinion of OBJ files, for tests: tobj's, behind a reader that hands on one sound line at a time and keeps what
 //! tobj does not tell. It read everybody's files once; what it shares with the reader now is MTL files and the mesh made.
 
-use super::super::{NONE, skin};
 use super::super::soup::{Corner, Soup};
+use super::super::{NONE, skin};
 use super::{Materials, material, sound_material_lines};
 use crate::error::{Error, Result};
 use glam::{DVec3, Vec2, Vec3};
