@@ -5,6 +5,7 @@
 //! same place relative to what it lights (errata E11). Scene space only moves and scales world space; nothing turns.
 
 mod extent;
+mod pictures;
 mod turntable;
 mod values;
 
@@ -14,13 +15,10 @@ use crate::camera::{Camera, CameraSettings, Projection};
 use crate::edges::{Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::hiding::Hiding;
-use crate::limits::{MEMORY_FACTOR, MODEL_PICTURES_BYTES};
-use crate::mesh::{Material, Mesh, NONE, VertexArrays, bounds};
+use crate::mesh::{Mesh, NONE, VertexArrays, bounds};
 use crate::picture::Picture;
 use crate::tolerances::{LARGEST_DISTANCE, SCENE_RADIUS};
 use glam::{DMat4, DVec3, Mat4, Vec3};
-use std::collections::HashMap;
-use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 /// A mesh at a place.
@@ -216,7 +214,7 @@ impl Scene {
     /// [`Error::Picture`] when one cannot be read.
     pub fn material_pictures<'a>(&self, object: &'a Object) -> Result<&'a [Option<Arc<Picture>>]> {
         if object.pictures.get().is_none() {
-            let pictures = read_pictures(&object.mesh.materials);
+            let pictures = pictures::read(&object.mesh.materials);
             // Whoever came first has read the same files.
             let _ = object.pictures.set(pictures?);
         }
@@ -264,29 +262,6 @@ impl Scene {
     pub fn triangle_count(&self) -> usize {
         self.objects.iter().map(|object| object.mesh.triangles.len()).sum()
     }
-}
-
-/// The materials' pictures, each file read once, all of them together within [`MODEL_PICTURES_BYTES`].
-fn read_pictures(materials: &[Material]) -> Result<Vec<Option<Arc<Picture>>>> {
-    let mut known: HashMap<(&Path, Option<&Path>), Arc<Picture>> = HashMap::new();
-    let (mut file_bytes, mut bytes) = (0u64, 0u64);
-    let mut pictures = Vec::with_capacity(materials.len());
-    for Material { texture, texture_within, .. } in materials {
-        let Some(path) = texture else {
-            pictures.push(None);
-            continue;
-        };
-        let key = (path.as_path(), texture_within.as_deref());
-        if !known.contains_key(&key) {
-            let most = MODEL_PICTURES_BYTES.max(file_bytes.saturating_mul(MEMORY_FACTOR as u64)).saturating_sub(bytes);
-            let (picture, size) = Picture::read_within(path, key.1, most)?;
-            file_bytes += size;
-            bytes += picture.pixels.len() as u64;
-            known.insert(key, Arc::new(picture));
-        }
-        pictures.push(known.get(&key).cloned());
-    }
-    Ok(pictures)
 }
 
 impl Object {

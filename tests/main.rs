@@ -10,6 +10,8 @@ mod cli_measure;
 mod corpus;
 mod docs;
 mod edges;
+#[cfg(unix)]
+mod external;
 mod figures;
 mod goldens;
 mod hiding;
