@@ -106,7 +106,7 @@ pub fn plain(line: &str) -> String {
     let is_unseen =
         |c: char| matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     line.chars()
-        .flat_map(|c| if c.is_control() || is_unseen(c) { c.escape_unicode().collect() } else { vec![c] })
+        .flat_map(|c| if c.is_control() || is_unseen(c) { c.escape_default().collect() } else { vec![c] })
         .collect()
 }
 

@@ -39,8 +39,11 @@ pub const PIXELS_A_BYTE: u64 = 8 * 1032;
 /// Most triangles of a model: their corners are counted in 32 bits.
 pub const TRIANGLES: usize = 1 << 30;
 
-/// Most corners of a polygon that crosses itself: cutting it takes the square of their number. Longer ones are left out and
+/// Most corners of a polygon that is not convex: cutting it may take the square of their number. Longer ones are left out and
 /// counted as triangles without area.
+pub const CONCAVE_CORNERS: usize = 32_768;
+
+/// Most corners of a polygon that crosses itself: cutting it may take their cube. Longer ones are left out likewise.
 pub const CROSSING_CORNERS: usize = 1024;
 
 /// Longest header of a PLY file, bytes.

@@ -95,6 +95,7 @@ fn the_limits_are_documented_as_they_are() {
         ("MODEL_PICTURES_BYTES", MODEL_PICTURES_BYTES),
         ("PIXELS_A_BYTE", PIXELS_A_BYTE),
         ("TRIANGLES", TRIANGLES as u64),
+        ("CONCAVE_CORNERS", CONCAVE_CORNERS as u64),
         ("CROSSING_CORNERS", CROSSING_CORNERS as u64),
         ("PLY_HEADER_BYTES", PLY_HEADER_BYTES as u64),
         ("STL_LINE_BYTES", STL_LINE_BYTES as u64),

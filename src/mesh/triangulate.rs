@@ -5,7 +5,7 @@
 
 mod simple;
 
-use crate::limits::CROSSING_CORNERS;
+use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS};
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
 use simple::is_simple;
@@ -13,7 +13,7 @@ use simple::is_simple;
 /// Splits one polygon (its corners' positions, in order) into triangles of corner numbers.
 ///
 /// `out` is cleared and gets `corners.len() - 2` triangles for a simple polygon, fewer where it has no area to cut, none where
-/// it has more than [`CROSSING_CORNERS`] and crosses itself.
+/// it has more than [`CONCAVE_CORNERS`] and is not convex, or more than [`CROSSING_CORNERS`] and crosses itself.
 pub fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u32; 3]>) {
     out.clear();
     match corners.len() {
@@ -25,6 +25,9 @@ pub fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u
             if normal == DVec3::ZERO || is_convex(corners, normal) {
                 out.extend((1..count as u32 - 1).map(|i| [0, i, i + 1]));
             } else {
+                if count > CONCAVE_CORNERS {
+                    return;
+                }
                 let plane: Vec<DVec2> = project(corners, normal).collect();
                 if count > CROSSING_CORNERS && !is_simple(&plane) {
                     return;
