@@ -7,9 +7,12 @@ mod words;
 
 use crate::support::root;
 
+/// What a target does with any bytes.
+type Target = fn(&[u8]);
+
 #[test]
 fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
-    let targets: [(&str, fn(&[u8])); 10] = [
+    let targets: [(&str, Target); 10] = [
         ("obj", readers::obj),
         ("ply", readers::ply),
         ("stl", readers::stl),

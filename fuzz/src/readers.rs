@@ -123,7 +123,10 @@ pub fn rows(bytes: &[u8]) {
     match tinta::report::rows_of_bytes(bytes, "results.jsonl") {
         Ok(rows) => rows.iter().for_each(|row| {
             let line = serde_json::to_string(row).expect("a row is text and numbers");
-            assert_eq!(tinta::report::rows_of_bytes(line.as_bytes(), "again").expect("just written"), [row.clone()]);
+            assert_eq!(
+                tinta::report::rows_of_bytes(line.as_bytes(), "again").expect("just written").first(),
+                Some(row)
+            );
         }),
         Err(error) => check_sentence(&error.to_string()),
     }

@@ -67,7 +67,7 @@ pub(super) fn check_size(
     if pixels * 4 > PICTURE_BYTES.max(file_bytes.saturating_mul(MEMORY_FACTOR as u64)).min(most) {
         return Err(format!(
             "its {width} x {height} pixels take {} MiB of memory, more than its file or its model is worth; scale it down",
-            pixels * 4 >> 20
+            (pixels * 4) >> 20
         ));
     }
     Ok(())

@@ -5,6 +5,7 @@ use crate::limits::{MEMORY_FACTOR, MODEL_PICTURES_BYTES};
 use crate::mesh::Material;
 use crate::picture::Picture;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -19,14 +20,17 @@ pub fn read(materials: &[Material]) -> Result<Vec<Option<Arc<Picture>>>> {
             continue;
         };
         let key = (path.as_path(), texture_within.as_deref());
-        if !known.contains_key(&key) {
-            let most = MODEL_PICTURES_BYTES.max(file_bytes.saturating_mul(MEMORY_FACTOR as u64)).saturating_sub(bytes);
-            let (picture, size) = Picture::read_within(path, key.1, most)?;
-            file_bytes += size;
-            bytes += picture.pixels.len() as u64;
-            known.insert(key, Arc::new(picture));
-        }
-        pictures.push(known.get(&key).cloned());
+        let picture = match known.entry(key) {
+            Entry::Occupied(known) => known.get().clone(),
+            Entry::Vacant(place) => {
+                let most = MODEL_PICTURES_BYTES.max(file_bytes.saturating_mul(MEMORY_FACTOR as u64));
+                let (picture, size) = Picture::read_within(path, key.1, most.saturating_sub(bytes))?;
+                file_bytes += size;
+                bytes += picture.pixels.len() as u64;
+                place.insert(Arc::new(picture)).clone()
+            }
+        };
+        pictures.push(Some(picture));
     }
     Ok(pictures)
 }
