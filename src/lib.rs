@@ -33,6 +33,7 @@ pub mod figures;
 pub mod gl;
 pub mod glsl;
 pub mod hiding;
+pub mod limits;
 pub mod lines;
 pub mod measure;
 pub mod mesh;
@@ -53,6 +54,7 @@ pub mod textures;
 pub mod tolerances;
 
 mod bytes;
+mod files;
 mod markup;
 mod names;
 mod random;
