@@ -20,12 +20,19 @@ pub fn read(bytes: &[u8], path: &str, materials: &Materials<'_>, remarks: &mut V
     let mut guard = Guard::new(&text);
     let missing_files = RefCell::new(Vec::new());
     let known = RefCell::new(BTreeSet::new());
+    let files = RefCell::new(Vec::new());
     let load_material = |name: &Path| {
         let text = match known.borrow_mut().insert(name.to_path_buf()) {
-            true => materials.find(name.to_str().unwrap()).map(|(text, _)| text).unwrap_or_else(|sentence| {
-                missing_files.borrow_mut().push(sentence);
-                Cow::Borrowed(b"")
-            }),
+            true => match materials.find(name.to_str().unwrap()) {
+                Ok((text, found)) => {
+                    files.borrow_mut().extend(found);
+                    text
+                }
+                Err(sentence) => {
+                    missing_files.borrow_mut().push(sentence);
+                    Cow::Borrowed(b"".as_slice())
+                }
+            },
             false => Cow::Borrowed(b"".as_slice()),
         };
         tobj::load_mtl_buf(&mut sound_material_lines(&text, usize::MAX).unwrap().as_slice())
@@ -48,6 +55,7 @@ pub fn read(bytes: &[u8], path: &str, materials: &Materials<'_>, remarks: &mut V
     }
     skin::remark(path, missing_files, "", remarks);
     soup.materials = found.into_iter().map(material).collect();
+    soup.files = files.into_inner();
     Ok(soup)
 }
 
