@@ -15,8 +15,8 @@ mod stress;
 mod textures;
 
 use clap::{Parser, Subcommand};
-pub use preset::Stop;
 use preset::Given;
+pub use preset::Stop;
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;

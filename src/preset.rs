@@ -13,6 +13,7 @@ pub use shipped::SHIPPED;
 pub use style::of_style;
 
 use crate::error::{Error, Result};
+use crate::files::shown;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -110,13 +111,14 @@ impl Preset {
         let table = DeTable::parse(text).map_err(|error| {
             let message = error.message().split_whitespace().collect::<Vec<_>>().join(" ");
             let offset = error.span().map_or(0, |span| span.start);
-            at(offset, format!("this is no TOML ({message}); write lines such as line-width = 3"))
+            at(offset, format!("this is no TOML ({}); write lines such as line-width = 3", shown(&message)))
         })?;
         let mut preset = Self { name: name.to_owned(), options: Options::new(), lines: BTreeMap::new() };
         for (key, value) in table.into_inner() {
             let start = key.span().start;
             let key = key.into_inner().into_owned();
-            let value = option_value(value.get_ref()).map_err(|problem| at(start, format!("{key}: {problem}")))?;
+            let value =
+                option_value(value.get_ref()).map_err(|problem| at(start, format!("{}: {problem}", shown(&key))))?;
             preset.lines.insert(key.clone(), line_of(start));
             preset.options.insert(key, value);
         }

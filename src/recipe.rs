@@ -4,6 +4,7 @@
 //! where the picture was written: the same drawing is the same bytes.
 
 use crate::error::{Error, Result};
+use crate::files::shown;
 use crate::gl::ContextInfo;
 use crate::markup::escaped;
 use crate::picture::{Note, png_text};
@@ -168,6 +169,16 @@ impl Recipe {
         Self::in_bytes(&head).map_err(failed)
     }
 
+    /// Finds the recipe in a picture's bytes; `name` is what errors call it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Picture`] when it is of another kind, or has no recipe that can be understood.
+    pub fn of_bytes(bytes: &[u8], name: &str) -> Result<Self> {
+        let head = &bytes[..bytes.len().min(HEAD_BYTES as usize)];
+        Self::in_bytes(head).map_err(|problem| Error::picture(Path::new(name), problem))
+    }
+
     /// Finds the recipe at the beginning of a PNG or SVG; the error is a sentence without the file's name.
     fn in_bytes(head: &[u8]) -> std::result::Result<Self, String> {
         let json = match png_text::is_png(head) {
@@ -179,8 +190,9 @@ impl Recipe {
         if json.len() > LARGEST_BYTES {
             return Err(format!("its recipe is longer than {LARGEST_BYTES} bytes, so it is hardly one"));
         }
-        serde_json::from_str(&json)
-            .map_err(|error| format!("its recipe cannot be understood ({error}); draw it again with tinta render"))
+        serde_json::from_str(&json).map_err(|error| {
+            format!("its recipe cannot be understood ({}); draw it again with tinta render", shown(&error.to_string()))
+        })
     }
 
     /// The command line that makes the picture, for a shell.

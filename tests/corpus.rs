@@ -12,7 +12,7 @@ type Target = fn(&[u8]);
 
 #[test]
 fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
-    let targets: [(&str, Target); 10] = [
+    let targets: [(&str, Target); 12] = [
         ("obj", readers::obj),
         ("ply", readers::ply),
         ("stl", readers::stl),
@@ -22,6 +22,8 @@ fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
         ("picture", readers::picture),
         ("ramp", readers::ramp),
         ("rows", readers::rows),
+        ("preset", readers::preset),
+        ("recipe", readers::recipe),
         ("command_line", words::command_line),
     ];
     let fuzz = root().join("fuzz");

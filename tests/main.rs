@@ -10,9 +10,9 @@ mod cli_measure;
 mod corpus;
 mod docs;
 mod edges;
-mod faults;
 #[cfg(unix)]
 mod external;
+mod faults;
 mod figures;
 mod goldens;
 mod hiding;

@@ -5,7 +5,7 @@
 //! corpus through the same function with an ordinary compiler.
 
 use tinta::mesh::{LoadOptions, Loaded, VertexArrays, read_bytes};
-use tinta::{EdgeList, Picture, Result, Scene, SceneSettings};
+use tinta::{EdgeList, Picture, Preset, Recipe, Result, Scene, SceneSettings};
 
 /// An OBJ model; behind a zero byte the material file that it may name.
 pub fn obj(bytes: &[u8]) {
@@ -128,6 +128,29 @@ pub fn rows(bytes: &[u8]) {
                 Some(row)
             );
         }),
+        Err(error) => check_sentence(&error.to_string()),
+    }
+}
+
+/// A preset: written again it has the same options.
+pub fn preset(bytes: &[u8]) {
+    match Preset::parse("fuzz.toml", &String::from_utf8_lossy(bytes)) {
+        Ok(preset) => {
+            let again =
+                Preset::parse("again.toml", &tinta::preset::to_toml(&preset.options, "fuzz")).expect("just written");
+            assert_eq!(again.options, preset.options);
+        }
+        Err(error) => check_sentence(&error.to_string()),
+    }
+}
+
+/// A picture with a recipe, PNG or SVG: its command line has no end of its own making, and says it again.
+pub fn recipe(bytes: &[u8]) {
+    match Recipe::of_bytes(bytes, "fuzz.png") {
+        Ok(recipe) => {
+            assert!(recipe.command_line("again.png").len() < 64 * (bytes.len() + 64));
+            assert!(recipe.differences(&recipe).is_empty());
+        }
         Err(error) => check_sentence(&error.to_string()),
     }
 }

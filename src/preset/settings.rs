@@ -46,7 +46,8 @@ pub fn of_scene(settings: &SceneSettings) -> Options {
 ///
 /// [`Error::Setting`] for a skin whose name is no text.
 pub fn of_load(options: &LoadOptions) -> Result<Options> {
-    let LoadOptions { weld, normals, smooth_angle_degrees, up_axis, strict, model_frame, skin, allow_external } = options;
+    let LoadOptions { weld, normals, smooth_angle_degrees, up_axis, strict, model_frame, skin, allow_external } =
+        options;
     let default = LoadOptions::default();
     let mut changed = Changed::default();
     changed.number("weld", *weld, default.weld);

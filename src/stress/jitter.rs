@@ -210,7 +210,8 @@ mod tests {
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
             // In the planes of the faces where that coordinate is 0, and, looking along it, of none.
             let eye = DVec3::splat(0.3) * (DVec3::ONE - axis) + DVec3::new(5.0, 4.0, 6.0) * (DVec3::ONE - axis);
-            let camera = CameraSettings { eye: Some(eye), target: Some(DVec3::splat(0.5)), ..CameraSettings::default() };
+            let camera =
+                CameraSettings { eye: Some(eye), target: Some(DVec3::splat(0.5)), ..CameraSettings::default() };
             let edge_on = scene(Shape::Cube, camera);
             let flipped = flips(&edge_on, &jittered(&edge_on).unwrap());
             assert_eq!(flipped.unexplained, 0, "{axis} {flipped:?}");

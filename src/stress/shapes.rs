@@ -323,7 +323,12 @@ fn with_picture(mesh: Mesh, folder: &Path) -> Result<Mesh> {
     Ok(Mesh {
         texture_coordinates: coordinates,
         triangle_texture_coordinates: mesh.triangles.clone(),
-        materials: vec![Material { name: "chequers".to_owned(), color: None, texture: Some(path), texture_within: None }],
+        materials: vec![Material {
+            name: "chequers".to_owned(),
+            color: None,
+            texture: Some(path),
+            texture_within: None,
+        }],
         triangle_materials: vec![0; mesh.triangles.len()],
         ..mesh
     })
