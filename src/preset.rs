@@ -149,6 +149,8 @@ pub fn to_toml(options: &Options, comment: &str) -> String {
     });
     let style = |(name, _): &(&String, &OptionValue)| *name == "style";
     for (name, value) in options.iter().filter(style).chain(options.iter().filter(|option| !style(option))) {
+        let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        let name = if !name.is_empty() && name.chars().all(is_bare) { name.clone() } else { quoted(name) };
         let _ = match value {
             OptionValue::Switch(switch) => writeln!(text, "{name} = {switch}"),
             OptionValue::Text(value) if is_number(value) => writeln!(text, "{name} = {value}"),
@@ -239,6 +241,13 @@ mod tests {
         ];
         assert_eq!(preset.options, expected.map(|(name, value)| (name.to_owned(), value)).into());
         assert_eq!((preset.line_of("style"), preset.line_of("eye"), preset.line_of("no")), (Some(2), Some(9), None));
+    }
+
+    #[test]
+    fn names_that_are_no_bare_keys_are_written_in_quotes() {
+        let options: Options =
+            ["a key with \u{7} and \" in it", "", "tones"].map(|name| (name.to_owned(), OptionValue::text("2"))).into();
+        assert_eq!(parsed(&to_toml(&options, "")).options, options);
     }
 
     #[test]

@@ -156,7 +156,7 @@ fn without_the_background_square_two_pass_loses_ink_outside() {
 fn the_background_square_hides_nothing_however_far_the_planes_are_apart() {
     let mut renderer = renderer(BACKENDS[0]);
     let mut settings = SceneSettings { size: Size { width: 64, height: 64 }, ..SceneSettings::default() };
-    (settings.camera.near, settings.camera.far) = (Some(1e-4), Some(1e4));
+    (settings.camera.near, settings.camera.far) = (Some(2e-4), Some(1e4));
     let scene = scene_with("builtin:gear", settings);
     let mut drawn = |background_square| {
         let style = Style::ThreePass(Cartoon { background_square, border: None, ..Cartoon::default() });
