@@ -5,6 +5,7 @@ mod compare;
 mod edges;
 mod figures;
 mod info;
+mod inputs;
 mod measure;
 mod models;
 mod options;
@@ -81,9 +82,9 @@ pub fn run() -> Result<Verdict> {
 
 fn carry_out(command: Command, given: &Given) -> Result<Verdict> {
     match command {
-        Command::Render(arguments) => return render::run(&arguments, &given.options),
+        Command::Render(arguments) => return render::run(&arguments, given),
         Command::Again(arguments) => return again::run(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments, given),
         Command::Edges(arguments) => edges::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments, given),
         Command::Textures(arguments) => textures::run(&arguments),
@@ -99,13 +100,21 @@ pub fn parse(words: impl IntoIterator<Item = OsString>) -> std::result::Result<(
     preset::parse(words.into_iter().collect())
 }
 
+/// Most characters of clap's message that are said.
+const LONGEST_SENTENCE: usize = 400;
+
 /// clap's message without its usage lines and hints, which `--help` has.
 fn in_one_sentence(error: &clap::Error) -> String {
     let text = error.to_string();
     let paragraph = text.split("\n\n").next().unwrap_or_default();
     let words: Vec<&str> = paragraph.split_whitespace().collect();
     let sentence = words.join(" ");
-    sentence.strip_prefix("error: ").unwrap_or(&sentence).to_owned()
+    let sentence = sentence.strip_prefix("error: ").unwrap_or(&sentence);
+    // A value may be as long as a file.
+    match sentence.char_indices().nth(LONGEST_SENTENCE) {
+        None => sentence.to_owned(),
+        Some((end, _)) => format!("{}…", &sentence[..end]),
+    }
 }
 
 /// Says a line to the person, on standard error; nobody listening is no error.

@@ -211,3 +211,46 @@ fn a_read_only_folder_is_refused_before_the_work() {
         assert!(said.contains(file) && said.ends_with("may not be written; choose another"), "{said}");
     }
 }
+
+#[test]
+fn nothing_that_is_read_is_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nmtllib m.mtl\nusemtl a\nf 1/1 2/2 3/3 4/4\n";
+    std::fs::write(at("m.mtl"), "newmtl a\nmap_Kd worn.png\n").unwrap();
+    for name in ["m.obj", "model.png", "fr-0001.png"] {
+        std::fs::write(at(name), square).unwrap();
+    }
+    let tinta = |arguments: &[&str]| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_tinta")).args(arguments).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    for name in ["skin.png", "ramp.png", "paper.png", "worn.png"] {
+        assert_eq!(tinta(&["render", "builtin:gear", "-o", &at(name), "--size", "8", "--no-recipe"]).0, Some(0));
+    }
+    std::fs::write(at("preset.png"), "style = \"phong\"\n").unwrap();
+    let (model, skin, ramp, paper) = (at("model.png"), at("skin.png"), at("ramp.png"), at("paper.png"));
+    let (obj, preset, worn, frames) = (at("m.obj"), at("preset.png"), at("worn.png"), at("fr-%04d.png"));
+    let attempts: [&[&str]; 9] = [
+        &["render", &model, "-o", &model],
+        &["render", &obj, "-o", &at("x.png"), "--save-preset", &obj],
+        &["render", &obj, "-o", &skin, "--skin", &skin],
+        &["render", &obj, "-o", &ramp, "--style", "inking", "--ramp", &ramp],
+        &["render", &obj, "-o", &paper, "--style", "charcoal", "--paper", &paper],
+        &["render", &obj, "-o", &preset, "--preset", &preset],
+        &["render", &obj, "-o", &worn],
+        &["render", &at("fr-0001.png"), "-o", &frames, "--turntable", "2"],
+        &["compare", &model, "-o", &model],
+    ];
+    let contents = || {
+        let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+        files.map(|path| (path.clone(), std::fs::read(path).unwrap())).collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let before = contents();
+    for attempt in attempts {
+        let (code, message) = tinta(attempt);
+        assert_eq!(code, Some(2), "{attempt:?}: {message}");
+        assert!(message.contains("itself; name another file"), "{attempt:?}: {message}");
+        assert!(contents() == before, "{attempt:?} changed the folder");
+    }
+}

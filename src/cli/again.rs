@@ -156,10 +156,10 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     };
     let backend = recipe.gl.as_ref().and_then(|gl| gl.backend.parse().ok()).unwrap_or_default();
     let render = render.with_backend(backend);
-    match render::run(&render, &given.options) {
+    match render::run(&render, &given) {
         // Another way to OpenGL is better than none; that it is another is said.
         Err(Error::NoContext { .. }) if backend != Backend::Auto => {
-            render::run(&render.with_backend(Backend::Auto), &given.options).map(drop)
+            render::run(&render.with_backend(Backend::Auto), &given).map(drop)
         }
         result => result.map(drop),
     }

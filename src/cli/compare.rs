@@ -2,7 +2,7 @@
 
 use super::models::load_meshes;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
-use super::preset::PresetArguments;
+use super::preset::{Given, PresetArguments};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::compare::{Agreement, AgreementNumbers, BOTH_COLOR, InkMask, LEFT_COLOR, RIGHT_COLOR};
@@ -72,7 +72,10 @@ struct Drawing {
     record: DrawingRecord,
 }
 
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
+    let inputs = given.inputs(&arguments.models);
+    inputs.keep(&arguments.output)?;
+    inputs.keep_in(Path::new(&arguments.output), NAMES)?;
     let output = Output::check(&arguments.output)?;
     if arguments.json && matches!(output, Output::File(Target::Stdout)) {
         return Err(Error::Setting {

@@ -101,10 +101,14 @@ const SETTINGS_IN_TURN: usize = 8;
 /// How long a setting takes besides its frames, seconds: its pictures drawn and compared.
 const SECONDS_A_SETTING: f64 = 0.35;
 
+/// Files that a measurement writes, the pictures of its plots and errors aside.
+const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
+
 pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
     if !arguments.merge.is_empty() {
         return merge(arguments);
     }
+    given.inputs(&arguments.models).keep_in(&arguments.output, WRITTEN)?;
     let how = MeasureSettings {
         tolerance_px: tolerance(arguments)?,
         frames: arguments.frames.map_or(FRAMES[usize::from(arguments.quick)], |frames| frames as usize),

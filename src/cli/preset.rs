@@ -4,6 +4,7 @@
 //! them. An option given on the command line beats the preset's, and so does one that excludes it.
 
 use super::measure::StyleOptions;
+use super::inputs::Inputs;
 use super::{Arguments, in_one_sentence};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
@@ -56,6 +57,11 @@ pub struct Given {
 }
 
 impl Given {
+    /// What the command reads.
+    pub fn inputs(&self, models: &[String]) -> Inputs {
+        Inputs::new(models, &self.options, self.preset.as_ref().map(|preset| preset.name.as_str()))
+    }
+
     /// An error about an option that the preset gave, with the preset's name and line.
     pub fn attributed(&self, error: Error) -> Error {
         let (Some(preset), Error::Setting { setting, problem }) = (&self.preset, &error) else { return error };

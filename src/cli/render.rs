@@ -8,8 +8,10 @@ mod prune;
 mod round_trip;
 
 use super::Verdict;
+use super::inputs::Inputs;
 use super::models::load_with_files;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
+use super::preset::Given;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::mesh::BUILTINS;
@@ -110,12 +112,13 @@ const WARM_UP: usize = 2;
 /// Most frames drawn again to time single passes.
 const PASS_FRAMES: usize = 21;
 
-/// Draws what the arguments say; `options` are those of them that make the picture, by name.
-pub fn run(arguments: &Arguments, options: &Options) -> Result<Verdict> {
-    keep_the_models(arguments)?;
-    let preset = arguments.keep.preset_target(&arguments.output)?;
-    let verdict = draw(arguments, options)?;
-    preset.map_or(Ok(()), |target| keep::save_preset(&target, options)).map(|()| verdict)
+/// Draws what the arguments say, of which `given` has those that make the picture, by name.
+pub fn run(arguments: &Arguments, given: &Given) -> Result<Verdict> {
+    let inputs = given.inputs(&arguments.models);
+    inputs.keep(&arguments.output)?;
+    let preset = arguments.keep.preset_target(&arguments.output, &inputs)?;
+    let verdict = draw(arguments, &given.options)?;
+    preset.map_or(Ok(()), |target| keep::save_preset(&target, &given.options)).map(|()| verdict)
 }
 
 fn draw(arguments: &Arguments, options: &Options) -> Result<Verdict> {
@@ -152,6 +155,7 @@ fn draw(arguments: &Arguments, options: &Options) -> Result<Verdict> {
         }
     });
     let Loaded { scene, files, published, load_ms, plan_ms } = loaded?;
+    pictures_of(&scene).keep(&arguments.output)?;
     let Opened { mut renderer, context_ms, warm_up_ms } = renderer?;
     let pruning = Instant::now();
     let Pruned { plan, omissions, kept } =
@@ -270,16 +274,10 @@ fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style) ->
     Ok(Loaded { scene, files, published, load_ms, plan_ms: milliseconds_since(start) })
 }
 
-/// Refuses to write over a model that is to be read.
-fn keep_the_models(arguments: &Arguments) -> Result<()> {
-    let Ok(output) = Path::new(&arguments.output).canonicalize() else { return Ok(()) };
-    match arguments.models.iter().any(|model| Path::new(model).canonicalize().is_ok_and(|model| model == output)) {
-        true => Err(Error::Output {
-            path: arguments.output.clone(),
-            problem: "this is the model itself; name another file".to_owned(),
-        }),
-        false => Ok(()),
-    }
+/// The pictures on the models of a scene.
+fn pictures_of(scene: &Scene) -> Inputs {
+    let materials = scene.objects.iter().flat_map(|object| &object.mesh.materials);
+    Inputs::of_pictures(materials.filter_map(|material| material.texture.clone()))
 }
 
 fn make_dump_folder(arguments: &Arguments) -> Result<()> {

@@ -24,9 +24,9 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     seed: u64,
 
-    /// How many mixes are drawn at random [default: 24]
-    #[arg(long, value_name = "N", default_value_t = 24, hide_default_value = true)]
-    mixes: usize,
+    /// How many mixes are drawn at random, 0 to 10000 [default: 24]
+    #[arg(long, value_name = "N", default_value_t = 24, hide_default_value = true, value_parser = clap::value_parser!(u16).range(0..=10_000))]
+    mixes: u16,
 
     /// Print stress.json to standard output too [default: off]
     #[arg(long)]
@@ -35,15 +35,16 @@ pub struct Arguments {
 
 /// Runs the cases, writes both files, prints the table's end.
 pub fn run(arguments: &Arguments) -> Result<Verdict> {
-    super::make_folder(&arguments.output)?;
-    let target = |name: &str| TextTarget::check(&arguments.output.join(name).to_string_lossy());
-    let (json, table) = (target("stress.json")?, target("stress.md")?);
     let settings = StressSettings {
         seed: arguments.seed,
-        mixes: arguments.mixes,
+        mixes: usize::from(arguments.mixes),
         only: arguments.only.clone(),
         ..StressSettings::default()
     };
+    settings.check()?;
+    super::make_folder(&arguments.output)?;
+    let target = |name: &str| TextTarget::check(&arguments.output.join(name).to_string_lossy());
+    let (json, table) = (target("stress.json")?, target("stress.md")?);
     let progress = Progress::new("attacking", 0);
     let summary = stress(&settings, |done, count| progress.set(done as u64, count as u64))?;
     drop(progress);

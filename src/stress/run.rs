@@ -32,6 +32,33 @@ impl Default for StressSettings {
     }
 }
 
+impl StressSettings {
+    /// The cases they choose.
+    fn cases(&self) -> Result<Vec<Case>> {
+        let mut chosen = cases(self.seed, self.mixes);
+        let Some(only) = &self.only else { return Ok(chosen) };
+        let group = |case: &Case| format!("{:?}", case.group).to_lowercase();
+        chosen.retain(|case| group(case) == *only || (!only.is_empty() && case.name.contains(only.as_str())));
+        match chosen.is_empty() {
+            false => Ok(chosen),
+            true => Err(Error::setting(
+                format!("--only {only}"),
+                "no case has this in its name; give some of a name, or a group: scale, depth, topology, thresholds, pictures, \
+                 mixes, turns, files or faults",
+            )),
+        }
+    }
+
+    /// Whether there is anything to do.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] when no case has such a name.
+    pub fn check(&self) -> Result<()> {
+        self.cases().map(drop)
+    }
+}
+
 /// One case in one style by one backend.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
@@ -179,14 +206,7 @@ fn never_checked(case: &Case, rows: &[Row]) -> Option<Row> {
 /// [`Error::NoContext`] when a backend cannot be had, [`Error::Setting`] when no case has such a name, [`Error::Output`] when
 /// there is no place for the files that cases need.
 pub fn run(settings: &StressSettings, mut progress: impl FnMut(usize, usize)) -> Result<Summary> {
-    let mut chosen = cases(settings.seed, settings.mixes);
-    if let Some(only) = &settings.only {
-        let group = |case: &Case| format!("{:?}", case.group).to_lowercase();
-        chosen.retain(|case| case.name.contains(only.as_str()) || group(case) == *only);
-        if chosen.is_empty() {
-            return Err(Error::setting(format!("--only {only}"), "no case and no group has such a name"));
-        }
-    }
+    let chosen = settings.cases()?;
     let folder = tempfile::tempdir().map_err(|error| Error::Output {
         path: std::env::temp_dir().display().to_string(),
         problem: format!("no temporary folder can be made there ({error}); set TMPDIR to one where it can"),

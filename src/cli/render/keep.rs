@@ -1,5 +1,6 @@
 //! What is kept of a rendering besides the picture: its recipe in the picture, its options as a preset.
 
+use super::super::inputs::Inputs;
 use super::super::preset::PresetArguments;
 use super::Arguments;
 use std::path::PathBuf;
@@ -25,11 +26,15 @@ pub struct KeepArguments {
 
 impl KeepArguments {
     /// Where the preset goes, checked before the work.
-    pub fn preset_target(&self, output: &str) -> Result<Option<TextTarget>> {
+    pub fn preset_target(&self, output: &str, inputs: &Inputs) -> Result<Option<TextTarget>> {
         let Some(path) = &self.save_preset else { return Ok(None) };
         let refuse = |problem: &str| {
             Err(Error::Setting { setting: format!("--save-preset {path}"), problem: problem.to_owned() })
         };
+        if path.is_empty() {
+            return refuse("a preset is a file; name one");
+        }
+        inputs.keep(path)?;
         match TextTarget::check(path)? {
             TextTarget::Stdout => refuse("a preset is a file; name one"),
             TextTarget::File(_) if path == output => refuse("this is the picture's file; name another"),

@@ -1,0 +1,97 @@
+//! Files that are read are not written over: a model, its pictures, a preset.
+
+use std::path::{Path, PathBuf};
+use tinta::preset::{OptionValue, Options};
+use tinta::{Error, Result};
+
+/// Options whose value is a file that is read.
+const READ: [&str; 3] = ["skin", "ramp", "paper"];
+
+/// What a command reads, as far as its command line says.
+pub struct Inputs(Vec<(&'static str, PathBuf)>);
+
+impl Inputs {
+    /// The models, the files that options name, and a preset.
+    pub fn new(models: &[String], options: &Options, preset: Option<&str>) -> Self {
+        let named = |name: &'static str| match options.get(name) {
+            Some(OptionValue::Text(path)) => Some((name, PathBuf::from(path))),
+            _ => None,
+        };
+        let models = models.iter().map(|model| ("model", PathBuf::from(model)));
+        let preset = preset.map(|preset| ("preset", PathBuf::from(preset)));
+        Self(models.chain(READ.iter().filter_map(|name| named(name))).chain(preset).collect())
+    }
+
+    /// Pictures that models name, known once these are read.
+    pub fn of_pictures(pictures: impl Iterator<Item = PathBuf>) -> Self {
+        Self(pictures.map(|picture| ("model's picture", picture)).collect())
+    }
+
+    /// Refuses to write over any of them; an output with a number in it, `frame-%04d.png`, stands for all of its pictures.
+    pub fn keep(&self, output: &str) -> Result<()> {
+        let is_it = |input: &Path| match output.split_once('%') {
+            None => same(Path::new(output), input),
+            Some((before, after)) => is_numbered(before, after, input),
+        };
+        match self.0.iter().find(|(_, input)| is_it(input)) {
+            None => Ok(()),
+            Some((what, _)) => Err(Error::Output {
+                path: output.to_owned(),
+                problem: format!("this is the {what} itself; name another file"),
+            }),
+        }
+    }
+
+    /// The same of files in a folder.
+    pub fn keep_in<'a>(&self, folder: &Path, names: impl IntoIterator<Item = &'a str>) -> Result<()> {
+        names.into_iter().try_for_each(|name| self.keep(&folder.join(name).to_string_lossy()))
+    }
+}
+
+/// Whether both are one file, by whatever way.
+fn same(output: &Path, input: &Path) -> bool {
+    output.canonicalize().is_ok_and(|output| input.canonicalize().is_ok_and(|input| input == output))
+}
+
+/// Whether a file may be one of `before`, a number, and what follows the `d` of `after`.
+fn is_numbered(before: &str, after: &str, input: &Path) -> bool {
+    let end = after.split_once('d').map_or("", |(_, end)| end);
+    let pattern = Path::new(before);
+    let (folder, start) = match before.ends_with('/') {
+        true => (pattern, ""),
+        false => (
+            pattern.parent().unwrap_or(Path::new("")),
+            pattern.file_name().and_then(|name| name.to_str()).unwrap_or_default(),
+        ),
+    };
+    let folder = if folder == Path::new("") { Path::new(".") } else { folder };
+    let Some(name) = input.file_name().and_then(|name| name.to_str()) else { return false };
+    let number = name.strip_prefix(start).and_then(|name| name.strip_suffix(end));
+    let is_number = number.is_some_and(|number| !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()));
+    is_number && same(&folder.join(name), input)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inputs_are_kept_by_whatever_name_they_would_be_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+        for name in ["model.png", "skin.png", "frame-0007.png", "frame-x.png"] {
+            std::fs::write(at(name), "kept").unwrap();
+        }
+        let options = Options::from([("skin".to_owned(), OptionValue::text(at("skin.png")))]);
+        let inputs = Inputs::new(&[at("model.png"), at("frame-0007.png"), "builtin:bust".to_owned()], &options, None);
+        for output in ["model.png", "./model.png", "skin.png", "frame-%04d.png", "frame-%d.png"] {
+            let message = inputs.keep(&at(output)).unwrap_err().to_string();
+            assert!(message.contains("itself; name another file"), "{output}: {message}");
+        }
+        for output in ["other.png", "frame-x.png", "frame-x%d.png", "frame-%d.ppm"] {
+            inputs.keep(&at(output)).unwrap();
+        }
+        assert!(inputs.keep_in(folder.path(), ["a.png", "skin.png"]).is_err());
+        inputs.keep_in(folder.path(), ["a.png"]).unwrap();
+    }
+}
