@@ -13,6 +13,6 @@ mod tones;
 pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
 pub use reference::{Reference, SOFT_CREASE_DEGREES, Sample};
 pub use row::{LineError, PassRow, Row, RunTime, ToneError};
-pub use run::{MeasureSettings, Measured, Setting, Subject, measure, steps};
 pub(crate) use run::shading_of;
+pub use run::{MeasureSettings, Measured, Setting, Subject, measure, steps};
 pub use tones::ReferenceLight;
