@@ -17,7 +17,9 @@ mod textures;
 mod view;
 
 use clap::{Parser, Subcommand};
+pub use preset::Stop;
 use preset::Given;
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -44,7 +46,7 @@ Examples:
   tinta info                                     which OpenGL is there
 
 Exit codes: 0 done, 1 a check found a difference, 2 could not be done; the reason is one sentence on standard error.")]
-struct Arguments {
+pub struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
@@ -76,7 +78,11 @@ pub enum Verdict {
 /// Parses the command line and does what it says.
 pub fn run() -> Result<Verdict> {
     let started = Instant::now();
-    let (arguments, given) = preset::parse(std::env::args_os().collect())?;
+    let (arguments, given) = match parse(std::env::args_os()) {
+        Ok(parsed) => parsed,
+        Err(Stop::Help(help)) => help.exit(),
+        Err(Stop::Wrong(error)) => return Err(error),
+    };
     carry_out(arguments.command, &given, started).map_err(|error| given.attributed(error))
 }
 
@@ -97,6 +103,11 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
     .map(|()| Verdict::Good)
 }
 
+/// What the words say, the program's name first, with the preset that they name.
+pub fn parse(words: impl IntoIterator<Item = OsString>) -> std::result::Result<(Arguments, Given), Stop> {
+    preset::parse(words.into_iter().collect())
+}
+
 /// clap's message without its usage lines and hints, which `--help` has.
 fn in_one_sentence(error: &clap::Error) -> String {
     let text = error.to_string();
@@ -108,10 +119,17 @@ fn in_one_sentence(error: &clap::Error) -> String {
 
 /// Says a line to the person, on standard error; nobody listening is no error.
 pub fn say(line: &str) {
-    // A file's name may hold anything; it must neither break the line nor command the terminal.
-    let plain: String =
-        line.chars().flat_map(|c| if c.is_control() { c.escape_default().collect() } else { vec![c] }).collect();
-    let _ = writeln!(std::io::stderr(), "{plain}");
+    let _ = writeln!(std::io::stderr(), "{}", plain(line));
+}
+
+/// A line that is one: a file's name may hold anything, and must neither break the line nor turn it around nor command the
+/// terminal.
+pub fn plain(line: &str) -> String {
+    let is_unseen =
+        |c: char| matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    line.chars()
+        .flat_map(|c| if c.is_control() || is_unseen(c) { c.escape_default().collect() } else { vec![c] })
+        .collect()
 }
 
 /// Writes text to standard output; a reader that has heard enough (`| head`) is no error.

@@ -33,6 +33,7 @@ pub mod figures;
 pub mod gl;
 pub mod glsl;
 pub mod hiding;
+pub mod limits;
 pub mod lines;
 pub mod measure;
 pub mod mesh;
@@ -55,6 +56,7 @@ pub mod tolerances;
 pub mod window;
 
 mod bytes;
+mod files;
 mod markup;
 mod names;
 mod random;

@@ -6,6 +6,7 @@
 
 pub mod builtin;
 pub mod defects;
+mod folder;
 mod format;
 mod frame;
 mod hilbert;
@@ -31,7 +32,7 @@ pub use builtin::BUILTINS;
 pub use defects::Defects;
 pub use frame::ModelFrame;
 pub(crate) use hilbert::hilbert_code;
-pub use load::{LoadOptions, Normals, UpAxis, load};
+pub use load::{LoadOptions, Loaded, Normals, UpAxis, load, read_bytes};
 pub use vertices::{Part, VertexArrays};
 
 /// Stands in index arrays for "this corner has none".
@@ -73,6 +74,9 @@ pub struct Material {
     pub color: Option<[f32; 3]>,
     /// The colour texture's file (MTL `map_Kd`, an MD2 model's skin) where it was found; not opened until a style needs it.
     pub texture: Option<PathBuf>,
+    /// The folder, by its real path, that the texture must still lie in when it is opened; `None`: anywhere.
+    #[serde(skip)]
+    pub texture_within: Option<PathBuf>,
 }
 
 impl Mesh {

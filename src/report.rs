@@ -17,7 +17,7 @@ mod settings;
 
 pub use columns::{Column, columns};
 pub use html::html;
-pub use log::{ROWS_FILE, RowLog, read_rows};
+pub use log::{ROWS_FILE, RowLog, read_rows, rows_of_bytes};
 pub use plot::{Shape, plot};
 pub use settings::{Machine, Measure, Point, Points, machines, pareto, points};
 

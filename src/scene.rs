@@ -5,6 +5,7 @@
 //! same place relative to what it lights (errata E11). Scene space only moves and scales world space; nothing turns.
 
 mod extent;
+mod pictures;
 mod turntable;
 mod values;
 
@@ -14,7 +15,7 @@ use crate::camera::{Camera, CameraSettings, Projection};
 use crate::edges::{Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::hiding::Hiding;
-use crate::mesh::{Material, Mesh, NONE, VertexArrays, bounds};
+use crate::mesh::{Mesh, NONE, VertexArrays, bounds};
 use crate::picture::Picture;
 use crate::tolerances::{LARGEST_DISTANCE, LEAST_DEPTH_STEPS, SCENE_RADIUS};
 use glam::{DMat4, DVec3, Mat4, Vec3};
@@ -250,9 +251,7 @@ impl Scene {
     /// [`Error::Picture`] when one cannot be read.
     pub fn material_pictures<'a>(&self, object: &'a Object) -> Result<&'a [Option<Arc<Picture>>]> {
         if object.pictures.get().is_none() {
-            let read = |material: &Material| material.texture.as_deref().map(|path| Picture::read(path).map(Arc::new));
-            let pictures: Result<Vec<_>> =
-                object.mesh.materials.iter().map(|material| read(material).transpose()).collect();
+            let pictures = pictures::read(&object.mesh.materials);
             // Whoever came first has read the same files.
             let _ = object.pictures.set(pictures?);
         }

@@ -8,12 +8,13 @@ mod drawing;
 mod failing;
 mod figures;
 mod jitter;
+mod reading;
 mod run;
 mod shapes;
 mod table;
 mod variants;
 
-pub use cases::{Case, Check, Drawing, Expected, Group, Study, Work, cases};
+pub use cases::{Case, Check, Content, Drawing, Expected, Group, Study, Work, cases};
 pub use jitter::{Flips, Popped};
 pub use run::{Row, StressSettings, Summary, run};
 pub use shapes::Shape;

@@ -164,7 +164,10 @@ fn command_lines_that_are_not_understood_are_answered_in_one_line() {
     refused_in_one_line(&["render", "-o", "a.png"], &["<MODEL>"]);
     refused_in_one_line(&["paint"], &["paint"]);
     refused_in_one_line(&["render", "a\nb.obj", "-o", "a.png"], &["a\\nb.obj"]);
-    refused_in_one_line(&["render", "/dev/zero", "-o", "a.png"], &["/dev/zero: this is a device"]);
+    refused_in_one_line(
+        &["render", "/dev/zero", "-o", "a.png"],
+        &["/dev/zero: this is no ordinary file but a pipe or a device"],
+    );
 }
 
 #[test]

@@ -81,3 +81,47 @@ fn every_option_named_in_the_documents_exists() {
         }
     }
 }
+
+#[test]
+fn the_limits_are_documented_as_they_are() {
+    use tinta::limits::*;
+    let limits = [
+        ("MEMORY_FACTOR", MEMORY_FACTOR as u64),
+        ("MEMORY_SLACK_BYTES", MEMORY_SLACK_BYTES as u64),
+        ("MODEL_BYTES", MODEL_BYTES),
+        ("MATERIAL_FILE_BYTES", MATERIAL_FILE_BYTES),
+        ("PICTURE_FILE_BYTES", PICTURE_FILE_BYTES),
+        ("ROWS_BYTES", ROWS_BYTES),
+        ("PICTURE_SIDE_PX", u64::from(PICTURE_SIDE_PX)),
+        ("PICTURE_BYTES", PICTURE_BYTES),
+        ("MODEL_PICTURES_BYTES", MODEL_PICTURES_BYTES),
+        ("PIXELS_A_BYTE", PIXELS_A_BYTE),
+        ("TRIANGLES", TRIANGLES as u64),
+        ("CONCAVE_CORNERS", CONCAVE_CORNERS as u64),
+        ("CROSSING_CORNERS", CROSSING_CORNERS as u64),
+        ("PLY_HEADER_BYTES", PLY_HEADER_BYTES as u64),
+        ("STL_LINE_BYTES", STL_LINE_BYTES as u64),
+        ("MATERIALS", MATERIALS as u64),
+        ("MATERIAL_FILES", MATERIAL_FILES as u64),
+        ("SKINS", SKINS as u64),
+        ("REMARKS", REMARKS as u64),
+        ("SHOWN_CHARACTERS", SHOWN_CHARACTERS as u64),
+    ];
+    let source = std::fs::read_to_string(root().join("src/limits.rs")).unwrap();
+    assert_eq!(source.matches("pub const ").count(), limits.len(), "a limit that this test does not know");
+    let document = std::fs::read_to_string(root().join("docs/limits.md")).unwrap();
+    for (name, value) in limits {
+        // | `NAME` | 64 MiB | why |
+        let row = document.lines().find_map(|line| line.strip_prefix(&format!("| `{name}` | "))).expect(name);
+        let cell = row.split(" |").next().unwrap();
+        let (number, unit) = cell.split_once(' ').unwrap_or((cell, ""));
+        let number: u64 = number.replace(',', "").parse().expect(row);
+        let documented = match unit {
+            "GiB" => number << 30,
+            "MiB" => number << 20,
+            "KiB" => number << 10,
+            _ => number,
+        };
+        assert_eq!(documented, value, "{name}: {row}");
+    }
+}

@@ -7,12 +7,16 @@ mod cli;
 mod cli_ink;
 mod cli_lines;
 mod cli_measure;
+mod corpus;
 mod docs;
 mod edges;
 mod faults;
+#[cfg(unix)]
+mod external;
 mod figures;
 mod goldens;
 mod hiding;
+mod hostile;
 mod improved;
 mod inking;
 mod licences;

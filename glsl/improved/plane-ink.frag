@@ -19,6 +19,9 @@ uniform vec2 reach;
 uniform vec2 gapThreshold;
 uniform float creaseCosine;
 
+// Two depths of 16 bits, each rounded.
+const float depthRounding = 1.5 / 65535.0;
+
 vec2 decodedSlope(vec4 texel) {
     vec2 bounded = texel.rg * 2.0 - 1.0;
     vec2 rest = 1.0 - abs(bounded);
@@ -39,7 +42,8 @@ void main() {
     vec2 weights = vec2(65280.0, 255.0) / 65535.0;
     vec2 depth = vec2(dot(left.ba, weights), dot(below.ba, weights));
     vec2 away = vec2(dot(right.ba, weights), dot(above.ba, weights)) - depth;
-    away /= footprint.x - footprint.y * depth;
+    vec2 pixel = footprint.x - footprint.y * depth;
+    away /= pixel;
     vec2 l = decodedSlope(left), r = decodedSlope(right), b = decodedSlope(below), a = decodedSlope(above);
     // By how much the step in depth differs from what one plane and the other expect.
     float span = reach.x + reach.y;
@@ -49,7 +53,9 @@ void main() {
     vec2 second = away - far;
     // The planes meet between the pixels where the two expectations lie on either side of the step.
     vec2 gap = min(abs(first), abs(second)) * step(0.0, first * second);
-    bool hides = any(greaterThan(gap, gapThreshold.x + gapThreshold.y * min(abs(near), abs(far))));
+    // The map's rounding is no gap: wide where planes are far apart, a hundredth of a pixel where they were fitted.
+    vec2 least = gapThreshold.x + gapThreshold.y * min(abs(near), abs(far)) + depthRounding / pixel;
+    bool hides = any(greaterThan(gap, least));
 
     // Normals: the slopes lie in a frame along the eye's ray.
     vec2 ray = (gl_FragCoord.xy - middle) * pixelAngle;

@@ -1,7 +1,7 @@
 //! `tinta again`: a picture made anew by the recipe it carries, and compared with what it was.
 
 use super::preset::parse;
-use super::{Command, Verdict, render, say};
+use super::{Command, Stop, Verdict, render, say};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use tinta::preset::OptionValue;
@@ -22,10 +22,14 @@ pub struct Arguments {
     /// Where a model lies now, for each of several in their order [default: where it lay]
     #[arg(long, value_name = "FILE")]
     model: Vec<String>,
+
+    /// Read what a model names outside its folder, if the picture was made so too; a picture alone may not allow that [default: off]
+    #[arg(long)]
+    allow_external: bool,
 }
 
 /// What a picture may not allow itself, whatever it says of how it was made: that is for whoever has it.
-const NOT_GRANTED: [&str; 1] = ["allow-external"];
+const NOT_GRANTED: &str = "allow-external";
 
 /// Draws the picture again; exit code 1 if it comes out otherwise.
 pub fn run(arguments: &Arguments) -> Result<Verdict> {
@@ -119,10 +123,16 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     }
     let mut words: Vec<OsString> = ["tinta", "render"].map(OsString::from).to_vec();
     for (name, value) in &recipe.options {
-        if !super::preset::is_kept(name) || NOT_GRANTED.contains(&name.as_str()) || name.contains(['=', ' ']) {
+        if !super::preset::is_kept(name) || name.contains(['=', ' ']) {
             return Err(refuse(format!(
                 "its recipe has the option {name}, which is no part of a picture; it is not drawn"
             )));
+        }
+        if name == NOT_GRANTED && !arguments.allow_external {
+            return Err(refuse(
+                "its recipe has --allow-external, for files outside its model's folder; give that option yourself to read them"
+                    .to_owned(),
+            ));
         }
         match value {
             OptionValue::Text(value) => words.push(format!("--{name}={value}").into()),
@@ -135,10 +145,11 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     words.push("--".into());
     words.extend(models.iter().map(OsString::from));
     let (parsed, given) = parse(words).map_err(|error| match error {
-        Error::CommandLine { problem } => {
+        Stop::Wrong(Error::CommandLine { problem }) => {
             refuse(format!("its recipe has an option that is not understood ({problem}); this may be an older tinta"))
         }
-        error => error,
+        Stop::Wrong(error) => error,
+        Stop::Help(_) => refuse("its recipe asks for help instead of a picture".to_owned()),
     })?;
     let Command::Render(render) = parsed.command else {
         return Err(refuse("its recipe is for another command; use tinta render".to_owned()));

@@ -9,6 +9,7 @@ use super::progress::Progress;
 use errors::{error_page, is_shown, known_picture};
 pub use settings::StyleOptions;
 use settings::{of_words, settings};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -328,6 +329,8 @@ fn words() -> impl Iterator<Item = String> {
 /// Puts the rows of several files together.
 fn merge(arguments: &Arguments) -> Result<()> {
     let mut rows: Vec<Row> = Vec::new();
+    // Where the row of a key was first seen.
+    let mut places: HashMap<String, usize> = HashMap::new();
     for path in &arguments.merge {
         let of_file = read_rows(path)?;
         if of_file.is_empty() {
@@ -337,7 +340,8 @@ fn merge(arguments: &Arguments) -> Result<()> {
             });
         }
         for row in of_file {
-            if let Some(known) = rows.iter().find(|known| known.key() == row.key() && **known != row) {
+            let place = *places.entry(row.key()).or_insert(rows.len());
+            if let Some(known) = rows.get(place).filter(|known| **known != row) {
                 return Err(Error::Output {
                     path: path.display().to_string(),
                     problem: format!(

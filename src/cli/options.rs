@@ -80,6 +80,10 @@ pub struct ModelArguments {
     #[arg(long, value_name = "FILE")]
     skin: Option<PathBuf>,
 
+    /// Follow material files and pictures that the model names outside its folder [default: off, said and not followed]
+    #[arg(long)]
+    allow_external: bool,
+
     /// Frame of an animated model (MD2), from 0; 1.5 lies between two [default: 0]
     #[arg(long, value_name = "N|NAME", default_value = "0", hide_default_value = true, allow_hyphen_values = true)]
     model_frame: ModelFrame,
@@ -111,6 +115,7 @@ impl ModelArguments {
             strict: self.strict,
             model_frame: self.model_frame.clone(),
             skin: self.skin.clone(),
+            allow_external: self.allow_external,
         }
     }
 }

@@ -71,7 +71,7 @@ impl Given {
 }
 
 /// Reads a command line, and the preset it names.
-pub fn parse(words: Vec<OsString>) -> Result<(Arguments, Given)> {
+pub fn parse(words: Vec<OsString>) -> std::result::Result<(Arguments, Given), Stop> {
     let mut whole = Arguments::command();
     let matches = whole.try_get_matches_from_mut(&words).map_err(refused)?;
     let (mut given, words) = match Merge::of(&whole, &matches)? {
@@ -88,12 +88,27 @@ pub fn parse(words: Vec<OsString>) -> Result<(Arguments, Given)> {
     Arguments::from_arg_matches(&matches).map(|arguments| (arguments, given)).map_err(refused)
 }
 
-fn refused(error: clap::Error) -> Error {
-    use ErrorKind::{DisplayHelp, DisplayHelpOnMissingArgumentOrSubcommand, DisplayVersion};
-    if matches!(error.kind(), DisplayHelp | DisplayVersion | DisplayHelpOnMissingArgumentOrSubcommand) {
-        error.exit();
+/// Why a command line is not carried out.
+#[derive(Debug)]
+pub enum Stop {
+    /// Help or the version was asked for: this is it.
+    Help(clap::Error),
+    /// It is wrong.
+    Wrong(Error),
+}
+
+impl From<Error> for Stop {
+    fn from(error: Error) -> Self {
+        Self::Wrong(error)
     }
-    Error::CommandLine { problem: in_one_sentence(&error) }
+}
+
+fn refused(error: clap::Error) -> Stop {
+    use ErrorKind::{DisplayHelp, DisplayHelpOnMissingArgumentOrSubcommand, DisplayVersion};
+    match error.kind() {
+        DisplayHelp | DisplayVersion | DisplayHelpOnMissingArgumentOrSubcommand => Stop::Help(error),
+        _ => Stop::Wrong(Error::CommandLine { problem: in_one_sentence(&error) }),
+    }
 }
 
 /// A preset on its way into a command line.

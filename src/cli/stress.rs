@@ -16,7 +16,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 
-    /// Only cases with this in their name, or the group of this name: scale, depth, topology, thresholds, pictures, mixes, turns, faults [default: all]
+    /// Only cases with this in their name, or the group of this name: scale, depth, topology, thresholds, pictures, mixes, turns, files, faults [default: all]
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
 

@@ -53,7 +53,8 @@ impl ReferenceLight {
         let pixel = |surface: &Option<Surface>| match surface {
             None => [u8::MAX; 4],
             Some(surface) => {
-                let [red, green, blue] = (shading.color(surface) * 255.0).round().to_array().map(|channel| channel as u8);
+                let [red, green, blue] =
+                    (shading.color(surface) * 255.0).round().to_array().map(|channel| channel as u8);
                 [red, green, blue, u8::MAX]
             }
         };

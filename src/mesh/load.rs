@@ -1,14 +1,18 @@
 //! From a path to a [`Mesh`]: built-in or file, its format found by content first and by name second.
 
+use super::folder::Folder;
 use super::format::Format;
+use super::obj::Materials;
 use super::{Defects, Mesh, ModelFrame, builtin, md2, obj, ply, skin, soup::Soup, stl, three_ds};
 use crate::error::{Error, Result};
+use crate::files;
+use crate::limits::MODEL_BYTES;
 use crate::names::find;
 use crate::tolerances::{LARGEST_WELD, WELD};
 use glam::DVec3;
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
-use std::{fs, str::FromStr};
+use std::str::FromStr;
 
 /// How a model is read.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -31,6 +35,9 @@ pub struct LoadOptions {
     /// has the model's own name.
     #[serde(serialize_with = "as_text")]
     pub skin: Option<PathBuf>,
+    /// Whether files that the model names, materials and pictures, may lie outside its folder. Default: no, they are not
+    /// followed, whether named by `..`, absolutely or through links, and that is said.
+    pub allow_external: bool,
 }
 
 impl Default for LoadOptions {
@@ -43,6 +50,7 @@ impl Default for LoadOptions {
             strict: false,
             model_frame: ModelFrame::default(),
             skin: None,
+            allow_external: false,
         }
     }
 }
@@ -157,10 +165,36 @@ pub struct Loaded {
 pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
     check(options)?;
     let mut remarks = Vec::new();
-    let mut soup = match builtin::find(path) {
+    let soup = match builtin::find(path) {
         Some(model) => builtin::read(&model?, path, &mut remarks)?,
-        None => read_file(path, options, &mut remarks)?,
+        None => {
+            let bytes = files::read(Path::new(path), MODEL_BYTES)
+                .map_err(|failure| Error::model(path, failure.problem("a model file")))?;
+            let folder = Folder::of(path, options.allow_external);
+            soup(&bytes, path, options, &Materials::Beside(&folder), &folder, &mut remarks)?
+        }
     };
+    made(soup, path, options, remarks)
+}
+
+/// Reads a model out of memory: an OBJ, PLY, STL, MD2 or 3DS file's bytes. No other file is read: the materials of an OBJ
+/// model are looked for in `materials`, an MTL file's bytes, and pictures that the model names are left out.
+///
+/// `name` is for messages, and its extension tells the format where the bytes do not.
+///
+/// # Errors
+///
+/// Those of [`load`].
+pub fn read_bytes(bytes: &[u8], name: &str, materials: &[u8], options: &LoadOptions) -> Result<Loaded> {
+    check(options)?;
+    let mut remarks = Vec::new();
+    let mut soup = soup(bytes, name, options, &Materials::Text(materials), &Folder::none(), &mut remarks)?;
+    soup.materials.iter_mut().for_each(|material| material.texture = None);
+    made(soup, name, options, remarks)
+}
+
+/// The mesh of what was read.
+fn made(mut soup: Soup, path: &str, options: &LoadOptions, mut remarks: Vec<String>) -> Result<Loaded> {
     if soup.frames.is_empty() {
         options.model_frame.check_still(path)?;
     }
@@ -194,24 +228,14 @@ pub(super) fn check(options: &LoadOptions) -> Result<()> {
     options.skin.as_deref().map_or(Ok(()), skin::check)
 }
 
-fn read_file(path: &str, options: &LoadOptions, remarks: &mut Vec<String>) -> Result<Soup> {
-    #[cfg(unix)]
-    if let Ok(metadata) = fs::metadata(path) {
-        use std::os::unix::fs::FileTypeExt;
-        let kind = metadata.file_type();
-        if kind.is_char_device() || kind.is_block_device() {
-            return Err(Error::model(path, "this is a device; name a model file"));
-        }
-        // It may never end, nor ever begin.
-        if kind.is_fifo() || kind.is_socket() {
-            return Err(Error::model(path, "this is a pipe; write it to a file and name that"));
-        }
-    }
-    let bytes = fs::read(path).map_err(|error| Error::model(path, cannot_read(Path::new(path), &error)))?;
-    read_bytes(&bytes, path, options, remarks)
-}
-
-fn read_bytes(bytes: &[u8], path: &str, options: &LoadOptions, remarks: &mut Vec<String>) -> Result<Soup> {
+fn soup(
+    bytes: &[u8],
+    path: &str,
+    options: &LoadOptions,
+    materials: &Materials<'_>,
+    folder: &Folder,
+    remarks: &mut Vec<String>,
+) -> Result<Soup> {
     if bytes.is_empty() {
         return Err(Error::model(path, "the file is empty; export the model again"));
     }
@@ -228,30 +252,21 @@ fn read_bytes(bytes: &[u8], path: &str, options: &LoadOptions, remarks: &mut Vec
     {
         remarks.push(format!("{path}: named {} but holds {}, read as that", named.name(), found.name()));
     }
-    match format {
+    let soup = match format {
         Format::Obj => {
-            let folder = Path::new(path).parent().unwrap_or(Path::new("")).to_path_buf();
-            let mut soup = obj::read(bytes, path, &obj::Materials::Beside(folder.clone()), remarks)?;
+            let mut soup = obj::read(bytes, path, materials, remarks)?;
             if options.skin.is_none() {
-                skin::find_all(&mut soup, &folder, path, remarks);
+                skin::find_all(&mut soup, folder, path, remarks);
             }
-            Ok(soup)
+            soup
         }
-        Format::Ply => ply::read(bytes, path),
-        Format::Stl => stl::read(bytes, path),
-        Format::Md2 => md2::read(bytes, path, options, remarks),
-        Format::ThreeDs => three_ds::read(bytes, path, options, remarks),
-    }
-}
-
-fn cannot_read(path: &Path, error: &std::io::Error) -> String {
-    use std::io::ErrorKind;
-    match error.kind() {
-        ErrorKind::NotFound => "there is no such file; check the name".to_owned(),
-        ErrorKind::PermissionDenied => "it may not be read; check its permissions".to_owned(),
-        _ if path.is_dir() => "this is a directory; name a model file in it".to_owned(),
-        _ => format!("it cannot be read ({error})"),
-    }
+        Format::Ply => ply::read(bytes, path)?,
+        Format::Stl => stl::read(bytes, path)?,
+        Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
+        Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,
+    };
+    soup.check_memory(bytes.len(), path)?;
+    Ok(soup)
 }
 
 #[cfg(test)]
@@ -315,7 +330,7 @@ mod tests {
 
     fn mesh_of(bytes: &[u8], name: &str) -> Result<Mesh> {
         let options = LoadOptions::default();
-        read_bytes(bytes, name, &options, &mut Vec::new())?.into_mesh(name, &options)
+        Ok(read_bytes(bytes, name, b"", &options)?.mesh)
     }
 
     #[test]

@@ -6,12 +6,14 @@
 //! counter-clockwise, shares from the lower left. The file's normals, numbers into a table of the game's, are not used:
 //! they are computed. Layout: the game's `dmdl_t` and its tables, as its authors published it.
 
+use super::folder::{Folder, Found};
 use super::frame::Between;
 use super::load::{LoadOptions, UpAxis};
 use super::soup::{Corner, Soup};
 use super::{Material, skin};
 use crate::bytes::{Bytes, name};
 use crate::error::{Error, Result};
+use crate::limits::SKINS;
 use glam::{DVec3, Vec2};
 use std::path::{Path, PathBuf};
 
@@ -91,8 +93,14 @@ impl Header {
     }
 }
 
-/// Reads an MD2 file's bytes. `path` is for messages and says in which folder its skin is looked for.
-pub fn read(bytes: &[u8], path: &str, options: &LoadOptions, remarks: &mut Vec<String>) -> Result<Soup> {
+/// Reads an MD2 file's bytes. `path` is for messages; its skin is looked for in `folder`.
+pub fn read(
+    bytes: &[u8],
+    path: &str,
+    options: &LoadOptions,
+    folder: &Folder,
+    remarks: &mut Vec<String>,
+) -> Result<Soup> {
     if !bytes.starts_with(MAGIC) {
         return Err(Error::model(
             path,
@@ -144,10 +152,11 @@ pub fn read(bytes: &[u8], path: &str, options: &LoadOptions, remarks: &mut Vec<S
     }
     let texture = match options.skin {
         Some(_) => None,
-        None => find_skin(skins.map(name), path, remarks),
+        None => find_skin(skins.take(SKINS).map(name), path, folder, remarks),
     };
+    let texture_within = folder.within().filter(|_| texture.is_some()).map(Path::to_path_buf);
     soup.polygon_materials = vec![0; soup.polygon_count()];
-    soup.materials = vec![Material { name: "skin".to_owned(), color: None, texture }];
+    soup.materials = vec![Material { name: "skin".to_owned(), color: None, texture, texture_within }];
     Ok(soup)
 }
 
@@ -208,18 +217,29 @@ fn corners(triangle: &[u8], header: &Header) -> Option<[Corner; 3]> {
 }
 
 /// The first of the skins a file names that is beside it, or a picture that has the model's own name.
-fn find_skin(names: impl Iterator<Item = String>, path: &str, remarks: &mut Vec<String>) -> Option<PathBuf> {
-    let model = Path::new(path);
-    let folder = model.parent().unwrap_or(Path::new(""));
-    let own = model.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    let found = names.filter(|name| !name.is_empty()).chain(own).find_map(|name| skin::find(folder, &name));
-    if found.is_none() {
+fn find_skin(
+    names: impl Iterator<Item = String>,
+    path: &str,
+    folder: &Folder,
+    remarks: &mut Vec<String>,
+) -> Option<PathBuf> {
+    let own = Path::new(path).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let mut outside = Vec::new();
+    for name in names.filter(|name| !name.is_empty()).chain(own) {
+        match skin::find(folder, &name) {
+            Found::Here(place) => return Some(place),
+            Found::Outside => outside.push(skin::outside("skin", &name)),
+            Found::Nowhere => {}
+        }
+    }
+    if outside.is_empty() && folder.is_some() {
         let extensions = skin::EXTENSIONS.join(", .");
         remarks.push(format!(
             "{path}: no skin is beside it, neither one it names nor a .{extensions} of its own name; name one with --skin"
         ));
     }
-    found
+    skin::remark(path, outside, "skins are not followed", remarks);
+    None
 }
 
 #[cfg(test)]

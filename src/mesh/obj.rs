@@ -12,45 +12,58 @@ mod piece;
 #[cfg(test)]
 mod twin;
 
+use super::folder::Folder;
 use super::soup::Soup;
-use super::{Material, NONE};
+use super::{Material, NONE, skin};
 use crate::error::{Error, Result};
+use crate::files::{Failure, shown};
+use crate::limits::{MATERIAL_FILE_BYTES, MATERIAL_FILES, MATERIALS};
 use crate::threads::{cores, in_chunks};
 use piece::{Counts, Naming, Piece};
 use std::borrow::Cow;
-use std::collections::{BTreeSet, HashMap};
-use std::path::{Path, PathBuf};
+use std::collections::{HashMap, HashSet};
+use std::path::PathBuf;
 
 /// How much of a file is read in one go. Much less than a core's share, as another core opens the GL context meanwhile.
 const PIECE_BYTES: usize = 1 << 20;
 
 /// Where material files are looked for.
-pub enum Materials {
+pub enum Materials<'a> {
     /// In the model's folder.
-    Beside(PathBuf),
+    Beside(&'a Folder),
     /// In this text, whatever name the model asks for.
-    Text(&'static [u8]),
+    Text(&'a [u8]),
 }
 
-impl Materials {
-    /// The text of a material library, and its files; a name that is no file is taken for several names with blanks between them.
-    fn find(&self, name: &Path) -> Option<(Cow<'static, [u8]>, Vec<PathBuf>)> {
+impl<'a> Materials<'a> {
+    /// The text of a material library with its files, or a sentence why there is none; a name that is no file is taken for
+    /// several names with blanks between them.
+    fn find(&self, name: &str) -> std::result::Result<(Cow<'a, [u8]>, Vec<PathBuf>), String> {
         let folder = match self {
-            Self::Text(text) => return Some((Cow::Borrowed(text), Vec::new())),
+            Self::Text(text) => return Ok((Cow::Borrowed(text), Vec::new())),
             Self::Beside(folder) => folder,
         };
-        // Only files: a pipe or device would never end.
-        let read = |name: &Path| {
-            let path = folder.join(name);
-            path.metadata().ok().filter(|metadata| metadata.is_file()).and_then(|_| std::fs::read(path).ok())
+        let read = |name: &str| folder.read(name.as_ref(), MATERIAL_FILE_BYTES);
+        let several = || -> Option<Vec<Vec<u8>>> { name.split_whitespace().map(|name| read(name).ok()).collect() };
+        let failure = match read(name) {
+            Ok(text) => return Ok((Cow::Owned(text), folder.place_of(name).into_iter().collect())),
+            Err(failure) => failure,
         };
-        let several = || {
-            let texts: Vec<Vec<u8>> = name.to_str()?.split_whitespace().map_while(|name| read(name.as_ref())).collect();
-            let files: Vec<PathBuf> = name.to_str()?.split_whitespace().map(|name| folder.join(name)).collect();
-            (texts.len() == files.len()).then(|| (texts.join(&b'\n'), files))
-        };
-        let found = read(name).map(|text| (text, vec![folder.join(name)])).or_else(several);
-        found.map(|(text, files)| (Cow::Owned(text), files))
+        match several() {
+            Some(texts) => {
+                let files = name.split_whitespace().filter_map(|name| folder.place_of(name)).collect();
+                Ok((Cow::Owned(texts.join(&b'\n')), files))
+            }
+            None => Err(match failure {
+                Failure::Outside => {
+                    format!("{}; its faces get the default colour", skin::outside("material file", name))
+                }
+                Failure::TooLarge(_) | Failure::NoMemory(_) => {
+                    format!("the material file {}: {}", shown(name), failure.problem("a material file"))
+                }
+                _ => format!("the material file {} is not there; its faces get the default colour", shown(name)),
+            }),
+        }
     }
 }
 
@@ -65,7 +78,7 @@ pub fn looks_like(head: &[u8]) -> bool {
 }
 
 /// Reads an OBJ file's bytes. `path` is for messages; `remarks` gets a sentence for each missing material file.
-pub fn read(bytes: &[u8], path: &str, materials: &Materials, remarks: &mut Vec<String>) -> Result<Soup> {
+pub fn read(bytes: &[u8], path: &str, materials: &Materials<'_>, remarks: &mut Vec<String>) -> Result<Soup> {
     read_in_pieces(bytes, PIECE_BYTES, path, materials, remarks)
 }
 
@@ -74,7 +87,7 @@ fn read_in_pieces(
     bytes: &[u8],
     length: usize,
     path: &str,
-    materials: &Materials,
+    materials: &Materials<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<Soup> {
     let pieces = lines::pieces(bytes, length);
@@ -133,48 +146,56 @@ fn put_on_materials(
     soup: &mut Soup,
     namings: &[(usize, Naming)],
     path: &str,
-    materials: &Materials,
+    materials: &Materials<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<()> {
     let mut found = Vec::new();
     // A name's material is the one that was read last, but only for faces that come after it.
     let mut numbers: HashMap<String, usize> = HashMap::new();
-    let (mut missing_files, mut used) = (0, BTreeSet::new());
+    let (mut libraries, mut used) = (HashSet::new(), HashSet::new());
+    let mut missing = Vec::new();
     let mut current = NONE;
     for (before, naming) in namings {
         match naming {
+            // Exporters name one file before every part.
+            Naming::Library(name) if !libraries.insert(name.as_str()) => {}
+            Naming::Library(_) if libraries.len() > MATERIAL_FILES => {
+                let problem = format!("it names more than {MATERIAL_FILES} material files; put them together");
+                return Err(Error::model(path, problem));
+            }
             Naming::Library(name) => {
-                let (text, files) = materials.find(Path::new(name)).unwrap_or_else(|| {
-                    missing_files += 1;
-                    remarks.push(format!(
-                        "{path}: the material file {name} is not there; its faces get the default colour"
-                    ));
+                let (text, files) = materials.find(name).unwrap_or_else(|sentence| {
+                    missing.push(sentence);
                     (Cow::Borrowed(b""), Vec::new())
                 });
                 soup.files.extend(files);
-                let (more, more_numbers) = tobj::load_mtl_buf(&mut sound_material_lines(&text).as_slice())
-                    .map_err(|error| Error::model(path, format!("its materials cannot be read ({error})")))?;
+                let text = sound_material_lines(&text, MATERIALS - found.len())
+                    .ok_or_else(|| Error::model(path, format!("it has more than {MATERIALS} materials; merge some")))?;
+                let (more, more_numbers) = tobj::load_mtl_buf(&mut text.as_slice()).map_err(|error| {
+                    Error::model(path, format!("its materials cannot be read ({})", shown(&error.to_string())))
+                })?;
                 numbers.extend(more_numbers.into_iter().map(|(name, number)| (name, found.len() + number)));
                 found.extend(more);
             }
             Naming::Use(name) => {
                 soup.polygon_materials.resize(*before, current);
                 current = numbers.get(name).map_or(NONE, |number| *number as u32);
-                used.insert(name);
+                used.insert(name.as_str());
             }
         }
     }
     if !used.is_empty() {
         soup.polygon_materials.resize(soup.polygon_count(), current);
     }
-    let unknown = used.iter().filter(|name| !found.iter().any(|material| material.name == ***name)).count();
+    let unknown = used.iter().filter(|name| !numbers.contains_key(**name)).count();
     // A missing file's materials are missing with it: counted once, said once.
-    soup.defects.missing_materials = unknown.max(missing_files);
-    if unknown > 0 && missing_files == 0 {
+    soup.defects.missing_materials = unknown.max(missing.len());
+    if unknown > 0 && missing.is_empty() {
         remarks.push(format!(
             "{path}: {unknown} of the materials it uses are in no material file; their faces get the default colour"
         ));
     }
+    skin::remark(path, missing, "material files are not there or not followed", remarks);
     soup.materials = found.into_iter().map(material).collect();
     Ok(())
 }
@@ -184,12 +205,14 @@ fn material(material: tobj::Material) -> Material {
         name: material.name,
         color: material.diffuse.map(|color| color.map(|channel| channel.clamp(0.0, 1.0) as f32)),
         texture: material.diffuse_texture.map(PathBuf::from),
+        texture_within: None,
     }
 }
 
-/// Only the material statements used here, and only where they are complete: tobj panics on `Kd 1`.
-fn sound_material_lines(text: &[u8]) -> Vec<u8> {
-    let mut sound = String::new();
+/// Only the material statements used here, and only where they are complete: tobj panics on `Kd 1`. `None` where there are
+/// more than `most` materials.
+fn sound_material_lines(text: &[u8], most: usize) -> Option<Vec<u8>> {
+    let (mut sound, mut count) = (String::new(), 0);
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     for line in String::from_utf8_lossy(text).lines() {
         let line = line.trim();
@@ -202,12 +225,13 @@ fn sound_material_lines(text: &[u8]) -> Vec<u8> {
             _ => false,
         };
         if let (true, Some((_, rest))) = (keep, rest) {
+            count += usize::from(keyword == "newmtl");
             let rest = if keyword == "map_Kd" { texture_name(rest) } else { rest.trim() };
             // tobj cuts names at fixed columns, so exactly one blank goes before them.
             sound.push_str(&format!("{keyword} {rest}\n"));
         }
     }
-    sound.into_bytes()
+    (count <= most).then(|| sound.into_bytes())
 }
 
 /// The file's name, which may hold blanks, behind a texture statement's options and between its quotes, if it has any.
@@ -319,9 +343,8 @@ mod tests {
         for (statement, name) in names {
             assert_eq!(texture_name(statement), name, "{statement}");
             let text = format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1 2 3\n");
-            let mtl = sound_material_lines(format!("newmtl a\nmap_Kd\t{statement}\r\n").as_bytes());
-            let mtl: &'static [u8] = mtl.leak();
-            let soup = read(text.as_bytes(), "t.obj", &Materials::Text(mtl), &mut Vec::new()).unwrap();
+            let mtl = sound_material_lines(format!("newmtl a\nmap_Kd\t{statement}\r\n").as_bytes(), 9).unwrap();
+            let soup = read(text.as_bytes(), "t.obj", &Materials::Text(&mtl), &mut Vec::new()).unwrap();
             assert_eq!(soup.materials[0].texture, Some(PathBuf::from(name)));
         }
     }
@@ -354,7 +377,8 @@ mod tests {
     #[test]
     fn a_material_file_that_is_a_device_is_not_read() {
         let text = format!("mtllib /dev/zero\n{SQUARE}f 1 2 3\n");
-        let soup = read(text.as_bytes(), "t.obj", &Materials::Beside("/".into()), &mut Vec::new()).unwrap();
+        let soup =
+            read(text.as_bytes(), "t.obj", &Materials::Beside(&Folder::of("/t.obj", true)), &mut Vec::new()).unwrap();
         assert_eq!(soup.defects.missing_materials, 1);
     }
 
@@ -362,7 +386,9 @@ mod tests {
     fn a_missing_material_file_is_remarked_and_counted() {
         let mut remarks = Vec::new();
         let text = format!("mtllib no-such.mtl\n{SQUARE}f 1 2 3\n");
-        let soup = read(text.as_bytes(), "t.obj", &Materials::Beside("/nowhere".into()), &mut remarks).unwrap();
+        let soup =
+            read(text.as_bytes(), "t.obj", &Materials::Beside(&Folder::of("/nowhere/t.obj", false)), &mut remarks)
+                .unwrap();
         assert_eq!(soup.defects.missing_materials, 1);
         assert!(remarks[0].starts_with("t.obj: the material file no-such.mtl"), "{remarks:?}");
     }

@@ -1,11 +1,18 @@
-//! PLY, text and binary, through the ply-rs-bw crate: vertices with normals and texture coordinates, polygon faces.
+//! PLY, text and binary: vertices with normals and texture coordinates, polygon faces.
+//!
+//! The header is read by the ply-rs-bw crate, what follows it here (`payload.rs`): the crate makes a list of its own for
+//! every face and for every line's words, which for hostile files is more than twenty times the file.
+
+mod payload;
 
 use super::NONE;
 use super::soup::{Corner, Soup};
 use crate::error::{Error, Result};
+use crate::limits::PLY_HEADER_BYTES;
 use glam::{DVec3, Vec2, Vec3};
+use payload::{Damage, Payload, Value};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{Header, Property, PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{DefaultElement, ElementDef, Header};
 
 /// Reads a PLY file's bytes. `path` is for messages.
 pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
@@ -15,46 +22,37 @@ pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
             "it does not begin like a PLY file; it is damaged or misnamed, export it again",
         ));
     }
-    let mut reader = Reader::new(bytes);
-    let text = bytes[..bytes.len().min(256)].windows(12).any(|words| words == b"format ascii");
-    let damaged = |error: ParseError| Error::Model {
-        path: path.to_owned(),
-        // In a binary file the crate counts elements, not lines.
-        line: error.line().filter(|_| text).map(|line| line as u64),
-        problem: format!("it is damaged or cut off ({}); export it again", cause(&error)),
-    };
-    let header = Parser::<Ignored>::new().read_header(&mut reader).map_err(damaged)?;
-    check_header(&header).map_err(|problem| Error::model(path, problem))?;
-    let mut soup = Soup::default();
-    let mut faces: Vec<Face> = Vec::new();
-    for (name, element) in &header.elements {
-        match name.as_str() {
-            "vertex" => {
-                let has = |property: &str| element.properties.contains_key(property);
-                let has_normals = ["nx", "ny", "nz"].into_iter().all(has);
-                let has_texture = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"]]
-                    .into_iter()
-                    .any(|names| names.into_iter().all(has));
-                let vertices: Vec<Vertex> =
-                    Parser::new().read_payload_for_element(&mut reader, element, &header).map_err(damaged)?;
-                soup.positions = vertices.iter().map(|vertex| vertex.position).collect();
-                if has_normals {
-                    soup.normals = vertices.iter().map(|vertex| vertex.normal).collect();
-                }
-                if has_texture {
-                    soup.texture_coordinates = vertices.iter().map(|vertex| vertex.texture).collect();
-                }
-            }
-            "face" => {
-                faces = Parser::new().read_payload_for_element(&mut reader, element, &header).map_err(damaged)?;
-            }
-            _ => {
-                Parser::<Ignored>::new().read_payload_for_element(&mut reader, element, &header).map_err(damaged)?;
-            }
-        }
+    let head = &bytes[..bytes.len().min(PLY_HEADER_BYTES)];
+    if head.len() < bytes.len() && memchr::memmem::find(head, b"end_header").is_none() {
+        let problem =
+            format!("its header does not end within {PLY_HEADER_BYTES} bytes; it is damaged, export it again");
+        return Err(Error::model(path, problem));
     }
-    add_faces(&mut soup, &faces);
-    Ok(soup)
+    let damaged = |line: Option<u64>, cause: &str| Error::Model {
+        path: path.to_owned(),
+        line,
+        problem: format!("it is damaged or cut off ({cause}); export it again"),
+    };
+    let mut reader = Reader::new(head);
+    let header = Parser::<DefaultElement>::new()
+        .read_header(&mut reader)
+        .map_err(|error| damaged(error.line().map(|line| line as u64), &cause(&error)))?;
+    check_header(&header).map_err(|problem| Error::model(path, problem))?;
+    let header_bytes = head.len() - reader.into_inner().len();
+    let lines = memchr::memchr_iter(b'\n', &bytes[..header_bytes]).count() as u64;
+    let mut payload = Payload::new(&bytes[header_bytes..], header.encoding, lines);
+    let mut contents = Contents::new(&header);
+    for (name, element) in &header.elements {
+        let read = match name.as_str() {
+            "vertex" => contents.vertices(&mut payload, element),
+            "face" => contents.faces(&mut payload, element),
+            _ => (0..element.count).try_for_each(|_| payload.element(element, |_, _| {})),
+        };
+        read.map_err(|Damage(cause)| {
+            damaged(payload.line(), &format!("{cause} of the file's {} {name}", element.count))
+        })?;
+    }
+    Ok(contents.soup)
 }
 
 /// Refuses what would otherwise be misread or never end.
@@ -78,22 +76,102 @@ fn check_header(header: &Header) -> std::result::Result<(), &'static str> {
     Ok(())
 }
 
-fn add_faces(soup: &mut Soup, faces: &[Face]) {
-    let count = soup.positions.len() as i64;
-    for face in faces {
-        if face.vertices.iter().any(|index| !(0..count).contains(index)) {
-            soup.defects.out_of_range_faces += 1;
-        } else if face.vertices.len() < 3 {
-            soup.defects.degenerate_triangles += 1;
-        } else {
-            let with = |used: bool, index: u32| if used { index } else { NONE };
-            soup.corners.extend(face.vertices.iter().map(|&index| Corner {
-                position: index as u32,
-                normal: with(!soup.normals.is_empty(), index as u32),
-                texture: with(!soup.texture_coordinates.is_empty(), index as u32),
-            }));
-            soup.polygon_sizes.push(face.vertices.len() as u32);
+/// What is read of a file.
+struct Contents {
+    soup: Soup,
+    /// How many vertices the header promises: faces may come before them.
+    vertices: u32,
+    has_normals: bool,
+    has_texture: bool,
+}
+
+impl Contents {
+    fn new(header: &Header) -> Self {
+        let vertex = header.elements.get("vertex");
+        let has = |property: &str| vertex.is_some_and(|vertex| vertex.properties.contains_key(property));
+        Self {
+            soup: Soup::default(),
+            vertices: vertex.map_or(0, |vertex| u32::try_from(vertex.count).unwrap_or(NONE)),
+            has_normals: ["nx", "ny", "nz"].into_iter().all(has),
+            has_texture: [["u", "v"], ["s", "t"], ["texture_u", "texture_v"]]
+                .into_iter()
+                .any(|names| names.into_iter().all(has)),
         }
+    }
+
+    fn vertices(&mut self, payload: &mut Payload<'_>, element: &ElementDef) -> std::result::Result<(), Damage> {
+        let count = payload.at_most(element);
+        self.soup.positions.reserve_exact(count);
+        self.soup.normals.reserve_exact(if self.has_normals { count } else { 0 });
+        self.soup.texture_coordinates.reserve_exact(if self.has_texture { count } else { 0 });
+        for _ in 0..element.count {
+            let (mut position, mut normal, mut texture) = (DVec3::ZERO, Vec3::ZERO, Vec2::ZERO);
+            payload.element(element, |name, value| {
+                let Value::Scalar(number) = value else { return };
+                match name {
+                    "x" => position.x = number,
+                    "y" => position.y = number,
+                    "z" => position.z = number,
+                    "nx" => normal.x = number as f32,
+                    "ny" => normal.y = number as f32,
+                    "nz" => normal.z = number as f32,
+                    "u" | "s" | "texture_u" => texture.x = number as f32,
+                    "v" | "t" | "texture_v" => texture.y = number as f32,
+                    _ => {}
+                }
+            })?;
+            self.soup.positions.push(position);
+            if self.has_normals {
+                self.soup.normals.push(normal);
+            }
+            if self.has_texture {
+                self.soup.texture_coordinates.push(texture);
+            }
+        }
+        Ok(())
+    }
+
+    fn faces(&mut self, payload: &mut Payload<'_>, element: &ElementDef) -> std::result::Result<(), Damage> {
+        let Self { soup, vertices, has_normals, has_texture } = self;
+        /// Corners for which there is room before a face is read.
+        const LIST: usize = 1024;
+        let with = |used: bool, index: u32| if used { index } else { NONE };
+        soup.polygon_sizes.reserve_exact(payload.at_most(element));
+        for _ in 0..element.count {
+            let start = soup.corners.len();
+            let mut is_in_range = true;
+            payload.element(element, |name, value| {
+                if name != "vertex_indices" && name != "vertex_index" {
+                    return;
+                }
+                match value {
+                    Value::List { at_most } => {
+                        soup.corners.truncate(start);
+                        is_in_range = true;
+                        // Doubled as ever, but never beyond what the bytes left can hold.
+                        if soup.corners.capacity() - soup.corners.len() < at_most.min(LIST) {
+                            soup.corners.reserve_exact(at_most.min(soup.corners.len() + LIST));
+                        }
+                    }
+                    Value::Item(index) if (0..i64::from(*vertices)).contains(&index) => {
+                        let index = index as u32;
+                        let (normal, texture) = (with(*has_normals, index), with(*has_texture, index));
+                        soup.corners.push(Corner { position: index, normal, texture });
+                    }
+                    Value::Item(_) => is_in_range = false,
+                    Value::Scalar(_) => {}
+                }
+            })?;
+            let count = soup.corners.len() - start;
+            if count >= 3 && is_in_range {
+                soup.polygon_sizes.push(count as u32);
+                continue;
+            }
+            soup.corners.truncate(start);
+            let defects = &mut soup.defects;
+            *(if is_in_range { &mut defects.degenerate_triangles } else { &mut defects.out_of_range_faces }) += 1;
+        }
+        Ok(())
     }
 }
 
@@ -107,85 +185,6 @@ fn cause(error: &ParseError) -> String {
     // Where its grammar fails the crate adds that grammar's own debugging text.
     let plain = message.lines().next().unwrap_or_default().split("ParseError").next().unwrap_or_default();
     plain.trim_end_matches([':', '.', ' ', '\t']).chars().take(120).collect()
-}
-
-#[derive(Default)]
-struct Vertex {
-    position: DVec3,
-    normal: Vec3,
-    texture: Vec2,
-}
-
-impl PropertyAccess for Vertex {
-    fn new() -> Self {
-        Self::default()
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        let Some(number) = scalar(&property) else { return PropertyAccessResult::Ignored };
-        match name {
-            "x" => self.position.x = number,
-            "y" => self.position.y = number,
-            "z" => self.position.z = number,
-            "nx" => self.normal.x = number as f32,
-            "ny" => self.normal.y = number as f32,
-            "nz" => self.normal.z = number as f32,
-            "u" | "s" | "texture_u" => self.texture.x = number as f32,
-            "v" | "t" | "texture_v" => self.texture.y = number as f32,
-            _ => return PropertyAccessResult::Ignored,
-        }
-        PropertyAccessResult::Set
-    }
-}
-
-#[derive(Default)]
-struct Face {
-    vertices: Vec<i64>,
-}
-
-impl PropertyAccess for Face {
-    fn new() -> Self {
-        Self::default()
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        if name != "vertex_indices" && name != "vertex_index" {
-            return PropertyAccessResult::Ignored;
-        }
-        self.vertices = match property {
-            Property::ListChar(list) => list.into_iter().map(i64::from).collect(),
-            Property::ListUChar(list) => list.into_iter().map(i64::from).collect(),
-            Property::ListShort(list) => list.into_iter().map(i64::from).collect(),
-            Property::ListUShort(list) => list.into_iter().map(i64::from).collect(),
-            Property::ListInt(list) => list.into_iter().map(i64::from).collect(),
-            Property::ListUInt(list) => list.into_iter().map(i64::from).collect(),
-            _ => return PropertyAccessResult::Ignored,
-        };
-        PropertyAccessResult::Set
-    }
-}
-
-/// An element nobody asked for: read past, nothing kept.
-struct Ignored;
-
-impl PropertyAccess for Ignored {
-    fn new() -> Self {
-        Self
-    }
-}
-
-fn scalar(property: &Property) -> Option<f64> {
-    Some(match property {
-        Property::Char(number) => f64::from(*number),
-        Property::UChar(number) => f64::from(*number),
-        Property::Short(number) => f64::from(*number),
-        Property::UShort(number) => f64::from(*number),
-        Property::Int(number) => f64::from(*number),
-        Property::UInt(number) => f64::from(*number),
-        Property::Float(number) => f64::from(*number),
-        Property::Double(number) => *number,
-        _ => return None,
-    })
 }
 
 #[cfg(test)]

@@ -1,8 +1,12 @@
 //! Pictures that belong on a model: found beside it, or given with `--skin`.
 
+use super::folder::{Folder, Found};
 use super::soup::Soup;
 use super::{Material, NONE};
 use crate::error::{Error, Result};
+use crate::files::shown;
+use crate::limits::REMARKS;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Extensions of pictures, in the order they are tried.
@@ -12,58 +16,89 @@ pub const EXTENSIONS: [&str; 6] = ["pcx", "png", "tga", "bmp", "jpg", "jpeg"];
 /// says, in any case and, where it is not there, with any other extension of a picture.
 ///
 /// Models name pictures as they lay on their author's disk, `C:\ART\SKIN.PCX`.
-pub fn find(folder: &Path, name: &str) -> Option<PathBuf> {
+pub fn find(folder: &Folder, name: &str) -> Found {
     let slashes = name.replace('\\', "/");
-    let written = [name, &slashes].map(|name| folder.join(name)).into_iter().find(|path| path.is_file());
+    let written = [name, &slashes].map(|name| folder.find(Path::new(name)));
     let base = slashes.rsplit('/').next().unwrap_or_default();
-    written.or_else(|| beside(folder, base))
+    let places = written.into_iter().chain(std::iter::once_with(|| beside(folder, base)));
+    let mut best = Found::Nowhere;
+    for found in places {
+        match found {
+            Found::Here(_) => return found,
+            Found::Outside => best = found,
+            Found::Nowhere => {}
+        }
+    }
+    best
 }
 
 /// The picture of this name in a folder, in any case, or else the first with its stem and an extension of a picture.
-fn beside(folder: &Path, base: &str) -> Option<PathBuf> {
-    let stem = Path::new(base).file_stem()?.to_str()?;
-    let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let mut found: Option<(usize, PathBuf)> = None;
-    for entry in std::fs::read_dir(listed).ok()?.flatten() {
-        let file = entry.file_name();
-        let Some(name) = file.to_str() else { continue };
-        let rank = if name.eq_ignore_ascii_case(base) {
-            0
-        } else {
-            let path = Path::new(name);
-            let same_stem = path.file_stem().is_some_and(|other| other.eq_ignore_ascii_case(stem));
-            let known = |extension: &str| EXTENSIONS.iter().position(|known| known.eq_ignore_ascii_case(extension));
-            match path.extension().and_then(|extension| extension.to_str()).and_then(known) {
-                Some(place) if same_stem => place + 1,
-                _ => continue,
-            }
-        };
-        let candidate = (rank, folder.join(name));
-        // The order of a folder's entries is nobody's promise: rank, then name decide.
-        if found.as_ref().is_none_or(|best| candidate < *best) && candidate.1.is_file() {
-            found = Some(candidate);
+fn beside(folder: &Folder, base: &str) -> Found {
+    let Some(stem) = Path::new(base).file_stem().and_then(|stem| stem.to_str()) else { return Found::Nowhere };
+    let rank = |name: &str| {
+        if name.eq_ignore_ascii_case(base) {
+            return Some(0);
+        }
+        let path = Path::new(name);
+        let same_stem = path.file_stem().is_some_and(|other| other.eq_ignore_ascii_case(stem));
+        let extension = path.extension().and_then(|extension| extension.to_str()).filter(|_| same_stem)?;
+        Some(EXTENSIONS.iter().position(|known| known.eq_ignore_ascii_case(extension))? + 1)
+    };
+    let mut candidates: Vec<(usize, &String)> =
+        folder.names().iter().filter_map(|name| Some((rank(name)?, name))).collect();
+    // The order of a folder's entries is nobody's promise: rank, then name decide.
+    candidates.sort_unstable();
+    let mut best = Found::Nowhere;
+    for (_, name) in candidates {
+        match folder.find(Path::new(name)) {
+            found @ Found::Here(_) => return found,
+            Found::Outside => best = Found::Outside,
+            Found::Nowhere => {}
         }
     }
-    found.map(|(_, path)| path)
+    best
 }
 
-/// Puts where each material's picture lies in place of the name the file has for it; one sentence for each that is
-/// nowhere.
-pub fn find_all(soup: &mut Soup, folder: &Path, path: &str, remarks: &mut Vec<String>) {
-    let mut missing: Vec<String> = Vec::new();
+/// Puts where each material's picture lies in place of the name the file has for it; a sentence for each that is
+/// nowhere, or outside the model's folder.
+pub fn find_all(soup: &mut Soup, folder: &Folder, path: &str, remarks: &mut Vec<String>) {
+    let mut known: HashMap<PathBuf, Found> = HashMap::new();
+    let mut lost = Vec::new();
     for material in &mut soup.materials {
-        let Some(name) = material.texture.take() else { continue };
-        let name = name.to_string_lossy();
-        material.texture = find(folder, &name);
-        if material.texture.is_none() && !missing.iter().any(|other| *other == name) {
-            missing.push(name.into_owned());
+        let Some(name) = material.texture.take().filter(|_| folder.is_some()) else { continue };
+        let found = known.entry(name).or_insert_with_key(|name| {
+            let name = name.to_string_lossy();
+            let found = find(folder, &name);
+            match found {
+                Found::Here(_) => {}
+                Found::Outside => lost.push(outside("picture", &name)),
+                Found::Nowhere => lost.push(format!(
+                    "the picture {} is not beside it; its faces get the material's colour, or name one with --skin",
+                    shown(&name)
+                )),
+            }
+            found
+        });
+        if let Found::Here(place) = found {
+            material.texture = Some(place.clone());
+            material.texture_within = folder.within().map(Path::to_path_buf);
         }
     }
-    remarks.extend(missing.iter().map(|name| {
-        format!(
-            "{path}: the picture {name} is not beside it; its faces get the material's colour, or name one with --skin"
-        )
-    }));
+    remark(path, lost, "pictures are not there or not followed", remarks);
+}
+
+/// Why a file that is there is not read.
+pub fn outside(what: &str, name: &str) -> String {
+    format!("the {what} {} lies outside its folder and is not followed; --allow-external follows it", shown(name))
+}
+
+/// Says the first of some sentences about a file, and how many more there are.
+pub fn remark(path: &str, sentences: Vec<String>, others: &str, remarks: &mut Vec<String>) {
+    let more = sentences.len().saturating_sub(REMARKS);
+    remarks.extend(sentences.iter().take(REMARKS).map(|sentence| format!("{path}: {sentence}")));
+    if more > 0 {
+        remarks.push(format!("{path}: {more} more {others}"));
+    }
 }
 
 /// Refuses a skin that is not there.
@@ -89,11 +124,15 @@ pub fn put_on(soup: &mut Soup, skin: &Path, path: &str) -> Result<()> {
             format!("{path} has no texture coordinates; export it with them, or leave the option out"),
         ));
     }
-    soup.materials.iter_mut().for_each(|material| material.texture = Some(skin.to_path_buf()));
+    for material in &mut soup.materials {
+        // Whoever names it himself may have it anywhere.
+        (material.texture, material.texture_within) = (Some(skin.to_path_buf()), None);
+    }
     soup.polygon_materials.resize(soup.polygon_count(), NONE);
     if soup.polygon_materials.contains(&NONE) {
         let added = soup.materials.len() as u32;
-        soup.materials.push(Material { name: "skin".to_owned(), color: None, texture: Some(skin.to_path_buf()) });
+        let texture = Some(skin.to_path_buf());
+        soup.materials.push(Material { name: "skin".to_owned(), color: None, texture, texture_within: None });
         soup.polygon_materials.iter_mut().filter(|material| **material == NONE).for_each(|material| *material = added);
     }
     Ok(())
@@ -114,7 +153,14 @@ mod tests {
         for name in ["art/deep.png", "Skin.PCX", "skin.bmp", "two words.png", "trap.jpg", "model.3ds"] {
             std::fs::write(at(name), "").unwrap();
         }
-        let found = |name: &str| find(folder.path(), name);
+        let model = at("model.3ds");
+        let found = |name: &str| match find(&Folder::of(model.to_str().unwrap(), false), name) {
+            Found::Here(path) => Some(path),
+            other => {
+                assert_eq!(other, Found::Nowhere, "{name}");
+                None
+            }
+        };
         assert_eq!(found("art\\deep.png"), Some(at("art/deep.png")));
         assert_eq!(found("players/female/SKIN.BMP"), Some(at("skin.bmp")));
         assert_eq!(found("C:\\ART\\SKIN.TGA"), Some(at("Skin.PCX")), "pcx comes before bmp");
@@ -124,13 +170,15 @@ mod tests {
         for name in ["other.png", "model", "", "..", "art", "/", "\\"] {
             assert_eq!(found(name), None, "{name}");
         }
-        assert_eq!(find(Path::new("/no/such/folder"), "skin.png"), None);
+        assert_eq!(find(&Folder::of("/no/such/folder/a.obj", false), "skin.png"), Found::Nowhere);
+        assert_eq!(find(&Folder::none(), "/etc/passwd"), Found::Nowhere);
     }
 
     #[test]
     fn a_skin_goes_onto_all_materials_and_faces_without_one_get_one() {
         let corner = |position| Corner { texture: 0, ..Corner::at(position) };
-        let material = Material { name: "red".to_owned(), color: Some([1.0, 0.0, 0.0]), texture: None };
+        let material =
+            Material { name: "red".to_owned(), color: Some([1.0, 0.0, 0.0]), texture: None, texture_within: None };
         let mut soup = Soup {
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
             texture_coordinates: vec![Vec2::ZERO],

@@ -6,6 +6,7 @@
 use super::pieces::Pieces;
 use super::{Defects, LoadOptions, Material, Mesh, NONE, Normals, normals, weld};
 use crate::error::{Error, Result};
+use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
 use crate::tolerances::LARGEST_COORDINATE;
 use glam::{DVec3, Vec2, Vec3};
 use std::borrow::Cow;
@@ -59,6 +60,28 @@ impl Soup {
     /// How many polygons there are.
     pub fn polygon_count(&self) -> usize {
         if self.polygon_sizes.is_empty() { self.corners.len() / 3 } else { self.polygon_sizes.len() }
+    }
+
+    /// Refuses what would take more memory as a mesh than a file of `file_bytes` may: no exporter writes so few bytes for so
+    /// many vertices and faces, but two bytes can name a polygon's corner.
+    pub fn check_memory(&self, file_bytes: usize, name: &str) -> Result<()> {
+        /// What a vertex, a corner and a triangle take at the moment when a mesh takes most, bytes.
+        const BYTES: [usize; 3] = [80, 12, 90];
+        let triangles = self.corners.len().saturating_sub(2 * self.polygon_count());
+        let counts = [self.positions.len(), self.corners.len(), triangles];
+        let needed: usize = counts.iter().zip(BYTES).map(|(count, bytes)| count.saturating_mul(bytes)).sum();
+        let most = file_bytes.saturating_mul(MEMORY_FACTOR).saturating_add(MEMORY_SLACK_BYTES);
+        if needed <= most && triangles <= TRIANGLES {
+            return Ok(());
+        }
+        Err(Error::model(
+            name,
+            format!(
+                "its {} vertices and {triangles} triangles take more than {MEMORY_FACTOR} times the file's size in memory; \
+                 export it again as triangles, or in another format",
+                self.positions.len()
+            ),
+        ))
     }
 
     /// Makes the mesh. Fails if nothing is left to draw, or with `options.strict` if anything was wrong.

@@ -1,9 +1,12 @@
-//! STL, binary and text, through the stl_io crate.
+//! STL: text through the stl_io crate, binary here, where the crate would want a copy of the file.
 //!
 //! The file's facet normals are not used: the corners' order says the same and is what edges are found by.
 
 use super::soup::{Corner, Soup};
+use crate::bytes::Bytes;
 use crate::error::{Error, Result};
+use crate::files::shown;
+use crate::limits::STL_LINE_BYTES;
 use glam::DVec3;
 use std::io::Cursor;
 
@@ -27,19 +30,20 @@ fn facet_count(bytes: &[u8]) -> Option<usize> {
 
 /// Reads an STL file's bytes. `path` is for messages.
 pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
-    let damaged = |error: std::io::Error| Error::model(path, format!("it is damaged ({error}); export it again"));
+    let damaged = |error: std::io::Error| {
+        Error::model(path, format!("it is damaged ({}); export it again", shown(&error.to_string())))
+    };
     let mut non_finite = Vec::new();
     // Some programs leave a few bytes behind the last facet.
     let holds_all = facet_count(bytes).is_some_and(|count| bytes.len() >= HEADER_BYTES + count * FACET_BYTES);
     let text = is_text(&bytes[..bytes.len().min(4096)]);
-    let whole = if is_binary(bytes) || (holds_all && !text) {
-        // Keeps stl_io from taking a binary file whose header begins with "solid " for text.
-        [b"     ", &bytes[5..]].concat()
-    } else if text {
-        one_solid(&String::from_utf8_lossy(bytes), path, &mut non_finite)?.into_bytes()
-    } else {
+    if is_binary(bytes) || (holds_all && !text) {
+        return Ok(binary(bytes));
+    }
+    if !text {
         return Err(Error::model(path, truncated(bytes)));
-    };
+    }
+    let whole = one_solid(&String::from_utf8_lossy(bytes), path, &mut non_finite)?.into_bytes();
     let mut cursor = Cursor::new(whole);
     let mut soup = Soup::default();
     for facet in stl_io::create_stl_reader(&mut cursor).map_err(damaged)? {
@@ -52,6 +56,24 @@ pub fn read(bytes: &[u8], path: &str) -> Result<Soup> {
     Ok(soup)
 }
 
+/// A binary file's facets, which are all there.
+fn binary(bytes: &[u8]) -> Soup {
+    let mut rest = Bytes(bytes.get(HEADER_BYTES..).unwrap_or_default());
+    let count = facet_count(bytes).unwrap_or_default();
+    let mut soup = Soup::default();
+    soup.positions.reserve_exact(count * 3);
+    soup.corners.reserve_exact(count * 3);
+    for facet in rest.records(count, FACET_BYTES).into_iter().flatten() {
+        let mut facet = Bytes(facet);
+        let [_normal, corners @ ..]: [Option<[f32; 3]>; 4] = std::array::from_fn(|_| facet.floats());
+        for corner in corners {
+            soup.corners.push(Corner::at(soup.positions.len() as u32));
+            soup.positions.push(DVec3::from_array(corner.unwrap_or_default().map(f64::from)));
+        }
+    }
+    soup
+}
+
 /// Text STL the way stl_io wants it: one named solid without facet normals, and without numbers that are not finite, whose
 /// vertices are noted instead. stl_io reads the first solid of a file only and stops at the first normal that is not one.
 fn one_solid(text: &str, path: &str, non_finite: &mut Vec<usize>) -> Result<String> {
@@ -59,7 +81,10 @@ fn one_solid(text: &str, path: &str, non_finite: &mut Vec<usize>) -> Result<Stri
     let mut vertex_count = 0;
     let mut last = "";
     let lower = text.to_ascii_lowercase();
-    for line in lower.lines().map(str::trim).filter(|line| !line.is_empty()) {
+    for (number, line) in (1..).zip(lower.lines()).map(|(number, line)| (number, line.trim())) {
+        if line.is_empty() {
+            continue;
+        }
         let mut words = line.split_whitespace();
         last = words.next().unwrap_or_default();
         match last {
@@ -68,6 +93,15 @@ fn one_solid(text: &str, path: &str, non_finite: &mut Vec<usize>) -> Result<Stri
             "vertex" if words.by_ref().filter_map(|word| word.parse::<f32>().ok()).any(|x| !x.is_finite()) => {
                 non_finite.push(vertex_count);
                 whole.push_str("vertex 0 0 0");
+            }
+            // stl_io makes a text of every word.
+            _ if line.len() > STL_LINE_BYTES => {
+                return Err(Error::Model {
+                    path: path.to_owned(),
+                    line: Some(number),
+                    problem: "it is longer than any line of an STL file; the file is damaged, export it again"
+                        .to_owned(),
+                });
             }
             _ => whole.push_str(line),
         }
@@ -141,6 +175,16 @@ mod tests {
         assert_eq!(soup.positions.len(), 6);
         assert_eq!(soup.positions[0].x, 2.0);
         assert!(soup.positions[3].is_nan());
+    }
+
+    #[test]
+    fn lines_without_end_are_refused_by_number_and_not_quoted_without_end() {
+        let facet = format!("solid x\nsolidfacet {}\nendsolid x\n", "\u{4} ".repeat(400));
+        let message = read(facet.as_bytes(), "t.stl").unwrap_err().to_string();
+        assert!(message.starts_with("t.stl: it is damaged (") && message.len() < 1000, "{message}");
+        let vertex = format!("solid x\nfacet normal 0 0 1\nouter loop\nvertex{}\nendsolid x\n", " 0".repeat(1_000_000));
+        let message = read(vertex.as_bytes(), "t.stl").unwrap_err().to_string();
+        assert!(message.starts_with("t.stl: line 4: it is longer than any line"), "{message}");
     }
 
     #[test]

@@ -5,13 +5,16 @@
 //! Vertices are in world space already, so the meshes' local matrices are not used; nor are smoothing groups: normals are
 //! computed. In the file z is up and -y the front, which is turned to y up (unless `--up-axis` says otherwise).
 
+use super::folder::Folder;
 use super::load::{LoadOptions, UpAxis};
 use super::soup::{Corner, Soup};
 use super::{Material, NONE, skin};
 use crate::bytes::Bytes;
 use crate::error::{Error, Result};
+use crate::limits::MATERIALS;
 use glam::{DVec3, Vec2};
-use std::path::{Path, PathBuf};
+use std::collections::{BTreeSet, HashMap};
+use std::path::PathBuf;
 
 /// The chunks that are looked into; all others are passed over.
 mod chunk {
@@ -44,8 +47,14 @@ pub fn looks_like(head: &[u8]) -> bool {
         && bytes.u16().is_some_and(|first| [chunk::VERSION, chunk::EDITOR, chunk::KEYFRAMER].contains(&first))
 }
 
-/// What is wrong with a chunk: its length, or that its data ends too early.
-struct Damage(u16);
+/// Why a file is not read to its end.
+#[derive(Debug)]
+enum Damage {
+    /// A chunk's length is wrong, or its data ends too early.
+    Part(u16),
+    /// There are more materials than are read.
+    Materials,
+}
 
 /// The chunks that lie one after the other in `bytes`; a rest shorter than a chunk's header is padding.
 fn chunks<'a>(mut bytes: Bytes<'a>) -> impl Iterator<Item = std::result::Result<(u16, Bytes<'a>), Damage>> {
@@ -58,7 +67,7 @@ fn chunks<'a>(mut bytes: Bytes<'a>) -> impl Iterator<Item = std::result::Result<
         if data.is_none() {
             bytes = Bytes(&[]);
         }
-        Some(data.map(|data| (number, Bytes(data))).ok_or(Damage(number)))
+        Some(data.map(|data| (number, Bytes(data))).ok_or(Damage::Part(number)))
     })
 }
 
@@ -72,8 +81,14 @@ struct Contents {
     material_names: Vec<String>,
 }
 
-/// Reads a 3DS file's bytes. `path` is for messages and says in which folder its textures are looked for.
-pub fn read(bytes: &[u8], path: &str, options: &LoadOptions, remarks: &mut Vec<String>) -> Result<Soup> {
+/// Reads a 3DS file's bytes. `path` is for messages; its textures are looked for in `folder`.
+pub fn read(
+    bytes: &[u8],
+    path: &str,
+    options: &LoadOptions,
+    folder: &Folder,
+    remarks: &mut Vec<String>,
+) -> Result<Soup> {
     let mut main = Bytes(bytes);
     let (number, length) = (main.u16(), main.u32());
     if number != Some(chunk::MAIN) {
@@ -91,15 +106,19 @@ pub fn read(bytes: &[u8], path: &str, options: &LoadOptions, remarks: &mut Vec<S
         return Err(Error::model(path, problem));
     };
     let mut contents = Contents::default();
-    contents.main(Bytes(data)).map_err(|Damage(number)| {
-        Error::model(path, format!("its part {number:04x} is damaged or cut off; export it again"))
+    contents.main(Bytes(data)).map_err(|damage| {
+        let problem = match damage {
+            Damage::Part(number) => format!("its part {number:04x} is damaged or cut off; export it again"),
+            Damage::Materials => format!("it has more than {MATERIALS} materials; export it with fewer"),
+        };
+        Error::model(path, problem)
     })?;
     let mut soup = contents.with_materials(path, remarks);
     if options.up_axis == UpAxis::Auto {
         soup.positions.iter_mut().for_each(|position| *position = UpAxis::Z.to_y_up(*position));
     }
     if options.skin.is_none() {
-        skin::find_all(&mut soup, Path::new(path).parent().unwrap_or(Path::new("")), path, remarks);
+        skin::find_all(&mut soup, folder, path, remarks);
     }
     Ok(soup)
 }
@@ -118,9 +137,10 @@ impl Contents {
     fn editor(&mut self, bytes: Bytes<'_>) -> std::result::Result<(), Damage> {
         for item in chunks(bytes) {
             match item? {
+                (chunk::MATERIAL, _) if self.soup.materials.len() >= MATERIALS => return Err(Damage::Materials),
                 (chunk::MATERIAL, data) => self.soup.materials.push(material(data)?),
                 (chunk::OBJECT, mut data) => {
-                    data.text().ok_or(Damage(chunk::OBJECT))?;
+                    data.text().ok_or(Damage::Part(chunk::OBJECT))?;
                     for item in chunks(data) {
                         if let (chunk::MESH, data) = item? {
                             self.mesh(data)?;
@@ -139,10 +159,10 @@ impl Contents {
         for item in chunks(bytes) {
             match item? {
                 (chunk::VERTICES, data) => {
-                    vertices = numbers::<3>(data).ok_or(Damage(chunk::VERTICES))?;
+                    vertices = numbers::<3>(data).ok_or(Damage::Part(chunk::VERTICES))?;
                 }
                 (chunk::TEXTURE_COORDINATES, data) => {
-                    texture_coordinates = numbers::<2>(data).ok_or(Damage(chunk::TEXTURE_COORDINATES))?;
+                    texture_coordinates = numbers::<2>(data).ok_or(Damage::Part(chunk::TEXTURE_COORDINATES))?;
                 }
                 (chunk::FACES, data) => faces = Some(data),
                 _ => {}
@@ -161,11 +181,11 @@ impl Contents {
         /// Three indices and flags that say which sides are seen.
         const FACE_BYTES: usize = 8;
         let records = bytes.u16().and_then(|count| bytes.records(count.into(), FACE_BYTES));
-        let records = records.ok_or(Damage(chunk::FACES))?;
+        let records = records.ok_or(Damage::Part(chunk::FACES))?;
         let mut materials = vec![NONE; records.len()];
         for item in chunks(bytes) {
             if let (chunk::FACE_MATERIAL, data) = item? {
-                let (name, faces) = face_material(data).ok_or(Damage(chunk::FACE_MATERIAL))?;
+                let (name, faces) = face_material(data).ok_or(Damage::Part(chunk::FACE_MATERIAL))?;
                 let place = self.material_names.len() as u32;
                 self.material_names.push(name);
                 for face in faces {
@@ -196,12 +216,13 @@ impl Contents {
     /// Gives faces the materials of the names they use; materials may have come after them.
     fn with_materials(self, path: &str, remarks: &mut Vec<String>) -> Soup {
         let Self { mut soup, face_materials, material_names } = self;
-        let place = |name: &String| soup.materials.iter().position(|material| material.name == *name);
-        let places: Vec<Option<usize>> = material_names.iter().map(place).collect();
-        let mut unknown: Vec<&String> =
+        // Where a name comes more than once the first counts.
+        let by_name: HashMap<&str, usize> =
+            soup.materials.iter().enumerate().rev().map(|(place, material)| (material.name.as_str(), place)).collect();
+        let places: Vec<Option<usize>> =
+            material_names.iter().map(|name| by_name.get(name.as_str()).copied()).collect();
+        let unknown: BTreeSet<&String> =
             material_names.iter().zip(&places).filter(|(_, place)| place.is_none()).map(|(name, _)| name).collect();
-        unknown.sort_unstable();
-        unknown.dedup();
         if !unknown.is_empty() {
             remarks.push(format!(
                 "{path}: {} of the materials it uses are not in it; their faces get the default colour",
@@ -231,17 +252,17 @@ fn face_material(mut bytes: Bytes<'_>) -> Option<(String, Vec<u16>)> {
 
 /// A material; its texture is the file's name for it until it is looked for.
 fn material(bytes: Bytes<'_>) -> std::result::Result<Material, Damage> {
-    let mut material = Material { name: String::new(), color: None, texture: None };
+    let mut material = Material { name: String::new(), color: None, texture: None, texture_within: None };
     for item in chunks(bytes) {
         match item? {
             (chunk::MATERIAL_NAME, mut data) => {
-                material.name = data.text().ok_or(Damage(chunk::MATERIAL_NAME))?;
+                material.name = data.text().ok_or(Damage::Part(chunk::MATERIAL_NAME))?;
             }
             (chunk::DIFFUSE, data) => material.color = color(data)?,
             (chunk::TEXTURE, data) => {
                 for item in chunks(data) {
                     if let (chunk::TEXTURE_FILE, mut data) = item? {
-                        let name = data.text().ok_or(Damage(chunk::TEXTURE_FILE))?;
+                        let name = data.text().ok_or(Damage::Part(chunk::TEXTURE_FILE))?;
                         material.texture = (!name.is_empty()).then(|| PathBuf::from(name));
                     }
                 }
@@ -265,7 +286,7 @@ fn color(bytes: Bytes<'_>) -> std::result::Result<Option<[f32; 3]>, Damage> {
         } else {
             continue;
         };
-        let color = color.ok_or(Damage(number))?;
+        let color = color.ok_or(Damage::Part(number))?;
         return Ok(color.iter().all(|channel| channel.is_finite()).then(|| color.map(|c| c.clamp(0.0, 1.0))));
     }
     Ok(None)

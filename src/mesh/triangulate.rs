@@ -1,13 +1,19 @@
 //! Polygons to triangles, each keeping the polygon's orientation.
 //!
-//! Convex polygons become fans; the others go to the earcut crate in the plane of Newell's normal.
+//! Convex polygons become fans; the others go to the earcut crate in the plane of Newell's normal, long ones only if they do
+//! not cross themselves: earcut would not come to an end.
 
+mod simple;
+
+use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS};
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
+use simple::is_simple;
 
 /// Splits one polygon (its corners' positions, in order) into triangles of corner numbers.
 ///
-/// `out` is cleared and gets `corners.len() - 2` triangles for a simple polygon, fewer where it has no area to cut.
+/// `out` is cleared and gets `corners.len() - 2` triangles for a simple polygon, fewer where it has no area to cut, none where
+/// it has more than [`CONCAVE_CORNERS`] and is not convex, or more than [`CROSSING_CORNERS`] and crosses itself.
 pub fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u32; 3]>) {
     out.clear();
     match corners.len() {
@@ -19,9 +25,15 @@ pub fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u
             if normal == DVec3::ZERO || is_convex(corners, normal) {
                 out.extend((1..count as u32 - 1).map(|i| [0, i, i + 1]));
             } else {
+                if count > CONCAVE_CORNERS {
+                    return;
+                }
+                let plane: Vec<DVec2> = project(corners, normal).collect();
+                if count > CROSSING_CORNERS && !is_simple(&plane) {
+                    return;
+                }
                 let mut indices: Vec<u32> = Vec::new();
-                let plane = project(corners, normal).map(|point| point.to_array());
-                earcut.earcut(plane, &[], &mut indices);
+                earcut.earcut(plane.iter().map(|point| point.to_array()), &[], &mut indices);
                 out.extend(indices.chunks_exact(3).map(|t| oriented([t[0], t[1], t[2]], corners, normal)));
             }
         }

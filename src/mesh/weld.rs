@@ -1,14 +1,22 @@
 //! Vertices that lie on the same spot become one, so that faces share edges (errata D5).
 //!
 //! In: points and a distance. Out: for each point the first point (in the given order) it is welded to.
-//! A sweep along one skew direction: a hash grid would be faster on huge clouds but needs 27 look-ups a point.
+//! A sweep along one skew direction; where a model lies across it, on purpose or not, a hash grid, which needs 27 look-ups a
+//! point.
 
 use crate::threads::{sort_by, threads_for};
 use crate::tolerances::SWEEP_ROUNDING;
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// A direction no regular grid is aligned with, so that a flat or gridded model does not put all points in one window.
 const SWEEP_DIRECTION: DVec3 = DVec3::new(0.577_215_664_9, 0.314_159_265_3, 0.753_664_137_1);
+
+/// Pairs a point that are compared one by one; more is the work of a grid, which takes longer for ordinary models.
+const PAIRS_A_POINT: usize = 64;
+
+/// Narrowest cell of the grid, as a share of the points' extent: its coordinates are whole numbers that f64 holds.
+const SMALLEST_CELL: f64 = 1e-15;
 
 /// For each point the index of its representative: itself, or an earlier-swept point within `distance` of it.
 ///
@@ -25,6 +33,28 @@ pub fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
     sort_by(&mut sweep, threads_for(points.len()), |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let largest = sweep.first().map_or(0.0, |first| first.0.abs()).max(sweep.last().map_or(0.0, |last| last.0.abs()));
     let reach = distance * SWEEP_DIRECTION.length() + largest * SWEEP_ROUNDING;
+    if pairs_within(&sweep, reach) > sweep.len() * PAIRS_A_POINT {
+        weld_by_cells(points, &sweep, distance, &mut representative);
+    } else {
+        weld_by_sweep(points, &sweep, reach, distance, &mut representative);
+    }
+    lowest_first(&mut representative);
+    representative
+}
+
+/// How many pairs of points are no farther apart than `reach` along the sweep.
+fn pairs_within(sweep: &[(f64, u32)], reach: f64) -> usize {
+    let (mut window_start, mut pairs) = (0, 0usize);
+    for (current, (along, _)) in sweep.iter().enumerate() {
+        while along - sweep[window_start].0 > reach {
+            window_start += 1;
+        }
+        pairs = pairs.saturating_add(current - window_start);
+    }
+    pairs
+}
+
+fn weld_by_sweep(points: &[DVec3], sweep: &[(f64, u32)], reach: f64, distance: f64, representative: &mut [u32]) {
     let mut window_start = 0;
     for current in 0..sweep.len() {
         let (along, index) = sweep[current];
@@ -40,8 +70,28 @@ pub fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
             representative[index as usize] = earlier;
         }
     }
-    lowest_first(&mut representative);
-    representative
+}
+
+/// The same result where many points lie side by side across the sweep: those kept so far, by the cell of a grid they lie in.
+fn weld_by_cells(points: &[DVec3], sweep: &[(f64, u32)], distance: f64, representative: &mut [u32]) {
+    let low = sweep.iter().fold(DVec3::INFINITY, |low, (_, index)| low.min(points[*index as usize]));
+    // Twice as wide as need be, so that rounding never puts neighbours two cells apart. Without a distance only equal points
+    // are welded, which lie in one cell of any grid.
+    let high = sweep.iter().fold(low, |high, (_, index)| high.max(points[*index as usize]));
+    let width = (2.0 * distance).max((high - low).max_element() * SMALLEST_CELL);
+    let cell = |point: DVec3| ((point - low) / width).to_array().map(|coordinate| coordinate as i64);
+    let mut kept: HashMap<[i64; 3], Vec<(u32, u32)>> = HashMap::new();
+    for (rank, (_, index)) in (0u32..).zip(sweep) {
+        let point = points[*index as usize];
+        let [x, y, z] = cell(point);
+        let neighbours = (0..27).map(|n| [x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1]);
+        let near = neighbours.filter_map(|cell| kept.get(&cell)).flatten();
+        let near = near.filter(|(_, earlier)| points[*earlier as usize].distance(point) <= distance);
+        match near.min() {
+            Some((_, earlier)) => representative[*index as usize] = *earlier,
+            None => kept.entry([x, y, z]).or_default().push((rank, *index)),
+        }
+    }
 }
 
 /// Renames every group after its lowest member, so that the first vertex of the file gives the position.
@@ -77,6 +127,38 @@ mod tests {
     fn non_finite_points_are_left_alone() {
         let nan = DVec3::new(f64::NAN, 0.0, 0.0);
         assert_eq!(weld(&[nan, DVec3::ZERO, nan, DVec3::ZERO], 1.0), [0, 1, 2, 1]);
+    }
+
+    #[test]
+    fn sweep_and_grid_weld_the_same_points() {
+        // Three dozen clusters of points that are a little apart, so that who is welded to whom depends on the order.
+        let points: Vec<DVec3> = (0..600)
+            .map(|i| {
+                let at = DVec3::new(f64::from(i % 7), f64::from(i % 5), 0.0);
+                at + DVec3::new(f64::from(i * 31 % 97), f64::from(i * 17 % 89), f64::from(i * 7 % 83)) * 1e-3
+            })
+            .collect();
+        let mut sweep: Vec<(f64, u32)> =
+            points.iter().zip(0..).map(|(point, index)| (point.dot(SWEEP_DIRECTION), index)).collect();
+        sweep.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        for (distance, fewest, most) in [(0.0, 600, 600), (0.02, 40, 599), (0.3, 35, 80), (9.0, 1, 2)] {
+            let whole: Vec<u32> = (0..600).collect();
+            let (mut by_sweep, mut by_cells) = (whole.clone(), whole);
+            weld_by_sweep(&points, &sweep, distance * SWEEP_DIRECTION.length() + 1e-12, distance, &mut by_sweep);
+            weld_by_cells(&points, &sweep, distance, &mut by_cells);
+            assert_eq!(by_sweep, by_cells, "{distance}");
+            let groups = by_cells.iter().collect::<std::collections::BTreeSet<_>>().len();
+            assert!((fewest..=most).contains(&groups), "{distance}: {groups} groups");
+        }
+    }
+
+    #[test]
+    fn a_hundred_thousand_points_across_the_sweep_are_not_compared_with_each_other() {
+        let across = SWEEP_DIRECTION.normalize().any_orthonormal_pair();
+        let at = |i: u32| across.0 * f64::from(i % 300) + across.1 * f64::from(i / 300);
+        let points: Vec<DVec3> = (0..100_000).map(at).collect();
+        let welded = weld(&points, 1e-5);
+        assert!(welded.iter().zip(0..).all(|(to, index)| *to == index), "none lies near another");
     }
 
     #[test]

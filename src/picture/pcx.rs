@@ -2,7 +2,7 @@
 //! in three planes; run-length coded. The reader is our own, over [`Bytes`].
 
 use super::Picture;
-use super::read::LARGEST_SIDE_PX;
+use super::read::check_size;
 use crate::bytes::Bytes;
 use crate::scene::Size;
 
@@ -21,15 +21,17 @@ pub fn looks_like(bytes: &[u8]) -> bool {
     matches!(bytes, [MANUFACTURER, 0 | 2 | 3 | 4 | 5, 0 | 1, 1 | 2 | 4 | 8, ..])
 }
 
-/// Reads a PCX file's bytes; the error is a sentence without the file's name.
-pub fn read(bytes: &[u8]) -> Result<Picture, String> {
+/// Reads a PCX file's bytes into at most `most` bytes of pixels; the error is a sentence without the file's name.
+pub fn read(bytes: &[u8], most: u64) -> Result<Picture, String> {
     if !looks_like(bytes) {
         return Err("it does not begin like a PCX picture; it is damaged or misnamed, save it again".to_owned());
     }
     let mut header = Bytes(bytes);
     let header = header.take(HEADER_BYTES).zip(Some(header.0)).and_then(|(head, data)| Header::read(head, data));
     let header = header.ok_or(CUT_OFF)?;
-    let Size { width, height } = header.size()?;
+    let size = header.size()?;
+    check_size(size, bytes.len(), most)?;
+    let Size { width, height } = size;
     let (data, palette) = match (header.bits, header.planes) {
         (8, 1) => {
             let split = header.data.len().checked_sub(PALETTE_BYTES).and_then(|end| header.data.split_at_checked(end));
@@ -91,11 +93,7 @@ impl<'a> Header<'a> {
         if right < left || bottom < top {
             return Err("its right or lower side lies before the other; it is damaged, save it again".to_owned());
         }
-        let size = Size { width: right - left + 1, height: bottom - top + 1 };
-        if size.width.max(size.height) > LARGEST_SIDE_PX {
-            return Err(super::read::too_large());
-        }
-        Ok(size)
+        Ok(Size { width: right - left + 1, height: bottom - top + 1 })
     }
 }
 
@@ -152,7 +150,7 @@ pub mod tests {
 
     #[test]
     fn palette_pictures_are_read() {
-        let picture = read(&with_palette()).unwrap();
+        let picture = read(&with_palette(), u64::MAX).unwrap();
         assert_eq!(picture.size, Size { width: 3, height: 2 });
         let reds: Vec<u8> = picture.pixels.chunks_exact(4).map(|pixel| pixel[0]).collect();
         assert_eq!(reds, [3, 0xfe, 5, 5, 5, 0]);
@@ -161,7 +159,7 @@ pub mod tests {
 
     #[test]
     fn pictures_in_three_planes_are_read() {
-        let picture = read(&with_planes()).unwrap();
+        let picture = read(&with_planes(), u64::MAX).unwrap();
         assert_eq!(picture.pixels, [1, 3, 5, 255, 2, 4, 6, 255, 200, 200, 200, 255, 200, 200, 200, 255]);
     }
 
@@ -170,7 +168,7 @@ pub mod tests {
         let mut bytes = header(2, 1, 3, 2);
         bytes[2] = 0;
         bytes.extend([0xff, 2, 3, 4, 5, 6]);
-        assert_eq!(read(&bytes).unwrap().pixel(0, 0), [0xff, 3, 5, 255]);
+        assert_eq!(read(&bytes, u64::MAX).unwrap().pixel(0, 0), [0xff, 3, 5, 255]);
     }
 
     #[test]
@@ -178,27 +176,27 @@ pub mod tests {
         let with = |place: usize, byte: u8| {
             let mut bytes = with_palette();
             bytes[place] = byte;
-            read(&bytes).unwrap_err()
+            read(&bytes, u64::MAX).unwrap_err()
         };
         assert!(with(3, 1).contains("1 planes of 1 bits are not read"));
         assert!(with(66, 2).contains("2 bytes for 3 pixels"));
         assert!(with(9, 0xff).contains("16384"));
         assert!(with(8, 0).contains("right or lower side"));
         assert!(with(11, 0x20).contains("cut off"));
-        assert!(read(b"GIF89a").unwrap_err().contains("does not begin like a PCX"));
+        assert!(read(b"GIF89a", u64::MAX).unwrap_err().contains("does not begin like a PCX"));
     }
 
     #[test]
     fn every_truncation_is_refused_and_no_changed_byte_panics() {
         for whole in [with_palette(), with_planes()] {
             for length in 0..whole.len() {
-                assert!(read(&whole[..length]).is_err(), "{length}");
+                assert!(read(&whole[..length], u64::MAX).is_err(), "{length}");
             }
             for place in 0..whole.len() {
                 for byte in [0, 0xff] {
                     let mut bytes = whole.clone();
                     bytes[place] = byte;
-                    let _ = read(&bytes);
+                    let _ = read(&bytes, u64::MAX);
                 }
             }
         }

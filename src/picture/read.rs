@@ -1,18 +1,17 @@
 //! Picture files to pictures: skins and textures. Known by content, where that says too little by extension.
 
 use super::{Picture, pcx};
+use crate::bytes::Bytes;
 use crate::error::{Error, Result};
+use crate::files::{self, shown};
+use crate::limits::{
+    MEMORY_FACTOR, MEMORY_SLACK_BYTES, PICTURE_BYTES, PICTURE_FILE_BYTES, PICTURE_SIDE_PX, PIXELS_A_BYTE,
+};
 use crate::scene::Size;
 use image::error::{ImageError, LimitErrorKind};
-use image::{ImageFormat, ImageReader, Limits};
-use std::io::{Cursor, ErrorKind};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use std::io::Cursor;
 use std::path::Path;
-
-/// The longest side a picture may have, pixels: the largest texture that OpenGL drivers take.
-pub const LARGEST_SIDE_PX: u32 = 16_384;
-
-/// What decoding may take: the largest picture with four bytes a pixel.
-const LARGEST_BYTES: u64 = LARGEST_SIDE_PX as u64 * LARGEST_SIDE_PX as u64 * 4;
 
 /// How TGA files may end since 1989; the older ones say nothing of what they are.
 const TGA_END: &[u8] = b"TRUEVISION-XFILE.\0";
@@ -22,57 +21,90 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`Error::Picture`] with the path when it is missing, unreadable, damaged, in no such format, or longer than 16384
-    /// pixels on a side.
+    /// [`Error::Picture`] with the path when it is missing, unreadable, damaged, in no such format, longer than 16384
+    /// pixels on a side, or larger in memory than [`PICTURE_BYTES`] without a file to match.
     pub fn read(path: &Path) -> Result<Self> {
+        Self::read_within(path, None, u64::MAX).map(|(picture, _)| picture)
+    }
+
+    /// The same of a file in the folder of real path `within`, if any, whose pixels may take `most` bytes; with the file's size.
+    pub(crate) fn read_within(path: &Path, within: Option<&Path>, most: u64) -> Result<(Self, u64)> {
         let failed = |problem: String| Error::picture(path, problem);
-        // Only files: a pipe or device would never end.
-        let metadata = path.metadata().map_err(|error| failed(cannot_read(&error)))?;
-        if metadata.is_dir() {
-            return Err(failed("this is a directory; name a picture in it".to_owned()));
-        }
-        if !metadata.is_file() {
-            return Err(failed("this is no ordinary file; name a picture".to_owned()));
-        }
-        let bytes = std::fs::read(path).map_err(|error| failed(cannot_read(&error)))?;
-        let extension = path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
-        decode(&bytes, extension.as_deref().unwrap_or_default()).map_err(failed)
+        let bytes = files::read_within(path, within, PICTURE_FILE_BYTES)
+            .map_err(|failure| failed(failure.problem("a picture")))?;
+        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        let picture = decode(&bytes, &extension.to_ascii_lowercase(), most).map_err(failed)?;
+        Ok((picture, bytes.len() as u64))
+    }
+
+    /// Reads a picture file's bytes; `name` is for messages, and its extension tells TGA and PCX, which begin like nothing.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Picture::read`].
+    pub fn from_bytes(bytes: &[u8], name: &str) -> Result<Self> {
+        let path = Path::new(name);
+        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        decode(bytes, &extension.to_ascii_lowercase(), u64::MAX).map_err(|problem| Error::picture(path, problem))
     }
 }
 
-pub(super) fn too_large() -> String {
-    format!("it is longer than {LARGEST_SIDE_PX} pixels on a side; scale it down")
-}
-
-fn cannot_read(error: &std::io::Error) -> String {
-    match error.kind() {
-        ErrorKind::NotFound => "there is no such file; check the name".to_owned(),
-        ErrorKind::PermissionDenied => "it may not be read; check its permissions".to_owned(),
-        _ => format!("it cannot be read ({error}); check the file"),
+/// Refuses a picture whose pixels would take more than they may, `most` bytes among it, or more than its file can hold.
+pub(super) fn check_size(
+    Size { width, height }: Size,
+    file_bytes: usize,
+    most: u64,
+) -> std::result::Result<(), String> {
+    if width.max(height) > PICTURE_SIDE_PX {
+        return Err(too_large());
     }
+    let (pixels, file_bytes) = (u64::from(width) * u64::from(height), file_bytes as u64);
+    if pixels > file_bytes.saturating_mul(PIXELS_A_BYTE) {
+        return Err(format!(
+            "its {file_bytes} bytes cannot hold {width} x {height} pixels; it is damaged, save it again"
+        ));
+    }
+    if pixels * 4 > PICTURE_BYTES.max(file_bytes.saturating_mul(MEMORY_FACTOR as u64)).min(most) {
+        return Err(format!(
+            "its {width} x {height} pixels take {} MiB of memory, more than its file or its model is worth; scale it down",
+            (pixels * 4) >> 20
+        ));
+    }
+    Ok(())
 }
 
-/// A picture out of a file's bytes; the error is a sentence without the file's name.
-fn decode(bytes: &[u8], extension: &str) -> std::result::Result<Picture, String> {
+fn too_large() -> String {
+    format!("it is longer than {PICTURE_SIDE_PX} pixels on a side; scale it down")
+}
+
+/// A picture out of a file's bytes, of at most `most` bytes; the error is a sentence without the file's name.
+fn decode(bytes: &[u8], extension: &str, most: u64) -> std::result::Result<Picture, String> {
     if bytes.is_empty() {
         return Err("the file is empty; save the picture again".to_owned());
     }
     let known = [ImageFormat::Png, ImageFormat::Bmp, ImageFormat::Jpeg, ImageFormat::Pnm];
     let format = match image::guess_format(bytes) {
         Ok(format) if known.contains(&format) => format,
-        _ if extension == "pcx" || (pcx::looks_like(bytes) && extension != "tga") => return pcx::read(bytes),
+        _ if extension == "pcx" || (pcx::looks_like(bytes) && extension != "tga") => return pcx::read(bytes, most),
         _ if extension == "tga" || bytes.ends_with(TGA_END) => ImageFormat::Tga,
         _ => {
             return Err("this is not a picture in a format known here; use PNG, BMP, TGA, JPEG, PPM or PCX".to_owned());
         }
     };
+    if format == ImageFormat::Png && !has_sound_palette(bytes) {
+        return Err("its palette is no list of up to 256 colours; it is damaged, save it again".to_owned());
+    }
     let mut limits = Limits::default();
-    limits.max_image_width = Some(LARGEST_SIDE_PX);
-    limits.max_image_height = Some(LARGEST_SIDE_PX);
-    limits.max_alloc = Some(LARGEST_BYTES);
+    limits.max_image_width = Some(PICTURE_SIDE_PX);
+    limits.max_image_height = Some(PICTURE_SIDE_PX);
+    // Twice the pixels' memory, as they may have 16 bits a channel in the file, and what the decoder needs itself.
+    limits.max_alloc = Some(2 * PICTURE_BYTES.max((bytes.len() * MEMORY_FACTOR) as u64) + MEMORY_SLACK_BYTES as u64);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
-    let picture = reader.decode().map_err(|error| in_words(&error))?.into_rgba8();
+    let decoder = reader.into_decoder().map_err(|error| in_words(&error))?;
+    let (width, height) = decoder.dimensions();
+    check_size(Size { width, height }, bytes.len(), most)?;
+    let picture = DynamicImage::from_decoder(decoder).map_err(|error| in_words(&error))?.into_rgba8();
     let size = Size { width: picture.width(), height: picture.height() };
     if size.width == 0 || size.height == 0 {
         return Err("it has no pixels; save it again".to_owned());
@@ -80,11 +112,33 @@ fn decode(bytes: &[u8], extension: &str) -> std::result::Result<Picture, String>
     Ok(Picture { size, pixels: picture.into_raw() })
 }
 
+/// Whether a PNG file's palette, if it has one, is whole colours and not too many: the png crate (0.18) panics where it is not.
+fn has_sound_palette(file: &[u8]) -> bool {
+    const SIGNATURE_BYTES: usize = 8;
+    let mut bytes = Bytes(file);
+    bytes.take(SIGNATURE_BYTES);
+    loop {
+        let length = bytes.u32().map(|length| length.swap_bytes() as usize);
+        let (Some(length), Some(kind)) = (length, bytes.take(4)) else { return true };
+        if kind == b"PLTE" && (length > 256 * 3 || length % 3 != 0) {
+            return false;
+        }
+        // A checksum of four bytes follows; where the file ends too early the decoder says so.
+        if bytes.take(length).and_then(|_| bytes.take(4)).is_none() {
+            return true;
+        }
+    }
+}
+
 fn in_words(error: &ImageError) -> String {
     match error {
         ImageError::Limits(limit) if matches!(limit.kind(), LimitErrorKind::DimensionError) => too_large(),
         ImageError::Limits(_) => "it takes too much memory; scale it down".to_owned(),
-        error => format!("it is damaged or of a kind that is not read ({error}); save it again"),
+        // It may quote the file.
+        error => {
+            let cause = shown(&error.to_string());
+            format!("it is damaged or of a kind that is not read ({cause}); save it again")
+        }
     }
 }
 
@@ -112,14 +166,14 @@ mod tests {
     #[test]
     fn every_format_is_read_by_content_and_tga_and_pcx_by_extension() {
         for (extension, bytes) in files() {
-            let read = decode(&bytes, extension).unwrap();
+            let read = decode(&bytes, extension, u64::MAX).unwrap();
             let tolerance = if extension.starts_with("jp") { 40 } else { 0 };
             assert!(picture().difference(&read).unwrap().largest <= tolerance, "{extension}");
-            assert_eq!(decode(&bytes, "txt").is_ok(), extension != "tga", "{extension} misnamed");
+            assert_eq!(decode(&bytes, "txt", u64::MAX).is_ok(), extension != "tga", "{extension} misnamed");
         }
         let pcx = pcx::tests::with_palette();
-        assert_eq!(decode(&pcx, "pcx"), decode(&pcx, ""));
-        assert_eq!(decode(&pcx, "pcx").unwrap().size.width, 3);
+        assert_eq!(decode(&pcx, "pcx", u64::MAX), decode(&pcx, "", u64::MAX));
+        assert_eq!(decode(&pcx, "pcx", u64::MAX).unwrap().size.width, 3);
     }
 
     #[test]
@@ -141,18 +195,43 @@ mod tests {
 
     #[test]
     fn pictures_that_are_too_long_are_refused_before_they_are_decoded() {
-        let ppm =
-            |width: u32, height: u32| decode(format!("P6\n{width} {height}\n255\n").as_bytes(), "ppm").unwrap_err();
+        let ppm = |width: u32, height: u32| {
+            decode(format!("P6\n{width} {height}\n255\n").as_bytes(), "ppm", u64::MAX).unwrap_err()
+        };
         assert!(ppm(16_385, 1).contains("longer than 16384 pixels"));
         assert!(ppm(1, 100_000).contains("longer than 16384 pixels"));
         assert!(ppm(100, 100).contains("damaged"));
     }
 
     #[test]
+    fn palettes_of_broken_colours_or_too_many_are_refused() {
+        // A PNG of 4 x 1 pixels with a palette of so many bytes; its checksums do not count here.
+        let with = |length: u32| {
+            let chunk = |kind: &[u8], data: &[u8]| [&(data.len() as u32).to_be_bytes(), kind, data, &[0; 4]].concat();
+            let header = chunk(b"IHDR", &[0, 0, 0, 4, 0, 0, 0, 1, 8, 3, 0, 0, 0]);
+            let palette = chunk(b"PLTE", &vec![7; length as usize]);
+            [b"\x89PNG\r\n\x1a\n".as_slice(), &header, &palette, &chunk(b"IDAT", &[0; 9])].concat()
+        };
+        for length in [1, 2, 4, 5, 766, 767, 769, 771, 3000] {
+            assert!(decode(&with(length), "png", u64::MAX).unwrap_err().contains("palette"), "{length}");
+        }
+        for length in [0, 3, 6, 768] {
+            assert!(has_sound_palette(&with(length)), "{length}");
+        }
+    }
+
+    #[test]
+    fn a_picture_that_is_quoted_by_its_message_is_not_quoted_without_end() {
+        let long = format!("P7\n{} 1\nENDHDR\n", "\u{12}".repeat(100_000));
+        let message = decode(long.as_bytes(), "ppm", u64::MAX).unwrap_err();
+        assert!(message.len() < 1000 && message.starts_with("it is damaged"), "{message:.200}");
+    }
+
+    #[test]
     fn no_truncation_and_no_changed_byte_panics() {
         for (extension, whole) in files() {
             for length in 0..whole.len() {
-                if let Ok(read) = decode(&whole[..length], extension) {
+                if let Ok(read) = decode(&whole[..length], extension, u64::MAX) {
                     assert_eq!(read.pixels.len(), read.size.width as usize * read.size.height as usize * 4);
                 }
             }
@@ -160,7 +239,7 @@ mod tests {
                 for byte in [0, 0xff] {
                     let mut bytes = whole.clone();
                     bytes[place] = byte;
-                    let _ = decode(&bytes, extension);
+                    let _ = decode(&bytes, extension, u64::MAX);
                 }
             }
         }

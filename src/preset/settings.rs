@@ -46,7 +46,7 @@ pub fn of_scene(settings: &SceneSettings) -> Options {
 ///
 /// [`Error::Setting`] for a skin whose name is no text.
 pub fn of_load(options: &LoadOptions) -> Result<Options> {
-    let LoadOptions { weld, normals, smooth_angle_degrees, up_axis, strict, model_frame, skin } = options;
+    let LoadOptions { weld, normals, smooth_angle_degrees, up_axis, strict, model_frame, skin, allow_external } = options;
     let default = LoadOptions::default();
     let mut changed = Changed::default();
     changed.number("weld", *weld, default.weld);
@@ -58,6 +58,7 @@ pub fn of_load(options: &LoadOptions) -> Result<Options> {
         changed.set("model-frame", model_frame);
     }
     changed.path("skin", skin.as_deref())?;
+    changed.flag("allow-external", *allow_external);
     Ok(changed.0)
 }
 

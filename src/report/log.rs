@@ -2,6 +2,8 @@
 //! most.
 
 use crate::error::{Error, Result};
+use crate::files::{self, Failure, shown};
+use crate::limits::ROWS_BYTES;
 use crate::measure::Row;
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write};
@@ -25,6 +27,7 @@ impl RowLog {
     /// [`Error::Output`] where there is one already or the folder may not be written.
     pub fn create(folder: &Path) -> Result<Self> {
         let path = folder.join(ROWS_FILE);
+        check(&path)?;
         // A run that ended before its first row left nothing that could be lost.
         if path.metadata().is_ok_and(|file| file.len() > 0) {
             return Err(Error::Output {
@@ -48,6 +51,7 @@ impl RowLog {
     /// [`Error::Rows`] for a whole line that is no row, [`Error::Output`] for a file that may not be written.
     pub fn resume(folder: &Path) -> Result<(Self, Vec<Row>)> {
         let path = folder.join(ROWS_FILE);
+        check(&path)?;
         let open = OpenOptions::new().append(true).create(true).open(&path);
         let mut file = open.map_err(|error| cannot_write(&path, &error))?;
         let text = read(&path)?;
@@ -96,16 +100,38 @@ pub fn read_rows(path: &Path) -> Result<Vec<Row>> {
     Ok(parse(path, &read(path)?)?.0)
 }
 
+/// Reads the rows of a file's bytes; `name` is for messages.
+///
+/// # Errors
+///
+/// [`Error::Rows`] naming file and line.
+pub fn rows_of_bytes(bytes: &[u8], name: &str) -> Result<Vec<Row>> {
+    Ok(parse(Path::new(name), bytes)?.0)
+}
+
 fn read(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).map_err(|error| Error::Rows {
+    files::read(path, ROWS_BYTES).map_err(|failure| Error::Rows {
         path: path.display().to_string(),
         line: None,
-        problem: match error.kind() {
-            ErrorKind::NotFound => "there is no such file; name a results.jsonl of tinta measure".to_owned(),
-            ErrorKind::IsADirectory => "this is a folder; name the results.jsonl in it".to_owned(),
-            _ => format!("it cannot be read ({error})"),
+        problem: match failure {
+            Failure::System(error) if error.kind() == ErrorKind::NotFound => {
+                "there is no such file; name a results.jsonl of tinta measure".to_owned()
+            }
+            Failure::Folder => "this is a folder; name the results.jsonl in it".to_owned(),
+            failure => failure.problem("a results.jsonl"),
         },
     })
+}
+
+/// Refuses what lies where the rows go and is no file: a pipe would wait for somebody to read it.
+fn check(path: &Path) -> Result<()> {
+    match path.metadata() {
+        Ok(metadata) if !metadata.is_file() => Err(Error::Output {
+            path: path.display().to_string(),
+            problem: "this is no ordinary file; name another folder".to_owned(),
+        }),
+        _ => Ok(()),
+    }
 }
 
 /// The rows, and the bytes of the file that hold them.
@@ -134,7 +160,8 @@ fn parse(path: &Path, text: &[u8]) -> Result<(Vec<Row>, usize)> {
 /// serde_json's message without its own count of lines, which is always 1 here.
 fn without_place(error: &serde_json::Error) -> String {
     let text = error.to_string();
-    text.split(" at line ").next().unwrap_or(&text).to_owned()
+    // It may quote the file.
+    shown(text.split(" at line ").next().unwrap_or(&text))
 }
 
 fn cannot_write(path: &Path, error: &std::io::Error) -> Error {

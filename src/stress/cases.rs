@@ -2,6 +2,7 @@
 
 mod depth;
 mod faults;
+mod files;
 mod mixes;
 mod pictures;
 mod scale;
@@ -34,6 +35,8 @@ pub enum Group {
     Mixes,
     /// A turn by small steps.
     Turns,
+    /// A file that lies.
+    Files,
     /// A driver that fails.
     Faults,
 }
@@ -131,11 +134,26 @@ impl Default for Drawing {
     }
 }
 
+/// What a model file holds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Content {
+    /// These bytes.
+    Bytes(Vec<u8>),
+    /// As many zeros, which take no room on most disks.
+    Zeros(u64),
+    /// Nothing: it is a folder.
+    Folder,
+    /// Nothing: it is not there.
+    Missing,
+}
+
 /// What is done.
 #[derive(Debug, Clone)]
 pub enum Work {
     /// A picture.
     Draw(Box<Drawing>),
+    /// A model file of this name is read.
+    Read(&'static str, Content),
     /// A cube in this style by a driver that fails, and once more by one that does not.
     Fail(Fault, Variant),
 }
@@ -187,6 +205,7 @@ impl Case {
     pub fn variants(&self) -> &[Variant] {
         match &self.work {
             Work::Draw(drawing) => &drawing.variants,
+            Work::Read(..) => &[],
             Work::Fail(_, variant) => std::slice::from_ref(variant),
         }
     }
@@ -201,6 +220,7 @@ pub fn cases(seed: u64, mixes: usize) -> Vec<Case> {
     all.extend(pictures::cases());
     all.extend(mixes::cases(seed, mixes));
     all.extend(turns::cases());
+    all.extend(files::cases());
     all.extend(faults::cases());
     all
 }
@@ -216,9 +236,9 @@ mod tests {
         let mut names: Vec<&str> = all.iter().map(|case| case.name.as_str()).collect();
         names.sort_unstable();
         names.windows(2).for_each(|pair| assert_ne!(pair[0], pair[1]));
-        use Group::{Depth, Faults, Mixes, Pictures, Scale, Thresholds, Topology, Turns};
-        for group in [Scale, Depth, Topology, Thresholds, Pictures, Mixes, Turns, Faults] {
-            assert!(all.iter().any(|case| case.group == group && !case.variants().is_empty()), "{group:?}");
+        use Group::{Depth, Faults, Files, Mixes, Pictures, Scale, Thresholds, Topology, Turns};
+        for group in [Scale, Depth, Topology, Thresholds, Pictures, Mixes, Turns, Files, Faults] {
+            assert!(all.iter().any(|case| case.group == group), "{group:?}");
         }
     }
 

@@ -117,7 +117,11 @@ impl Subject {
             let before = Shown::of(renderer, &exact.scene, variant)?;
             if let Some(ink) = before.ink.as_ref().filter(|_| variant.style.has_lines()) {
                 let error = ink.error(&exact.reference, 2.0);
-                figures.extend([("ink_px", ink.mask().count() as f64), ("recall", error.recall), ("precision", error.precision)]);
+                figures.extend([
+                    ("ink_px", ink.mask().count() as f64),
+                    ("recall", error.recall),
+                    ("precision", error.precision),
+                ]);
                 figures.insert("f1", error.f1);
             }
             if let Some(moved) = moved {

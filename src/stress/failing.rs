@@ -1,8 +1,8 @@
 //! A picture by a driver that fails, and what is left of the program after it.
 
+use super::Shape;
 use super::run::Outcome;
 use super::variants::Variant;
-use super::Shape;
 use crate::error::{Error, Result};
 use crate::gl::{Backend, Fault};
 use crate::renderer::Renderer;
@@ -16,7 +16,8 @@ pub(super) fn outcome(backend: Backend, fault: Fault, variant: &Variant, sound: 
     let mut attempt = || -> Result<Outcome> {
         let scene = scene()?;
         let before = sound.render(&scene, &variant.style)?;
-        let failed = Renderer::with_fault(backend, fault).and_then(|mut failing| failing.render(&scene, &variant.style));
+        let failed =
+            Renderer::with_fault(backend, fault).and_then(|mut failing| failing.render(&scene, &variant.style));
         if sound.render(&scene, &variant.style)? != before {
             return Err(Error::gl("drawing beside a context that failed", "another picture than before"));
         }

@@ -2,11 +2,11 @@
 
 use crate::compare::InkMask;
 use crate::edges::Class;
+use crate::error::Result;
 use crate::lines::{LineSettings, VisibleLines};
 use crate::measure::{Reference, ReferenceLight};
 use crate::picture::Picture;
 use crate::scene::Scene;
-use crate::error::Result;
 use crate::styles::Style;
 use glam::Vec3;
 use std::collections::BTreeMap;

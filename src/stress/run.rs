@@ -1,8 +1,8 @@
 //! Cases carried out, several at once, and judged.
 
 use super::cases::{Case, Expected, Group, Work, cases};
-use super::{drawing, failing};
 use super::figures::Figures;
+use super::{drawing, failing, reading};
 use crate::error::{Error, Result};
 use crate::gl::Backend;
 use crate::renderer::Renderer;
@@ -229,7 +229,8 @@ fn take<'a>(next: &AtomicUsize, cases: &'a [Case]) -> Option<(usize, &'a Case)> 
 }
 
 fn open(backends: &[Backend]) -> Result<Vec<(&'static str, Renderer)>> {
-    let name = |backend: Backend| Backend::ALL.iter().find(|(_, known)| *known == backend).map_or("auto", |(name, _)| name);
+    let name =
+        |backend: Backend| Backend::ALL.iter().find(|(_, known)| *known == backend).map_or("auto", |(name, _)| name);
     backends.iter().map(|backend| Ok((name(*backend), Renderer::new(*backend)?))).collect()
 }
 
@@ -255,6 +256,9 @@ impl Worker<'_> {
                     drawing::outcomes(drawing, &mut self.renderers, self.folder, |variant, backend, outcome| {
                         rows.push(row(case, &variant.name, backend, outcome));
                     });
+                }
+                Work::Read(name, content) => {
+                    rows.push(row(case, "", "", reading::outcome(&self.folder.join(name), content)));
                 }
                 Work::Fail(fault, variant) => {
                     for (backend, (name, renderer)) in self.backends.iter().zip(&mut self.renderers) {
@@ -299,7 +303,9 @@ mod tests {
 
     #[test]
     fn figures_that_are_not_as_they_must_be_fail() {
-        let drawn = |name: &'static str, value: f64| judged(Expected::Rendered, Outcome::Rendered(Figures::from([(name, value)])));
+        let drawn = |name: &'static str, value: f64| {
+            judged(Expected::Rendered, Outcome::Rendered(Figures::from([(name, value)])))
+        };
         assert!(drawn("covered_px", 7.0).passed);
         assert!(!drawn("covered_px", f64::NAN).passed);
         for name in ALWAYS_NONE {

@@ -148,7 +148,8 @@ impl Shape {
             Self::Fins(count) => fins(count),
             Self::Moebius => moebius(64),
             Self::TJunction => {
-                let points = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (2.0, 0.0), (2.0, 0.5), (1.0, 0.5), (2.0, 1.0)];
+                let points =
+                    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (2.0, 0.0), (2.0, 0.5), (1.0, 0.5), (2.0, 1.0)];
                 let points = points.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
                 (points, vec![[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 6], [6, 5, 7], [6, 7, 2]])
             }
@@ -181,7 +182,10 @@ impl Shape {
                     let (left, back) = (f64::from(step) * 0.5, f64::from(step) * -0.1);
                     [(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(left + x, y, back))
                 });
-                (points.collect(), (0..4).flat_map(|step| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|i| i + step * 4))).collect())
+                (
+                    points.collect(),
+                    (0..4).flat_map(|step| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|i| i + step * 4))).collect(),
+                )
             }
             Self::Flat => sheet(12),
             Self::Textured => {
@@ -189,7 +193,12 @@ impl Shape {
                 (points, vec![[0, 1, 2], [0, 2, 3]])
             }
             Self::ThroughTheLight => {
-                let points = vec![DVec3::ONE, DVec3::new(-0.6, -0.5, -3.0), DVec3::new(0.6, -0.5, -3.0), DVec3::Y * 0.5 - DVec3::Z * 3.0];
+                let points = vec![
+                    DVec3::ONE,
+                    DVec3::new(-0.6, -0.5, -3.0),
+                    DVec3::new(0.6, -0.5, -3.0),
+                    DVec3::Y * 0.5 - DVec3::Z * 3.0,
+                ];
                 (points, vec![[0, 1, 2], [0, 2, 3], [0, 3, 1]])
             }
         }
@@ -314,7 +323,7 @@ fn with_picture(mesh: Mesh, folder: &Path) -> Result<Mesh> {
     Ok(Mesh {
         texture_coordinates: coordinates,
         triangle_texture_coordinates: mesh.triangles.clone(),
-        materials: vec![Material { name: "chequers".to_owned(), color: None, texture: Some(path) }],
+        materials: vec![Material { name: "chequers".to_owned(), color: None, texture: Some(path), texture_within: None }],
         triangle_materials: vec![0; mesh.triangles.len()],
         ..mesh
     })
@@ -356,10 +365,13 @@ mod tests {
         let outward = |shape: Shape, middle: DVec3| {
             let mesh = mesh(shape);
             let corners = |face: &[u32; 3]| face.map(|index| mesh.positions[index as usize] - middle);
-            mesh.triangles.iter().filter(|face| {
-                let [a, b, c] = corners(face);
-                (b - a).cross(c - a).dot(a) > 0.0
-            }).count()
+            mesh.triangles
+                .iter()
+                .filter(|face| {
+                    let [a, b, c] = corners(face);
+                    (b - a).cross(c - a).dot(a) > 0.0
+                })
+                .count()
         };
         assert_eq!(outward(Shape::Cube, DVec3::splat(0.5)), 12);
         assert_eq!(outward(Shape::Ball(1), DVec3::ZERO), 32);

@@ -34,7 +34,8 @@ impl Summary {
 
 /// The figures in a line, and what is remarked.
 fn numbers(row: &Row) -> String {
-    let figures = row.figures.iter().map(|(name, value)| format!("{name} {value:.4}").trim_end_matches(".0000").to_owned());
+    let figures =
+        row.figures.iter().map(|(name, value)| format!("{name} {value:.4}").trim_end_matches(".0000").to_owned());
     let remark = row.remark.iter().map(|remark| remark.replace('|', "\\|"));
     figures.chain(remark).collect::<Vec<_>>().join(", ")
 }

@@ -1,9 +1,7 @@
 //! The styles as stiff cases meet them: each as published, and beside it the form that is meant to hold.
 
 use crate::edges::SilhouetteRule;
-use crate::styles::{
-    Border, Cartoon, Charcoal, Improvements, Inking, MapEncoding, Style, StyleName,
-};
+use crate::styles::{Border, Cartoon, Charcoal, Improvements, Inking, MapEncoding, Style, StyleName};
 
 /// A style with settings under the name its rows carry.
 #[derive(Debug, Clone, PartialEq)]

@@ -102,7 +102,8 @@ mod tests {
                 let found = f64::from(x) + f64::from(y) / radii + f64::from(z) * radii;
                 assert!((found - expected).abs() < 1e-5, "{parallel} {share}: {found} {expected}");
             }
-            let apart = scene(CameraSettings { parallel, near: Some(1e-3), far: Some(1e3), ..CameraSettings::default() });
+            let apart =
+                scene(CameraSettings { parallel, near: Some(1e-3), far: Some(1e3), ..CameraSettings::default() });
             let range = DepthRange::of_scene(&apart);
             assert!((range.far - range.near - 2.0 * apart.radius).abs() < 1e-9, "{range:?}");
         }
@@ -122,7 +123,9 @@ mod tests {
                 // As wide as a pixel: what a step of 2 / 512 in the picture is at this distance.
                 let width = 2.0 / 512.0 * (clip_from_view * DVec4::new(0.0, 0.0, z, 1.0)).w / clip_from_view.y_axis.y;
                 let step = (depth(z - width * 1e-3) - depth(z + width * 1e-3)) / 2e-3;
-                let Value::Vec2([x, y]) = footprint(&scene, scene.size, DepthRange::of_camera(&scene)).value else { panic!("two numbers") };
+                let Value::Vec2([x, y]) = footprint(&scene, scene.size, DepthRange::of_camera(&scene)).value else {
+                    panic!("two numbers")
+                };
                 let found = f64::from(x) - f64::from(y) * depth(z);
                 assert!((found / step - 1.0).abs() < 1e-4, "{parallel} {share}: {found} {step}");
             }

@@ -46,7 +46,19 @@ impl Ramp {
     ///
     /// [`Error::Picture`] when it cannot be read or is lower than its gradients are many.
     pub fn read(path: &Path) -> Result<Self> {
-        let picture = Picture::read(path)?;
+        Self::of(Picture::read(path)?, path)
+    }
+
+    /// A picture's bytes as a ramp; `name` is for messages.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Ramp::read`].
+    pub fn from_bytes(bytes: &[u8], name: &str) -> Result<Self> {
+        Self::of(Picture::from_bytes(bytes, name)?, Path::new(name))
+    }
+
+    fn of(picture: Picture, path: &Path) -> Result<Self> {
         if picture.size.height < ROWS {
             return Err(Error::Picture {
                 path: path.display().to_string(),

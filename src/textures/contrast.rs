@@ -4,10 +4,10 @@
 //! Black pixels are scattered over a white picture, each is moved along t to t^m, and the result is blurred.
 
 use super::blur::{Rows, gaussian};
-use crate::random::Random;
 use super::{DEFAULT_SIZE, check_size, opaque};
 use crate::error::{Error, Result};
 use crate::picture::Picture;
+use crate::random::Random;
 use crate::scene::Size;
 use crate::tolerances::ROW_EDGE;
 use serde::Serialize;

@@ -1,9 +1,9 @@
 //! The noise texture: each pixel a random red, green and blue (Valente 2007, section 3.1), read where GLSL has no `noise`.
 
-use crate::random::Random;
 use super::{DEFAULT_SIZE, check_size, opaque};
 use crate::error::Result;
 use crate::picture::Picture;
+use crate::random::Random;
 use crate::scene::Size;
 use serde::Serialize;
 

@@ -4,10 +4,10 @@
 //! pulp, cloudy where it is thicker, slightly yellow. It repeats in both directions.
 
 use super::blur::{Rows, gaussian};
-use crate::random::Random;
 use super::{DEFAULT_SIZE, check_size, opaque};
 use crate::error::Result;
 use crate::picture::Picture;
+use crate::random::Random;
 use crate::scene::Size;
 use serde::Serialize;
 

@@ -24,7 +24,7 @@ fn words(options: &Options) -> Vec<String> {
 }
 
 /// A value for each option that differs from its default; `FILE` stands for a picture that is there.
-const SAMPLES: [(&str, &str); 73] = [
+const SAMPLES: [(&str, &str); 74] = [
     ("show", "tones"),
     ("no-borders", ""),
     ("cull", "back"),
@@ -93,6 +93,7 @@ const SAMPLES: [(&str, &str); 73] = [
     ("smooth-angle", "33"),
     ("strict", ""),
     ("skin", "FILE"),
+    ("allow-external", ""),
     ("model-frame", "run3"),
     ("hidden", "ghost"),
     ("class-widths", "crease=0.5,silhouette=3"),

@@ -73,12 +73,16 @@ pub fn pyramid() -> Vec<u8> {
     made().bytes()
 }
 
+fn read_at(path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
+    read(&pyramid(), path, &LoadOptions::default(), &Folder::of(path, false), remarks)
+}
+
 fn options(frame: &str) -> LoadOptions {
     LoadOptions { model_frame: frame.parse().unwrap(), ..LoadOptions::default() }
 }
 
 fn soup(bytes: &[u8], frame: &str) -> Result<Soup> {
-    read(bytes, "nowhere/test.md2", &options(frame), &mut Vec::new())
+    read(bytes, "nowhere/test.md2", &options(frame), &Folder::of("nowhere/test.md2", false), &mut Vec::new())
 }
 
 fn message(bytes: &[u8]) -> String {
@@ -88,7 +92,7 @@ fn message(bytes: &[u8]) -> String {
 #[test]
 fn a_frame_is_read_with_its_names_texture_coordinates_and_skin() {
     let mut remarks = Vec::new();
-    let soup = read(&pyramid(), "nowhere/test.md2", &LoadOptions::default(), &mut remarks).unwrap();
+    let soup = read_at("nowhere/test.md2", &mut remarks).unwrap();
     assert_eq!(soup.frames, ["stand01", "run1"]);
     // In the file: 0.5 x + 100, y, 2 z - 1; forward x becomes z, left y becomes x, up z becomes y.
     let expected = [[0.0, -1.0, 100.0], [0.0, -1.0, 105.0], [10.0, -1.0, 100.0], [0.0, 19.0, 100.0]];
@@ -129,7 +133,7 @@ fn frames_are_taken_by_name_and_between_two_the_positions_lie_on_the_way() {
 #[test]
 fn an_up_axis_takes_the_files_coordinates_as_they_are() {
     let options = LoadOptions { up_axis: UpAxis::Y, ..LoadOptions::default() };
-    let soup = read(&pyramid(), "test.md2", &options, &mut Vec::new()).unwrap();
+    let soup = read(&pyramid(), "test.md2", &options, &Folder::none(), &mut Vec::new()).unwrap();
     assert_eq!(soup.positions[3], DVec3::new(100.0, 0.0, 19.0));
 }
 
@@ -139,7 +143,7 @@ fn skins_are_found_by_the_files_names_then_by_the_models_own() {
     let model = folder.path().join("hero.md2");
     let texture = || {
         let mut remarks = Vec::new();
-        let soup = read(&pyramid(), model.to_str().unwrap(), &LoadOptions::default(), &mut remarks).unwrap();
+        let soup = read_at(model.to_str().unwrap(), &mut remarks).unwrap();
         assert_eq!(remarks.is_empty(), soup.materials[0].texture.is_some());
         soup.materials[0].texture.clone()
     };
@@ -202,7 +206,7 @@ fn every_truncation_is_refused_and_no_changed_byte_panics() {
 fn a_model_frame_of_a_file_with_one_frame_is_that_frame() {
     let mut made = made();
     made.frames.truncate(1);
-    let soup = read(&made.bytes(), "test.md2", &options("STAND01"), &mut Vec::new()).unwrap();
+    let soup = read(&made.bytes(), "test.md2", &options("STAND01"), &Folder::none(), &mut Vec::new()).unwrap();
     assert_eq!(soup.frames.len(), 1);
     assert!(ModelFrame::Number(0.5).find(&soup.frames, "test.md2").is_err());
 }

@@ -1,6 +1,7 @@
 //! Tests that this reader and [`twin`] understand files alike, whatever pieces they are cut into.
 
 use super::super::NONE;
+use super::super::folder::Folder;
 use super::super::soup::Soup;
 use super::{Materials, read_in_pieces, twin};
 use crate::error::Result;
@@ -13,7 +14,7 @@ use std::path::{Path, PathBuf};
 type Understood = std::result::Result<(Soup, Vec<String>), String>;
 
 /// Both readers' opinions of a text, that of the pieces' for a piece's length.
-fn both(bytes: &[u8], length: usize, materials: &Materials) -> [Understood; 2] {
+fn both(bytes: &[u8], length: usize, materials: &Materials<'_>) -> [Understood; 2] {
     let understood = |read: &dyn Fn(&mut Vec<String>) -> Result<Soup>| {
         let mut remarks = Vec::new();
         read(&mut remarks).map(|soup| (meaning(soup), remarks)).map_err(|error| error.to_string())
@@ -38,7 +39,7 @@ fn meaning(mut soup: Soup) -> Soup {
 }
 
 /// Compared as text, in which a number that is none equals itself.
-fn assert_same(bytes: &[u8], length: usize, materials: &Materials) {
+fn assert_same(bytes: &[u8], length: usize, materials: &Materials<'_>) {
     let [ours, twins] = both(bytes, length, materials).map(|understood| format!("{understood:?}"));
     // A fourth field that is empty is what the twin's two halves do not agree on.
     if !twins.contains("read in two ways") {
@@ -58,7 +59,7 @@ fn every_model_at_hand_is_read_as_tobj_reads_it() {
         let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
         for path in paths.filter(|path| path.extension() == Some("obj".as_ref())) {
             let bytes = std::fs::read(&path).unwrap();
-            assert_same(&bytes, 10_000, &Materials::Beside(path.parent().unwrap().to_path_buf()));
+            assert_same(&bytes, 10_000, &Materials::Beside(&Folder::of(path.to_str().unwrap(), true)));
         }
     }
 }

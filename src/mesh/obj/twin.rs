@@ -1,8 +1,8 @@
 //! A second opinion of OBJ files, for tests: tobj's, behind a reader that hands on one sound line at a time and keeps what
 //! tobj does not tell. It read everybody's files once; what it shares with the reader now is MTL files and the mesh made.
 
-use super::super::NONE;
 use super::super::soup::{Corner, Soup};
+use super::super::{NONE, skin};
 use super::{Materials, material, sound_material_lines};
 use crate::error::{Error, Result};
 use glam::{DVec3, Vec2, Vec3};
@@ -13,18 +13,22 @@ use std::io::{self, BufRead, Read};
 use std::path::Path;
 
 /// What a read makes of a file; vertices, normals and texture coordinates that no face names are zero.
-pub fn read(bytes: &[u8], path: &str, materials: &Materials, remarks: &mut Vec<String>) -> Result<Soup> {
+pub fn read(bytes: &[u8], path: &str, materials: &Materials<'_>, remarks: &mut Vec<String>) -> Result<Soup> {
     let options = tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..tobj::LoadOptions::default() };
     // What is not UTF-8 can only be in names.
     let text = String::from_utf8_lossy(bytes);
     let mut guard = Guard::new(&text);
     let missing_files = RefCell::new(Vec::new());
+    let known = RefCell::new(BTreeSet::new());
     let load_material = |name: &Path| {
-        let (text, _) = materials.find(name).unwrap_or_else(|| {
-            missing_files.borrow_mut().push(name.display().to_string());
-            (Cow::Borrowed(&b""[..]), Vec::new())
-        });
-        tobj::load_mtl_buf(&mut sound_material_lines(&text).as_slice())
+        let text = match known.borrow_mut().insert(name.to_path_buf()) {
+            true => materials.find(name.to_str().unwrap()).map(|(text, _)| text).unwrap_or_else(|sentence| {
+                missing_files.borrow_mut().push(sentence);
+                Cow::Borrowed(b"")
+            }),
+            false => Cow::Borrowed(b"".as_slice()),
+        };
+        tobj::load_mtl_buf(&mut sound_material_lines(&text, usize::MAX).unwrap().as_slice())
     };
     let (models, found) = tobj::load_obj_buf(&mut guard, &options, load_material).map_err(|error| Error::Model {
         path: path.to_owned(),
@@ -33,11 +37,6 @@ pub fn read(bytes: &[u8], path: &str, materials: &Materials, remarks: &mut Vec<S
     })?;
     let found = found.map_err(|error| Error::model(path, format!("its materials cannot be read ({error})")))?;
     let missing_files = missing_files.into_inner();
-    remarks.extend(
-        missing_files
-            .iter()
-            .map(|name| format!("{path}: the material file {name} is not there; its faces get the default colour")),
-    );
     let unknown = guard.materials.iter().filter(|name| !found.iter().any(|material| material.name == **name)).count();
     let mut soup = into_soup(guard, &models, path)?;
     // A missing file's materials are missing with it: counted once, said once.
@@ -47,6 +46,7 @@ pub fn read(bytes: &[u8], path: &str, materials: &Materials, remarks: &mut Vec<S
             "{path}: {unknown} of the materials it uses are in no material file; their faces get the default colour"
         ));
     }
+    skin::remark(path, missing_files, "", remarks);
     soup.materials = found.into_iter().map(material).collect();
     Ok(soup)
 }

@@ -33,9 +33,14 @@ pub(super) fn cases() -> Vec<Case> {
             ..CameraSettings::default()
         };
         let drawing = Drawing { shape: Shape::Terraces, camera, variants: encodings(), ..Drawing::default() };
-        all.push(rendered(format!("steps in depth, far {ratio:e} times as far as near"), drawing));
+        let name = format!("steps in depth, far {ratio:e} times as far as near");
+        all.push(match ratio <= 1e4 {
+            true => rendered(name, drawing),
+            false => Case::refused(Group::Depth, name, drawing, "setting", "--near"),
+        });
     }
-    let camera = |eye: DVec3, target: DVec3| CameraSettings { eye: Some(eye), target: Some(target), ..Default::default() };
+    let camera =
+        |eye: DVec3, target: DVec3| CameraSettings { eye: Some(eye), target: Some(target), ..Default::default() };
     let middle = DVec3::splat(0.5);
     let cube = |camera| Drawing { camera, ..Drawing::default() };
     for degrees in [0.1, 1.0, 150.0, 179.0] {
@@ -80,14 +85,17 @@ fn rendered(name: String, drawing: Drawing) -> Case {
     Case::rendered(Group::Depth, name, drawing)
 }
 
-/// The three passes by every encoding of the map, and the styles with depth of their own.
+/// The three passes by every encoding of the map, with the filter as published and with the one that knows how exact a depth
+/// is, and the styles with depth of their own.
 fn encodings() -> Vec<Variant> {
-    let encodings = MapEncoding::ALL.iter().map(|(name, encoding)| {
-        let border = Some(Border { detection_factor: 1.0, ..Border::default() });
-        let cartoon = Cartoon { border, map_encoding: *encoding, ..Cartoon::default() };
-        let name = format!("three-pass --detection-factor 1 --map-encoding {name}");
-        Variant::new(name, Style::ThreePass(cartoon))
+    let filters = [("", false), ("--slope-threshold on ", true)];
+    let three_passes = filters.iter().flat_map(|(option, slope_threshold)| {
+        MapEncoding::ALL.iter().map(move |(name, encoding)| {
+            let border = Border { detection_factor: 1.0, slope_threshold: *slope_threshold, ..Border::default() };
+            let cartoon = Cartoon { border: Some(border), map_encoding: *encoding, ..Cartoon::default() };
+            let name = format!("three-pass --detection-factor 1 {option}--map-encoding {name}");
+            Variant::new(name, Style::ThreePass(cartoon))
+        })
     });
-    let others = [Variant::mended_three_pass(), Variant::published(StyleName::Ink), Variant::exact_inking()];
-    encodings.chain(others).collect()
+    three_passes.chain([Variant::published(StyleName::Ink), Variant::exact_inking()]).collect()
 }

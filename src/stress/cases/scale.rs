@@ -49,7 +49,8 @@ pub(super) fn cases() -> Vec<Case> {
     let near = Drawing { shape: smaller, camera, ..Drawing::default() };
     all.push(rendered("the smaller cube seen from nearby".to_owned(), near).with("lines_px", 100.0, 600.0));
     all.push(rendered("flat in one axis".to_owned(), Drawing { shape: Shape::Flat, ..Drawing::default() }));
-    let edge_on = CameraSettings { view: "right".parse().unwrap_or(CameraSettings::default().view), ..Default::default() };
+    let edge_on =
+        CameraSettings { view: "right".parse().unwrap_or(CameraSettings::default().view), ..Default::default() };
     all.push(rendered(
         "flat in one axis, seen edge-on".to_owned(),
         Drawing { shape: Shape::Flat, camera: edge_on, ..Drawing::default() },
@@ -62,7 +63,8 @@ pub(super) fn cases() -> Vec<Case> {
         ..Drawing::default()
     };
     all.push(rendered("2500 copies of a cube".to_owned(), many));
-    for (shape, name) in [(Shape::Point, "a single point"), (Shape::Line, "a line"), (Shape::Nothing, "nothing at all")] {
+    for (shape, name) in [(Shape::Point, "a single point"), (Shape::Line, "a line"), (Shape::Nothing, "nothing at all")]
+    {
         let drawing = Drawing { shape, variants: Variant::of_lines(), ..Drawing::default() };
         all.push(Case::refused(Group::Scale, name, drawing, "model", "no"));
     }

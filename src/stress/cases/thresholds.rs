@@ -54,7 +54,10 @@ fn tones() -> Vec<Case> {
     let with = |name: &str, diffuse_threshold: f32, specular_threshold: f32| {
         let tones = Tones { diffuse_threshold, specular_threshold, ..Tones::default() };
         let style = Style::ThreePass(Cartoon { tones, ..Cartoon::default() });
-        (name.to_owned(), Drawing { shape: Shape::Ball(3), variants: vec![Variant::new("three-pass", style)], ..Drawing::default() })
+        (
+            name.to_owned(),
+            Drawing { shape: Shape::Ball(3), variants: vec![Variant::new("three-pass", style)], ..Drawing::default() },
+        )
     };
     let drawn = [
         ("tone thresholds that are equal", 0.5, 0.5),
@@ -71,7 +74,9 @@ fn tones() -> Vec<Case> {
             rendered(name, drawing)
         })
         .collect();
-    for (name, threshold) in [("a tone threshold that is no number", f32::NAN), ("an infinite tone threshold", f32::INFINITY)] {
+    for (name, threshold) in
+        [("a tone threshold that is no number", f32::NAN), ("an infinite tone threshold", f32::INFINITY)]
+    {
         let (name, drawing) = with(name, threshold, 0.5);
         all.push(Case::refused(Group::Thresholds, name, drawing, "setting", "--tone-thresholds"));
     }

@@ -1,0 +1,4 @@
+//! What the fuzz targets share: see README.md.
+
+pub mod memory;
+pub mod readers;

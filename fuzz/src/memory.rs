@@ -1,0 +1,70 @@
+//! An allocator that counts, so that an input which takes more memory than it is worth counts as a crash.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+static NOW: AtomicUsize = AtomicUsize::new(0);
+static PEAK: AtomicUsize = AtomicUsize::new(0);
+
+/// The system's allocator with a count of what is taken and of the most there was.
+pub struct Counting;
+
+fn add(bytes: usize) {
+    let now = NOW.fetch_add(bytes, Ordering::Relaxed) + bytes;
+    PEAK.fetch_max(now, Ordering::Relaxed);
+}
+
+// SAFETY: all is done by the system's allocator; only sizes are counted here.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        add(layout.size());
+        // SAFETY: as promised to this function.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        add(layout.size());
+        // SAFETY: as promised to this function.
+        unsafe { System.alloc_zeroed(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        NOW.fetch_sub(layout.size(), Ordering::Relaxed);
+        // SAFETY: as promised to this function.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        add(size);
+        NOW.fetch_sub(layout.size(), Ordering::Relaxed);
+        // SAFETY: as promised to this function.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Runs a reader and panics where it took more than `most` bytes at once.
+pub fn within(most: usize, read: impl FnOnce()) {
+    let before = NOW.load(Ordering::Relaxed);
+    PEAK.store(before, Ordering::Relaxed);
+    read();
+    let peak = PEAK.load(Ordering::Relaxed).saturating_sub(before);
+    assert!(peak <= most, "{peak} bytes were taken, more than {most}");
+}
+
+/// What the smallest model may take: mostly the buffers of threads and parsers.
+const SLACK_BYTES: usize = 1 << 20;
+
+/// Most memory for a model, or anything else that is not a picture: 20 times the file.
+pub fn of_model(bytes: &[u8]) -> usize {
+    bytes.len() * tinta::limits::MEMORY_FACTOR + SLACK_BYTES
+}
+
+/// Most memory for a picture: its pixels at 12 bytes each (16 bits a channel in the file, 8 bits after it), as many as the
+/// file can hold and as are read.
+pub fn of_picture(bytes: &[u8]) -> usize {
+    let pixels = (bytes.len() as u64 * tinta::limits::PIXELS_A_BYTE).min(tinta::limits::PICTURE_BYTES / 4);
+    of_model(bytes) + 12 * pixels as usize
+}

@@ -1,0 +1,138 @@
+//! What every reader must do with any bytes at all: read them or refuse them in one sentence, without a panic, without
+//! numbers that are not finite, in bounded memory.
+//!
+//! One function a reader, for the fuzz targets beside this file and for `tests/corpus.rs`, which runs every file of the
+//! corpus through the same function with an ordinary compiler.
+
+use tinta::mesh::{LoadOptions, Loaded, VertexArrays, read_bytes};
+use tinta::{EdgeList, Picture, Result, Scene, SceneSettings};
+
+/// An OBJ model; behind a zero byte the material file that it may name.
+pub fn obj(bytes: &[u8]) {
+    let (model, materials) = match bytes.iter().position(|byte| *byte == 0) {
+        Some(end) => (&bytes[..end], &bytes[end + 1..]),
+        None => (bytes, [].as_slice()),
+    };
+    // What looks like another format would be read as that.
+    model_of([b"o o\n", model].concat().as_slice(), materials, "fuzz.obj");
+}
+
+/// A PLY model.
+pub fn ply(bytes: &[u8]) {
+    model_of(bytes, b"", "fuzz.ply");
+}
+
+/// An STL model.
+pub fn stl(bytes: &[u8]) {
+    model_of(bytes, b"", "fuzz.stl");
+}
+
+/// An MD2 model.
+pub fn md2(bytes: &[u8]) {
+    model_of(bytes, b"", "fuzz.md2");
+}
+
+/// A 3DS model.
+pub fn three_ds(bytes: &[u8]) {
+    model_of(bytes, b"", "fuzz.3ds");
+}
+
+/// A model of any format, by its content alone, with other options than the default: the first byte says which.
+pub fn load(bytes: &[u8]) {
+    let Some((how, bytes)) = bytes.split_first() else { return };
+    let options = LoadOptions {
+        weld: if how & 1 == 0 { 0.0 } else { 0.05 },
+        normals: [tinta::mesh::Normals::File, tinta::mesh::Normals::Smooth, tinta::mesh::Normals::Flat]
+            [usize::from(how >> 1) % 3],
+        strict: how & 8 != 0,
+        ..LoadOptions::default()
+    };
+    check_model(read_bytes(bytes, "fuzz", b"", &options));
+}
+
+fn model_of(bytes: &[u8], materials: &[u8], name: &str) {
+    check_model(read_bytes(bytes, name, materials, &LoadOptions::default()));
+}
+
+/// A model is sound down to what is drawn of it, and says what was wrong with it in single lines.
+fn check_model(loaded: Result<Loaded>) {
+    /// Larger meshes are not made into scenes: the reader is what is tried.
+    const TRIANGLES: usize = 2000;
+    let loaded = match loaded {
+        Ok(loaded) => loaded,
+        Err(error) => return check_sentence(&error.to_string()),
+    };
+    loaded.remarks.iter().for_each(|remark| check_sentence(remark));
+    let mesh = loaded.mesh;
+    assert!(!mesh.triangles.is_empty());
+    assert!(mesh.positions.iter().all(|position| position.is_finite()));
+    assert!(mesh.normals.iter().all(|normal| normal.is_finite() && (normal.length() - 1.0).abs() < 1e-3));
+    assert!(mesh.triangles.as_flattened().iter().all(|index| (*index as usize) < mesh.positions.len()));
+    assert!(mesh.triangle_normals.as_flattened().iter().all(|index| (*index as usize) < mesh.normals.len()));
+    assert_eq!(mesh.triangle_normals.len(), mesh.triangles.len());
+    let is_index = |index: &u32, count: usize| *index == tinta::mesh::NONE || (*index as usize) < count;
+    let coordinates = mesh.triangle_texture_coordinates.as_flattened();
+    assert!(coordinates.iter().all(|index| is_index(index, mesh.texture_coordinates.len())));
+    assert!(mesh.triangle_materials.iter().all(|index| is_index(index, mesh.materials.len())));
+    let colors = mesh.materials.iter().filter_map(|material| material.color);
+    assert!(colors.flatten().all(|channel| (0.0..=1.0).contains(&channel)));
+    if mesh.triangles.len() > TRIANGLES {
+        return;
+    }
+    let edges = EdgeList::new(&mesh);
+    assert!(edges.len() <= mesh.triangles.len() * 3);
+    match Scene::new(vec![std::sync::Arc::new(mesh)], &SceneSettings::default()) {
+        Err(error) => check_sentence(&error.to_string()),
+        Ok(scene) => {
+            let arrays: &VertexArrays = scene.arrays(&scene.objects[0]);
+            assert!(arrays.vertices.as_flattened().iter().all(|number| number.is_finite()));
+            assert!(scene.clip_from_view().is_finite());
+        }
+    }
+}
+
+/// A picture of any format; the first byte says which extension its name has.
+pub fn picture(bytes: &[u8]) {
+    let Some((how, bytes)) = bytes.split_first() else { return };
+    let name = ["a.png", "a.tga", "a.pcx", "a"][usize::from(*how) % 4];
+    match Picture::from_bytes(bytes, name) {
+        Ok(picture) => check_picture(&picture),
+        Err(error) => check_sentence(&error.to_string()),
+    }
+}
+
+fn check_picture(picture: &Picture) {
+    let pixels = u64::from(picture.size.width) * u64::from(picture.size.height);
+    assert!(pixels > 0);
+    assert_eq!(picture.pixels.len() as u64, pixels * 4);
+}
+
+/// A ramp: a picture with four gradients.
+pub fn ramp(bytes: &[u8]) {
+    match tinta::styles::Ramp::from_bytes(bytes, "ramp.png") {
+        Ok(ramp) => {
+            check_picture(&ramp.picture);
+            assert!(ramp.picture.size.height >= 4);
+        }
+        Err(error) => check_sentence(&error.to_string()),
+    }
+}
+
+/// Measured rows, as `results.jsonl` has them: written again they are the same.
+pub fn rows(bytes: &[u8]) {
+    match tinta::report::rows_of_bytes(bytes, "results.jsonl") {
+        Ok(rows) => rows.iter().for_each(|row| {
+            let line = serde_json::to_string(row).expect("a row is text and numbers");
+            assert_eq!(
+                tinta::report::rows_of_bytes(line.as_bytes(), "again").expect("just written").first(),
+                Some(row)
+            );
+        }),
+        Err(error) => check_sentence(&error.to_string()),
+    }
+}
+
+/// One sentence that names the file and is not without end. What breaks lines is escaped where it is said.
+fn check_sentence(sentence: &str) {
+    assert!(sentence.len() > 8 && sentence.len() < 2000, "{} bytes: {sentence:.500}", sentence.len());
+}

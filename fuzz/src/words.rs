@@ -1,0 +1,34 @@
+//! The command line out of any bytes: one word a line.
+
+/// The program's own source, of which only the parsing runs here.
+#[expect(dead_code, reason = "only the parsing of the program's own source is run here")]
+#[path = "../../src"]
+mod program {
+    pub mod cli;
+}
+
+use program::cli;
+use std::ffi::OsString;
+
+/// Parses the words; what is wrong with them is one line.
+pub fn command_line(bytes: &[u8]) {
+    let words = bytes.split(|byte| *byte == b'\n').map(word);
+    match cli::parse(std::iter::once(OsString::from("tinta")).chain(words)) {
+        Ok(_) => {}
+        Err(cli::Stop::Wrong(error)) => {
+            let said = cli::plain(&error.to_string());
+            assert!(said.len() > 8 && !said.contains(char::is_control), "{said}");
+        }
+        Err(cli::Stop::Help(help)) => assert!(!help.to_string().is_empty()),
+    }
+}
+
+#[cfg(unix)]
+fn word(bytes: &[u8]) -> OsString {
+    <std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(bytes).to_owned()
+}
+
+#[cfg(not(unix))]
+fn word(bytes: &[u8]) -> OsString {
+    String::from_utf8_lossy(bytes).into_owned().into()
+}

@@ -1,0 +1,53 @@
+//! Model files that lie, are something else, or are not there. What fuzzing found besides stands in docs/limits.md.
+
+use super::{Case, Content, Expected, Group, Work};
+
+pub(super) fn cases() -> Vec<Case> {
+    let case = |name: &str, file, content, expected| Case {
+        name: name.to_owned(),
+        group: Group::Files,
+        work: Work::Read(file, content),
+        expected,
+        checks: Vec::new(),
+    };
+    let refused = |words| Expected::Refused { kind: "model", words };
+    let text = |text: &str| Content::Bytes(text.as_bytes().to_vec());
+    const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    let ply = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n\
+               property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\nnothing";
+    let mut stl = vec![b' '; 80];
+    stl.extend(u32::MAX.to_le_bytes());
+    stl.extend([0; 50]);
+    // IDP2, version 8, and counts of frames, vertices and triangles that no file could hold.
+    let md2: Vec<u8> = b"IDP2".iter().copied().chain([8, 0, 0, 0]).chain([0x7f; 60]).collect();
+    // A chunk that says it is two gigabytes long, in one that says so too.
+    let three_ds =
+        [&0x4d4d_u16.to_le_bytes()[..], &u32::MAX.to_le_bytes(), &0x3d3d_u16.to_le_bytes(), &u32::MAX.to_le_bytes()];
+    vec![
+        case("an empty file", "empty.obj", Content::Bytes(Vec::new()), refused("empty")),
+        case("a file that is not there", "missing.obj", Content::Missing, refused("no such file")),
+        case("a folder", "folder.obj", Content::Folder, refused("directory")),
+        case("a gibibyte of zeros", "zeros.stl", Content::Zeros(1 << 30), refused("zeros.stl")),
+        case("a million zeros", "zeros", Content::Zeros(1_000_000), refused("not a model")),
+        case("vertices without a face", "square.obj", text(SQUARE), refused("no faces")),
+        case(
+            "faces of vertices that are not there",
+            "beyond.obj",
+            text(&format!("{SQUARE}f 5 6 7\n")),
+            refused("index out of range"),
+        ),
+        case(
+            "vertices that are not numbers",
+            "nan.obj",
+            text("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+            refused("not finite"),
+        ),
+        case("a face with a letter", "letter.obj", text(&format!("{SQUARE}f 1 2 x\n")), refused("line 5")),
+        case("a header that promises four billion vertices", "lie.ply", text(ply), refused("lie.ply")),
+        case("a count of four billion triangles", "lie.stl", Content::Bytes(stl), refused("lie.stl")),
+        case("two billion frames", "lie.md2", Content::Bytes(md2), refused("lie.md2")),
+        case("chunks longer than their file", "lie.3ds", Content::Bytes(three_ds.concat()), refused("lie.3ds")),
+        case("a name of two lines", "two\nlines.obj", text("f"), refused("lines.obj")),
+        case("a square", "sound.obj", text(&format!("{SQUARE}f 1 2 3 4\n")), Expected::Rendered),
+    ]
+}

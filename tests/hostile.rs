@@ -1,0 +1,322 @@
+//! Files made to harm: counts that lie, pictures that unfold, names that break lines, files that are none, faces without end.
+
+use crate::cli::{Folder, tinta};
+use crate::support::root;
+use std::io::{Seek, Write};
+use std::path::Path;
+use std::process::{Command, Output};
+use std::sync::Arc;
+use tinta::mesh::read_bytes;
+use tinta::{LoadOptions, Mesh, Scene, SceneSettings, load};
+
+pub const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\n";
+
+/// Runs the program with so many MiB of address space: whoever asks for more is killed and does not exit with code 2.
+#[cfg(unix)]
+fn tinta_within(mebibytes: usize, arguments: &[&str]) -> Output {
+    let script = format!("ulimit -v {}; exec \"$@\"", mebibytes << 10);
+    let mut command = Command::new("sh");
+    command.args(["-c", &script, "sh", env!("CARGO_BIN_EXE_tinta")]).args(arguments).current_dir(root());
+    command.output().unwrap()
+}
+
+/// Asserts exit code 2 and one line that contains `words` and nothing that commands a terminal.
+pub fn refused(output: &Output, words: &[&str]) {
+    let message = String::from_utf8(output.stderr.clone()).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    one_line(&message, words);
+}
+
+pub fn one_line(message: &str, words: &[&str]) {
+    assert_eq!(message.matches('\n').count(), 1, "{message:?}");
+    assert!(message.len() < 1000 && !message.trim_end().contains(|c: char| c.is_control()), "{message:?}");
+    for word in words {
+        assert!(message.contains(word), "should say {word:?}: {message:?}");
+    }
+}
+
+/// A PNG file's chunk.
+fn png_chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
+    let body = [kind.as_slice(), data].concat();
+    let mut remainder = u32::MAX;
+    for byte in &body {
+        remainder ^= u32::from(*byte);
+        (0..8).for_each(|_| remainder = remainder >> 1 ^ if remainder & 1 == 1 { 0xedb8_8320 } else { 0 });
+    }
+    [(data.len() as u32).to_be_bytes().as_slice(), &body, &(!remainder).to_be_bytes()].concat()
+}
+
+/// A PNG file of 200 bytes that says it has so many pixels.
+fn bomb(width: u32, height: u32) -> Vec<u8> {
+    let header = [width.to_be_bytes().as_slice(), &height.to_be_bytes(), &[8, 2, 0, 0, 0]].concat();
+    let data = [0x78, 0x01].into_iter().chain([0; 120]).collect::<Vec<u8>>();
+    [b"\x89PNG\r\n\x1a\n".to_vec(), png_chunk(b"IHDR", &header), png_chunk(b"IDAT", &data), png_chunk(b"IEND", b"")]
+        .concat()
+}
+
+#[cfg(unix)]
+#[test]
+fn files_that_lie_about_their_counts_are_refused_without_the_memory() {
+    let folder = Folder::new();
+    let words = |numbers: &[u32]| numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>();
+    let header = "element vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n";
+    let faces = "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nelement face 3000000000\n\
+        property list uint int vertex_indices\n";
+    let ply = |format: &str, header: &str, rest: &[u8]| {
+        [format!("ply\nformat {format} 1.0\n{header}end_header\n").as_bytes(), rest].concat()
+    };
+    let md2 = |place: usize| {
+        let mut header = [8, 32, 64, 40, 0, 0, 0, 0, 0, 1, 68, 68, 68, 68, 68, 108];
+        header[place] = u32::MAX;
+        [b"IDP2".as_slice(), &words(&header), &[0; 40]].concat()
+    };
+    let chunk = |number: u16, data: &[u8]| {
+        [number.to_le_bytes().as_slice(), &(data.len() as u32 + 6).to_le_bytes(), data].concat()
+    };
+    let three_ds = |number: u16| {
+        let mesh = chunk(0x4100, &chunk(number, &[0xff, 0xff, 1, 2, 3]));
+        chunk(
+            0x4d4d,
+            &[chunk(2, &[3, 0, 0, 0]), chunk(0x3d3d, &chunk(0x4000, &[b"o\0", mesh.as_slice()].concat()))].concat(),
+        )
+    };
+    let files = [
+        (
+            "vertices.ply",
+            ply("binary_little_endian", header, &[0; 30]),
+            "ends before the last of the file's 4000000000 vertex",
+        ),
+        ("vertices-text.ply", ply("ascii", header, b"0 0 0\n"), "line 9: it is damaged or cut off"),
+        ("faces.ply", ply("binary_big_endian", faces, &[0; 30]), "3000000000 face"),
+        ("list.ply", ply("binary_little_endian", faces, &[0xff; 30]), "3000000000 face"),
+        ("a.stl", [[b' '; 80].as_slice(), &words(&[u32::MAX]), &[0; 60]].concat(), "promises 4294967295 triangles"),
+        ("vertices.md2", md2(5), "4294967295 vertices need"),
+        ("skins.md2", md2(4), "promises 4294967295 skins"),
+        ("triangles.md2", md2(7), "promises 4294967295 triangles"),
+        ("frames.md2", md2(9), "promises 4294967295 frames"),
+        ("end.md2", md2(15), "promises 4294967295 bytes"),
+        ("vertices.3ds", three_ds(0x4110), "its part 4110 is damaged"),
+        ("faces.3ds", three_ds(0x4120), "its part 4120 is damaged"),
+        ("chunk.3ds", [b"MM".as_slice(), &words(&[u32::MAX]), &[2, 0, 0, 0]].concat(), "promises 4294967295 bytes"),
+    ];
+    for (name, bytes, sentence) in files {
+        refused(&tinta_within(1500, &["edges", &folder.file(name, &bytes)]), &[name, sentence]);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn pictures_that_unfold_are_refused_before_they_do() {
+    let folder = Folder::new();
+    let out = folder.path("out.png");
+    let mut pcx = vec![10, 5, 1, 8, 0, 0, 0, 0, 0xff, 0x3f, 0xff, 0x3f];
+    pcx.resize(65, 0);
+    pcx.extend([3, 0, 0x40]);
+    pcx.resize(400, 0xff);
+    let whole = bomb(60_000, 60_000);
+    assert!(whole.len() < 250);
+    let files = [
+        ("bomb.png", whole, "longer than 16384 pixels"),
+        ("lie.png", bomb(16_384, 16_384), "bytes cannot hold 16384 x 16384 pixels"),
+        ("lie.pcx", pcx, "bytes cannot hold 16384 x 16384 pixels"),
+        ("lie.ppm", b"P6\n16384 16384\n255\n".to_vec(), "bytes cannot hold"),
+        // Long enough for its pixels if they were white, but not worth a gibibyte.
+        ("large.png", [bomb(16_384, 16_384), vec![0; 50_000]].concat(), "take 1024 MiB of memory"),
+    ];
+    for (name, bytes, sentence) in files {
+        let file = folder.file(name, &bytes);
+        let arguments = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--ramp", &file];
+        refused(&tinta_within(700, &arguments), &[name, sentence]);
+    }
+    // As a model's texture it waits until a style asks for it.
+    folder.file("a.mtl", b"newmtl a\nmap_Kd bomb.png\n");
+    let model = folder.file("a.obj", format!("mtllib a.mtl\n{SQUARE}usemtl a\nf 1/1 2/1 3/2\n").as_bytes());
+    let scene = scene(load(&model, &LoadOptions::default()).unwrap().mesh);
+    let message = scene.material_pictures(&scene.objects[0]).unwrap_err().to_string();
+    assert!(message.contains("bomb.png: it is longer than 16384 pixels"), "{message}");
+}
+
+pub fn scene(mesh: Mesh) -> Scene {
+    Scene::new(vec![Arc::new(mesh)], &SceneSettings::default()).unwrap()
+}
+
+#[cfg(unix)]
+#[test]
+fn names_that_break_lines_or_command_the_terminal_are_said_in_one_line() {
+    let folder = Folder::new();
+    let name = "a\nb\r\u{1b}[2J\u{202e}.obj";
+    refused(&tinta(&["edges", &folder.path(name)]), &["a\\nb\\r\\u{1b}[2J\\u{202e}.obj: there is no such file"]);
+    refused(&tinta(&["edges", "--no\n\nsuch\u{1b}"]), &["--no"]);
+    // A material's, a picture's and a material file's names, the last without end.
+    let text = format!("mtllib \u{1b}]0;x\u{7}.mtl\nmtllib {}\n{SQUARE}f 1 2 3\nf 1 3 4\n", "x".repeat(100_000));
+    let model = folder.file("names.obj", text.as_bytes());
+    let output = tinta(&["edges", &model]);
+    assert_eq!(output.status.code(), Some(0));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(said.matches('\n').count(), 2, "{said:.2000}");
+    assert!(said.contains("\\u{1b}]0;x\\u{7}.mtl is not there") && said.len() < 1000, "{said:.2000}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_gibibyte_of_zeros_is_refused_whatever_it_is_called() {
+    let folder = Folder::new();
+    let zeros = folder.file("zeros.obj", b"");
+    std::fs::File::options().write(true).open(&zeros).unwrap().set_len(1 << 30).unwrap();
+    refused(&tinta_within(1600, &["edges", &zeros]), &["zeros.obj: it holds no vertices and no faces"]);
+    for (name, sentence) in [
+        ("zeros.stl", "it holds no vertices"),
+        ("zeros.ply", "does not begin like"),
+        ("zeros.3ds", "does not begin like"),
+    ] {
+        let link = folder.path(name);
+        std::os::unix::fs::symlink(&zeros, &link).unwrap();
+        refused(&tinta_within(1600, &["edges", &link]), &[name, sentence]);
+    }
+    let out = folder.path("out.png");
+    let arguments = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--ramp", &zeros];
+    refused(&tinta_within(600, &arguments), &["zeros.obj: it is larger than 640 MiB"]);
+    let merge = ["measure", "--merge", &zeros, "-o", &folder.path("merged")];
+    refused(&tinta_within(1600, &merge), &["zeros.obj"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn pipes_and_folders_are_refused_wherever_a_file_is_read_and_nobody_waits_for_them() {
+    let folder = Folder::new();
+    let pipe = folder.path("results.jsonl");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let inside = folder.path("");
+    let (out, new) = (folder.path("out.png"), folder.path("new"));
+    let with_ramp = |file| ["render", "builtin:ant", "-o", &out, "--style", "inking", "--ramp", file];
+    for (file, what) in [(pipe.as_str(), "no ordinary file but a pipe"), (inside.as_str(), "this is a ")] {
+        refused(&tinta(&["edges", file]), &[what]);
+        refused(&tinta(&with_ramp(file)), &[what]);
+        refused(&tinta(&["measure", "--merge", file, "-o", &new]), &[what]);
+    }
+    refused(&tinta(&["edges", "builtin:ant", "--skin", &pipe]), &["no ordinary file"]);
+    for open in
+        [tinta::report::RowLog::create, |folder: &Path| tinta::report::RowLog::resume(folder).map(|(log, _)| log)]
+    {
+        let message = open(Path::new(&inside)).unwrap_err().to_string();
+        assert!(message.contains("results.jsonl: this is no ordinary file"), "{message}");
+    }
+    let model = folder.file("a.obj", format!("mtllib results.jsonl\n{SQUARE}f 1 2 3\nf 1 3 4\n").as_bytes());
+    let output = tinta(&["edges", &model]);
+    assert_eq!(output.status.code(), Some(0));
+    one_line(&String::from_utf8(output.stderr).unwrap(), &["the material file results.jsonl is not there"]);
+}
+
+#[test]
+fn faces_of_a_million_corners_come_to_an_end_and_convex_ones_are_cut() {
+    // Corners, depth of every other one, triangles made.
+    for (corners, depth, made) in [(1_000_000u32, 0.0, 999_998), (30_000, 0.02, 29_998), (1_000_000, 0.02, 0)] {
+        let mut text = String::new();
+        for i in 0..corners {
+            let (y, x) = (f64::from(i) / f64::from(corners) * std::f64::consts::TAU).sin_cos();
+            let radius = 1.0 + f64::from(i % 2) * depth;
+            text.push_str(&format!("v {} {} 0\n", x * radius, y * radius));
+        }
+        text.push('f');
+        (1..=corners).for_each(|i| text.push_str(&format!(" {i}")));
+        // One triangle more, so that something is left to draw.
+        text.push_str("\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf -3 -2 -1\n");
+        let options = LoadOptions { weld: 0.0, ..LoadOptions::default() };
+        let mesh = read_bytes(text.as_bytes(), "face.obj", b"", &options).unwrap().mesh;
+        let lost = mesh.defects.degenerate_triangles;
+        assert_eq!(mesh.triangles.len() + lost, corners as usize - 1, "{corners} {depth}");
+        assert!(
+            mesh.triangles.len() - 1 <= made && mesh.triangles.len() + 1000 > made,
+            "{corners} {depth}: {lost} lost"
+        );
+    }
+}
+
+#[test]
+fn polygons_that_cross_themselves_a_hundred_thousand_times_come_to_an_end() {
+    let count = 100_000u32;
+    let mut text = String::new();
+    for i in 0..count {
+        let [x, y] = [2_654_435_761, 2_246_822_519].map(|factor: u32| f64::from(i.wrapping_mul(factor)) / 4e9);
+        text.push_str(&format!("v {x} {y} 0\n"));
+    }
+    text.push('f');
+    (1..=count).for_each(|i| text.push_str(&format!(" {i}")));
+    text.push_str("\nf 1 2 3\n");
+    let mesh = read_bytes(text.as_bytes(), "knot.obj", b"", &LoadOptions::default()).unwrap().mesh;
+    assert_eq!((mesh.triangles.len(), mesh.defects.degenerate_triangles), (1, count as usize - 2));
+}
+
+#[cfg(unix)]
+#[test]
+fn corners_of_two_bytes_each_are_refused_before_they_take_more_than_twenty_times_the_file() {
+    let folder = Folder::new();
+    let model = folder.path("corners.obj");
+    let mut file = std::io::BufWriter::new(std::fs::File::create(&model).unwrap());
+    file.write_all(SQUARE.as_bytes()).unwrap();
+    file.write_all(b"f").unwrap();
+    let words = b" 1 2 3 4".repeat(1000);
+    (0..2500).for_each(|_| file.write_all(&words).unwrap());
+    let bytes = file.stream_position().unwrap() as usize;
+    drop(file);
+    assert_eq!(bytes >> 20, 19);
+    // 20 times the file, the slack of docs/limits.md, and what any process takes of its address space.
+    let sentence =
+        "corners.obj: its 4 vertices and 9999998 triangles take more than 20 times the file's size in memory";
+    refused(&tinta_within(20 * 20 + 64 + 300, &["edges", &model]), &[sentence]);
+}
+
+#[cfg(unix)]
+#[test]
+fn chunks_in_chunks_a_hundred_thousand_deep_do_not_go_deeper() {
+    let folder = Folder::new();
+    // A chunk's length counts all that is in it.
+    let depth = 100_000u32;
+    let numbers = [0x3d3d_u16, 0x4000, 0x4100, 0x4120, 0x4130, 0xafff, 0xa200];
+    let mut bytes = [b"MM".as_slice(), &(depth * 6 + 16).to_le_bytes(), &[2, 0, 10, 0, 0, 0, 3, 0, 0, 0]].concat();
+    for level in 0..depth {
+        bytes.extend(numbers[level as usize % numbers.len()].to_le_bytes());
+        bytes.extend(((depth - level) * 6).to_le_bytes());
+    }
+    assert_eq!(bytes.len() as u32, depth * 6 + 16);
+    refused(&tinta_within(700, &["edges", &folder.file("deep.3ds", &bytes)]), &["deep.3ds"]);
+}
+
+#[test]
+fn lines_of_a_hundred_megabytes_are_read() {
+    let blanks = " ".repeat(100_000_000);
+    for text in [
+        format!("v 0 0 0\nv 1 0{blanks}0\nv 0 1 0\nf 1 2 3\n"),
+        format!("#{blanks}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n{}3\n", "\\\n".repeat(50_000_000)),
+    ] {
+        let mesh = read_bytes(text.as_bytes(), "long.obj", b"", &LoadOptions::default()).unwrap().mesh;
+        assert_eq!((mesh.triangles.len(), mesh.positions.len()), (1, 3));
+    }
+}
+
+#[test]
+fn numbers_that_many_names_are_looked_up_by_do_not_multiply() {
+    // 16,000 materials, each used 20 times, by names of which every other is in no file.
+    let materials: String = (0..16_000).map(|i| format!("newmtl m{i}\n")).collect();
+    let uses: String = (0..320_000).map(|i| format!("usemtl m{}\nf 1 2 3\n", i % 32_000)).collect();
+    let text = format!("{SQUARE}mtllib a.mtl\n{uses}f 1 3 4\n");
+    let loaded = read_bytes(text.as_bytes(), "many.obj", materials.as_bytes(), &LoadOptions::default()).unwrap();
+    assert_eq!((loaded.mesh.defects.missing_materials, loaded.mesh.materials.len()), (16_000, 16_000));
+    let more: String = (0..16_385).map(|i| format!("newmtl m{i}\n")).collect();
+    let error = read_bytes(text.as_bytes(), "many.obj", more.as_bytes(), &LoadOptions::default()).unwrap_err();
+    assert!(error.to_string().starts_with("many.obj: it has more than 16384 materials"), "{error}");
+    let libraries: String = (0..1025).map(|i| format!("mtllib {i}\n")).collect();
+    let error = read_bytes(libraries.as_bytes(), "many.obj", b"", &LoadOptions::default()).unwrap_err();
+    assert!(error.to_string().starts_with("many.obj: it names more than 1024 material files"), "{error}");
+}
+
+#[test]
+fn hundreds_of_missing_files_are_counted_and_a_few_said() {
+    let folder = Folder::new();
+    let libraries: String = (0..500).map(|i| format!("mtllib no-{i}.mtl\n")).collect();
+    let model = folder.file("a.obj", format!("{libraries}{SQUARE}f 1 2 3\nf 1 3 4\n").as_bytes());
+    let remarks = load(&model, &LoadOptions::default()).unwrap().remarks;
+    assert_eq!(remarks.len(), 9, "{remarks:?}");
+    assert!(remarks[8].ends_with("492 more material files are not there or not followed"), "{remarks:?}");
+}
