@@ -49,6 +49,9 @@ pub struct PlayedRecord {
     pub scale: f64,
 }
 
+/// Brightness of texts on the dark panels: egui's own is faint.
+const TEXT_GREY: u8 = 215;
+
 /// A thread has news.
 #[derive(Debug, Clone, Copy)]
 struct News;
@@ -79,9 +82,9 @@ pub fn open(options: WindowOptions) -> Result<Option<PlayedRecord>> {
         result: Ok(()),
     };
     event_loop.run_app(&mut app).map_err(no_window)?;
-    let App { player, times, result, shown, .. } = app;
+    let App { player, times, result, .. } = app;
     result?;
-    Ok(player.map(|_| times.record(shown.map_or(1.0, |shown| shown.window.scale_factor()))))
+    Ok(player.map(|_| times.record()))
 }
 
 /// winit's message without the place in its source.
@@ -104,15 +107,16 @@ struct Times {
     first_picture_ms: Option<f64>,
     frame_ms: Vec<f64>,
     free_frame_ms: Vec<f64>,
+    scale: f64,
 }
 
 impl Times {
-    fn record(self, scale: f64) -> PlayedRecord {
+    fn record(self) -> PlayedRecord {
         PlayedRecord {
             first_picture_ms: self.first_picture_ms.unwrap_or_default(),
             frame_ms: Summary::new(self.frame_ms),
             free_frame_ms: Summary::new(self.free_frame_ms),
-            scale,
+            scale: self.scale,
         }
     }
 }
@@ -151,7 +155,10 @@ impl Shown {
         context.set_fonts(fonts());
         context.set_theme(egui::Theme::Dark);
         // What fades in has to be painted again and again.
-        context.all_styles_mut(|style| style.animation_time = 0.0);
+        context.all_styles_mut(|style| {
+            style.animation_time = 0.0;
+            style.visuals.override_text_color = Some(egui::Color32::from_gray(TEXT_GREY));
+        });
         let egui = egui_winit::State::new(
             context,
             ViewportId::ROOT,
@@ -300,6 +307,13 @@ impl ApplicationHandler<News> for App {
         }
     }
 
+    fn exiting(&mut self, _: &ActiveEventLoop) {
+        // While there is still a display.
+        if let Some(shown) = self.shown.take() {
+            self.times.scale = shown.window.scale_factor();
+        }
+    }
+
     fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
         if let (StartCause::ResumeTimeReached { .. }, Some(shown)) = (cause, &self.shown) {
             event_loop.set_control_flow(ControlFlow::Wait);
@@ -341,7 +355,7 @@ impl ApplicationHandler<News> for App {
 }
 
 /// DejaVu for everything: egui's own fonts have licences of their own.
-fn fonts() -> FontDefinitions {
+pub(super) fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     for (name, data, family) in [
         ("sans", dejavu::sans::regular(), FontFamily::Proportional),

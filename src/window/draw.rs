@@ -18,6 +18,7 @@ use crate::styles::{Show, Style};
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
 use std::time::Instant;
 
 /// What is to be drawn.
@@ -206,11 +207,13 @@ impl Job {
     }
 }
 
-/// Starts the thread. It ends when its orders do.
-pub fn start(backend: Backend, reporter: Reporter) -> std::io::Result<Sender<Order>> {
+/// Starts the thread. It ends when its orders do, and must be waited for then: a driver does not bear a program's end while it
+/// draws.
+pub fn start(backend: Backend, reporter: Reporter) -> std::io::Result<(Sender<Order>, JoinHandle<()>)> {
     let (orders, taken) = channel();
-    std::thread::Builder::new().name("drawing".to_owned()).spawn(move || work(backend, &taken, &reporter))?;
-    Ok(orders)
+    let thread = std::thread::Builder::new().name("drawing".to_owned());
+    let thread = thread.spawn(move || work(backend, &taken, &reporter))?;
+    Ok((orders, thread))
 }
 
 fn work(backend: Backend, orders: &Receiver<Order>, reporter: &Reporter) {

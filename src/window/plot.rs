@@ -10,6 +10,9 @@ const SIZE: Vec2 = Vec2::new(250.0, 110.0);
 /// Room for its labels, points.
 const MARGIN: f32 = 16.0;
 
+/// Height of a label, points.
+const LABEL_STEP: f32 = 10.0;
+
 /// Shows times and errors.
 pub fn show(ui: &mut Ui, viewer: &Viewer) {
     for side in viewer.state.sides() {
@@ -21,7 +24,7 @@ pub fn show(ui: &mut Ui, viewer: &Viewer) {
             continue;
         };
         for pass in &priced.passes {
-            ui.label(format!("{}  {:.2} ms", pass.name, pass.gpu_ms.unwrap_or(pass.cpu_ms)));
+            ui.label(format!("{}  {:.2} ms", pass.name, pass.cpu_ms));
         }
         match &priced.error {
             Some(error) => {
@@ -62,7 +65,9 @@ fn plot(ui: &mut Ui, price: &Price) {
         painter.circle_filled(place, 3.5, fill);
         let (align, beside) =
             if place.x > area.center().x { (Align2::RIGHT_BOTTOM, -5.0) } else { (Align2::LEFT_BOTTOM, 5.0) };
-        painter.text(place + Vec2::new(beside, 0.0), align, point.style, font.clone(), color);
+        // Neighbours' names one above the other.
+        let above = -LABEL_STEP * (index % 4) as f32;
+        painter.text(place + Vec2::new(beside, above), align, point.style, font.clone(), color);
     }
 }
 

@@ -124,7 +124,7 @@ pub fn save(
             } else {
                 // A cut or a difference is put together here: no command makes it.
                 target.write(shown)?;
-                let each = command.map_or_else(|error| error.to_string(), |command| command);
+                let each = command.unwrap_or_else(|error| error.to_string());
                 return Ok(format!("{name}; the {} style alone: {each}", state.style(state.active).name()));
             }
         }

@@ -21,6 +21,7 @@ use crate::scene::Scene;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
 
 /// How the viewer is started.
 #[derive(Debug, Clone)]
@@ -60,7 +61,10 @@ pub struct Viewer {
     is_pricing: bool,
     reporter: Reporter,
     reports: Receiver<Report>,
-    orders: Sender<Order>,
+    /// Until the viewer ends.
+    orders: Option<Sender<Order>>,
+    /// Those with a driver at work.
+    drawing_threads: Vec<JoinHandle<()>>,
     loader: Loader,
     watched: Sender<Vec<PathBuf>>,
     loads_going_on: u64,
@@ -78,7 +82,7 @@ impl Viewer {
         let no_thread = |error: std::io::Error| Error::gl("starting the window's threads", error.to_string());
         let (sender, reports) = channel();
         let reporter = Reporter::new(sender, wake);
-        let orders = draw::start(options.backend, reporter.clone()).map_err(no_thread)?;
+        let (orders, drawing) = draw::start(options.backend, reporter.clone()).map_err(no_thread)?;
         if let Some(folder) = &options.shaders {
             let _ = orders.send(Order::Shaders(watch::shaders_in(folder)));
         }
@@ -106,7 +110,8 @@ impl Viewer {
             is_pricing: false,
             reporter,
             reports,
-            orders,
+            orders: Some(orders),
+            drawing_threads: vec![drawing],
             loader,
             watched,
             loads_going_on: 0,
@@ -237,7 +242,8 @@ impl Viewer {
     }
 
     fn send(&mut self, order: Order) {
-        if self.orders.send(order).is_err() && self.gone.is_none() {
+        let is_taken = self.orders.as_ref().is_some_and(|orders| orders.send(order).is_ok());
+        if !is_taken && self.gone.is_none() {
             self.gone = Some(Error::gl("drawing", "the drawing thread has ended"));
         }
     }
@@ -264,8 +270,12 @@ impl Viewer {
             reporter.say(Report::Saved(saved.map_or_else(|error| error.to_string(), |text| format!("saved {text}"))));
         };
         self.state.message = Some("saving".to_owned());
-        if std::thread::Builder::new().name("saving".to_owned()).spawn(work).is_err() {
-            self.state.message = Some("no thread to save on could be started; close something".to_owned());
+        self.drawing_threads.retain(|thread| !thread.is_finished());
+        match std::thread::Builder::new().name("saving".to_owned()).spawn(work) {
+            Ok(thread) => self.drawing_threads.push(thread),
+            Err(_) => {
+                self.state.message = Some("no thread to save on could be started; close something".to_owned());
+            }
         }
     }
 
@@ -357,5 +367,17 @@ impl Viewer {
         // Not asked for again until something changes; the last picture stays.
         self.drawn = self.asked.take();
         self.problem = Some(error.to_string());
+    }
+}
+
+impl Drop for Viewer {
+    /// Waits for the picture that is being drawn and for files that are being written.
+    fn drop(&mut self) {
+        self.orders = None;
+        self.price.view_changed();
+        for thread in self.drawing_threads.drain(..) {
+            // One that has panicked has said so.
+            let _ = thread.join();
+        }
     }
 }
