@@ -244,3 +244,7 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "ui_tests.rs"]
+mod tests;
