@@ -87,6 +87,8 @@ pub fn run() -> Result<Verdict> {
 }
 
 fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdict> {
+    #[cfg(not(feature = "window"))]
+    let _ = started;
     match command {
         #[cfg(feature = "window")]
         Command::View(arguments) => view::run(&arguments, started),
