@@ -152,6 +152,8 @@ pub struct CameraSettings {
     pub fov_y_degrees: f64,
     /// Parallel instead of perspective projection. Default no.
     pub parallel: bool,
+    /// Height of a parallel projection's picture, file units; fitted by default. Less is nearer.
+    pub height: Option<f64>,
     /// Distance of the near plane, file units; fitted by default.
     pub near: Option<f64>,
     /// Distance of the far plane, file units; fitted by default.
@@ -167,6 +169,7 @@ impl Default for CameraSettings {
             up: None,
             fov_y_degrees: 30.0,
             parallel: false,
+            height: None,
             near: None,
             far: None,
         }
@@ -204,8 +207,8 @@ impl CameraSettings {
         let frame = points.map(in_frame);
         let half_height = frame.clone().map(|p| p.y.abs().max(p.x.abs() / aspect)).fold(0.0, f64::max);
         let projection = if self.parallel {
-            let height = (2.0 * half_height / FRAME_FILL).max(radius * NEAREST_FRACTION);
-            Projection::Parallel { height }
+            let fitted = (2.0 * half_height / FRAME_FILL).max(radius * NEAREST_FRACTION);
+            Projection::Parallel { height: self.height.unwrap_or(fitted) }
         } else {
             Projection::Perspective { fov_y_degrees: self.fov_y_degrees }
         };
@@ -241,6 +244,12 @@ impl CameraSettings {
             if vector.is_some_and(|vector| !within(vector)) {
                 return Err(Error::setting(name, format!("its three numbers must lie within {LARGEST_COORDINATE:e}")));
             }
+        }
+        if self.height.is_some_and(|height| !(height > 0.0 && height <= LARGEST_COORDINATE)) {
+            return Err(Error::setting("--height", format!("a height is above 0 and at most {LARGEST_COORDINATE:e}")));
+        }
+        if self.height.is_some() && !self.parallel {
+            return Err(Error::setting("--height", "only a parallel projection has one; give --parallel too"));
         }
         for (name, distance) in [("--near", self.near), ("--far", self.far)] {
             if distance.is_some_and(|distance| !(distance > 0.0 && distance.is_finite())) {

@@ -14,6 +14,8 @@ mod progress;
 mod render;
 mod stress;
 mod textures;
+#[cfg(feature = "window")]
+mod view;
 
 use clap::{Parser, Subcommand};
 use preset::Given;
@@ -21,6 +23,7 @@ pub use preset::Stop;
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
+use std::time::Instant;
 use tinta::{Error, Result};
 
 /// Cartoon drawings of 3D models, drawn the way a paper of 2005 drew them.
@@ -33,6 +36,7 @@ Examples:
   tinta render cow.obj -o cow.gif --turntable 60 a turn around it
   tinta render cow.obj -o cow.png --preset mine.toml
                                                  with options kept in a file
+  tinta view cow.obj                             in a window: turn it, compare styles, change every setting
   tinta again cow.png -o again.png               a picture made anew by the recipe it carries
   tinta compare builtin:gear -o both.png         two styles' lines, what both drew and what only one
   tinta edges cow.obj                            its edges, counted by class
@@ -51,6 +55,8 @@ pub struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Render(Box<render::Arguments>),
+    #[cfg(feature = "window")]
+    View(Box<view::Arguments>),
     Again(again::Arguments),
     Compare(Box<compare::Arguments>),
     Edges(Box<edges::Arguments>),
@@ -72,16 +78,21 @@ pub enum Verdict {
 
 /// Parses the command line and does what it says.
 pub fn run() -> Result<Verdict> {
+    let started = Instant::now();
     let (arguments, given) = match parse(std::env::args_os()) {
         Ok(parsed) => parsed,
         Err(Stop::Help(help)) => help.exit(),
         Err(Stop::Wrong(error)) => return Err(error),
     };
-    carry_out(arguments.command, &given).map_err(|error| given.attributed(error))
+    carry_out(arguments.command, &given, started).map_err(|error| given.attributed(error))
 }
 
-fn carry_out(command: Command, given: &Given) -> Result<Verdict> {
+fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdict> {
+    #[cfg(not(feature = "window"))]
+    let _ = started;
     match command {
+        #[cfg(feature = "window")]
+        Command::View(arguments) => view::run(&arguments, started),
         Command::Render(arguments) => return render::run(&arguments, given),
         Command::Again(arguments) => return again::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments, given),

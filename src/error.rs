@@ -78,6 +78,9 @@ pub enum Error {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// Nobody waits for the work any more.
+    #[error("the work was given up because nobody waits for it any more; ask for it again")]
+    Cancelled,
     /// No way to an OpenGL 2.1 context worked.
     #[error(
         "no OpenGL 2.1 context could be made (tried {}); install Mesa's software renderer, on Debian: apt-get install libegl1 libgl1-mesa-dri libosmesa6",
@@ -86,6 +89,14 @@ pub enum Error {
     NoContext {
         /// What was tried and why each attempt failed.
         attempts: Vec<String>,
+    },
+    /// There is no window to show a model in.
+    #[error(
+        "no window can be opened ({reason}); start tinta view where DISPLAY or WAYLAND_DISPLAY names a display with OpenGL, or draw without one: tinta render"
+    )]
+    NoWindow {
+        /// What was tried and why it failed.
+        reason: String,
     },
     /// The picture is larger than the context can draw.
     #[error(
@@ -143,7 +154,9 @@ impl Error {
             Self::Preset { .. } => "preset",
             Self::Output { .. } => "output",
             Self::Rows { .. } => "rows",
+            Self::Cancelled => "cancelled",
             Self::NoContext { .. } => "no-context",
+            Self::NoWindow { .. } => "no-window",
             Self::PictureTooLarge { .. } => "picture-too-large",
             Self::Shader { .. } => "shader",
             Self::Gl { .. } => "gl",

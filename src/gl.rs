@@ -23,7 +23,8 @@ pub use faults::Fault;
 use crate::error::{Error, Result};
 use glow::HasContext;
 use legacy::Legacy;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
 
 /// The loaded GL functions of one context, what it says about itself, and how many of its objects are alive.
 pub(crate) struct Gl {
@@ -31,6 +32,8 @@ pub(crate) struct Gl {
     legacy: Legacy,
     info: ContextInfo,
     live_objects: Cell<usize>,
+    /// Shaders used instead of those built in, by their paths below `glsl/`.
+    replaced_shaders: RefCell<HashMap<String, String>>,
     /// Once the context is lost: what said so.
     lost: Cell<Option<&'static str>>,
 }

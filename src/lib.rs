@@ -52,6 +52,8 @@ pub mod stress;
 pub mod styles;
 pub mod textures;
 pub mod tolerances;
+#[cfg(feature = "window")]
+pub mod window;
 
 mod bytes;
 mod files;

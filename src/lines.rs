@@ -37,7 +37,7 @@ use serde::Serialize;
 use space::Space;
 use std::collections::HashMap;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 use visibility::Lines;
 
@@ -109,17 +109,32 @@ pub struct LineTimes {
     pub visibility_ms: f64,
 }
 
-/// How far the work is, for whoever watches from another thread.
+/// How far the work is, for whoever watches from another thread, who may also ask for it to be given up.
 #[derive(Debug, Default)]
 pub struct Progress {
     done: AtomicUsize,
     total: AtomicUsize,
+    is_cancelled: AtomicBool,
 }
 
 impl Progress {
     /// Lines decided and lines in all; 0 and 0 until it is known how many there are.
     pub fn state(&self) -> (usize, usize) {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
+    }
+
+    /// Asks for the work to be given up: it then ends soon with [`Error::Cancelled`].
+    pub fn cancel(&self) {
+        self.is_cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the work is to be given up.
+    fn is_cancelled(&self) -> bool {
+        self.is_cancelled.load(Ordering::Relaxed)
+    }
+
+    fn go_on(&self) -> Result<()> {
+        if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }
     }
 
     fn begin(&self, total: usize) {
@@ -145,7 +160,7 @@ impl VisibleLines {
     ///
     /// # Errors
     ///
-    /// As there.
+    /// As there, and [`Error::Cancelled`] after [`Progress::cancel`].
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
         if settings.classes.is_empty() {
             return Err(Error::setting("--classes", "name at least one class of lines"));
@@ -176,10 +191,12 @@ impl VisibleLines {
             faces
         };
         let topology_ms = milliseconds_since(clock);
+        progress.go_on()?;
 
         let clock = Instant::now();
         let (mut lines, mut edges) = features::edge_features(scene, &faces, &parts, settings);
         let silhouette_ms = milliseconds_since(clock);
+        progress.go_on()?;
 
         let clock = Instant::now();
         let (intersections, piercings) = intersections::intersections(&space, &faces);
@@ -188,7 +205,9 @@ impl VisibleLines {
             lines.extend(features::intersection_features(&faces, &parts, &intersections));
         }
         lines.extend(features::near_plane_features(&space, &faces));
+        progress.go_on()?;
         let segments = Lines::new(&space, &faces, &lines, &piercings).segments(progress);
+        progress.go_on()?;
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms };
         Ok(Self { size: scene.size, segments, edges, times })

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::gl::context::{Context, Current};
 use crate::gl::execute::Resources;
 use crate::gl::{Backend, ContextInfo, Fault};
+use crate::glsl::SOURCES;
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::prune::{Pruning, prune};
@@ -12,6 +13,7 @@ use crate::plan::{Draw, Geometry, LineDrawing, Output, Plan, Program, Step};
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use serde::Serialize;
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -237,6 +239,24 @@ impl Renderer {
             }
             Ok(pictures)
         })
+    }
+
+    /// Uses these texts instead of the shaders built in, by their paths below `glsl/`; those not among them are the built-in
+    /// ones again. All that replace one are compiled now, so that a mistake is found before the next picture.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Shader`] with the driver's log; then nothing is replaced that was not before.
+    pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<()> {
+        self.resources.refuse_if_lost("replacing shaders")?;
+        let _current = self.context.enter()?;
+        let before = self.resources.replace_shaders(shaders.clone());
+        let paths = SOURCES.iter().map(|(path, _)| *path).filter(|path| shaders.contains_key(*path));
+        let compiled = paths.into_iter().try_for_each(|path| self.resources.compile(path));
+        if compiled.is_err() {
+            self.resources.replace_shaders(before);
+        }
+        self.resources.explain("compiling shaders", compiled)
     }
 
     /// Compiles a shader of `glsl/` by itself, to see whether this driver takes it.

@@ -5,8 +5,8 @@
 //! same place relative to what it lights (errata E11). Scene space only moves and scales world space; nothing turns.
 
 mod extent;
-mod precision;
 mod pictures;
+mod precision;
 mod turntable;
 mod values;
 
@@ -115,10 +115,7 @@ impl Scene {
                 format!("a scene has at least one model and 1 to {LARGEST_COPIES} copies of it"),
             ));
         }
-        let Size { width, height } = settings.size;
-        if width == 0 || height == 0 {
-            return Err(Error::setting(format!("--size {width}x{height}"), "a picture has at least one pixel"));
-        }
+        check_size(settings.size)?;
         let objects = on_grid(&meshes, settings.copies);
         let corners: Vec<DVec3> = objects.iter().flat_map(Object::box_corners).collect();
         let (low, high) = bounds(&corners);
@@ -133,19 +130,33 @@ impl Scene {
                 ),
             ));
         }
-        let aspect = settings.size.aspect();
-        let point_count: usize = objects.iter().map(|object| object.mesh.positions.len()).sum();
-        let camera = if point_count <= FITTED_POINTS {
-            let points = objects.iter().flat_map(|o| o.mesh.positions.iter().map(|point| *point + o.offset));
-            settings.camera.fit(centre, radius, aspect, points)?
-        } else {
-            settings.camera.fit(centre, radius, aspect, corners.iter().copied())?
-        };
+        let camera = fitted_camera(&objects, centre, radius, settings)?;
         let scene = Self {
             objects,
             centre,
             radius,
             camera,
+            size: settings.size,
+            background: settings.background,
+            color: settings.color.unwrap_or(DEFAULT_COLOR),
+            recolor: settings.color.is_some(),
+        };
+        scene.check_precision()?;
+        Ok(scene)
+    }
+
+    /// The same objects, with all that was found out about them, as other settings show them; `copies` is left as it is.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scene::new`].
+    pub fn seen_with(&self, settings: &SceneSettings) -> Result<Self> {
+        check_size(settings.size)?;
+        let scene = Self {
+            objects: self.objects.clone(),
+            centre: self.centre,
+            radius: self.radius,
+            camera: fitted_camera(&self.objects, self.centre, self.radius, settings)?,
             size: settings.size,
             background: settings.background,
             color: settings.color.unwrap_or(DEFAULT_COLOR),
@@ -276,6 +287,25 @@ impl Object {
             self.offset + DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
         })
     }
+}
+
+fn check_size(size: Size) -> Result<()> {
+    match size.pixel_count() {
+        0 => Err(Error::setting(format!("--size {size}"), "a picture has at least one pixel")),
+        _ => Ok(()),
+    }
+}
+
+/// The camera that the settings ask for, fitted to the objects.
+fn fitted_camera(objects: &[Object], centre: DVec3, radius: f64, settings: &SceneSettings) -> Result<Camera> {
+    let aspect = settings.size.aspect();
+    let point_count: usize = objects.iter().map(|object| object.mesh.positions.len()).sum();
+    if point_count <= FITTED_POINTS {
+        let points = objects.iter().flat_map(|o| o.mesh.positions.iter().map(|point| *point + o.offset));
+        return settings.camera.fit(centre, radius, aspect, points);
+    }
+    let corners: Vec<DVec3> = objects.iter().flat_map(Object::box_corners).collect();
+    settings.camera.fit(centre, radius, aspect, corners.iter().copied())
 }
 
 /// The models repeated in rows along x, rows going back along -z.

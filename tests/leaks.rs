@@ -60,6 +60,44 @@ fn a_renderer_deletes_every_object_it_made() {
     }
 }
 
+#[cfg(feature = "window")]
+#[test]
+fn a_thousand_style_switches_and_model_reloads_leave_memory_and_objects_as_they_were() {
+    use tinta::window::{Drawer, Job, Orbit, Side};
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let mut drawer = Drawer::new(Backend::Egl).unwrap_or_else(|error| panic!("{error}"));
+    let settings = SceneSettings { size: Size { width: 64, height: 64 }, ..SceneSettings::default() };
+    // Kept, as the viewer keeps each style's settings, with charcoal's textures in them.
+    let names = StyleName::ALL.into_iter().filter(|(_, name)| *name != StyleName::Sand);
+    let styles: Vec<Style> = names.map(|(_, name)| Style::named(name)).collect();
+    let mut switches = |count: usize| {
+        let mut scene = None;
+        for number in 0..count {
+            if number % 10 == 0 {
+                let mesh = Arc::new(load("builtin:ant", &LoadOptions::default()).unwrap().mesh);
+                scene = Some(Arc::new(Scene::new(vec![mesh], &SceneSettings::default()).unwrap()));
+            }
+            let job = Job {
+                scene: scene.clone().unwrap(),
+                orbit: Orbit::default(),
+                settings: settings.clone(),
+                drawings: vec![(Side::Left, styles[number % styles.len()].clone(), Show::Final)],
+            };
+            drawer.draw(&job).unwrap();
+        }
+        drawer.live_objects()
+    };
+    (0..4).for_each(|_| {
+        switches(160);
+    });
+    let (objects, memory) = (switches(320), resident_kib());
+    assert!(objects > 0);
+    assert_eq!(switches(1000 / 8 * 8), objects);
+    let grown = resident_kib().saturating_sub(memory);
+    println!("grown by {grown} KiB");
+    assert!(grown < ALLOWED_KIB, "1,000 style switches and 100 reloads grew the process by {grown} KiB");
+}
+
 /// What needs objects of its own: drawn textures, a copy of the depth, a larger surface.
 fn improved() -> [Style; 5] {
     let cartoon = |map_encoding| Style::ThreePass(Cartoon { map_encoding, ..Cartoon::default() });

@@ -48,3 +48,5 @@ mod svg;
 mod textures;
 mod turntable;
 mod twin;
+#[cfg(feature = "window")]
+mod window;

@@ -67,7 +67,8 @@ fn is_numbered(before: &str, after: &str, input: &Path) -> bool {
     let folder = if folder == Path::new("") { Path::new(".") } else { folder };
     let Some(name) = input.file_name().and_then(|name| name.to_str()) else { return false };
     let number = name.strip_prefix(start).and_then(|name| name.strip_suffix(end));
-    let is_number = number.is_some_and(|number| !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()));
+    let is_number =
+        number.is_some_and(|number| !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()));
     is_number && same(&folder.join(name), input)
 }
 

@@ -28,6 +28,10 @@ pub struct CameraArguments {
     #[arg(long)]
     parallel: bool,
 
+    /// Height of what a parallel projection shows, model units; less is nearer [default: fitted]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    height: Option<f64>,
+
     /// Position of the eye, model units [default: where --view shows the whole scene]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true, conflicts_with = "view")]
     eye: Option<DVec3>,
@@ -94,6 +98,7 @@ impl CameraArguments {
             up: self.up,
             fov_y_degrees: self.fov,
             parallel: self.parallel,
+            height: self.height,
             near: self.near,
             far: self.far,
         }

@@ -3,8 +3,8 @@
 //! The words are read twice: once as given, to know the preset and what else is given; then with the preset's options before
 //! them. An option given on the command line beats the preset's, and so does one that excludes it.
 
-use super::measure::StyleOptions;
 use super::inputs::Inputs;
+use super::measure::StyleOptions;
 use super::{Arguments, in_one_sentence};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;

@@ -2,6 +2,8 @@
 
 mod egl;
 mod osmesa;
+#[cfg(feature = "window")]
+pub(crate) mod window;
 
 use super::Gl;
 use super::faults::{self, Fault, Faults};
@@ -11,7 +13,7 @@ use crate::names::find;
 use crate::scene::Size;
 use glow::HasContext;
 use serde::Serialize;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, c_void};
 use std::rc::Rc;
 use std::str::FromStr;
@@ -426,7 +428,8 @@ fn load_functions(
         subpixel_bits: integer(glow::SUBPIXEL_BITS).max(LEAST_SUBPIXEL_BITS) as u32,
         timer_queries,
     };
-    let gl = Gl { glow, legacy, info, live_objects: Cell::new(0), lost: Cell::new(None) };
+    let (live_objects, lost) = (Cell::new(0), Cell::new(None));
+    let gl = Gl { glow, legacy, info, live_objects, replaced_shaders: RefCell::default(), lost };
     // A core profile answers the questions about alpha and lines with an error: it lacks what the papers use.
     gl.check("asking the context about itself").map_err(|error| match error {
         Error::ContextLost { what, .. } => format!("the context was lost at once ({what})"),

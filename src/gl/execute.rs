@@ -367,6 +367,13 @@ impl Resources {
         }
     }
 
+    /// Takes shaders from these texts where they are among them, and links all programs anew when they are needed.
+    /// Returns those used so far.
+    pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> HashMap<String, String> {
+        self.programs.clear();
+        self.gl.replaced_shaders.replace(shaders)
+    }
+
     /// Compiles a shader by itself and lets go of it.
     pub fn compile(&self, path: &'static str) -> Result<()> {
         let kind = if path.ends_with(".vert") { glow::VERTEX_SHADER } else { glow::FRAGMENT_SHADER };

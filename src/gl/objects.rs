@@ -209,7 +209,10 @@ impl Shader {
     /// Compiles the shader of this path below `glsl/`.
     pub fn new(gl: &Rc<Gl>, kind: u32, path: &'static str) -> Result<Self> {
         let failed = |log: &str| Error::Shader { path: path.to_owned(), log: one_line(log) };
-        let source = crate::glsl::source(path).ok_or_else(|| failed("it is not part of this program"))?;
+        let replaced = gl.replaced_shaders.borrow();
+        let built_in = || crate::glsl::source(path);
+        let source = replaced.get(path).map(String::as_str).or_else(built_in);
+        let source = source.ok_or_else(|| failed("it is not part of this program"))?;
         // SAFETY: the context is current.
         unsafe {
             let id = gl.glow.create_shader(kind).map_err(out_of_names)?;

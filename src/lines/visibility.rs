@@ -78,6 +78,9 @@ impl<'a> Lines<'a> {
         let parts = in_chunks(self.features.len(), LINES, cores(), |range| {
             let mut segments = Vec::new();
             progress.advance(range.len());
+            if progress.is_cancelled() {
+                return segments;
+            }
             range.for_each(|index| self.add_segments(index, &mut segments));
             segments
         });

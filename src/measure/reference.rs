@@ -2,7 +2,7 @@
 
 use crate::edges::{Class, ClassSet, CreaseAngle};
 use crate::error::Result;
-use crate::lines::{LineSegment, LineSettings, VisibleLines};
+use crate::lines::{LineSegment, LineSettings, Progress, VisibleLines};
 use crate::scene::{Scene, Size};
 use glam::DVec2;
 use rstar::{PointDistance, RTree, RTreeObject};
@@ -74,14 +74,23 @@ impl Reference {
     ///
     /// As [`VisibleLines::of`].
     pub fn of(scene: &Scene, settings: &LineSettings) -> Result<Self> {
-        let lines = VisibleLines::of(scene, settings)?;
+        Self::with_progress(scene, settings, &Progress::default())
+    }
+
+    /// As [`Reference::of`], for whoever may want it to be given up.
+    ///
+    /// # Errors
+    ///
+    /// As [`VisibleLines::with_progress`].
+    pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
+        let lines = VisibleLines::with_progress(scene, settings, progress)?;
         let soft = LineSettings {
             classes: ClassSet::of(&[Class::Crease]),
             crease_angle: CreaseAngle::from_degrees(SOFT_CREASE_DEGREES)?,
         };
         let limit = settings.crease_angle.degrees();
         let is_between = |segment: &&LineSegment| segment.angle_degrees.is_none_or(|angle| angle <= limit);
-        let soft = VisibleLines::of(scene, &soft)?;
+        let soft = VisibleLines::with_progress(scene, &soft, progress)?;
         let ignored = soft.segments.iter().filter(|segment| segment.is_visible).filter(is_between).flat_map(samples);
         let ignored = tree(ignored.map(|sample| sample.px));
         let visible = lines.segments.iter().filter(|segment| segment.is_visible);

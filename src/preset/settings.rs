@@ -203,7 +203,7 @@ impl Changed {
     }
 
     pub(super) fn camera(&mut self, camera: &CameraSettings) {
-        let CameraSettings { view, eye, target, up, fov_y_degrees, parallel, near, far } = camera;
+        let CameraSettings { view, eye, target, up, fov_y_degrees, parallel, height, near, far } = camera;
         let default = CameraSettings::default();
         let vector = |vector: DVec3| format!("{},{},{}", vector.x, vector.y, vector.z);
         // An eye stands where it stands, wherever the view would have put it.
@@ -216,6 +216,7 @@ impl Changed {
         self.given("up", up.map(vector));
         self.number("fov", *fov_y_degrees, default.fov_y_degrees);
         self.flag("parallel", *parallel);
+        self.given("height", *height);
         self.given("near", *near);
         self.given("far", *far);
     }

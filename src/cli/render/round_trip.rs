@@ -24,7 +24,7 @@ fn words(options: &Options) -> Vec<String> {
 }
 
 /// A value for each option that differs from its default; `FILE` stands for a picture that is there.
-const SAMPLES: [(&str, &str); 74] = [
+const SAMPLES: [(&str, &str); 75] = [
     ("show", "tones"),
     ("no-borders", ""),
     ("cull", "back"),
@@ -82,6 +82,7 @@ const SAMPLES: [(&str, &str); 74] = [
     ("view", "-37.25,12"),
     ("fov", "45.5"),
     ("parallel", ""),
+    ("height", "2.5"),
     ("eye", "-1,2.5,1e10"),
     ("target", "0,-0.1,0"),
     ("up", "0,0,1"),

@@ -41,7 +41,7 @@ const FUNCTIONS: [&CStr; 15] = [
 ];
 
 /// Makes sure that the library is there and is EGL, once.
-fn check_library() -> Result<(), String> {
+pub(super) fn check_library() -> Result<(), String> {
     static CHECKED: OnceLock<Result<(), String>> = OnceLock::new();
     let check = || {
         let mut reasons = Vec::new();

@@ -1,0 +1,129 @@
+//! `tinta view`: models in a window.
+
+use super::options::{ModelArguments, StyleArguments};
+use super::preset::PresetArguments;
+use std::path::PathBuf;
+use std::time::Instant;
+use tinta::window::{
+    Buffer, Layout, Orbit, Replay, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
+};
+use tinta::{Backend, Background, Color, Error, Result, Size, Style, StyleName, View};
+
+/// Show models in a window: turn them, compare styles, change every setting
+#[derive(clap::Args)]
+#[command(after_help = "In the window H lists the keys. Drop a model's file on it to see that one.")]
+pub struct Arguments {
+    /// Model files (OBJ, PLY, STL, MD2, 3DS) or built-in models; several make one scene [default: builtin:bust]
+    #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
+    models: Vec<String>,
+
+    /// Style: phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand [default: three-pass]
+    #[arg(long, value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
+    style: StyleName,
+
+    /// Style right of a divider [default: none, one style alone]
+    #[arg(long, value_name = "STYLE")]
+    right: Option<StyleName>,
+
+    /// View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees [default: 30,15]
+    #[arg(long, value_name = "VIEW", default_value = "30,15", hide_default_value = true, allow_hyphen_values = true)]
+    view: View,
+
+    /// Vertical field of view in degrees [default: 30]
+    #[arg(long, value_name = "DEGREES", default_value = "30", hide_default_value = true, allow_hyphen_values = true)]
+    fov: f64,
+
+    /// Parallel projection instead of perspective [default: off]
+    #[arg(long)]
+    parallel: bool,
+
+    /// Colour behind the scene: a CSS name, #rrggbb or rgb(r,g,b) [default: white]
+    #[arg(long, value_name = "COLOUR", default_value = "white", hide_default_value = true)]
+    background: Color,
+
+    /// One colour for all surfaces [default: the model's own, #edbd85 where it has none]
+    #[arg(long, value_name = "COLOUR")]
+    color: Option<Color>,
+
+    /// Size of the window in points, or one number for a square [default: 1280x720]
+    #[arg(long, value_name = "WxH", default_value = "1280x720", hide_default_value = true)]
+    window: Size,
+
+    /// OpenGL for the pictures from: egl, osmesa, auto (the first that works); the window has its own [default: auto]
+    #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
+    backend: Backend,
+
+    /// Shaders from this folder, laid out like glsl/, in place of those built in, and anew when they change [default: none]
+    #[arg(long, value_name = "DIR")]
+    glsl: Option<PathBuf>,
+
+    /// Where files saved from the window go [default: here]
+    #[arg(long, value_name = "DIR", default_value = ".", hide_default_value = true)]
+    folder: PathBuf,
+
+    /// Play a recording of events, one JSON object a line, take its pictures and end; docs/viewer.md has the format [default: none]
+    #[arg(long, value_name = "FILE")]
+    replay: Option<PathBuf>,
+
+    /// Print one JSON record of a recording: time to the first picture, of each frame [default: off]
+    #[arg(long, requires = "replay")]
+    json: bool,
+
+    #[command(flatten)]
+    preset: PresetArguments,
+
+    #[command(flatten)]
+    styles: StyleArguments,
+
+    #[command(flatten)]
+    models_are_read: ModelArguments,
+}
+
+/// Opens the window and returns when it is closed.
+pub fn run(arguments: &Arguments, started: Instant) -> Result<()> {
+    for (option, folder) in [("--glsl", arguments.glsl.as_ref()), ("--folder", Some(&arguments.folder))] {
+        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+            return Err(Error::Setting {
+                setting: format!("{option} {}", folder.display()),
+                problem: "there is no such folder; name one".to_owned(),
+            });
+        }
+    }
+    let replay = arguments.replay.as_deref().map(Replay::read).transpose()?;
+    let viewer = ViewerOptions {
+        state: state(arguments)?,
+        load: arguments.models_are_read.options(),
+        backend: arguments.backend,
+        shaders: arguments.glsl.clone(),
+        folder: arguments.folder.clone(),
+    };
+    let record = open(WindowOptions { viewer, size: arguments.window, replay, started })?;
+    match record {
+        Some(record) if arguments.json => super::print_json(&record),
+        _ => Ok(()),
+    }
+}
+
+/// What is shown first.
+fn state(arguments: &Arguments) -> Result<ViewerState> {
+    let (view, parallel, fov_y_degrees) = (arguments.view, arguments.parallel, arguments.fov);
+    let orbit = Orbit { view, parallel, fov_y_degrees, ..Orbit::default() };
+    let mut state = ViewerState::new(arguments.models.clone(), orbit);
+    state.background = Background::Color(arguments.background);
+    state.color = arguments.color;
+    // Options are for every style that has them, whichever is chosen later.
+    for (_, name) in StyleName::ALL {
+        match arguments.styles.style(name) {
+            Ok(style) => state.prepare_style(&style),
+            Err(error) if name == arguments.style || Some(name) == arguments.right => return Err(error),
+            Err(_) => state.prepare_style(&Style::named(name)),
+        }
+    }
+    state.update(ViewerEvent::Style(Side::Left, arguments.style.name().to_owned()));
+    if let Some(right) = arguments.right {
+        state.update(ViewerEvent::Style(Side::Right, right.name().to_owned()));
+        state.update(ViewerEvent::Layout(Layout::Split));
+    }
+    state.buffer = Buffer::Show(arguments.styles.show);
+    Ok(state)
+}

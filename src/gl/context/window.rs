@@ -1,0 +1,154 @@
+//! A window's own OpenGL: a context that egui paints its shapes with, and the window it shows them in.
+//!
+//! Models are not drawn here but by [`crate::Renderer`] without a window; their pictures come as textures. So a pane's
+//! pixels do not depend on what the window system does with its buffers, and a picture can have any size.
+
+use crate::error::{Error, Result};
+use crate::picture::Picture;
+use crate::scene::Size;
+use glutin::config::{Api, Config, ConfigTemplateBuilder, GlConfig};
+use glutin::context::{ContextApi, ContextAttributesBuilder, NotCurrentGlContext, PossiblyCurrentContext};
+use glutin::context::{PossiblyCurrentGlContext, Version};
+use glutin::display::{Display, DisplayApiPreference, GetGlDisplay, GlDisplay};
+use glutin::surface::{GlSurface, Surface, SwapInterval, WindowSurface};
+use glutin_winit::GlWindow;
+use std::num::NonZeroU32;
+use std::sync::Arc;
+use winit::event_loop::ActiveEventLoop;
+use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
+use winit::window::{Window, WindowAttributes};
+
+/// Behind everything, where egui paints nothing.
+const GROUND: [f32; 4] = [0.2, 0.2, 0.2, 1.0];
+
+/// The window's context, its surface, and what paints into it.
+pub struct WindowGl {
+    // Dropped in this order, each before what it was made from.
+    painter: egui_glow::Painter,
+    surface: Surface<WindowSurface>,
+    context: PossiblyCurrentContext,
+}
+
+/// Shapes on their way to the screen.
+pub struct Shapes {
+    /// What is painted.
+    pub primitives: Vec<egui::ClippedPrimitive>,
+    /// Textures to be made, changed and let go of.
+    pub textures: egui::TexturesDelta,
+    /// Pixels of the window to one of egui's points.
+    pub pixels_per_point: f32,
+}
+
+impl WindowGl {
+    /// Opens a window with a context of OpenGL 2.1, in the compatibility profile where the system has one.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoWindow`] with the reason.
+    pub fn open(event_loop: &ActiveEventLoop, attributes: WindowAttributes) -> Result<(Window, Self)> {
+        Self::try_open(event_loop, attributes).map_err(|reason| Error::NoWindow { reason })
+    }
+
+    fn try_open(
+        event_loop: &ActiveEventLoop,
+        attributes: WindowAttributes,
+    ) -> std::result::Result<(Window, Self), String> {
+        super::egl::check_library().map_err(|reason| format!("EGL: {reason}"))?;
+        let config = config(event_loop)?;
+        let window = glutin_winit::finalize_window(event_loop, attributes, &config)
+            .map_err(|error| format!("making the window failed ({error})"))?;
+        let handle = window.window_handle().map_err(|error| format!("the window has no handle ({error})"))?;
+        let display = config.display();
+        let attributes = ContextAttributesBuilder::new()
+            .with_context_api(ContextApi::OpenGl(Some(Version::new(2, 1))))
+            .build(Some(handle.as_raw()));
+        // SAFETY: display, config and window handle belong together, and the window is alive.
+        let context = unsafe { display.create_context(&config, &attributes) }
+            .map_err(|error| format!("making a GL 2.1 context failed ({error})"))?;
+        let surface_attributes = window
+            .build_surface_attributes(Default::default())
+            .map_err(|error| format!("the window has no surface ({error})"))?;
+        // SAFETY: the attributes hold the handle of a window that outlives the surface: `Viewer`'s window drops it first.
+        let surface = unsafe { display.create_window_surface(&config, &surface_attributes) }
+            .map_err(|error| format!("making the window's surface failed ({error})"))?;
+        let context = context
+            .make_current(&surface)
+            .map_err(|error| format!("the window's context cannot be made current ({error})"))?;
+        // Without it frames are shown at once, which is no worse.
+        let _ = surface.set_swap_interval(&context, SwapInterval::Wait(NonZeroU32::MIN));
+        // SAFETY: the context is current, and the addresses are its own.
+        let gl = unsafe { egui_glow::glow::Context::from_loader_function_cstr(|name| display.get_proc_address(name)) };
+        let painter = egui_glow::Painter::new(Arc::new(gl), "", None, false)
+            .map_err(|error| format!("the window's OpenGL cannot show panels ({error})"))?;
+        let mut opened = Self { painter, surface, context };
+        opened.release();
+        Ok((window, opened))
+    }
+
+    /// The largest side of a texture, pixels.
+    pub fn largest_texture(&self) -> usize {
+        self.painter.max_texture_side()
+    }
+
+    /// Makes the surface as large as the window is now.
+    pub fn resize(&mut self, size: Size) {
+        if let (Some(width), Some(height)) = (NonZeroU32::new(size.width), NonZeroU32::new(size.height)) {
+            self.surface.resize(&self.context, width, height);
+        }
+    }
+
+    /// Paints a frame of this size and shows it; if asked for, what it shows is returned.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Gl`] when the context or the surface is gone.
+    pub fn paint(&mut self, size: Size, shapes: &Shapes, is_wanted: bool) -> Result<Option<Picture>> {
+        let failed = |what: &str| {
+            let during = format!("{what} the window");
+            move |error: glutin::error::Error| Error::gl(during, error.to_string())
+        };
+        self.context.make_current(&self.surface).map_err(failed("painting"))?;
+        let pixels = [size.width, size.height];
+        self.painter.clear(pixels, GROUND);
+        self.painter.paint_and_update_textures(pixels, shapes.pixels_per_point, &shapes.primitives, &shapes.textures);
+        let picture = is_wanted.then(|| {
+            let image = self.painter.read_screen_rgba(pixels);
+            let pixels = image.pixels.iter().flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b(), u8::MAX]).collect();
+            Picture { size, pixels }
+        });
+        let swapped = self.surface.swap_buffers(&self.context).map_err(failed("showing"));
+        self.release();
+        swapped.map(|()| picture)
+    }
+
+    /// Contexts of several libraries may live in this process: none stays current while another may be entered.
+    fn release(&mut self) {
+        // Fails only when the display is gone, and then there is nothing to release.
+        let _ = self.context.make_not_current_in_place();
+    }
+}
+
+impl Drop for WindowGl {
+    fn drop(&mut self) {
+        // Without its context the driver has let go of its objects already.
+        if self.context.make_current(&self.surface).is_ok() {
+            self.painter.destroy();
+            self.release();
+        }
+    }
+}
+
+/// The display's plainest format. glutin-winit's own builder takes for certain that there is one.
+fn config(event_loop: &ActiveEventLoop) -> std::result::Result<Config, String> {
+    let handle = event_loop.display_handle().map_err(|error| format!("the display has no handle ({error})"))?;
+    // SAFETY: the handle is that of the event loop's connection, which outlives the display.
+    let display = unsafe { Display::new(handle.as_raw(), DisplayApiPreference::Egl) }
+        .map_err(|error| format!("the display has no OpenGL ({error})"))?;
+    let template = ConfigTemplateBuilder::new().with_alpha_size(0).with_api(Api::OPENGL).build();
+    // SAFETY: the display is alive and the template names no native window.
+    let configs = unsafe { display.find_configs(template) }
+        .map_err(|error| format!("the display has no format that OpenGL can draw in ({error})"))?;
+    configs
+        .min_by_key(|config| (config.num_samples(), config.depth_size(), config.stencil_size(), config.alpha_size()))
+        .ok_or_else(|| "the display has no format that OpenGL can draw in".to_owned())
+}

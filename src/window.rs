@@ -1,0 +1,45 @@
+//! The window: models turn under the mouse, two styles side by side, every setting a dial, every buffer visible.
+//!
+//! In: models and a first state. Out: pictures on a screen, and files. The pictures are those of the headless
+//! [`crate::Renderer`], drawn on a thread of its own and shown as textures: the same bytes as `tinta render` writes.
+//! Everything that decides what is shown is in [`ViewerState`], a plain value that events change; winit and egui are known
+//! here only.
+//!
+//! | file | what |
+//! |---|---|
+//! | `state.rs`, `event.rs`, `orbit.rs`, `dials.rs`, `buffer.rs`, `compose.rs` | values: what is shown, what happens, how it changes |
+//! | `viewer.rs` | the state with the threads that work for it |
+//! | `draw.rs`, `load.rs`, `watch.rs`, `price.rs`, `save.rs`, `report.rs` | the threads and what they tell |
+//! | `ui.rs`, `panel.rs`, `plot.rs`, `keys.rs` | widgets: they read the state and make events |
+//! | `app.rs`, `replay.rs` | the window itself, and recordings played in it |
+
+mod app;
+mod buffer;
+mod compose;
+mod dials;
+mod draw;
+mod event;
+mod keys;
+mod load;
+mod orbit;
+mod panel;
+mod plot;
+mod price;
+mod replay;
+mod report;
+mod save;
+mod state;
+mod ui;
+mod viewer;
+mod watch;
+
+pub use app::{PlayedRecord, WindowOptions, open};
+pub use buffer::{Buffer, buffers};
+pub use compose::composed;
+pub use draw::{Drawer, Drawing, Job};
+pub use event::{Effect, Layout, Save, Side, ViewerEvent};
+pub use orbit::Orbit;
+pub use price::{Point, Price, Priced};
+pub use replay::Replay;
+pub use state::{Content, Pane, ViewerState};
+pub use viewer::{Viewer, ViewerOptions};

@@ -1,0 +1,381 @@
+//! The window itself: winit's events in, egui's frames out, and recordings played in it.
+//!
+//! Frames are painted when there is something new to see and at no other time.
+
+use super::event::{Effect, ViewerEvent};
+use super::replay::Replay;
+use super::ui::{self, Textures};
+use super::viewer::{Viewer, ViewerOptions};
+use crate::error::{Error, Result};
+use crate::gl::context::window::{Shapes, WindowGl};
+use crate::picture::{Picture, Target, write_rgba_png};
+use crate::record::Summary;
+use crate::renderer::milliseconds_since;
+use crate::scene::Size;
+use egui::{FontData, FontDefinitions, FontFamily, ViewportId};
+use serde::Serialize;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use winit::application::ApplicationHandler;
+use winit::dpi::LogicalSize;
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::window::{Fullscreen, Window, WindowId};
+
+/// How a window is opened.
+#[derive(Debug, Clone)]
+pub struct WindowOptions {
+    /// The viewer in it.
+    pub viewer: ViewerOptions,
+    /// The window's size, points.
+    pub size: Size,
+    /// A recording that is played; then the window closes.
+    pub replay: Option<Replay>,
+    /// When the program began, for the time to the first picture.
+    pub started: Instant,
+}
+
+/// What a recording took.
+#[derive(Debug, Clone, Serialize)]
+pub struct PlayedRecord {
+    /// From the program's start to the first picture on the screen.
+    pub first_picture_ms: f64,
+    /// Each frame, from its events to its being shown; in frames that wait for their pictures with that.
+    pub frame_ms: Summary,
+    /// Frames that went on while something was being read or drawn.
+    pub free_frame_ms: Summary,
+    /// Pixels of the window to a point.
+    pub scale: f64,
+}
+
+/// Brightness of texts on the dark panels: egui's own is faint.
+const TEXT_GREY: u8 = 215;
+
+/// A thread has news.
+#[derive(Debug, Clone, Copy)]
+struct News;
+
+/// Opens the window and returns when it is closed; of a recording what it took.
+///
+/// # Errors
+///
+/// [`Error::NoWindow`] without a display or OpenGL on it, what keeps the renderer from drawing at all, and for a recording
+/// what keeps its pictures from being written.
+pub fn open(options: WindowOptions) -> Result<Option<PlayedRecord>> {
+    let no_window = |error: winit::error::EventLoopError| Error::NoWindow { reason: reason(&error.to_string()) };
+    let event_loop = EventLoop::<News>::with_user_event().build().map_err(no_window)?;
+    let proxy = event_loop.create_proxy();
+    // The event loop may have ended while a thread was at work.
+    let wake = move || {
+        let _ = proxy.send_event(News);
+    };
+    let viewer = Viewer::start(options.viewer.clone(), wake)?;
+    let player = options.replay.map(|replay| Player { replay, frame: 0, is_free: false });
+    let mut app = App {
+        viewer: Some(viewer),
+        shown: None,
+        size: options.size,
+        player,
+        started: options.started,
+        times: Times::default(),
+        result: Ok(()),
+    };
+    event_loop.run_app(&mut app).map_err(no_window)?;
+    let App { player, times, result, .. } = app;
+    result?;
+    Ok(player.map(|_| times.record()))
+}
+
+/// winit's message without the place in its source.
+fn reason(message: &str) -> String {
+    let after_place = message.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    after_place.map_or(message, |(_, reason)| reason).trim_end_matches('.').to_owned()
+}
+
+/// A recording being played.
+struct Player {
+    replay: Replay,
+    frame: u64,
+    /// Whether frames go on without waiting for what they started.
+    is_free: bool,
+}
+
+/// What frames took.
+#[derive(Default)]
+struct Times {
+    first_picture_ms: Option<f64>,
+    frame_ms: Vec<f64>,
+    free_frame_ms: Vec<f64>,
+    scale: f64,
+}
+
+impl Times {
+    fn record(self) -> PlayedRecord {
+        PlayedRecord {
+            first_picture_ms: self.first_picture_ms.unwrap_or_default(),
+            frame_ms: Summary::new(self.frame_ms),
+            free_frame_ms: Summary::new(self.free_frame_ms),
+            scale: self.scale,
+        }
+    }
+}
+
+struct App {
+    /// Until the window is there.
+    viewer: Option<Viewer>,
+    shown: Option<Shown>,
+    size: Size,
+    player: Option<Player>,
+    started: Instant,
+    times: Times,
+    result: Result<()>,
+}
+
+/// What there is once there is a window.
+struct Shown {
+    viewer: Viewer,
+    textures: Textures,
+    egui: egui_winit::State,
+    // Before the window it paints into.
+    gl: WindowGl,
+    window: Window,
+    title: String,
+    follows_window: bool,
+}
+
+impl Shown {
+    fn open(event_loop: &ActiveEventLoop, viewer: Viewer, size: Size, follows_window: bool) -> Result<Self> {
+        let title = viewer.state.title();
+        let attributes = Window::default_attributes()
+            .with_title(title.clone())
+            .with_inner_size(LogicalSize::new(size.width, size.height));
+        let (window, gl) = WindowGl::open(event_loop, attributes)?;
+        let context = egui::Context::default();
+        context.set_fonts(fonts());
+        context.set_theme(egui::Theme::Dark);
+        // What fades in has to be painted again and again.
+        context.all_styles_mut(|style| {
+            style.animation_time = 0.0;
+            style.visuals.override_text_color = Some(egui::Color32::from_gray(TEXT_GREY));
+        });
+        let egui = egui_winit::State::new(
+            context,
+            ViewportId::ROOT,
+            event_loop,
+            Some(window.scale_factor() as f32),
+            None,
+            Some(gl.largest_texture()),
+        );
+        let mut shown = Self { viewer, textures: Textures::default(), egui, gl, window, title, follows_window };
+        if follows_window {
+            // The first picture is drawn while egui still finds out how much room there is.
+            let status = f64::from(ui::STATUS_HEIGHT) * shown.window.scale_factor();
+            let Size { width, height } = shown.size();
+            shown.event(ViewerEvent::Resize([width, height.saturating_sub(status.round() as u32)]));
+        }
+        shown.viewer.ask();
+        Ok(shown)
+    }
+
+    fn size(&self) -> Size {
+        let size = self.window.inner_size();
+        Size { width: size.width, height: size.height }
+    }
+
+    /// Paints a frame and lets happen what was done in it. What the window then shows is returned if asked for, and how long
+    /// nothing need be painted.
+    fn frame(&mut self, is_wanted: bool) -> Result<(Option<Picture>, Duration)> {
+        let input = self.egui.take_egui_input(&self.window);
+        let context = self.egui.egui_ctx().clone();
+        let mut events = Vec::new();
+        let output = context.run(input, |context| {
+            events = ui::frame(context, &self.viewer, &mut self.textures, self.follows_window);
+        });
+        let has_events = !events.is_empty();
+        events.into_iter().for_each(|event| self.event(event));
+        self.viewer.ask();
+        let title = self.viewer.state.title();
+        if title != self.title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
+        self.egui.handle_platform_output(&self.window, output.platform_output);
+        let shapes = Shapes {
+            primitives: context.tessellate(output.shapes, output.pixels_per_point),
+            textures: output.textures_delta,
+            pixels_per_point: output.pixels_per_point,
+        };
+        let size = self.size();
+        // A window without pixels shows nothing; its textures are kept up to date all the same.
+        let picture = self.gl.paint(size, &shapes, is_wanted)?;
+        let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |output| output.repaint_delay);
+        Ok((picture, if has_events { Duration::ZERO } else { delay }))
+    }
+
+    fn event(&mut self, event: ViewerEvent) {
+        if let Some(Effect::FullScreen(is_full)) = self.viewer.event(event) {
+            self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
+        }
+    }
+}
+
+impl App {
+    fn stop(&mut self, event_loop: &ActiveEventLoop, error: Error) {
+        if self.result.is_ok() {
+            self.result = Err(error);
+        }
+        event_loop.exit();
+    }
+
+    fn redraw(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
+        let Some(shown) = &mut self.shown else { return Ok(()) };
+        if let Some(player) = &mut self.player {
+            let is_over = play(player, shown, &mut self.times, self.started)?;
+            if is_over {
+                event_loop.exit();
+            } else {
+                shown.window.request_redraw();
+            }
+            return Ok(());
+        }
+        let (_, delay) = shown.frame(false)?;
+        match delay {
+            Duration::ZERO => shown.window.request_redraw(),
+            delay => event_loop.set_control_flow(
+                // Too long to be a time is for ever.
+                Instant::now().checked_add(delay).map_or(ControlFlow::Wait, ControlFlow::WaitUntil),
+            ),
+        }
+        Ok(())
+    }
+}
+
+/// Plays the next frame of a recording; whether it was the last.
+fn play(player: &mut Player, shown: &mut Shown, times: &mut Times, started: Instant) -> Result<bool> {
+    let start = Instant::now();
+    if player.is_free {
+        shown.viewer.take_reports()?;
+        shown.frame(false)?;
+        times.free_frame_ms.push(milliseconds_since(start));
+        player.is_free = !shown.viewer.is_at_rest();
+        return Ok(!player.is_free && player.frame > player.replay.last_frame());
+    }
+    let lines: Vec<_> = player.replay.lines(player.frame).cloned().collect();
+    lines.iter().filter_map(|line| line.event.clone()).for_each(|event| shown.event(event));
+    player.is_free = lines.iter().any(|line| line.free);
+    if !player.is_free {
+        shown.viewer.rest()?;
+        if shown.follows_window {
+            // The panes take the window's size in the first of the frames that show a change of it.
+            shown.frame(false)?;
+            shown.viewer.rest()?;
+        }
+    }
+    let is_wanted = lines.iter().any(|line| line.window.is_some());
+    if is_wanted {
+        // egui places a sheet that is new where it belongs only once it knows its size.
+        shown.frame(false)?;
+    }
+    let (window, _) = shown.frame(is_wanted)?;
+    times.frame_ms.push(milliseconds_since(start));
+    if times.first_picture_ms.is_none() && shown.viewer.shown().is_some() {
+        times.first_picture_ms = Some(milliseconds_since(started));
+    }
+    for line in lines {
+        if let (Some(name), Some(picture)) = (&line.window, &window) {
+            Target::check(name, false)?.write(picture)?;
+        }
+        if let (Some(name), Some(picture)) = (&line.screenshot, shown.viewer.shown()) {
+            write_rgba_png(&picture, Path::new(name))?;
+        }
+    }
+    player.frame += 1;
+    Ok(!player.is_free && player.frame > player.replay.last_frame())
+}
+
+impl ApplicationHandler<News> for App {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        let Some(viewer) = self.viewer.take() else { return };
+        let follows_window = self.player.as_ref().is_none_or(|player| !player.replay.has_sizes());
+        match Shown::open(event_loop, viewer, self.size, follows_window) {
+            Ok(shown) => {
+                shown.window.request_redraw();
+                self.shown = Some(shown);
+            }
+            Err(error) => self.stop(event_loop, error),
+        }
+    }
+
+    fn exiting(&mut self, _: &ActiveEventLoop) {
+        // While there is still a display.
+        if let Some(shown) = self.shown.take() {
+            self.times.scale = shown.window.scale_factor();
+        }
+    }
+
+    fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
+        if let (StartCause::ResumeTimeReached { .. }, Some(shown)) = (cause, &self.shown) {
+            event_loop.set_control_flow(ControlFlow::Wait);
+            shown.window.request_redraw();
+        }
+    }
+
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, _: News) {
+        let Some(shown) = &mut self.shown else { return };
+        match shown.viewer.take_reports() {
+            Ok(true) => {
+                shown.viewer.ask();
+                shown.window.request_redraw();
+            }
+            Ok(false) => {}
+            Err(error) => self.stop(event_loop, error),
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(shown) = &mut self.shown else { return };
+        match event {
+            WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::RedrawRequested => {
+                if let Err(error) = self.redraw(event_loop) {
+                    self.stop(event_loop, error);
+                }
+            }
+            event => {
+                if let WindowEvent::Resized(_) = event {
+                    shown.gl.resize(shown.size());
+                }
+                if shown.egui.on_window_event(&shown.window, &event).repaint {
+                    shown.window.request_redraw();
+                }
+            }
+        }
+    }
+}
+
+/// DejaVu for everything: egui's own fonts have licences of their own.
+pub(super) fn fonts() -> FontDefinitions {
+    let mut fonts = FontDefinitions::empty();
+    for (name, data, family) in [
+        ("sans", dejavu::sans::regular(), FontFamily::Proportional),
+        ("mono", dejavu::sans_mono::regular(), FontFamily::Monospace),
+    ] {
+        fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(data)));
+        fonts.families.insert(family, vec![name.to_owned()]);
+    }
+    fonts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reason;
+
+    #[test]
+    fn a_reason_names_no_place_in_a_source() {
+        let message =
+            "os error at /a/b/winit-0.30/src/platform_impl/linux/mod.rs:765: neither DISPLAY nor any other is set.";
+        assert_eq!(reason(message), "neither DISPLAY nor any other is set");
+        assert_eq!(reason("Exit(1)"), "Exit(1)");
+    }
+}

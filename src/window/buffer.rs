@@ -1,0 +1,140 @@
+//! The pictures a style can show of its inside.
+
+use crate::edges::{Class, ClassSet};
+use crate::names::find;
+use crate::scene::Color;
+use crate::styles::{ClassColors, Inking, PaintMode, Show, Style, StyleName};
+use std::str::FromStr;
+
+/// What is shown of a style.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Buffer {
+    /// One of its pictures.
+    Show(Show),
+    /// The model's edges, each class in a colour of its own; the same for all styles.
+    EdgeClasses,
+}
+
+impl Default for Buffer {
+    fn default() -> Self {
+        Self::Show(Show::Final)
+    }
+}
+
+/// Edge classes as the user writes them.
+const EDGE_CLASSES: &str = "edge-classes";
+
+impl Buffer {
+    /// As the user writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Show(show) => Show::ALL.iter().find(|(_, known)| *known == show).map_or("final", |(name, _)| name),
+            Self::EdgeClasses => EDGE_CLASSES,
+        }
+    }
+
+    /// The style and its picture that are drawn for this buffer of a style; its finished picture where it has no such buffer.
+    pub fn drawn(self, style: &Style) -> (Style, Show) {
+        match self {
+            Self::EdgeClasses => (edge_classes(), Show::Final),
+            Self::Show(show) if buffers(super::dials::name_of(style)).contains(&self) => (style.clone(), show),
+            Self::Show(_) => (style.clone(), Show::Final),
+        }
+    }
+}
+
+impl FromStr for Buffer {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            EDGE_CLASSES => Ok(Self::EdgeClasses),
+            _ => find(&Show::ALL, text).map(Self::Show).map_err(|problem| format!("{problem}, {EDGE_CLASSES}")),
+        }
+    }
+}
+
+/// The buffers of a style, its finished picture first.
+pub fn buffers(style: StyleName) -> &'static [Buffer] {
+    use Show::{Borders, Cem, Cet, Depth, Diffuse, Final, Map, Normals, Paper, Tones};
+    const CARTOON: &[Buffer] = &[
+        Buffer::Show(Final),
+        Buffer::Show(Map),
+        Buffer::Show(Normals),
+        Buffer::Show(Depth),
+        Buffer::Show(Borders),
+        Buffer::Show(Tones),
+        Buffer::EdgeClasses,
+    ];
+    const INK: &[Buffer] =
+        &[Buffer::Show(Final), Buffer::Show(Map), Buffer::Show(Borders), Buffer::Show(Tones), Buffer::EdgeClasses];
+    const LINES: &[Buffer] = &[Buffer::Show(Final), Buffer::Show(Borders), Buffer::Show(Tones), Buffer::EdgeClasses];
+    const CHARCOAL: &[Buffer] = &[
+        Buffer::Show(Final),
+        Buffer::Show(Diffuse),
+        Buffer::Show(Cem),
+        Buffer::Show(Cet),
+        Buffer::Show(Paper),
+        Buffer::EdgeClasses,
+    ];
+    const PLAIN: &[Buffer] = &[Buffer::Show(Final), Buffer::EdgeClasses];
+    match style {
+        StyleName::ThreePass | StyleName::TwoPass | StyleName::Mrt => CARTOON,
+        StyleName::Ink => INK,
+        StyleName::Inking | StyleName::Dietrich => LINES,
+        StyleName::Charcoal | StyleName::Sand => CHARCOAL,
+        StyleName::Phong => PLAIN,
+    }
+}
+
+/// The colours of classes, in their order, far apart for eyes of any kind.
+pub const CLASS_COLORS: [(Class, [f32; 3]); 7] = [
+    (Class::Boundary, [0.84, 0.37, 0.0]),
+    (Class::NonManifold, [0.8, 0.1, 0.1]),
+    (Class::Silhouette, [0.0, 0.0, 0.0]),
+    (Class::Crease, [0.0, 0.45, 0.7]),
+    (Class::Material, [0.0, 0.62, 0.45]),
+    (Class::Texture, [0.8, 0.47, 0.65]),
+    (Class::Normal, [0.75, 0.65, 0.0]),
+];
+
+/// All edges by class on blank faces.
+fn edge_classes() -> Style {
+    let mut colors = ClassColors::default();
+    for (class, color) in CLASS_COLORS {
+        colors.0[class as usize] = Color(color);
+    }
+    Style::Inking(Inking { classes: ClassSet::EDGES, colors, paint: PaintMode::None, ..Inking::default() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::scene::{Scene, SceneSettings};
+    use std::sync::Arc;
+
+    #[test]
+    fn every_style_plans_every_buffer_it_is_said_to_have_and_no_other() {
+        let scene = Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings::default()).unwrap();
+        // Sand draws only models with pictures on them.
+        for (name, style) in StyleName::ALL.into_iter().filter(|(_, style)| *style != StyleName::Sand) {
+            for (_, show) in Show::ALL {
+                let is_known = buffers(style).contains(&Buffer::Show(show));
+                assert_eq!(Style::named(style).plan(&scene, show).is_ok(), is_known, "{name} {show:?}");
+            }
+            let (classes, show) = Buffer::EdgeClasses.drawn(&Style::named(style));
+            assert!(classes.plan(&scene, show).is_ok());
+        }
+    }
+
+    #[test]
+    fn buffers_are_read_by_the_names_they_have() {
+        for (_, style) in StyleName::ALL {
+            for buffer in buffers(style) {
+                assert_eq!(buffer.name().parse(), Ok(*buffer));
+            }
+        }
+        assert!("bumps".parse::<Buffer>().unwrap_err().contains("edge-classes"));
+    }
+}

@@ -1,0 +1,242 @@
+//! The thread that draws: it owns the renderer, takes jobs and answers with pictures, so that the window answers meanwhile.
+//!
+//! In: a [`Job`], all values. Out: the pictures that `tinta render` draws with the same settings, byte for byte, because
+//! it is the same renderer with the same plans.
+
+use super::event::Side;
+use super::orbit::Orbit;
+use super::report::{Report, Reporter};
+use crate::camera::CameraSettings;
+use crate::error::{Error, Result};
+use crate::gl::{Backend, ContextInfo};
+use crate::measure::Ink;
+use crate::picture::Picture;
+use crate::plan::prune::{Pruning, prune};
+use crate::renderer::{PassTime, Renderer, milliseconds_since};
+use crate::scene::{Scene, SceneSettings};
+use crate::styles::{Show, Style};
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Instant;
+
+/// What is to be drawn.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// The models, at their places.
+    pub scene: Arc<Scene>,
+    /// From where.
+    pub orbit: Orbit,
+    /// The rest of the scene's settings.
+    pub settings: SceneSettings,
+    /// What of which style for each side that is seen.
+    pub drawings: Vec<(Side, Style, Show)>,
+}
+
+/// A side's picture.
+#[derive(Debug, Clone)]
+pub struct Drawing {
+    /// Which side.
+    pub side: Side,
+    /// The picture.
+    pub picture: Picture,
+    /// Time from the style's plan to the picture read back, milliseconds.
+    pub frame_ms: f64,
+}
+
+/// What a side's picture costs.
+#[derive(Debug)]
+pub struct Cost {
+    /// Which side.
+    pub side: Side,
+    /// The style's name.
+    pub style: &'static str,
+    /// Time of each pass.
+    pub passes: Vec<PassTime>,
+    /// The lines it draws; `None` for a style without.
+    pub ink: Option<Ink>,
+}
+
+/// What the drawing thread is told.
+pub enum Order {
+    /// Draw this.
+    Draw(Box<Job>),
+    /// Time this and draw its lines by themselves.
+    Price(Box<Job>),
+    /// Use these shaders instead of those built in, by their paths below `glsl/`.
+    Shaders(HashMap<String, String>),
+}
+
+/// Frames from which the time of a pass is taken.
+const TIMED_FRAMES: usize = 5;
+
+/// What draws: a renderer and shaders that may have been replaced.
+pub struct Drawer {
+    renderer: Renderer,
+    shaders: HashMap<String, String>,
+    /// Whether the driver has drawn with them.
+    are_tried: bool,
+    /// Those that it drew with last.
+    good_shaders: HashMap<String, String>,
+}
+
+impl Drawer {
+    /// Opens a context.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::new`].
+    pub fn new(backend: Backend) -> Result<Self> {
+        let renderer = Renderer::new(backend)?;
+        Ok(Self { renderer, shaders: HashMap::new(), are_tried: true, good_shaders: HashMap::new() })
+    }
+
+    /// What the context says about itself.
+    pub fn context(&self) -> &ContextInfo {
+        self.renderer.context()
+    }
+
+    /// How many GL objects it holds.
+    pub fn live_objects(&self) -> usize {
+        self.renderer.live_objects()
+    }
+
+    /// Takes shaders from now on from these texts where they are among them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::replace_shaders`].
+    pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<()> {
+        self.renderer.replace_shaders(shaders.clone())?;
+        self.shaders = shaders;
+        self.are_tried = false;
+        Ok(())
+    }
+
+    /// Draws a job's pictures; after a shader that does not link the ones before it are used again, and its log is said.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::render`].
+    pub fn draw(&mut self, job: &Job) -> Result<(Vec<Drawing>, Option<String>)> {
+        match self.draw_once(job) {
+            Err(error @ Error::Shader { .. }) if !self.are_tried => {
+                self.shaders = self.good_shaders.clone();
+                self.are_tried = true;
+                self.renderer.replace_shaders(self.shaders.clone())?;
+                Ok((self.draw_once(job)?, Some(error.to_string())))
+            }
+            Ok(drawings) => {
+                if !self.are_tried {
+                    self.good_shaders = self.shaders.clone();
+                    self.are_tried = true;
+                }
+                Ok((drawings, None))
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    fn draw_once(&mut self, job: &Job) -> Result<Vec<Drawing>> {
+        let scene = job.scene()?;
+        let draw = |(side, style, show): &(Side, Style, Show)| {
+            let start = Instant::now();
+            let picture = self.draw_scene(&scene, style, *show)?;
+            Ok(Drawing { side: *side, picture, frame_ms: milliseconds_since(start) })
+        };
+        job.drawings.iter().map(draw).collect()
+    }
+
+    /// Draws a scene, without what cannot change the picture.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::render`].
+    pub fn draw_scene(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<Picture> {
+        let plan = style.plan(scene, show)?;
+        let plan = prune(&plan, scene, &Pruning::for_context(self.renderer.context(), 1)).plan;
+        self.renderer.draw(scene, &plan)
+    }
+
+    /// Times the passes of a job's pictures and draws their lines by themselves.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::render`].
+    pub fn price(&mut self, job: &Job) -> Result<(Scene, Vec<Cost>)> {
+        let scene = job.scene()?;
+        let mut costs = Vec::new();
+        for (side, style, _) in &job.drawings {
+            let plan = style.plan(&scene, Show::Final)?;
+            let plan = prune(&plan, &scene, &Pruning::for_context(self.renderer.context(), 1)).plan;
+            let passes = self.renderer.time_passes(&scene, &plan, TIMED_FRAMES)?;
+            let ink = Ink::of_style(&mut self.renderer, &scene, style)?;
+            costs.push(Cost { side: *side, style: style.name(), passes, ink });
+        }
+        Ok((scene, costs))
+    }
+}
+
+impl Job {
+    /// The camera.
+    ///
+    /// # Errors
+    ///
+    /// As [`Orbit::settings`].
+    pub fn camera(&self) -> Result<CameraSettings> {
+        self.orbit.settings(&self.scene, &self.settings)
+    }
+
+    /// The scene as it is seen.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scene::new`].
+    pub fn scene(&self) -> Result<Scene> {
+        self.scene.seen_with(&SceneSettings { camera: self.camera()?, ..self.settings.clone() })
+    }
+
+    /// Whether it would draw the same as another.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let key = |job: &Self| (job.settings.size, job.settings.background, job.settings.color);
+        Arc::ptr_eq(&self.scene, &other.scene)
+            && self.orbit == other.orbit
+            && key(self) == key(other)
+            && self.drawings == other.drawings
+    }
+}
+
+/// Starts the thread. It ends when its orders do, and must be waited for then: a driver does not bear a program's end while it
+/// draws.
+pub fn start(backend: Backend, reporter: Reporter) -> std::io::Result<(Sender<Order>, JoinHandle<()>)> {
+    let (orders, taken) = channel();
+    let thread = std::thread::Builder::new().name("drawing".to_owned());
+    let thread = thread.spawn(move || work(backend, &taken, &reporter))?;
+    Ok((orders, thread))
+}
+
+fn work(backend: Backend, orders: &Receiver<Order>, reporter: &Reporter) {
+    let mut drawer = match Drawer::new(backend) {
+        Ok(drawer) => drawer,
+        Err(error) => return reporter.say(Report::NoRenderer(error)),
+    };
+    reporter.say(Report::Renderer(Box::new(drawer.context().clone())));
+    // Until the viewer lets go of its end.
+    while let Ok(order) = orders.recv() {
+        reporter.say(match order {
+            Order::Draw(job) => match drawer.draw(&job) {
+                Ok((drawings, shader_log)) => Report::Drawn { drawings, shader_log },
+                Err(error) => Report::NotDrawn(error),
+            },
+            Order::Price(job) => match drawer.price(&job) {
+                Ok((scene, costs)) => Report::Priced { scene: Box::new(scene), costs },
+                Err(error) => Report::NotPriced(error),
+            },
+            Order::Shaders(shaders) => match drawer.replace_shaders(shaders) {
+                Ok(()) => Report::ShadersTaken,
+                Err(error) => Report::ShadersRefused(error),
+            },
+        });
+    }
+}

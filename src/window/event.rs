@@ -1,0 +1,113 @@
+//! What can happen to the viewer, as plain values: the mouse, the keys and the panel make them, a recording holds them.
+
+use serde::{Deserialize, Serialize};
+
+/// One of the two styles of a split view; of a single one the left.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// Left.
+    #[default]
+    Left,
+    /// Right.
+    Right,
+}
+
+/// What is seen of the two styles.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Layout {
+    /// The left style alone.
+    #[default]
+    Single,
+    /// Both, one picture cut by a divider.
+    Split,
+    /// Both whole, and their difference as a third pane.
+    Difference,
+}
+
+/// Something that happens.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ViewerEvent {
+    /// The model is turned by a drag to the right and down, shares of a pane's height.
+    Turn([f64; 2]),
+    /// It is moved likewise.
+    Move([f64; 2]),
+    /// It is brought nearer by this factor.
+    Zoom(f64),
+    /// The whole model from the default view.
+    Reset,
+    /// The whole model from a view, by its name or `AZIMUTH,ELEVATION`.
+    View(String),
+    /// From perspective to parallel projection or back.
+    Projection,
+    /// The style of a side, by its name.
+    Style(Side, String),
+    /// A setting of a side's style: option, value.
+    Set(Side, String, String),
+    /// The same back to the paper's value.
+    Default(Side, String),
+    /// All of a side's settings back to the paper's.
+    Faithful(Side),
+    /// The side that number keys and the panel are for.
+    Choose(Side),
+    /// What is seen of the two styles.
+    Layout(Layout),
+    /// From one, to both, to both and their difference, and back.
+    NextLayout,
+    /// The divider, share of the width.
+    Divide(f64),
+    /// The next buffer.
+    NextBuffer,
+    /// A buffer by its name, `final` for the finished picture.
+    Buffer(String),
+    /// Background colour.
+    Background(String),
+    /// The panel, shown or not.
+    Panel,
+    /// The key sheet.
+    KeySheet,
+    /// The whole screen.
+    FullScreen,
+    /// Times and errors, shown or not.
+    Price,
+    /// The drawing area's size, pixels.
+    Resize([u32; 2]),
+    /// Models to show instead, by their paths.
+    Open(Vec<String>),
+    /// The picture as it is shown, into a file.
+    SavePicture,
+    /// The exact lines of this view, into a file.
+    SaveLines,
+    /// A turn around the model, into a file.
+    SaveTurn,
+    /// The side's settings, into a preset's file.
+    SavePreset,
+    /// Settings from a preset's file or by its name.
+    OpenPreset(String),
+}
+
+/// What the state cannot do by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Effect {
+    /// Read these models.
+    Open(Vec<String>),
+    /// Write a file of this kind.
+    Save(Save),
+    /// Cover the whole screen, or no longer.
+    FullScreen(bool),
+}
+
+/// Kinds of files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Save {
+    /// PNG of what is shown.
+    Picture,
+    /// SVG of the exact lines.
+    Lines,
+    /// GIF of a turn.
+    Turn,
+    /// TOML.
+    Preset,
+}

@@ -1,0 +1,195 @@
+//! Where the viewer's eye is: turned, moved and brought nearer by hand, and the camera settings that says so to a renderer.
+//!
+//! In: degrees, shares of the picture's height and a zoom. Out: [`CameraSettings`], the same that `tinta render` is given by
+//! `--view`, or once the view was moved or zoomed by `--eye`, `--target`, `--up` and `--height`.
+
+use crate::camera::{Camera, CameraSettings, Projection, View};
+use crate::error::Result;
+use crate::scene::{Scene, SceneSettings};
+use glam::DVec3;
+
+/// The eye on a sphere around the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orbit {
+    /// From where.
+    pub view: View,
+    /// How many times as large as fitted the scene is shown where the target is.
+    pub zoom: f64,
+    /// How far the picture's middle is from the scene's, to the right and up, shares of the fitted picture's height.
+    pub pan: [f64; 2],
+    /// Parallel instead of perspective projection.
+    pub parallel: bool,
+    /// Vertical field of view, degrees.
+    pub fov_y_degrees: f64,
+}
+
+/// Least and most zoom: beyond, depth has too few steps or the scene is a dot.
+const ZOOM: [f64; 2] = [0.05, 50.0];
+
+/// Farthest the picture's middle is moved, shares of the fitted picture's height.
+const FARTHEST_PAN: f64 = 2.0;
+
+/// Degrees that a drag over the whole height of a picture turns.
+const DEGREES_A_HEIGHT: f64 = 180.0;
+
+impl Default for Orbit {
+    fn default() -> Self {
+        let CameraSettings { view, parallel, fov_y_degrees, .. } = CameraSettings::default();
+        Self { view, zoom: 1.0, pan: [0.0; 2], parallel, fov_y_degrees }
+    }
+}
+
+impl Orbit {
+    /// Turns by a drag to the right and down, shares of the picture's height: the surface follows the pointer.
+    pub fn turn(&mut self, right: f64, down: f64) {
+        let View { azimuth_degrees, elevation_degrees } = self.view;
+        self.view = View {
+            azimuth_degrees: wrapped(azimuth_degrees - right * DEGREES_A_HEIGHT),
+            elevation_degrees: (elevation_degrees + down * DEGREES_A_HEIGHT).clamp(-90.0, 90.0),
+        };
+    }
+
+    /// Moves the scene with a drag to the right and down, shares of the picture's height.
+    pub fn move_by(&mut self, right: f64, down: f64) {
+        let limited = |value: f64| value.clamp(-FARTHEST_PAN, FARTHEST_PAN);
+        self.pan = [limited(self.pan[0] - right / self.zoom), limited(self.pan[1] + down / self.zoom)];
+    }
+
+    /// Brings the scene nearer by this factor, or farther below 1.
+    pub fn zoom_by(&mut self, factor: f64) {
+        self.zoom = (self.zoom * factor).clamp(ZOOM[0], ZOOM[1]);
+    }
+
+    /// Looks from here at the whole scene.
+    pub fn look_from(&mut self, view: View) {
+        *self = Self { view, parallel: self.parallel, fov_y_degrees: self.fov_y_degrees, ..Self::default() };
+    }
+
+    /// Whether the whole scene is fitted into the picture.
+    pub fn is_fitted(&self) -> bool {
+        self.zoom == 1.0 && self.pan == [0.0; 2]
+    }
+
+    /// As fitted to any scene, not moved, not zoomed.
+    fn fitted(&self) -> CameraSettings {
+        let Self { view, parallel, fov_y_degrees, .. } = *self;
+        CameraSettings { view, parallel, fov_y_degrees, ..CameraSettings::default() }
+    }
+
+    /// The camera settings for a scene shown with these others.
+    ///
+    /// # Errors
+    ///
+    /// [`crate::Error::Setting`] where the fitted camera is refused.
+    pub fn settings(&self, scene: &Scene, settings: &SceneSettings) -> Result<CameraSettings> {
+        let fitted = self.fitted();
+        if self.is_fitted() {
+            return Ok(fitted);
+        }
+        let camera = scene.seen_with(&SceneSettings { camera: fitted.clone(), ..settings.clone() })?.camera;
+        Ok(self.moved(&camera, fitted))
+    }
+
+    /// The fitted camera, moved and zoomed.
+    fn moved(&self, camera: &Camera, fitted: CameraSettings) -> CameraSettings {
+        let view = camera.view_from_world();
+        let [right, up, back] = [0, 1, 2].map(|row| view.row(row).truncate());
+        let distance = camera.eye.distance(camera.target);
+        let height = match camera.projection {
+            Projection::Perspective { fov_y_degrees } => 2.0 * distance * (fov_y_degrees.to_radians() * 0.5).tan(),
+            Projection::Parallel { height } => height,
+        };
+        let target: DVec3 = camera.target + (right * self.pan[0] + up * self.pan[1]) * height;
+        let (distance, height) = match camera.projection {
+            Projection::Perspective { .. } => (distance / self.zoom, None),
+            Projection::Parallel { height } => (distance, Some(height / self.zoom)),
+        };
+        let eye = Some(target + back * distance);
+        CameraSettings { eye, target: Some(target), up: Some(camera.up), height, ..fitted }
+    }
+}
+
+/// An angle between -180 and 180 degrees.
+fn wrapped(degrees: f64) -> f64 {
+    let turned = degrees.rem_euclid(360.0);
+    if turned > 180.0 { turned - 360.0 } else { turned }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use std::sync::Arc;
+
+    fn scene() -> Scene {
+        Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings::default()).unwrap()
+    }
+
+    fn camera(orbit: &Orbit) -> Camera {
+        let (scene, settings) = (scene(), SceneSettings::default());
+        let camera = orbit.settings(&scene, &settings).unwrap();
+        scene.seen_with(&SceneSettings { camera, ..settings }).unwrap().camera
+    }
+
+    #[test]
+    fn an_orbit_left_alone_is_the_cameras_default() {
+        assert_eq!(Orbit::default().settings(&scene(), &SceneSettings::default()).unwrap(), CameraSettings::default());
+    }
+
+    #[test]
+    fn turning_wraps_around_and_stops_at_the_poles() {
+        let mut orbit = Orbit::default();
+        orbit.turn(-1.0, 0.0);
+        assert_eq!(orbit.view.azimuth_degrees, -150.0);
+        orbit.turn(0.0, 3.0);
+        assert_eq!(orbit.view.elevation_degrees, 90.0);
+        orbit.turn(0.0, -7.0);
+        assert_eq!(orbit.view.elevation_degrees, -90.0);
+    }
+
+    #[test]
+    fn what_is_dragged_stays_under_the_pointer() {
+        for parallel in [false, true] {
+            for zoom in [1.0, 4.0] {
+                let mut orbit = Orbit { parallel, ..Orbit::default() };
+                orbit.zoom_by(zoom);
+                let before = camera(&orbit);
+                orbit.move_by(0.25, 0.1);
+                let after = camera(&orbit);
+                let place = |camera: &Camera| {
+                    let clip = camera.clip_from_view(1.0) * camera.view_from_world();
+                    clip.project_point3(before.target)
+                };
+                let [before, after] = [place(&before), place(&after)];
+                // A picture is 2 clip units high; perspective changes nothing in the plane of the target.
+                assert!((after.x - before.x - 0.5).abs() < 1e-9, "{parallel} {zoom}: {before} {after}");
+                assert!((after.y - before.y + 0.2).abs() < 1e-9, "{parallel} {zoom}: {before} {after}");
+            }
+        }
+    }
+
+    #[test]
+    fn zooming_twice_by_two_shows_everything_four_times_as_large() {
+        for parallel in [false, true] {
+            let size = |zoom: f64| {
+                let camera = camera(&Orbit { parallel, zoom, ..Orbit::default() });
+                let clip = camera.clip_from_view(1.0) * camera.view_from_world();
+                let right = camera.view_from_world().row(0).truncate() * 1e-6;
+                clip.project_point3(camera.target + right).x - clip.project_point3(camera.target).x
+            };
+            assert!((size(4.0) / size(1.0) - 4.0).abs() < 1e-6, "{parallel}");
+        }
+    }
+
+    #[test]
+    fn zoom_and_movement_have_limits() {
+        let mut orbit = Orbit::default();
+        orbit.zoom_by(1e300);
+        orbit.move_by(1e300, -1e300);
+        assert_eq!((orbit.zoom, orbit.pan), (50.0, [-2.0, -2.0]));
+        orbit.zoom_by(0.0);
+        assert_eq!(orbit.zoom, 0.05);
+        orbit.look_from(View { azimuth_degrees: 0.0, elevation_degrees: 0.0 });
+        assert!(orbit.is_fitted());
+    }
+}

@@ -1,0 +1,133 @@
+//! What each style costs and how far its lines are from the exact ones, found out while nothing else is to be done.
+//!
+//! The exact lines of a view take longer than its picture: they are found on a thread of their own, which is told to give up
+//! as soon as the view changes.
+
+use super::draw::Cost;
+use super::event::Side;
+use super::report::{Report, Reporter};
+use crate::error::Result;
+use crate::lines::{LineSettings, Progress};
+use crate::measure::{Ink, LineError, Reference};
+use crate::renderer::PassTime;
+use crate::scene::Scene;
+use std::sync::Arc;
+
+/// Distance within which ink lies on a line, pixels: that of `tinta measure`.
+const TOLERANCE_PX: f64 = 2.0;
+
+/// What is known of the picture that is shown.
+#[derive(Debug, Default)]
+pub struct Price {
+    /// Each side's style with the times of its passes and its lines' error, where they are known.
+    pub sides: Vec<Priced>,
+    /// All that was measured in this view, for the plot.
+    pub history: Vec<Point>,
+    /// What is going on.
+    measuring: Option<Arc<Progress>>,
+    number: u64,
+}
+
+/// A side's price.
+#[derive(Debug, Clone)]
+pub struct Priced {
+    /// Which side.
+    pub side: Side,
+    /// The style's name.
+    pub style: &'static str,
+    /// Each pass and its time.
+    pub passes: Vec<PassTime>,
+    /// Its lines' error; `None` until it is known and for a style without lines.
+    pub error: Option<LineError>,
+    /// Whether it draws lines.
+    pub has_lines: bool,
+}
+
+/// A style's time and error.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// The style's name.
+    pub style: &'static str,
+    /// All passes, milliseconds.
+    pub ms: f64,
+    /// One less F1: 0 where ink and lines are the same.
+    pub error: f64,
+}
+
+/// Most points kept.
+const MOST_POINTS: usize = 64;
+
+impl Priced {
+    /// All passes together, milliseconds by the clock: drivers that draw on the processor answer timer queries too early.
+    pub fn ms(&self) -> f64 {
+        self.passes.iter().map(|pass| pass.cpu_ms).sum()
+    }
+}
+
+impl Price {
+    /// Forgets everything and gives up what is going on: the view has changed.
+    pub fn view_changed(&mut self) {
+        self.style_changed();
+        self.history.clear();
+    }
+
+    /// Forgets what was known of the styles; what was measured in this view stays in the plot.
+    pub fn style_changed(&mut self) {
+        self.sides.clear();
+        self.number += 1;
+        if let Some(progress) = self.measuring.take() {
+            progress.cancel();
+        }
+    }
+
+    /// Whether exact lines are being looked for.
+    pub fn is_measuring(&self) -> bool {
+        self.measuring.is_some()
+    }
+
+    /// Takes a picture's cost and starts to measure its lines.
+    pub fn take(&mut self, scene: Scene, costs: Vec<Cost>, reporter: Reporter) {
+        self.style_changed();
+        let mut inks = Vec::new();
+        for Cost { side, style, passes, ink } in costs {
+            self.sides.push(Priced { side, style, passes, error: None, has_lines: ink.is_some() });
+            inks.extend(ink.map(|ink| (side, ink)));
+        }
+        if inks.is_empty() {
+            return;
+        }
+        let progress = Arc::new(Progress::default());
+        self.measuring = Some(progress.clone());
+        let number = self.number;
+        let work = move || {
+            // Given up, or a scene that has no lines to be found: then there is no number to show.
+            let errors = errors(&scene, &inks, &progress).unwrap_or_default();
+            reporter.say(Report::Measured(number, errors));
+        };
+        if std::thread::Builder::new().name("measuring".to_owned()).spawn(work).is_err() {
+            self.measuring = None;
+        }
+    }
+
+    /// Takes what was measured, unless the view has changed since.
+    pub fn measured(&mut self, number: u64, errors: Vec<(Side, LineError)>) {
+        if number != self.number {
+            return;
+        }
+        self.measuring = None;
+        for (side, error) in errors {
+            if let Some(priced) = self.sides.iter_mut().find(|priced| priced.side == side) {
+                let point = Point { style: priced.style, ms: priced.ms(), error: 1.0 - error.f1 };
+                self.history.push(point);
+                priced.error = Some(error);
+            }
+        }
+        let surplus = self.history.len().saturating_sub(MOST_POINTS);
+        self.history.drain(..surplus);
+    }
+}
+
+fn errors(scene: &Scene, inks: &[(Side, Ink)], progress: &Progress) -> Result<Vec<(Side, LineError)>> {
+    let reference = Reference::with_progress(scene, &LineSettings::default(), progress)?;
+    Ok(inks.iter().map(|(side, ink)| (*side, ink.error(&reference, TOLERANCE_PX))).collect())
+}

@@ -1,0 +1,139 @@
+//! A recording: events by the number of their frame, and pictures to be taken, one JSON object a line.
+//!
+//! ```text
+//! {"frame": 0, "event": {"resize": [320, 240]}}
+//! {"frame": 1, "event": {"turn": [0.25, 0.0]}, "screenshot": "turned.png"}
+//! {"frame": 2, "event": "key-sheet", "window": "keys.png"}
+//! ```
+//!
+//! A frame's events happen first, then its picture is drawn, then it is taken: `screenshot` has the panes as they are shown,
+//! `window` the whole window.
+
+use super::event::ViewerEvent;
+use crate::error::{Error, Result};
+use serde::Deserialize;
+use std::path::Path;
+
+/// A line of a recording.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Line {
+    /// The frame's number, from 0; as the line before it if none is given.
+    pub frame: Option<u64>,
+    /// What happens.
+    pub event: Option<ViewerEvent>,
+    /// A file for what the panes show.
+    pub screenshot: Option<String>,
+    /// A file for what the window shows.
+    pub window: Option<String>,
+    /// Frames go on without waiting for what the event starts; how long each takes is in the record.
+    #[serde(default)]
+    pub free: bool,
+}
+
+/// A recording.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Replay {
+    lines: Vec<(u64, Line)>,
+}
+
+/// The longest recording read, bytes.
+const LONGEST: u64 = 16 << 20;
+
+/// Highest number of a frame.
+const LAST_FRAME: u64 = 1_000_000;
+
+impl Replay {
+    /// Reads a file.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] with the line that cannot be understood.
+    pub fn read(path: &Path) -> Result<Self> {
+        let setting = || format!("--replay {}", path.display());
+        let metadata = std::fs::metadata(path);
+        let text = match metadata {
+            Ok(file) if file.len() > LONGEST => {
+                return Err(Error::setting(setting(), format!("it is longer than {LONGEST} bytes; cut it")));
+            }
+            Ok(file) if !file.is_file() => return Err(Error::setting(setting(), "this is no file; name a recording")),
+            _ => std::fs::read_to_string(path),
+        };
+        let text =
+            text.map_err(|error| Error::setting(setting(), format!("it cannot be read ({error}); check the name")))?;
+        Self::parse(&text).map_err(|problem| Error::setting(setting(), problem))
+    }
+
+    /// Reads a recording's text.
+    ///
+    /// # Errors
+    ///
+    /// A sentence with the number of the line.
+    pub fn parse(text: &str) -> std::result::Result<Self, String> {
+        let mut lines = Vec::new();
+        let mut frame = 0;
+        for (number, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
+            let number = number + 1;
+            let line: Line = serde_json::from_str(text)
+                .map_err(|error| format!("line {number} is no step of a recording ({error})"))?;
+            let this = line.frame.unwrap_or(frame);
+            if this < frame || this > LAST_FRAME {
+                return Err(format!("line {number}: frames are numbered upwards, to {LAST_FRAME} at most"));
+            }
+            frame = this;
+            lines.push((frame, line));
+        }
+        if lines.is_empty() {
+            return Err("it has no line; write one such as {\"frame\": 0, \"screenshot\": \"a.png\"}".to_owned());
+        }
+        Ok(Self { lines })
+    }
+
+    /// The lines of a frame.
+    pub fn lines(&self, frame: u64) -> impl Iterator<Item = &Line> {
+        self.lines.iter().filter(move |(number, _)| *number == frame).map(|(_, line)| line)
+    }
+
+    /// The number of the last frame.
+    pub fn last_frame(&self) -> u64 {
+        self.lines.last().map_or(0, |(frame, _)| *frame)
+    }
+
+    /// Whether it says how large the drawing area is; else it is as the window leaves it.
+    pub fn has_sizes(&self) -> bool {
+        self.lines.iter().any(|(_, line)| matches!(line.event, Some(ViewerEvent::Resize(_))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_without_a_number_belong_to_the_frame_before() {
+        let text =
+            "{\"event\": \"reset\"}\n\n{\"frame\": 2, \"event\": {\"zoom\": 2.0}}\n{\"screenshot\": \"a.png\"}\n";
+        let replay = Replay::parse(text).unwrap();
+        assert_eq!(replay.last_frame(), 2);
+        assert_eq!(replay.lines(0).count(), 1);
+        assert_eq!(replay.lines(1).count(), 0);
+        let second: Vec<&Line> = replay.lines(2).collect();
+        assert_eq!(second[0].event, Some(ViewerEvent::Zoom(2.0)));
+        assert_eq!(second[1].screenshot.as_deref(), Some("a.png"));
+        assert!(!replay.has_sizes());
+    }
+
+    #[test]
+    fn what_is_no_recording_is_refused_by_its_line() {
+        for (text, words) in [
+            ("", "no line"),
+            ("{\"event\": \"reset\"}\n{\"event\": \"jump\"}", "line 2"),
+            ("{\"frame\": 3}\n{\"frame\": 2}", "line 2: frames are numbered upwards"),
+            ("{\"frame\": -1}", "line 1"),
+            ("{\"picture\": \"a.png\"}", "line 1"),
+        ] {
+            let problem = Replay::parse(text).unwrap_err();
+            assert!(problem.contains(words), "{text}: {problem}");
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! What threads tell the viewer, and how they wake it.
+
+use super::draw::{Cost, Drawing};
+use super::event::Side;
+use super::load::LoadedModels;
+use crate::error::Error;
+use crate::gl::ContextInfo;
+use crate::measure::LineError;
+use crate::scene::Scene;
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+
+/// News from a thread.
+#[derive(Debug)]
+pub enum Report {
+    /// There is something to draw with.
+    Renderer(Box<ContextInfo>),
+    /// There is nothing to draw with.
+    NoRenderer(Error),
+    /// A job is done; where a new shader was refused, its log.
+    Drawn {
+        /// The pictures.
+        drawings: Vec<Drawing>,
+        /// What the driver said.
+        shader_log: Option<String>,
+    },
+    /// A job cannot be done.
+    NotDrawn(Error),
+    /// What a job costs, and the scene it draws.
+    Priced {
+        /// The scene.
+        scene: Box<Scene>,
+        /// A cost for each side.
+        costs: Vec<Cost>,
+    },
+    /// What a job costs cannot be found out.
+    NotPriced(Error),
+    /// The drawing thread has new shaders.
+    ShadersTaken,
+    /// It has refused them and uses those before.
+    ShadersRefused(Error),
+    /// How far loading is: the number of the load, and what is being done.
+    Stage(u64, String),
+    /// Models are loaded: the number of the load, and what there is.
+    Loaded(u64, Box<LoadedModels>),
+    /// Models cannot be loaded.
+    NotLoaded(u64, Error),
+    /// Hidden faces are known now: frames are faster from here on.
+    Prepared,
+    /// The error of a side's lines against the exact ones.
+    Measured(u64, Vec<(Side, LineError)>),
+    /// A model's file has changed.
+    ModelChanged,
+    /// Shaders' files have changed: their texts by their paths below `glsl/`.
+    ShadersChanged(HashMap<String, String>),
+    /// A file was written, or why not.
+    Saved(String),
+}
+
+/// Tells the viewer news and wakes it.
+#[derive(Clone)]
+pub struct Reporter {
+    sender: Sender<Report>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+impl Reporter {
+    /// Sends reports here and calls `wake` after each.
+    pub fn new(sender: Sender<Report>, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self { sender, wake: Arc::new(wake) }
+    }
+
+    /// Says it; that nobody listens any more is no error.
+    pub fn say(&self, report: Report) {
+        if self.sender.send(report).is_ok() {
+            (self.wake)();
+        }
+    }
+}

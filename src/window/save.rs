@@ -1,0 +1,194 @@
+//! Files from the window: what is shown, its exact lines, a turn, a preset; and the command line that makes the same.
+
+use super::draw::{Drawer, Job};
+use super::event::{Save, Side};
+use super::state::ViewerState;
+use crate::animation::{AnimationTarget, AnimationWriter};
+use crate::error::Result;
+use crate::gl::{Backend, ContextInfo};
+use crate::lines::{LineSettings, SvgSettings, VisibleLines, svg};
+use crate::mesh::LoadOptions;
+use crate::output::TextTarget;
+use crate::picture::{Picture, Target};
+use crate::preset::{OptionValue, Options, of_load, of_scene, of_show, of_style, to_toml};
+use crate::recipe::{Driver, FileRecord, Recipe, draws_with_textures, files_of};
+use crate::scene::{Scene, SceneSettings, Size};
+use crate::shell;
+use crate::styles::Show;
+use std::path::{Path, PathBuf};
+
+/// Pictures of a turn, and how long each is shown, milliseconds: what `--turntable 36` makes of it.
+const TURN: (u32, u16) = (36, 69);
+
+/// How a model is read and where files go.
+#[derive(Debug, Clone)]
+pub struct Surroundings {
+    /// How the models were read.
+    pub load: LoadOptions,
+    /// OpenGL from.
+    pub backend: Backend,
+    /// Where files are written.
+    pub folder: PathBuf,
+    /// The models' files and what was read beside them.
+    pub files: Vec<PathBuf>,
+    /// Who draws.
+    pub context: Option<Box<ContextInfo>>,
+}
+
+/// The command that makes the same as is shown of a side, into a file of this kind.
+///
+/// # Errors
+///
+/// [`crate::Error::Setting`] where a setting has no option, and what the camera is refused for.
+pub fn command(
+    state: &ViewerState,
+    job: &Job,
+    surroundings: &Surroundings,
+    save: Save,
+    output: &str,
+) -> Result<String> {
+    Ok(recipe(state, job, surroundings, save)?.command_line(output))
+}
+
+/// The recipe of what is shown of the active side, without the files' contents.
+fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save) -> Result<Recipe> {
+    let mut options = of_scene(&SceneSettings { camera: job.camera()?, ..job.settings.clone() });
+    options.extend(of_load(&surroundings.load)?);
+    // The exact lines have no style.
+    if save != Save::Lines {
+        options.extend(style_options(state, job, state.active)?);
+    }
+    if save == Save::Turn {
+        options.insert("turntable".to_owned(), OptionValue::text(TURN.0.to_string()));
+    }
+    let Size { width, height } = job.settings.size;
+    Ok(Recipe {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        command: "render".to_owned(),
+        style: if save == Save::Lines { "lines" } else { state.style(state.active).name() }.to_owned(),
+        size: [width, height],
+        models: state.models.clone(),
+        options,
+        files: Vec::new(),
+        gl: surroundings.context.as_deref().filter(|_| save != Save::Lines).map(Driver::new),
+    })
+}
+
+/// The same with the files' contents.
+fn whole_recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save) -> Result<Recipe> {
+    let mut paths = surroundings.files.clone();
+    if let Some((_, style, _)) = job.drawings.iter().find(|(side, ..)| *side == state.active && save != Save::Lines) {
+        if draws_with_textures(style) {
+            let materials = job.scene.objects.iter().flat_map(|object| &object.mesh.materials);
+            paths.extend(materials.filter_map(|material| material.texture.clone()));
+        }
+        paths.extend(files_of(style));
+    }
+    let mut seen = std::collections::HashSet::new();
+    paths.retain(|path| seen.insert(path.clone()));
+    let files = paths.iter().filter_map(|path| FileRecord::of(path).ok()).collect();
+    Ok(Recipe { files, ..recipe(state, job, surroundings, save)? })
+}
+
+/// The options of what is shown of a side.
+fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> {
+    let drawn = job.drawings.iter().find(|(drawn, ..)| *drawn == side);
+    let (style, show) = drawn.map_or((state.style(side), Show::Final), |(_, style, show)| (style, *show));
+    let mut options = of_style(style)?;
+    options.extend(of_show(show));
+    Ok(options)
+}
+
+/// Writes a file of what is shown and says where, with the command that makes the same.
+///
+/// # Errors
+///
+/// [`crate::Error::Output`] and what drawing is refused for.
+pub fn save(
+    state: &ViewerState,
+    job: &Job,
+    shown: Option<&Picture>,
+    surroundings: &Surroundings,
+    save: Save,
+) -> Result<String> {
+    let path = free_name(&surroundings.folder, &stem(state), save);
+    let name = path.to_string_lossy().into_owned();
+    let command = command(state, job, surroundings, save, &name);
+    match save {
+        Save::Picture => {
+            let Some(shown) = shown else { return Ok("there is no picture yet".to_owned()) };
+            let target = Target::check(&name, false)?;
+            if state.sides().len() == 1 {
+                let recipe = whole_recipe(state, job, surroundings, save).ok();
+                target.write_with(shown, recipe.and_then(|recipe| recipe.note()).as_ref())?;
+            } else {
+                // A cut or a difference is put together here: no command makes it.
+                target.write(shown)?;
+                let each = command.unwrap_or_else(|error| error.to_string());
+                return Ok(format!("{name}; the {} style alone: {each}", state.style(state.active).name()));
+            }
+        }
+        Save::Lines => {
+            let target = TextTarget::check(&name)?;
+            let lines = VisibleLines::of(&job.scene()?, &LineSettings::default())?;
+            let recipe = whole_recipe(state, job, surroundings, save)?;
+            let settings = SvgSettings {
+                title: state.models.join(", "),
+                command: recipe.command_line("drawing.svg"),
+                recipe: recipe.json().unwrap_or_default(),
+                background: job.settings.background,
+                ..SvgSettings::default()
+            };
+            target.write(&svg(&lines, &settings)?)?;
+        }
+        Save::Turn => turn(job, state.active, surroundings.backend, &name)?,
+        Save::Preset => {
+            let options = style_options(state, job, state.active)?;
+            TextTarget::check(&name)?.write(&to_toml(&options, "Saved by tinta view."))?;
+            let use_it = shell::quoted(&name);
+            return Ok(format!("{name}; render, compare and measure take it: --preset {use_it}"));
+        }
+    }
+    Ok(match command {
+        Ok(command) => format!("{name}; the same by {command}"),
+        Err(error) => format!("{name}; no command makes the same: {error}"),
+    })
+}
+
+/// A turn around what a side shows, in a renderer of its own.
+fn turn(job: &Job, side: Side, backend: Backend, name: &str) -> Result<()> {
+    let target = AnimationTarget::check(name, false)?;
+    let mut drawer = Drawer::new(backend)?;
+    let scene = job.scene()?;
+    let Some((_, style, show)) = job.drawings.iter().find(|(drawn, ..)| *drawn == side) else { return Ok(()) };
+    let mut writer = AnimationWriter::new(target, TURN.0, TURN.1)?;
+    for camera in scene.turntable(&job.camera()?, TURN.0)? {
+        let scene = Scene { camera, ..scene.clone() };
+        writer.add(drawer.draw_scene(&scene, style, *show)?)?;
+    }
+    writer.finish().map(drop)
+}
+
+/// `bust-three-pass`.
+fn stem(state: &ViewerState) -> String {
+    let first = state.models.first().map_or("tinta", String::as_str);
+    let model = first.strip_prefix("builtin:").unwrap_or(first);
+    let model = Path::new(model).file_stem().map_or("model".into(), |stem| stem.to_string_lossy());
+    let styles: Vec<&str> = state.sides().iter().map(|side| state.style(*side).name()).collect();
+    format!("{model}-{}", styles.join("-"))
+}
+
+/// A name that no file has yet, so that nothing is written over.
+fn free_name(folder: &Path, stem: &str, save: Save) -> PathBuf {
+    let extension = match save {
+        Save::Picture => "png",
+        Save::Lines => "svg",
+        Save::Turn => "gif",
+        Save::Preset => "toml",
+    };
+    let name = |number: u32| match number {
+        1 => folder.join(format!("{stem}.{extension}")),
+        number => folder.join(format!("{stem}-{number}.{extension}")),
+    };
+    (1..).map(name).find(|path| path.symlink_metadata().is_err()).unwrap_or_else(|| name(1))
+}

@@ -1,0 +1,299 @@
+//! The viewer as a value: what is shown, from where, in which styles; and how events change it. No window here, no GL.
+
+use super::buffer::{Buffer, buffers};
+use super::dials::{find_dial, name_of};
+use super::event::{Effect, Layout, Save, Side, ViewerEvent};
+use super::orbit::Orbit;
+use crate::camera::View;
+use crate::scene::{Background, Color, SceneSettings, Size};
+use crate::styles::{Style, StyleName};
+
+/// All that decides what the viewer shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewerState {
+    /// The models, as the user named them.
+    pub models: Vec<String>,
+    /// From where they are seen.
+    pub orbit: Orbit,
+    /// The styles of both sides by their names, with the settings each had last.
+    pub(super) styles: [Vec<Style>; 2],
+    /// Which of them is shown.
+    pub(super) chosen: [StyleName; 2],
+    /// The side that number keys and the panel are for.
+    pub active: Side,
+    /// What is seen of the two styles.
+    pub layout: Layout,
+    /// Where the divider is, share of the width.
+    pub divider: f64,
+    /// What is shown of them.
+    pub buffer: Buffer,
+    /// Behind the models.
+    pub background: Background,
+    /// One colour for all surfaces.
+    pub color: Option<Color>,
+    /// Size of the drawing area, pixels.
+    pub area: Size,
+    /// Whether the panel is shown.
+    pub has_panel: bool,
+    /// Whether the key sheet is.
+    pub has_key_sheet: bool,
+    /// Whether times and errors are.
+    pub has_price: bool,
+    /// Whether the whole screen is covered.
+    pub is_full_screen: bool,
+    /// A sentence about the last event, where there is something to say.
+    pub message: Option<String>,
+}
+
+/// The divider stays this share of the width away from both edges.
+const DIVIDER_MARGIN: f64 = 0.02;
+
+/// Pixels between the panes of a difference.
+const GAP_PX: u32 = 2;
+
+/// Largest side of a drawing area asked for by an event.
+const LARGEST_SIDE: u32 = 16_384;
+
+impl Default for ViewerState {
+    fn default() -> Self {
+        let all = || StyleName::ALL.into_iter().map(|(_, name)| Style::named(name)).collect();
+        let SceneSettings { background, color, size, .. } = SceneSettings::default();
+        Self {
+            models: Vec::new(),
+            orbit: Orbit::default(),
+            styles: [all(), all()],
+            chosen: [StyleName::ThreePass, StyleName::Inking],
+            active: Side::Left,
+            layout: Layout::Single,
+            divider: 0.5,
+            buffer: Buffer::default(),
+            background,
+            color,
+            area: size,
+            has_panel: false,
+            has_key_sheet: false,
+            has_price: false,
+            is_full_screen: false,
+            message: None,
+        }
+    }
+}
+
+/// A pane: where in the drawing area, pixels from the left, and what it shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pane {
+    /// What is in it.
+    pub content: Content,
+    /// Its left edge.
+    pub left: u32,
+    /// Its size.
+    pub size: Size,
+}
+
+/// What a pane shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Content {
+    /// A side's picture.
+    Picture(Side),
+    /// Both sides' pictures, cut at this column.
+    Cut(u32),
+    /// The difference of both.
+    Difference,
+}
+
+impl ViewerState {
+    /// The first state for these models, seen so.
+    pub fn new(models: Vec<String>, orbit: Orbit) -> Self {
+        Self { models, orbit, ..Self::default() }
+    }
+
+    /// The style a side shows.
+    pub fn style(&self, side: Side) -> &Style {
+        &self.styles[side as usize][self.chosen[side as usize] as usize]
+    }
+
+    /// Shows this style on a side.
+    pub fn put_style(&mut self, side: Side, style: Style) {
+        let name = name_of(&style);
+        self.styles[side as usize][name as usize] = style;
+        self.chosen[side as usize] = name;
+    }
+
+    /// Sets a style's settings on both sides, for when it is chosen.
+    pub fn prepare_style(&mut self, style: &Style) {
+        for side in &mut self.styles {
+            side[name_of(style) as usize] = style.clone();
+        }
+    }
+
+    fn style_mut(&mut self, side: Side) -> &mut Style {
+        &mut self.styles[side as usize][self.chosen[side as usize] as usize]
+    }
+
+    /// The sides that are seen.
+    pub fn sides(&self) -> &'static [Side] {
+        match self.layout {
+            Layout::Single => &[Side::Left],
+            Layout::Split | Layout::Difference => &[Side::Left, Side::Right],
+        }
+    }
+
+    /// Where the panes are.
+    pub fn panes(&self) -> Vec<Pane> {
+        let Size { width, height } = self.area;
+        match self.layout {
+            Layout::Single => vec![Pane { content: Content::Picture(Side::Left), left: 0, size: self.area }],
+            Layout::Split => {
+                let column = (f64::from(width) * self.divider).round() as u32;
+                vec![Pane { content: Content::Cut(column.min(width)), left: 0, size: self.area }]
+            }
+            Layout::Difference => {
+                let size = Size { width: (width.saturating_sub(2 * GAP_PX) / 3).max(1), height };
+                let contents = [Content::Picture(Side::Left), Content::Picture(Side::Right), Content::Difference];
+                let pane = |(index, content)| Pane { content, left: index as u32 * (size.width + GAP_PX), size };
+                contents.into_iter().enumerate().map(pane).collect()
+            }
+        }
+    }
+
+    /// The size that each side's picture is drawn in.
+    pub fn picture_size(&self) -> Size {
+        self.panes().first().map_or(self.area, |pane| pane.size)
+    }
+
+    /// What the scene is drawn with, its camera aside.
+    pub fn scene_settings(&self) -> SceneSettings {
+        SceneSettings {
+            size: self.picture_size(),
+            background: self.background,
+            color: self.color,
+            ..SceneSettings::default()
+        }
+    }
+
+    /// The window's title: model and styles.
+    pub fn title(&self) -> String {
+        let name = |model: &String| {
+            let path = std::path::Path::new(model);
+            path.file_name().map_or_else(|| model.clone(), |name| name.to_string_lossy().into_owned())
+        };
+        let models = match &self.models[..] {
+            [] => "no model".to_owned(),
+            [one] => name(one),
+            [first, others @ ..] => format!("{} and {} more", name(first), others.len()),
+        };
+        let styles: Vec<&str> = self.sides().iter().map(|side| self.style(*side).name()).collect();
+        format!("{models} - {} - tinta", styles.join(" | "))
+    }
+
+    /// Lets an event happen; what comes of it outside of this value is returned.
+    pub fn update(&mut self, event: ViewerEvent) -> Option<Effect> {
+        self.message = None;
+        let result = self.changed(event);
+        result.unwrap_or_else(|problem| {
+            self.message = Some(problem);
+            None
+        })
+    }
+
+    fn changed(&mut self, event: ViewerEvent) -> Result<Option<Effect>, String> {
+        let finite = |value: f64| if value.is_finite() { Ok(value) } else { Err("give finite numbers".to_owned()) };
+        match event {
+            ViewerEvent::Turn([right, down]) => self.orbit.turn(finite(right)?, finite(down)?),
+            ViewerEvent::Move([right, down]) => self.orbit.move_by(finite(right)?, finite(down)?),
+            ViewerEvent::Zoom(factor) => self.orbit.zoom_by(finite(factor)?),
+            ViewerEvent::Reset => self.orbit.look_from(View::DEFAULT),
+            ViewerEvent::View(name) => self.orbit.look_from(name.parse()?),
+            ViewerEvent::Projection => self.orbit.parallel = !self.orbit.parallel,
+            ViewerEvent::Style(side, name) => self.choose_style(side, name.parse()?),
+            ViewerEvent::Set(side, option, value) => {
+                let style = self.style_mut(side);
+                find_dial(style, &option)?.set(style, &value)?;
+            }
+            ViewerEvent::Default(side, option) => {
+                let style = self.style_mut(side);
+                let dial = find_dial(style, &option)?;
+                if let Some(value) = dial.default_value(style) {
+                    dial.set(style, &value)?;
+                }
+            }
+            ViewerEvent::Faithful(side) => *self.style_mut(side) = Style::named(self.chosen[side as usize]),
+            ViewerEvent::Choose(side) => self.active = side,
+            ViewerEvent::Layout(layout) => self.lay_out(layout),
+            ViewerEvent::NextLayout => self.lay_out(match self.layout {
+                Layout::Single => Layout::Split,
+                Layout::Split => Layout::Difference,
+                Layout::Difference => Layout::Single,
+            }),
+            ViewerEvent::Divide(share) => self.divider = finite(share)?.clamp(DIVIDER_MARGIN, 1.0 - DIVIDER_MARGIN),
+            ViewerEvent::NextBuffer => self.buffer = self.next_buffer(),
+            ViewerEvent::Buffer(name) => self.buffer = name.parse()?,
+            ViewerEvent::Background(color) => self.background = Background::Color(color.parse()?),
+            ViewerEvent::Panel => self.has_panel = !self.has_panel,
+            ViewerEvent::KeySheet => self.has_key_sheet = !self.has_key_sheet,
+            ViewerEvent::Price => self.has_price = !self.has_price,
+            ViewerEvent::FullScreen => {
+                self.is_full_screen = !self.is_full_screen;
+                return Ok(Some(Effect::FullScreen(self.is_full_screen)));
+            }
+            ViewerEvent::Resize([width, height]) => {
+                let side = |pixels: u32| pixels.clamp(1, LARGEST_SIDE);
+                self.area = Size { width: side(width), height: side(height) };
+            }
+            ViewerEvent::Open(models) => return Ok((!models.is_empty()).then_some(Effect::Open(models))),
+            ViewerEvent::SavePicture => return Ok(Some(Effect::Save(Save::Picture))),
+            ViewerEvent::SaveLines => return Ok(Some(Effect::Save(Save::Lines))),
+            ViewerEvent::SaveTurn => return Ok(Some(Effect::Save(Save::Turn))),
+            ViewerEvent::SavePreset => return Ok(Some(Effect::Save(Save::Preset))),
+            ViewerEvent::OpenPreset(name) => self.open_preset(&name)?,
+        }
+        Ok(None)
+    }
+
+    fn choose_style(&mut self, side: Side, name: StyleName) {
+        self.chosen[side as usize] = name;
+        // The buffer stays where the new style has it, so that two styles' maps can be compared by a key.
+        if !self.sides().iter().any(|side| buffers(name_of(self.style(*side))).contains(&self.buffer)) {
+            self.buffer = Buffer::default();
+        }
+    }
+
+    fn lay_out(&mut self, layout: Layout) {
+        self.layout = layout;
+        if layout == Layout::Single {
+            self.active = Side::Left;
+        }
+    }
+
+    fn next_buffer(&self) -> Buffer {
+        let known = buffers(name_of(self.style(self.active)));
+        let index = known.iter().position(|buffer| *buffer == self.buffer).unwrap_or(0);
+        known.get((index + 1) % known.len().max(1)).copied().unwrap_or_default()
+    }
+
+    /// Puts a preset's style and settings on the active side. What is not a style's, the camera say, is left as it is.
+    fn open_preset(&mut self, name: &str) -> Result<(), String> {
+        let preset = crate::preset::Preset::read(name).map_err(|error| error.to_string())?;
+        let text = |value: &crate::preset::OptionValue| match value {
+            crate::preset::OptionValue::Switch(true) => "on".to_owned(),
+            crate::preset::OptionValue::Switch(false) => "off".to_owned(),
+            crate::preset::OptionValue::Text(text) => text.clone(),
+        };
+        let style = match preset.options.get("style") {
+            Some(style) => text(style).parse().map_err(|problem| format!("{name}: style: {problem}"))?,
+            None => self.chosen[self.active as usize],
+        };
+        let mut style = Style::named(style);
+        for (option, value) in &preset.options {
+            if let Ok(dial) = find_dial(&style, &format!("--{option}")) {
+                dial.set(&mut style, &text(value)).map_err(|problem| format!("{name}: {problem}"))?;
+            }
+        }
+        self.put_style(self.active, style);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+#[path = "state_tests.rs"]
+mod tests;

@@ -1,0 +1,134 @@
+//! Tests of the viewer's state.
+
+use super::*;
+use crate::styles::Cartoon;
+
+fn after(events: impl IntoIterator<Item = ViewerEvent>) -> ViewerState {
+    let mut state = ViewerState { models: vec!["a/bust.obj".to_owned()], ..ViewerState::default() };
+    events.into_iter().for_each(|event| {
+        state.update(event);
+        assert_eq!(state.message, None);
+    });
+    state
+}
+
+fn set(option: &str, value: &str) -> ViewerEvent {
+    ViewerEvent::Set(Side::Left, option.to_owned(), value.to_owned())
+}
+
+#[test]
+fn it_begins_as_render_does() {
+    let state = ViewerState::default();
+    assert_eq!(*state.style(Side::Left), Style::named(StyleName::ThreePass));
+    let (shown, default) = (state.scene_settings(), SceneSettings::default());
+    assert_eq!((shown.size, shown.background, shown.color), (default.size, default.background, default.color));
+    assert!(state.orbit.is_fitted());
+}
+
+#[test]
+fn a_style_keeps_its_settings_while_another_is_shown() {
+    let style = |name: &str| ViewerEvent::Style(Side::Left, name.to_owned());
+    let state = after([set("--tones", "2"), style("phong"), style("three-pass")]);
+    let Style::ThreePass(Cartoon { tones, .. }) = state.style(Side::Left) else { panic!("three-pass") };
+    assert_eq!(tones.count, 2);
+    let Style::ThreePass(right) = &state.styles[1][StyleName::ThreePass as usize] else { panic!("three-pass") };
+    assert_eq!(right.tones.count, 3, "the other side has its own");
+}
+
+#[test]
+fn a_dial_goes_back_to_the_papers_value_alone_or_with_all_others() {
+    let turned = || vec![set("--tones", "2"), set("--detection-factor", "0.5")];
+    let one = after(turned().into_iter().chain([ViewerEvent::Default(Side::Left, "--tones".to_owned())]));
+    let Style::ThreePass(cartoon) = one.style(Side::Left) else { panic!("three-pass") };
+    assert_eq!((cartoon.tones.count, cartoon.border.unwrap().detection_factor), (3, 0.5));
+    let all = after(turned().into_iter().chain([ViewerEvent::Faithful(Side::Left)]));
+    assert_eq!(*all.style(Side::Left), Style::named(StyleName::ThreePass));
+}
+
+#[test]
+fn what_cannot_be_is_said_in_a_sentence_and_changes_nothing() {
+    let mut state = ViewerState::default();
+    let before = state.clone();
+    for event in [
+        set("--tones", "many"),
+        set("--line-width", "3"),
+        ViewerEvent::View("beneath".to_owned()),
+        ViewerEvent::Style(Side::Right, "oil".to_owned()),
+        ViewerEvent::Turn([f64::NAN, 0.0]),
+        ViewerEvent::Zoom(f64::INFINITY),
+        ViewerEvent::Buffer("bumps".to_owned()),
+        ViewerEvent::OpenPreset("paper:nobody".to_owned()),
+    ] {
+        assert_eq!(state.update(event), None);
+        assert!(state.message.as_ref().is_some_and(|message| message.len() > 10), "{:?}", state.message);
+        assert_eq!(ViewerState { message: None, ..state.clone() }, before);
+    }
+}
+
+#[test]
+fn three_layouts_follow_one_another_and_share_the_area_among_their_panes() {
+    let resize = ViewerEvent::Resize([1000, 400]);
+    let widths =
+        |state: &ViewerState| state.panes().iter().map(|pane| (pane.left, pane.size.width)).collect::<Vec<_>>();
+    let single = after([resize.clone()]);
+    assert_eq!(widths(&single), [(0, 1000)]);
+    let split = after([resize.clone(), ViewerEvent::NextLayout, ViewerEvent::Divide(0.25)]);
+    assert_eq!(split.panes(), [Pane { content: Content::Cut(250), left: 0, size: split.area }]);
+    let three = after([resize, ViewerEvent::NextLayout, ViewerEvent::NextLayout]);
+    assert_eq!(widths(&three), [(0, 332), (334, 332), (668, 332)]);
+    assert_eq!(three.picture_size(), Size { width: 332, height: 400 });
+    assert_eq!(
+        after([ViewerEvent::NextLayout, ViewerEvent::NextLayout, ViewerEvent::NextLayout]).layout,
+        Layout::Single
+    );
+}
+
+#[test]
+fn an_area_of_one_pixel_still_has_panes_of_a_pixel() {
+    for layout in [Layout::Single, Layout::Split, Layout::Difference] {
+        let state = after([ViewerEvent::Layout(layout), ViewerEvent::Resize([0, 0])]);
+        assert_eq!(state.area, Size { width: 1, height: 1 });
+        assert!(state.panes().iter().all(|pane| pane.size.pixel_count() == 1), "{layout:?}");
+    }
+}
+
+#[test]
+fn the_buffer_key_goes_through_all_buffers_and_a_style_without_one_shows_its_picture() {
+    let state = after([ViewerEvent::NextBuffer]);
+    assert_eq!(state.buffer.name(), "map");
+    let around = after(vec![ViewerEvent::NextBuffer; 7]);
+    assert_eq!(around.buffer, Buffer::default());
+    let kept = after([ViewerEvent::NextBuffer, ViewerEvent::Style(Side::Left, "ink".to_owned())]);
+    assert_eq!(kept.buffer.name(), "map");
+    let lost = after([ViewerEvent::NextBuffer, ViewerEvent::Style(Side::Left, "phong".to_owned())]);
+    assert_eq!(lost.buffer, Buffer::default());
+}
+
+#[test]
+fn the_title_says_model_and_styles() {
+    assert_eq!(after([]).title(), "bust.obj - three-pass - tinta");
+    let mut split = after([ViewerEvent::NextLayout]);
+    split.models.push("b.obj".to_owned());
+    assert_eq!(split.title(), "bust.obj and 1 more - three-pass | inking - tinta");
+}
+
+#[test]
+fn a_preset_that_ships_is_a_style_with_the_papers_constants() {
+    let paper = ViewerEvent::OpenPreset("paper:valente-charcoal".to_owned());
+    let state = after([ViewerEvent::Style(Side::Left, "charcoal".to_owned()), set("--seed", "7"), paper]);
+    assert_eq!(*state.style(Side::Left), Style::named(StyleName::Charcoal));
+}
+
+#[test]
+fn events_are_read_back_as_they_were_written() {
+    for event in [
+        set("--tones", "2"),
+        ViewerEvent::Turn([0.5, -0.25]),
+        ViewerEvent::NextLayout,
+        ViewerEvent::Open(vec!["a.obj".to_owned()]),
+        ViewerEvent::Resize([1, 1]),
+    ] {
+        let text = serde_json::to_string(&event).unwrap();
+        assert_eq!(serde_json::from_str::<ViewerEvent>(&text).unwrap(), event, "{text}");
+    }
+}

@@ -1,0 +1,250 @@
+//! A frame of the window: panes, panel, sheets, and the events that mouse and keys make in it.
+
+use super::buffer::{Buffer, CLASS_COLORS};
+use super::compose::difference;
+use super::event::{Side, ViewerEvent};
+use super::keys;
+use super::panel;
+use super::plot;
+use super::state::{Content, Pane};
+use super::viewer::Viewer;
+use crate::picture::Picture;
+use egui::{Align2, Color32, Context, CursorIcon, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2};
+use std::time::Duration;
+
+/// Width of the panel, points.
+const PANEL_WIDTH: f32 = 300.0;
+
+/// Height of the line below the panes, points.
+pub const STATUS_HEIGHT: f32 = 24.0;
+
+/// How far from the divider a pointer takes it, points.
+const DIVIDER_REACH: f32 = 6.0;
+
+/// Points of scrolling that bring the model nearer by e.
+const SCROLL_POINTS: f64 = 300.0;
+
+/// Between updates of what loading is doing.
+const LOADING_INTERVAL: Duration = Duration::from_millis(100);
+
+/// The pictures as textures, made anew when there are new ones.
+#[derive(Default)]
+pub struct Textures {
+    made_of: Option<(u64, bool)>,
+    sides: [Option<TextureHandle>; 2],
+    difference: Option<TextureHandle>,
+}
+
+impl Textures {
+    fn update(&mut self, context: &Context, viewer: &Viewer) {
+        let has_difference = viewer.state.panes().iter().any(|pane| pane.content == Content::Difference);
+        let wanted = Some((viewer.picture_number, has_difference));
+        if self.made_of == wanted {
+            return;
+        }
+        self.made_of = wanted;
+        for side in [Side::Left, Side::Right] {
+            put(context, &mut self.sides[side as usize], viewer.picture(side));
+        }
+        let pictures = viewer.picture(Side::Left).zip(viewer.picture(Side::Right)).filter(|_| has_difference);
+        put(context, &mut self.difference, pictures.map(|(left, right)| difference(left, right)).as_ref());
+    }
+}
+
+fn put(context: &Context, texture: &mut Option<TextureHandle>, picture: Option<&Picture>) {
+    let Some(picture) = picture else {
+        *texture = None;
+        return;
+    };
+    // A map's depth lies in its alpha, which is not meant to be seen through.
+    let image = egui::ColorImage::from_rgba_premultiplied(
+        [picture.size.width as usize, picture.size.height as usize],
+        &picture.clone().opaque().pixels,
+    );
+    match texture {
+        Some(texture) => texture.set(image, TextureOptions::NEAREST),
+        None => *texture = Some(context.load_texture("pane", image, TextureOptions::NEAREST)),
+    }
+}
+
+/// Shows a frame and returns what was done in it. `follows_window`: the drawing area is as large as the window leaves it.
+pub fn frame(context: &Context, viewer: &Viewer, textures: &mut Textures, follows_window: bool) -> Vec<ViewerEvent> {
+    let mut events = Vec::new();
+    textures.update(context, viewer);
+    let state = &viewer.state;
+    // While a text is typed its letters are no keys of ours.
+    if context.memory(|memory| memory.focused()).is_none() {
+        let pressed = |event: &egui::Event| match event {
+            egui::Event::Key { key, pressed: true, modifiers, .. } => keys::event(*key, *modifiers, state),
+            _ => None,
+        };
+        events.extend(context.input(|input| input.events.iter().filter_map(pressed).collect::<Vec<_>>()));
+    }
+    let dropped = context.input(|input| {
+        let paths = input.raw.dropped_files.iter().filter_map(|file| file.path.as_ref());
+        paths.map(|path| path.to_string_lossy().into_owned()).collect::<Vec<_>>()
+    });
+    if !dropped.is_empty() {
+        events.push(ViewerEvent::Open(dropped));
+    }
+    egui::TopBottomPanel::bottom("status").exact_height(STATUS_HEIGHT).show(context, |ui| status(ui, viewer));
+    if state.has_panel {
+        egui::SidePanel::right("panel")
+            .exact_width(PANEL_WIDTH)
+            .resizable(false)
+            .show(context, |ui| panel::show(ui, viewer, &mut events));
+    }
+    egui::CentralPanel::default().frame(egui::Frame::NONE).show(context, |ui| {
+        panes(ui, viewer, textures, follows_window, &mut events);
+    });
+    sheets(context, viewer, &mut events);
+    if viewer.stage.is_some() {
+        context.request_repaint_after(LOADING_INTERVAL);
+    }
+    events
+}
+
+fn status(ui: &mut Ui, viewer: &Viewer) {
+    ui.horizontal_centered(|ui| {
+        let state = &viewer.state;
+        if let Some(message) = &state.message {
+            ui.add(egui::Label::new(message).truncate()).on_hover_text(message);
+            return;
+        }
+        let styles: Vec<String> = state
+            .sides()
+            .iter()
+            .map(|side| {
+                let ms = viewer.drawing(*side).map_or(String::new(), |drawing| format!(" {:.0} ms", drawing.frame_ms));
+                format!("{}{ms}", state.style(*side).name())
+            })
+            .collect();
+        let triangles = viewer.triangle_count().map_or(String::new(), |count| format!("{count} triangles   "));
+        let shown = if state.buffer == Default::default() { "" } else { state.buffer.name() };
+        ui.add(egui::Label::new(format!("{triangles}{}   {shown}   H: keys", styles.join(" | "))).truncate());
+    });
+}
+
+/// The pictures where they belong, and what the mouse does to them.
+fn panes(ui: &mut Ui, viewer: &Viewer, textures: &Textures, follows_window: bool, events: &mut Vec<ViewerEvent>) {
+    let area = ui.max_rect();
+    let scale = ui.ctx().pixels_per_point();
+    let state = &viewer.state;
+    let pixels = [area.width(), area.height()].map(|points| (points * scale).round().max(1.0) as u32);
+    if follows_window && pixels != [state.area.width, state.area.height] {
+        events.push(ViewerEvent::Resize(pixels));
+    }
+    // On whole pixels, so that each of the picture's is one of the screen's.
+    let corner = Pos2::new((area.left() * scale).round() / scale, (area.top() * scale).round() / scale);
+    let response = ui.interact(area, ui.id().with("panes"), Sense::click_and_drag());
+    for pane in state.panes() {
+        paint(ui, textures, pane, corner, scale);
+        if let Content::Cut(column) = pane.content {
+            divider(ui, corner + Vec2::X * (column as f32 / scale), area, events);
+        }
+    }
+    let height = f64::from(area.height().max(1.0));
+    let delta = response.drag_delta();
+    if delta != Vec2::ZERO {
+        let drag = [f64::from(delta.x) / height, f64::from(delta.y) / height];
+        let is_moving = !response.dragged_by(egui::PointerButton::Primary) || ui.input(|input| input.modifiers.shift);
+        events.push(if is_moving { ViewerEvent::Move(drag) } else { ViewerEvent::Turn(drag) });
+    }
+    if response.hovered() {
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta.y, input.zoom_delta()));
+        let factor = (f64::from(scroll) / SCROLL_POINTS).exp() * f64::from(pinch);
+        if factor != 1.0 {
+            events.push(ViewerEvent::Zoom(factor));
+        }
+    }
+}
+
+fn paint(ui: &Ui, textures: &Textures, pane: Pane, corner: Pos2, scale: f32) {
+    let part = |texture: &Option<TextureHandle>, columns: [u32; 2]| {
+        let Some(texture) = texture else { return };
+        let [width, height] = texture.size();
+        let [from, to] = columns.map(|column| (column as f32).min(width as f32));
+        if to <= from {
+            return;
+        }
+        let min = corner + Vec2::new(pane.left as f32 + from, 0.0) / scale;
+        let place = Rect::from_min_size(min, Vec2::new(to - from, height as f32) / scale);
+        let source = Rect::from_min_max(Pos2::new(from / width as f32, 0.0), Pos2::new(to / width as f32, 1.0));
+        ui.painter().image(texture.id(), place, source, Color32::WHITE);
+    };
+    match pane.content {
+        Content::Picture(side) => part(&textures.sides[side as usize], [0, u32::MAX]),
+        Content::Difference => part(&textures.difference, [0, u32::MAX]),
+        Content::Cut(column) => {
+            part(&textures.sides[0], [0, column]);
+            part(&textures.sides[1], [column, u32::MAX]);
+        }
+    }
+}
+
+/// The line between two styles, to be dragged.
+fn divider(ui: &Ui, top: Pos2, area: Rect, events: &mut Vec<ViewerEvent>) {
+    let reach = Rect::from_x_y_ranges(top.x - DIVIDER_REACH..=top.x + DIVIDER_REACH, area.y_range());
+    let response =
+        ui.interact(reach, ui.id().with("divider"), Sense::drag()).on_hover_cursor(CursorIcon::ResizeHorizontal);
+    let is_held = response.hovered() || response.dragged();
+    let stroke = Stroke::new(if is_held { 3.0 } else { 1.5 }, Color32::from_gray(90));
+    ui.painter().vline(top.x, area.y_range(), stroke);
+    ui.painter().circle(Pos2::new(top.x, area.center().y), 6.0, Color32::from_gray(235), stroke);
+    if response.dragged()
+        && let Some(pointer) = response.interact_pointer_pos()
+    {
+        events.push(ViewerEvent::Divide(f64::from((pointer.x - area.left()) / area.width().max(1.0))));
+    }
+}
+
+/// What lies over the panes: keys, prices, what is wrong, what is being read.
+fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
+    let state = &viewer.state;
+    let window = |title: &str| egui::Window::new(title.to_owned()).collapsible(false).resizable(false).movable(false);
+    if state.has_price {
+        window("times and errors").anchor(Align2::LEFT_TOP, [8.0, 8.0]).show(context, |ui| plot::show(ui, viewer));
+    }
+    if let Some(stage) = &viewer.stage {
+        window("loading").anchor(Align2::CENTER_TOP, [0.0, 8.0]).show(context, |ui| ui.label(stage));
+    }
+    for (title, text) in [("this cannot be drawn", &viewer.problem), ("a shader was refused", &viewer.shader_log)] {
+        if let Some(text) = text {
+            window(title).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).max_width(520.0).show(context, |ui| {
+                ui.add(egui::Label::new(text).wrap());
+            });
+        }
+    }
+    if state.buffer == Buffer::EdgeClasses {
+        window("edges").anchor(Align2::LEFT_BOTTOM, [8.0, -8.0 - STATUS_HEIGHT]).show(context, |ui| {
+            for (class, [red, green, blue]) in CLASS_COLORS {
+                let byte = |channel: f32| (channel * 255.0) as u8;
+                ui.horizontal(|ui| {
+                    let (place, _) = ui.allocate_exact_size(Vec2::new(14.0, 8.0), Sense::hover());
+                    ui.painter().rect_filled(place, 1.0, Color32::from_rgb(byte(red), byte(green), byte(blue)));
+                    ui.painter().rect_stroke(place, 1.0, Stroke::new(1.0, Color32::GRAY), egui::StrokeKind::Outside);
+                    ui.label(class.name());
+                });
+            }
+        });
+    }
+    if state.has_key_sheet {
+        let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
+            egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
+                for (keys, what) in keys::SHEET {
+                    ui.strong(*keys);
+                    ui.label(*what);
+                    ui.end_row();
+                }
+            });
+            ui.button("close").clicked()
+        });
+        if shown.is_some_and(|shown| shown.inner == Some(true)) {
+            events.push(ViewerEvent::KeySheet);
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "ui_tests.rs"]
+mod tests;

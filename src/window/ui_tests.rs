@@ -1,0 +1,127 @@
+//! Tests of frames without a window: pointer, wheel, keys and dropped files, as egui is told of them.
+
+use super::*;
+use crate::gl::Backend;
+use crate::mesh::LoadOptions;
+use crate::window::{Layout, ViewerOptions, ViewerState};
+use egui::{Event, Modifiers, MouseWheelUnit, PointerButton, RawInput};
+
+/// A viewer at rest and the frames that show it, 400 x 324 points.
+struct Frames {
+    viewer: Viewer,
+    context: Context,
+    textures: Textures,
+}
+
+impl Frames {
+    fn new() -> Self {
+        let state = ViewerState::new(vec!["builtin:open-box".to_owned()], Default::default());
+        let (load, backend, folder) = (LoadOptions::default(), Backend::Auto, std::env::temp_dir());
+        let viewer = Viewer::start(ViewerOptions { state, load, backend, shaders: None, folder }, || {}).unwrap();
+        let context = Context::default();
+        context.set_fonts(crate::window::app::fonts());
+        let mut frames = Self { viewer, context, textures: Textures::default() };
+        // egui knows where things are once it has shown them.
+        (0..3).for_each(|_| drop(frames.show(Vec::new())));
+        frames
+    }
+
+    /// Shows a frame in which this happens, lets happen what it makes, and waits for the picture.
+    fn show(&mut self, events: Vec<Event>) -> Vec<ViewerEvent> {
+        self.show_with(RawInput { events, ..RawInput::default() })
+    }
+
+    fn show_with(&mut self, input: RawInput) -> Vec<ViewerEvent> {
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(400.0, 300.0 + STATUS_HEIGHT)));
+        let mut made = Vec::new();
+        let _ = self.context.run(RawInput { screen_rect, ..input }, |context| {
+            made = frame(context, &self.viewer, &mut self.textures, true);
+        });
+        made.iter().cloned().for_each(|event| drop(self.viewer.event(event)));
+        self.viewer.rest().unwrap();
+        made
+    }
+
+    /// Presses a button at one place and lets go at another.
+    fn drag(&mut self, button: PointerButton, from: Pos2, to: Pos2) -> Vec<ViewerEvent> {
+        let press = |pos, pressed| Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE };
+        self.show(vec![Event::PointerMoved(from)]);
+        let mut made = self.show(vec![press(from, true)]);
+        // Farther than a click may shake.
+        made.extend(self.show(vec![Event::PointerMoved(from.lerp(to, 0.5))]));
+        made.extend(self.show(vec![Event::PointerMoved(to)]));
+        made.extend(self.show(vec![press(to, false)]));
+        made
+    }
+}
+
+#[test]
+fn the_area_is_what_the_window_leaves_it() {
+    let frames = Frames::new();
+    assert_eq!([frames.viewer.state.area.width, frames.viewer.state.area.height], [400, 300]);
+    assert_eq!(frames.viewer.shown().unwrap().size, frames.viewer.state.area);
+}
+
+#[test]
+fn a_drag_turns_and_one_with_the_other_button_moves() {
+    let mut frames = Frames::new();
+    let before = frames.viewer.state.orbit.view.azimuth_degrees;
+    let made = frames.drag(PointerButton::Primary, Pos2::new(100.0, 100.0), Pos2::new(130.0, 100.0));
+    assert!(made.iter().all(|event| matches!(event, ViewerEvent::Turn(_))), "{made:?}");
+    // 30 of 300 points are a tenth of 180 degrees.
+    assert!((before - frames.viewer.state.orbit.view.azimuth_degrees - 18.0).abs() < 1e-3);
+    frames.drag(PointerButton::Secondary, Pos2::new(100.0, 100.0), Pos2::new(100.0, 160.0));
+    assert!((frames.viewer.state.orbit.pan[1] - 0.2).abs() < 1e-6, "{:?}", frames.viewer.state.orbit.pan);
+}
+
+#[test]
+fn the_divider_follows_a_drag_that_begins_on_it_and_the_model_does_not_turn() {
+    let mut frames = Frames::new();
+    frames.viewer.event(ViewerEvent::Layout(Layout::Split));
+    (0..2).for_each(|_| drop(frames.show(Vec::new())));
+    let made = frames.drag(PointerButton::Primary, Pos2::new(200.0, 80.0), Pos2::new(120.0, 90.0));
+    assert!(!made.is_empty() && made.iter().all(|event| matches!(event, ViewerEvent::Divide(_))), "{made:?}");
+    assert!((frames.viewer.state.divider - 0.3).abs() < 1e-6, "{}", frames.viewer.state.divider);
+}
+
+#[test]
+fn the_wheel_brings_the_model_nearer() {
+    let mut frames = Frames::new();
+    frames.show(vec![Event::PointerMoved(Pos2::new(150.0, 150.0))]);
+    let delta = Vec2::new(0.0, 60.0);
+    frames.show(vec![Event::MouseWheel { unit: MouseWheelUnit::Point, delta, modifiers: Modifiers::NONE }]);
+    (0..20).for_each(|_| drop(frames.show(Vec::new())));
+    let zoom = frames.viewer.state.orbit.zoom;
+    assert!(zoom > 1.05 && zoom < 1.5, "{zoom}");
+}
+
+#[test]
+fn keys_switch_styles_and_a_dropped_file_is_opened() {
+    let mut frames = Frames::new();
+    let key = |key| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
+    frames.show(vec![key(egui::Key::Num5)]);
+    assert_eq!(frames.viewer.state.style(Side::Left).name(), "inking");
+    let path = Some("builtin:gear".into());
+    let dropped_files = vec![egui::DroppedFile { path, ..Default::default() }];
+    let made = frames.show_with(RawInput { dropped_files, ..RawInput::default() });
+    assert_eq!(made, [ViewerEvent::Open(vec!["builtin:gear".to_owned()])]);
+    assert_eq!(frames.viewer.state.models, ["builtin:gear"]);
+}
+
+#[test]
+fn a_frame_in_which_nothing_happens_makes_no_event_and_asks_for_no_other() {
+    let mut frames = Frames::new();
+    for event in [ViewerEvent::Panel, ViewerEvent::KeySheet, ViewerEvent::Price] {
+        frames.viewer.event(event);
+    }
+    frames.context.all_styles_mut(|style| style.animation_time = 0.0);
+    (0..6).for_each(|_| drop(frames.show(Vec::new())));
+    assert_eq!(frames.show(Vec::new()), []);
+    let number = frames.viewer.picture_number;
+    let output = frames.context.run(RawInput::default(), |context| {
+        drop(frame(context, &frames.viewer, &mut frames.textures, false));
+    });
+    let delay = output.viewport_output[&egui::ViewportId::ROOT].repaint_delay;
+    assert!(delay > Duration::from_secs(60), "{delay:?}");
+    assert_eq!(frames.viewer.picture_number, number);
+}

@@ -1,0 +1,383 @@
+//! The viewer without its window: the state, the threads that work for it, and what they have told.
+//!
+//! The window asks [`Viewer::take_reports`] for news when it is woken, hands over events, and paints what is known. One
+//! picture is being drawn at most; when it is there and no longer what is wanted, the next one is asked for. So the newest
+//! wish is always at most a picture away, and nothing is drawn while nothing changes.
+
+use super::compose::composed;
+use super::draw::{self, Drawing, Job, Order};
+use super::event::{Effect, Save, Side, ViewerEvent};
+use super::load::{LoadedModels, Loader};
+use super::price::Price;
+use super::report::{Report, Reporter};
+use super::save::{Surroundings, save};
+use super::state::ViewerState;
+use super::watch;
+use crate::error::{Error, Result};
+use crate::gl::{Backend, ContextInfo};
+use crate::mesh::LoadOptions;
+use crate::picture::Picture;
+use crate::scene::Scene;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+/// How the viewer is started.
+#[derive(Debug, Clone)]
+pub struct ViewerOptions {
+    /// What it shows first; its models are read at once.
+    pub state: ViewerState,
+    /// How models are read.
+    pub load: LoadOptions,
+    /// OpenGL from, for the pictures; the window has its own.
+    pub backend: Backend,
+    /// A folder laid out like `glsl/` whose shaders are used, and used anew when they change.
+    pub shaders: Option<PathBuf>,
+    /// Where files are written.
+    pub folder: PathBuf,
+}
+
+/// The viewer.
+pub struct Viewer {
+    /// What is shown.
+    pub state: ViewerState,
+    /// What the shown styles cost.
+    pub price: Price,
+    /// What loading is doing, while it does.
+    pub stage: Option<String>,
+    /// A shader that was refused, with the driver's log.
+    pub shader_log: Option<String>,
+    /// What is wrong with the models or the picture; stays until it is not.
+    pub problem: Option<String>,
+    surroundings: Surroundings,
+    scene: Option<Arc<Scene>>,
+    drawings: Vec<Drawing>,
+    /// Counts drawings, so that a window knows when to show another.
+    pub picture_number: u64,
+    /// The job that the drawings are of.
+    drawn: Option<Job>,
+    asked: Option<Job>,
+    is_pricing: bool,
+    reporter: Reporter,
+    reports: Receiver<Report>,
+    /// Until the viewer ends.
+    orders: Option<Sender<Order>>,
+    /// Those with a driver at work.
+    drawing_threads: Vec<JoinHandle<()>>,
+    loader: Loader,
+    watched: Sender<Vec<PathBuf>>,
+    loads_going_on: u64,
+    /// The drawing thread's last words, where it has gone.
+    gone: Option<Error>,
+}
+
+impl Viewer {
+    /// Starts the threads and reads the models; `wake` is called from them when there is news.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Gl`] when the system has no threads to give.
+    pub fn start(options: ViewerOptions, wake: impl Fn() + Send + Sync + 'static) -> Result<Self> {
+        let no_thread = |error: std::io::Error| Error::gl("starting the window's threads", error.to_string());
+        let (sender, reports) = channel();
+        let reporter = Reporter::new(sender, wake);
+        let (orders, drawing) = draw::start(options.backend, reporter.clone()).map_err(no_thread)?;
+        if let Some(folder) = &options.shaders {
+            let _ = orders.send(Order::Shaders(watch::shaders_in(folder)));
+        }
+        let watched = watch::start(options.shaders.clone(), reporter.clone()).map_err(no_thread)?;
+        let loader = Loader::new(options.load.clone(), reporter.clone());
+        let surroundings = Surroundings {
+            load: options.load,
+            backend: options.backend,
+            folder: options.folder,
+            files: Vec::new(),
+            context: None,
+        };
+        let mut viewer = Self {
+            state: options.state,
+            price: Price::default(),
+            stage: None,
+            shader_log: None,
+            problem: None,
+            surroundings,
+            scene: None,
+            drawings: Vec::new(),
+            picture_number: 0,
+            drawn: None,
+            asked: None,
+            is_pricing: false,
+            reporter,
+            reports,
+            orders: Some(orders),
+            drawing_threads: vec![drawing],
+            loader,
+            watched,
+            loads_going_on: 0,
+            gone: None,
+        };
+        viewer.open(viewer.state.models.clone());
+        Ok(viewer)
+    }
+
+    /// Lets an event happen. What only a window can do is returned.
+    pub fn event(&mut self, event: ViewerEvent) -> Option<Effect> {
+        let effect = self.state.update(event);
+        match effect {
+            Some(Effect::Open(models)) => self.open(models),
+            Some(Effect::Save(kind)) => self.save(kind),
+            effect @ Some(Effect::FullScreen(_)) => return effect,
+            None => {}
+        }
+        None
+    }
+
+    /// Takes what the threads have told; whether there was anything.
+    ///
+    /// # Errors
+    ///
+    /// What keeps the drawing thread from drawing anything at all.
+    pub fn take_reports(&mut self) -> Result<bool> {
+        let mut is_news = false;
+        while let Ok(report) = self.reports.try_recv() {
+            self.take(report);
+            is_news = true;
+        }
+        self.gone.take().map_or(Ok(is_news), Err)
+    }
+
+    /// Waits for news and takes them, for recordings that are played step by step.
+    ///
+    /// # Errors
+    ///
+    /// As [`Viewer::take_reports`].
+    pub fn wait(&mut self) -> Result<()> {
+        if let Ok(report) = self.reports.recv() {
+            self.take(report);
+        }
+        self.take_reports().map(drop)
+    }
+
+    /// Waits until all that was started is done and the picture of the state is there.
+    ///
+    /// # Errors
+    ///
+    /// As [`Viewer::take_reports`].
+    pub fn rest(&mut self) -> Result<()> {
+        self.take_reports()?;
+        self.ask();
+        while !self.is_at_rest() {
+            self.wait()?;
+            self.ask();
+        }
+        Ok(())
+    }
+
+    /// Asks for the picture of the state, if it is not there, and for its price when it is. To be called after events.
+    pub fn ask(&mut self) {
+        let Some(job) = self.job() else { return };
+        if self.asked.is_some() || self.is_pricing {
+            return;
+        }
+        let is_drawn = self.drawn.as_ref().is_some_and(|drawn| drawn.is_same(&job));
+        if !is_drawn {
+            self.asked = Some(job.clone());
+            self.send(Order::Draw(Box::new(job)));
+        } else if self.state.has_price && self.price.sides.is_empty() && self.problem.is_none() {
+            self.is_pricing = true;
+            self.send(Order::Price(Box::new(job)));
+        }
+    }
+
+    /// Whether nothing is being read, drawn or measured.
+    pub fn is_at_rest(&self) -> bool {
+        self.loads_going_on == 0 && self.asked.is_none() && !self.is_pricing && !self.price.is_measuring()
+    }
+
+    /// A side's picture.
+    pub fn picture(&self, side: Side) -> Option<&Picture> {
+        self.drawings.iter().find(|drawing| drawing.side == side).map(|drawing| &drawing.picture)
+    }
+
+    /// A side's picture with the time it took.
+    pub fn drawing(&self, side: Side) -> Option<&Drawing> {
+        self.drawings.iter().find(|drawing| drawing.side == side)
+    }
+
+    /// The drawing area as it is shown, once there is something to show.
+    pub fn shown(&self) -> Option<Picture> {
+        composed(&self.state, |side| self.picture(side).cloned())
+    }
+
+    /// What the drawing context says about itself.
+    pub fn context(&self) -> Option<&ContextInfo> {
+        self.surroundings.context.as_deref()
+    }
+
+    /// The models' triangles.
+    pub fn triangle_count(&self) -> Option<usize> {
+        self.scene.as_ref().map(|scene| scene.triangle_count())
+    }
+
+    /// What is to be drawn for the state.
+    pub fn job(&self) -> Option<Job> {
+        let drawing = |side: &Side| {
+            let (style, show) = self.state.buffer.drawn(self.state.style(*side));
+            (*side, style, show)
+        };
+        Some(Job {
+            scene: self.scene.clone()?,
+            orbit: self.state.orbit.clone(),
+            settings: self.state.scene_settings(),
+            drawings: self.state.sides().iter().map(drawing).collect(),
+        })
+    }
+
+    /// The command line that draws what is shown of the active side.
+    pub fn command(&self) -> Option<std::result::Result<String, String>> {
+        let job = self.job()?;
+        let command = super::save::command(&self.state, &job, &self.surroundings, Save::Picture, "drawing.png");
+        Some(command.map_err(|error| error.to_string()))
+    }
+
+    fn send(&mut self, order: Order) {
+        let is_taken = self.orders.as_ref().is_some_and(|orders| orders.send(order).is_ok());
+        if !is_taken && self.gone.is_none() {
+            self.gone = Some(Error::gl("drawing", "the drawing thread has ended"));
+        }
+    }
+
+    fn open(&mut self, models: Vec<String>) {
+        self.loads_going_on += 1;
+        self.stage = Some("starting to read".to_owned());
+        if let Err(error) = self.loader.start(models) {
+            self.loads_going_on -= 1;
+            self.stage = None;
+            self.problem = Some(format!("no thread to read the model on could be started ({error}); close something"));
+        }
+    }
+
+    fn save(&mut self, kind: Save) {
+        let Some(job) = self.job() else {
+            self.state.message = Some("there is nothing to save yet".to_owned());
+            return;
+        };
+        let (state, shown, surroundings) = (self.state.clone(), self.shown(), self.surroundings.clone());
+        let reporter = self.reporter.clone();
+        let work = move || {
+            let saved = save(&state, &job, shown.as_ref(), &surroundings, kind);
+            reporter.say(Report::Saved(saved.map_or_else(|error| error.to_string(), |text| format!("saved {text}"))));
+        };
+        self.state.message = Some("saving".to_owned());
+        self.drawing_threads.retain(|thread| !thread.is_finished());
+        match std::thread::Builder::new().name("saving".to_owned()).spawn(work) {
+            Ok(thread) => self.drawing_threads.push(thread),
+            Err(_) => {
+                self.state.message = Some("no thread to save on could be started; close something".to_owned());
+            }
+        }
+    }
+
+    fn take(&mut self, report: Report) {
+        match report {
+            Report::Renderer(context) => self.surroundings.context = Some(context),
+            Report::NoRenderer(error) => self.gone = Some(error),
+            Report::Drawn { drawings, shader_log } => self.drawn(drawings, shader_log),
+            Report::NotDrawn(error) => self.not_drawn(&error),
+            Report::Priced { scene, costs } => {
+                self.is_pricing = false;
+                let is_current = self.job().zip(self.drawn.as_ref()).is_some_and(|(job, drawn)| job.is_same(drawn));
+                if is_current {
+                    self.price.take(*scene, costs, self.reporter.clone());
+                }
+            }
+            Report::NotPriced(error) => {
+                self.is_pricing = false;
+                self.problem = Some(error.to_string());
+            }
+            Report::ShadersTaken => {
+                self.shader_log = None;
+                self.drawn = None;
+            }
+            // Those before them are still used.
+            Report::ShadersRefused(error) => self.shader_log = Some(error.to_string()),
+            Report::Stage(number, stage) => {
+                if self.loader.is_last(number) {
+                    self.stage = Some(stage);
+                }
+            }
+            Report::Loaded(number, loaded) => self.loaded(number, *loaded),
+            Report::NotLoaded(number, error) => {
+                self.loads_going_on -= 1;
+                if self.loader.is_last(number) {
+                    self.stage = None;
+                    self.problem = Some(error.to_string());
+                }
+            }
+            // The picture is the same; only the next ones are faster.
+            Report::Prepared => {}
+            Report::Measured(number, errors) => self.price.measured(number, errors),
+            Report::ModelChanged => self.open(self.state.models.clone()),
+            Report::ShadersChanged(shaders) => self.send(Order::Shaders(shaders)),
+            Report::Saved(text) => self.state.message = Some(text),
+        }
+    }
+
+    fn loaded(&mut self, number: u64, loaded: LoadedModels) {
+        let LoadedModels { models, files, scene, remarks } = loaded;
+        self.loads_going_on -= 1;
+        if !self.loader.is_last(number) {
+            return;
+        }
+        self.stage = None;
+        self.problem = None;
+        self.state.message = (!remarks.is_empty()).then(|| remarks.join("; "));
+        if models != self.state.models {
+            self.state.update(ViewerEvent::Reset);
+        }
+        let _ = self.watched.send(files.clone());
+        self.surroundings.files = files;
+        self.state.models = models;
+        self.scene = Some(scene);
+        self.price.view_changed();
+    }
+
+    fn drawn(&mut self, drawings: Vec<Drawing>, shader_log: Option<String>) {
+        let job = self.asked.take();
+        let is_same_view = self.drawn.as_ref().zip(job.as_ref()).is_some_and(|(before, now)| {
+            Arc::ptr_eq(&before.scene, &now.scene)
+                && before.orbit == now.orbit
+                && before.settings.size == now.settings.size
+        });
+        match is_same_view {
+            true => self.price.style_changed(),
+            false => self.price.view_changed(),
+        }
+        self.drawn = job;
+        self.drawings = drawings;
+        self.picture_number += 1;
+        self.problem = None;
+        if shader_log.is_some() {
+            self.shader_log = shader_log;
+        }
+    }
+
+    fn not_drawn(&mut self, error: &Error) {
+        // Not asked for again until something changes; the last picture stays.
+        self.drawn = self.asked.take();
+        self.problem = Some(error.to_string());
+    }
+}
+
+impl Drop for Viewer {
+    /// Waits for the picture that is being drawn and for files that are being written.
+    fn drop(&mut self) {
+        self.orders = None;
+        self.price.view_changed();
+        for thread in self.drawing_threads.drain(..) {
+            // One that has panicked has said so.
+            let _ = thread.join();
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Files looked at now and then for changes: the models and a folder of shaders.
+//!
+//! Asked for their time and length twice a second, which costs some microseconds and works on every kind of disk; a
+//! notification by the system would need a crate and miss network disks. A file counts as changed once it has stood still for
+//! one look, so that half of it is not read.
+
+use super::report::{Report, Reporter};
+use crate::glsl::SOURCES;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::time::{Duration, SystemTime};
+
+/// Time between looks.
+const INTERVAL: Duration = Duration::from_millis(500);
+
+/// Longest shader read, bytes: some hundred times the longest there is.
+const LONGEST_SHADER: u64 = 1 << 20;
+
+/// What is known of a file without opening it; `None` where there is none.
+type Look = Option<(SystemTime, u64)>;
+
+/// Files and what was seen of them.
+#[derive(Debug, Default)]
+pub struct Watched {
+    files: Vec<(PathBuf, Look, Look)>,
+}
+
+impl Watched {
+    /// Begins to watch files as they are now.
+    pub fn new(files: impl IntoIterator<Item = PathBuf>) -> Self {
+        let seen = |file: PathBuf| {
+            let now = look(&file);
+            (file, now, now)
+        };
+        Self { files: files.into_iter().map(seen).collect() }
+    }
+
+    /// Looks again; whether a file has changed since it was last said to have, and stood still since the last look.
+    pub fn has_changed(&mut self) -> bool {
+        let mut has_changed = false;
+        for (file, said, last) in &mut self.files {
+            let now = look(file);
+            if now == *last && now != *said && now.is_some() {
+                *said = now;
+                has_changed = true;
+            }
+            *last = now;
+        }
+        has_changed
+    }
+}
+
+fn look(file: &Path) -> Look {
+    let metadata = std::fs::metadata(file).ok()?;
+    Some((metadata.modified().ok()?, metadata.len()))
+}
+
+/// The shaders that a folder laid out like `glsl/` has in place of those built in.
+pub fn shaders_in(folder: &Path) -> HashMap<String, String> {
+    let read = |path: &str| {
+        let file = folder.join(path);
+        let is_short = std::fs::metadata(&file).is_ok_and(|file| file.is_file() && file.len() <= LONGEST_SHADER);
+        is_short.then(|| std::fs::read_to_string(&file).ok()).flatten()
+    };
+    let changed = SOURCES.iter().filter_map(|(path, built_in)| Some((*path, *built_in, read(path)?)));
+    changed.filter(|(_, built_in, text)| text != built_in).map(|(path, _, text)| (path.to_owned(), text)).collect()
+}
+
+/// Starts the thread; what is sent to it is the list of models to watch from then on. It ends with its sender.
+pub fn start(shaders: Option<PathBuf>, reporter: Reporter) -> std::io::Result<Sender<Vec<PathBuf>>> {
+    let (sender, lists) = channel();
+    let work = move || work(shaders.as_deref(), &lists, &reporter);
+    std::thread::Builder::new().name("watching".to_owned()).spawn(work)?;
+    Ok(sender)
+}
+
+fn work(shaders: Option<&Path>, lists: &Receiver<Vec<PathBuf>>, reporter: &Reporter) {
+    let shader_files = shaders.map(|folder| SOURCES.iter().map(|(path, _)| folder.join(path)).collect::<Vec<_>>());
+    let mut watched_shaders = Watched::new(shader_files.unwrap_or_default());
+    let mut models = Watched::default();
+    loop {
+        match lists.recv_timeout(INTERVAL) {
+            Ok(list) => models = Watched::new(list),
+            Err(RecvTimeoutError::Disconnected) => return,
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        if models.has_changed() {
+            reporter.say(Report::ModelChanged);
+        }
+        if let Some(folder) = shaders
+            && watched_shaders.has_changed()
+        {
+            reporter.say(Report::ShadersChanged(shaders_in(folder)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_is_told_once_and_only_after_the_file_stood_still() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.obj");
+        std::fs::write(&file, "v").unwrap();
+        let mut watched = Watched::new([file.clone()]);
+        assert!(!watched.has_changed());
+        std::fs::write(&file, "v 0").unwrap();
+        assert!(!watched.has_changed(), "it may still be being written");
+        std::fs::write(&file, "v 0 0").unwrap();
+        assert!(!watched.has_changed());
+        assert!(watched.has_changed());
+        assert!(!watched.has_changed());
+    }
+
+    #[test]
+    fn a_file_that_goes_away_and_comes_back_has_changed_when_it_is_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.obj");
+        std::fs::write(&file, "v").unwrap();
+        let mut watched = Watched::new([file.clone()]);
+        std::fs::remove_file(&file).unwrap();
+        assert!(!watched.has_changed() && !watched.has_changed());
+        std::fs::write(&file, "v 0 0 0").unwrap();
+        assert!(!watched.has_changed() && watched.has_changed());
+    }
+
+    #[test]
+    fn only_shaders_that_differ_from_those_built_in_replace_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, text) = SOURCES[0];
+        std::fs::create_dir_all(folder.path().join(path).parent().unwrap()).unwrap();
+        std::fs::write(folder.path().join(path), text).unwrap();
+        std::fs::write(folder.path().join("other.frag"), "void main() {}").unwrap();
+        assert!(shaders_in(folder.path()).is_empty());
+        std::fs::write(folder.path().join(path), format!("{text}\n")).unwrap();
+        assert_eq!(shaders_in(folder.path()).into_keys().collect::<Vec<_>>(), [path]);
+    }
+}

@@ -1,0 +1,349 @@
+//! The viewer: its pictures without a window, and the window itself under Xvfb.
+
+use crate::support::{failure_folder, root, side_by_side, skip};
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use tinta::picture::write_rgba_png;
+use tinta::window::{Layout, Side, Viewer, ViewerEvent, ViewerOptions, ViewerState};
+use tinta::{Backend, LoadOptions, Picture};
+
+/// A viewer of these models without a window, at rest.
+fn viewer(models: &[&str], backend: Backend, shaders: Option<&Path>) -> Viewer {
+    let models = models.iter().map(|model| (*model).to_owned()).collect();
+    let mut state = ViewerState::new(models, Default::default());
+    state.update(ViewerEvent::Resize([160, 120]));
+    let options = ViewerOptions {
+        state,
+        load: LoadOptions::default(),
+        backend,
+        shaders: shaders.map(Path::to_path_buf),
+        folder: std::env::temp_dir(),
+    };
+    let mut viewer = Viewer::start(options, || {}).unwrap();
+    viewer.rest().unwrap();
+    viewer
+}
+
+fn shown(viewer: &mut Viewer, events: impl IntoIterator<Item = ViewerEvent>) -> Picture {
+    events.into_iter().for_each(|event| {
+        viewer.event(event);
+        assert_eq!(viewer.state.message, None);
+    });
+    viewer.rest().unwrap();
+    assert_eq!(viewer.problem, None);
+    viewer.shown().unwrap()
+}
+
+fn set(option: &str, value: &str) -> ViewerEvent {
+    ViewerEvent::Set(Side::Left, option.to_owned(), value.to_owned())
+}
+
+fn style(name: &str) -> ViewerEvent {
+    ViewerEvent::Style(Side::Left, name.to_owned())
+}
+
+/// What a command line as the viewer writes it draws.
+fn by_command(command: &str, backend: &str) -> Picture {
+    let folder = tempfile::tempdir().unwrap();
+    // Nothing in these commands has blanks in it; colours are quoted.
+    let command = command.replace('\'', "");
+    let words: Vec<&str> = command.split(' ').skip(1).collect();
+    let output = Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .args(words)
+        .args(["--backend", backend])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
+    Picture::read_png(&folder.path().join("drawing.png")).unwrap()
+}
+
+#[test]
+fn the_viewers_picture_is_the_one_its_command_line_draws_byte_for_byte() {
+    for (backend, name) in [(Backend::Egl, "egl"), (Backend::OsMesa, "osmesa")] {
+        let mut viewer = viewer(&["builtin:bust"], backend, None);
+        let steps: [Vec<ViewerEvent>; 8] = [
+            vec![],
+            vec![ViewerEvent::Turn([0.3, 0.1])],
+            vec![ViewerEvent::Zoom(2.5), ViewerEvent::Move([0.1, -0.2])],
+            vec![ViewerEvent::Projection],
+            vec![set("--tones", "2"), set("--detection-factor", "0.5")],
+            vec![ViewerEvent::Buffer("borders".to_owned())],
+            vec![style("inking"), ViewerEvent::Buffer("final".to_owned()), set("--line-width", "3.5")],
+            vec![ViewerEvent::Reset, style("charcoal"), ViewerEvent::Background("tan".to_owned())],
+        ];
+        for (number, step) in steps.into_iter().enumerate() {
+            let picture = shown(&mut viewer, step);
+            let command = viewer.command().unwrap().unwrap();
+            let drawn = by_command(&command, name);
+            let difference = drawn.difference(&picture.opaque()).unwrap();
+            assert_eq!(difference.pixels, 0, "step {number} on {name}: {command}");
+        }
+    }
+}
+
+#[test]
+fn a_shader_that_does_not_compile_shows_its_log_and_the_one_before_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let glsl = root().join("glsl");
+    std::fs::create_dir(folder.path().join("evangelista")).unwrap();
+    let file = folder.path().join("evangelista/toon.frag");
+    let published = std::fs::read_to_string(glsl.join("evangelista/toon.frag")).unwrap();
+    std::fs::write(&file, &published).unwrap();
+    let mut viewer = viewer(&["builtin:open-box"], Backend::Auto, Some(folder.path()));
+    let before = shown(&mut viewer, []);
+    assert_eq!(viewer.shader_log, None);
+
+    std::fs::write(&file, published.replace("void main", "void mian(")).unwrap();
+    while viewer.shader_log.is_none() {
+        viewer.wait().unwrap();
+    }
+    let log = viewer.shader_log.clone().unwrap();
+    assert!(log.contains("evangelista/toon.frag") && log.len() > 60, "{log}");
+    assert_eq!(shown(&mut viewer, [ViewerEvent::Turn([0.2, 0.0]), ViewerEvent::Turn([-0.2, 0.0])]), before);
+
+    let end = published.rfind('}').unwrap();
+    let red = format!("{}\n    gl_FragColor.gb *= 0.5;\n}}\n", &published[..end]);
+    std::fs::write(&file, red).unwrap();
+    while viewer.shader_log.is_some() {
+        viewer.wait().unwrap();
+    }
+    let redder = shown(&mut viewer, []);
+    assert!(redder.difference(&before).unwrap().pixels > 1000);
+}
+
+#[test]
+fn a_model_is_read_again_when_its_file_changes_and_what_cannot_be_read_leaves_the_last_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.obj");
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    std::fs::write(&file, triangle).unwrap();
+    let mut viewer = viewer(&[file.to_str().unwrap()], Backend::Auto, None);
+    assert_eq!(viewer.triangle_count(), Some(1));
+    let turned = shown(&mut viewer, [ViewerEvent::Turn([0.05, 0.0])]);
+    let orbit = viewer.state.orbit.clone();
+
+    std::fs::write(&file, format!("{triangle}v 1 1 0\nf 2 4 3\n")).unwrap();
+    while viewer.triangle_count() == Some(1) {
+        viewer.wait().unwrap();
+    }
+    assert_eq!((viewer.triangle_count(), &viewer.state.orbit), (Some(2), &orbit), "the view stays");
+    assert_ne!(shown(&mut viewer, []), turned);
+
+    viewer.event(ViewerEvent::Open(vec![folder.path().join("none.obj").display().to_string()]));
+    viewer.rest().unwrap();
+    assert!(viewer.problem.as_ref().unwrap().contains("none.obj"), "{:?}", viewer.problem);
+    assert_eq!(viewer.triangle_count(), Some(2));
+    assert!(viewer.shown().is_some());
+}
+
+#[test]
+fn a_picture_that_cannot_be_drawn_is_a_sentence_and_the_next_one_is_drawn() {
+    let mut viewer = viewer(&["builtin:ant"], Backend::Auto, None);
+    let before = viewer.shown().unwrap();
+    viewer.event(style("sand"));
+    viewer.rest().unwrap();
+    assert!(viewer.problem.as_ref().unwrap().contains("--style charcoal"), "{:?}", viewer.problem);
+    assert_eq!(shown(&mut viewer, [style("three-pass")]), before);
+}
+
+#[test]
+fn prices_are_the_passes_times_and_the_lines_error_of_this_view() {
+    let mut viewer = viewer(&["builtin:open-box"], Backend::Auto, None);
+    shown(&mut viewer, [ViewerEvent::Price, ViewerEvent::Layout(Layout::Split)]);
+    let [left, right] = &viewer.price.sides[..] else { panic!("two sides") };
+    assert_eq!(left.passes.iter().map(|pass| pass.name).collect::<Vec<_>>(), ["map", "tones", "border"]);
+    assert_eq!((left.style, right.style), ("three-pass", "inking"));
+    let f1 = |side: &tinta::window::Priced| side.error.as_ref().unwrap().f1;
+    assert!(f1(left) > 0.5 && f1(right) > 0.8, "{} {}", f1(left), f1(right));
+    assert_eq!(viewer.price.history.len(), 2);
+    shown(&mut viewer, [ViewerEvent::Turn([0.1, 0.0])]);
+    assert_eq!(viewer.price.history.len(), 2, "of the new view only");
+}
+
+#[test]
+fn files_saved_from_the_viewer_are_those_its_commands_write() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = ViewerOptions {
+        state: ViewerState::new(vec!["builtin:open-box".to_owned()], Default::default()),
+        load: LoadOptions::default(),
+        backend: Backend::Egl,
+        shaders: None,
+        folder: folder.path().to_path_buf(),
+    };
+    let mut viewer = Viewer::start(options, || {}).unwrap();
+    viewer.event(ViewerEvent::Resize([96, 80]));
+    viewer.event(set("--tones", "2"));
+    viewer.rest().unwrap();
+    for (event, name) in [
+        (ViewerEvent::SavePicture, "open-box-three-pass.png"),
+        (ViewerEvent::SaveLines, "open-box-three-pass.svg"),
+        (ViewerEvent::SaveTurn, "open-box-three-pass.gif"),
+        (ViewerEvent::SavePreset, "open-box-three-pass.toml"),
+    ] {
+        viewer.event(event);
+        while viewer.state.message.as_deref() == Some("saving") {
+            viewer.wait().unwrap();
+        }
+        let message = viewer.state.message.clone().unwrap();
+        assert!(message.contains(name) && !message.contains("no command"), "{message}");
+        let saved = std::fs::read(folder.path().join(name)).unwrap();
+        let Some((_, command)) = message.split_once("; the same by tinta ") else { continue };
+        let again = command.replace(name, &format!("again-{name}"));
+        let words = again.split(' ').chain(["--backend", "egl"]).filter(|word| !word.is_empty());
+        let lines = name.ends_with("svg");
+        let words: Vec<&str> = words.take_while(|word| !(lines && *word == "--backend")).collect();
+        let output = Command::new(env!("CARGO_BIN_EXE_tinta")).args(words).output().unwrap();
+        assert!(output.status.success(), "{again}: {}", String::from_utf8_lossy(&output.stderr));
+        let again = std::fs::read(folder.path().join(format!("again-{name}"))).unwrap();
+        match name.rsplit_once('.').unwrap().1 {
+            "png" => {
+                let read = |name: &str| Picture::read_png(&folder.path().join(name)).unwrap();
+                assert_eq!(read(name), read(&format!("again-{name}")));
+            }
+            "gif" => assert_eq!(saved, again),
+            // The SVG carries the command, and from the command line a recipe, too.
+            _ => {
+                let paths = |bytes: &[u8]| {
+                    let text = String::from_utf8(bytes.to_vec()).unwrap();
+                    text.lines().filter(|line| line.starts_with("<path")).map(str::to_owned).collect::<Vec<_>>()
+                };
+                assert!(!paths(&saved).is_empty());
+                assert_eq!(paths(&saved), paths(&again));
+            }
+        }
+    }
+    let preset = std::fs::read_to_string(folder.path().join("open-box-three-pass.toml")).unwrap();
+    assert!(preset.contains("style = \"three-pass\"\ntones = 2"), "{preset}");
+}
+
+/// A display of one's own; ends with this.
+struct Display {
+    server: Child,
+    name: String,
+}
+
+impl Display {
+    /// Starts Xvfb; says so where there is none.
+    fn start() -> Option<Self> {
+        let started = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x720x24", "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn();
+        let Ok(mut server) = started else {
+            skip("the window: there is no Xvfb; on Debian: apt-get install xvfb");
+            return None;
+        };
+        let mut number = String::new();
+        BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        Some(Self { server, name: format!(":{}", number.trim()) })
+    }
+
+    fn view(&self, arguments: &[&str]) -> Output {
+        view(&[("DISPLAY", &self.name)], arguments)
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+fn view(environment: &[(&str, &str)], arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .arg("view")
+        .args(arguments)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .envs(environment.iter().copied())
+        .output()
+        .unwrap()
+}
+
+/// A pixel counts as different beyond this, in 1/255, and this share of them may be: as in the other goldens.
+const TOLERANCE: (u8, f64) = (3, 0.005);
+
+#[test]
+fn recorded_events_lead_to_the_pictures_they_led_to() {
+    let Some(display) = Display::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let goldens = root().join("tests/goldens");
+    let recording = std::fs::read_to_string(root().join("tests/recordings/tour.jsonl")).unwrap();
+    let here = |name: &str| folder.path().join(name).display().to_string();
+    std::fs::write(here("tour.jsonl"), recording.replace("OUT/", &format!("{}/", folder.path().display()))).unwrap();
+    let output = display.view(&["builtin:bust", "--replay", &here("tour.jsonl"), "--json"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(record["first_picture_ms"].as_f64().unwrap() > 0.0);
+    let pictures: Vec<PathBuf> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "png"))
+        .collect();
+    let names: Vec<&str> = recording.split("OUT/").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    assert_eq!(pictures.len(), names.len(), "one for each in the recording");
+    assert!(names.len() >= 8, "{names:?}");
+    if std::env::var_os("TINTA_UPDATE_GOLDENS").is_some() {
+        for name in &names {
+            std::fs::copy(folder.path().join(name), goldens.join(format!("window-{name}"))).unwrap();
+        }
+        panic!("the goldens were written anew: look at them, then run without TINTA_UPDATE_GOLDENS");
+    }
+    let mut failures = Vec::new();
+    for name in &names {
+        let actual = Picture::read_png(&folder.path().join(name)).unwrap();
+        let golden = goldens.join(format!("window-{name}"));
+        let expected = Picture::read_png(&golden).unwrap_or_else(|error| panic!("{error}: the golden is missing"));
+        assert_eq!(actual.size, expected.size, "{name}");
+        let pairs = expected.pixels.chunks_exact(4).zip(actual.pixels.chunks_exact(4));
+        let different =
+            pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > TOLERANCE.0)).count() as f64;
+        if different / expected.size.pixel_count() as f64 > TOLERANCE.1 {
+            let sheet = failure_folder().join(format!("window-{name}"));
+            write_rgba_png(&side_by_side(&expected, &actual), &sheet).unwrap();
+            failures.push(format!("{name}: {different} pixels; expected | difference | actual: {}", sheet.display()));
+        }
+    }
+    assert!(failures.is_empty(), "{}\nTINTA_UPDATE_GOLDENS=1 cargo test window writes them anew", failures.join("\n"));
+    // Back at the first view and size after all that: the first picture again.
+    let read = |name: &str| Picture::read_png(&folder.path().join(name)).unwrap();
+    assert_eq!(read("first.png"), read("back.png"));
+    assert_ne!(read("first.png"), read("orbit.png"));
+}
+
+#[test]
+fn without_a_display_or_opengl_on_it_there_is_a_sentence_and_exit_code_2() {
+    let refused = |output: &Output, words: &[&str]| {
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert_eq!(message.trim().lines().count(), 1, "{message}");
+        for word in words.iter().chain(&["tinta render", "DISPLAY"]) {
+            assert!(message.contains(word), "{word}: {message}");
+        }
+        assert!(!message.contains("panicked") && !message.contains(".rs:"), "{message}");
+    };
+    refused(&view(&[], &[]), &["no window can be opened"]);
+    refused(&view(&[("DISPLAY", ":4711")], &[]), &["no window can be opened"]);
+    refused(&view(&[("WAYLAND_DISPLAY", "nowhere")], &[]), &["no window can be opened"]);
+    let Some(display) = Display::start() else { return };
+    // A display, but an EGL that knows no driver.
+    let nowhere = [("DISPLAY", display.name.as_str()), ("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent")];
+    refused(&view(&nowhere, &[]), &["no window can be opened"]);
+}
+
+#[test]
+fn a_recording_that_is_none_is_refused_before_a_window_opens() {
+    for (text, words) in [("", "no line"), ("{\"event\": \"jump\"}", "line 1")] {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        let output = view(&[], &["--replay", file.path().to_str().unwrap()]);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(message.contains("--replay") && message.contains(words), "{message}");
+    }
+}
