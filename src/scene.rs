@@ -130,19 +130,7 @@ impl Scene {
                 ),
             ));
         }
-        let camera = fitted_camera(&objects, centre, radius, settings)?;
-        let scene = Self {
-            objects,
-            centre,
-            radius,
-            camera,
-            size: settings.size,
-            background: settings.background,
-            color: settings.color.unwrap_or(DEFAULT_COLOR),
-            recolor: settings.color.is_some(),
-        };
-        scene.check_precision()?;
-        Ok(scene)
+        Self::seen(objects, centre, radius, settings)
     }
 
     /// The same objects, with all that was found out about them, as other settings show them; `copies` is left as it is.
@@ -152,11 +140,17 @@ impl Scene {
     /// As [`Scene::new`].
     pub fn seen_with(&self, settings: &SceneSettings) -> Result<Self> {
         check_size(settings.size)?;
+        Self::seen(self.objects.clone(), self.centre, self.radius, settings)
+    }
+
+    /// Objects with what is known of where they are, as settings show them.
+    fn seen(objects: Vec<Object>, centre: DVec3, radius: f64, settings: &SceneSettings) -> Result<Self> {
+        let camera = fitted_camera(&objects, centre, radius, settings)?;
         let scene = Self {
-            objects: self.objects.clone(),
-            centre: self.centre,
-            radius: self.radius,
-            camera: fitted_camera(&self.objects, self.centre, self.radius, settings)?,
+            objects,
+            centre,
+            radius,
+            camera,
             size: settings.size,
             background: settings.background,
             color: settings.color.unwrap_or(DEFAULT_COLOR),

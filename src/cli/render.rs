@@ -155,7 +155,6 @@ fn draw(arguments: &Arguments, options: &Options) -> Result<Verdict> {
         }
     });
     let Loaded { scene, files, published, load_ms, plan_ms } = loaded?;
-    pictures_of(&scene).keep(&arguments.output)?;
     let Opened { mut renderer, context_ms, warm_up_ms } = renderer?;
     let pruning = Instant::now();
     let Pruned { plan, omissions, kept } =
@@ -268,6 +267,8 @@ fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style) ->
     let (meshes, files) = load_with_files(&arguments.models, &arguments.model.options())?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, settings)?;
+    // Known only now.
+    pictures_of(&scene).keep(&arguments.output)?;
     scene.make_arrays();
     let start = Instant::now();
     let published = style.plan(&scene, arguments.styles.show)?;

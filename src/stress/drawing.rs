@@ -29,7 +29,7 @@ const STEPS_AROUND: u32 = 360 * 60;
 pub(super) struct Subject {
     scene: Scene,
     /// The scene without jitter, with it, and which edges flip.
-    exact: Option<(Exact, Option<Exact>, Flips)>,
+    exact: Option<(Exact, Exact, Flips)>,
     /// The scene at every step of a turn.
     turn: Vec<Exact>,
     /// The same shape as it is.
@@ -58,12 +58,10 @@ impl Subject {
             Study::Picture => {}
             Study::Full => {
                 let exact = Exact::of(subject.scene.clone())?;
-                let moved = jittered(&subject.scene)?;
+                let moved = jittered(&subject.scene);
                 let flips = flips(&subject.scene, &moved);
                 subject.figures.extend(exact.figures());
-                // A case that checks a figure to the digit stands where the slightest jitter changes everything: also exact.
-                let moved = Exact::of(moved).ok();
-                subject.exact = Some((exact, moved, flips));
+                subject.exact = Some((exact, Exact::of(moved)?, flips));
             }
             Study::Turn => {
                 let cameras = subject.scene.turntable(&drawing.camera, STEPS_AROUND)?;
@@ -73,9 +71,8 @@ impl Subject {
             }
         }
         if drawing.is_compared_with_unit {
-            let unit = Drawing { scale: 1.0, offset: DVec3::ZERO, ..drawing.clone() };
-            // A built-in model as it is would bring normals and materials of its own.
-            let unit = Drawing { scale: 1.0 + f64::EPSILON, ..unit };
+            // Not 1: a built-in model as it is would bring normals and materials of its own.
+            let unit = Drawing { scale: 1.0 + f64::EPSILON, offset: DVec3::ZERO, ..drawing.clone() };
             subject.unit = Some(Exact::of(self::scene(&unit, largest, folder)?)?);
         }
         subject.figures.extend(subject.unit_lines());
@@ -124,10 +121,8 @@ impl Subject {
                 ]);
                 figures.insert("f1", error.f1);
             }
-            if let Some(moved) = moved {
-                let after = Shown::of(renderer, &moved.scene, variant)?;
-                note("jitter", &Popped::of([exact, moved], variant, [&before, &after])?, figures);
-            }
+            let after = Shown::of(renderer, &moved.scene, variant)?;
+            note("jitter", &Popped::of([exact, moved], variant, [&before, &after])?, figures);
         }
         if let Some((first, others)) = self.turn.split_first() {
             let mut sum = Sums::default();

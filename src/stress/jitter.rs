@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::random::Random;
-use crate::scene::Scene;
+use crate::scene::{Object, Scene};
 use crate::styles::Style;
 use glam::DVec3;
 use std::sync::Arc;
@@ -63,11 +63,7 @@ impl Popped {
 }
 
 /// The scene with every vertex and the camera moved by up to a millionth of its radius along each axis.
-///
-/// # Errors
-///
-/// As [`Scene::new`]; a camera at the end of what is allowed may be moved beyond it.
-pub fn jittered(scene: &Scene) -> Result<Scene> {
+pub fn jittered(scene: &Scene) -> Scene {
     let mut random = Random::new(1, "jitter");
     let step = JITTER * scene.radius;
     let mut moved =
@@ -79,7 +75,7 @@ pub fn jittered(scene: &Scene) -> Result<Scene> {
     }
     jittered.camera.eye = moved(scene.camera.eye);
     jittered.camera.target = moved(scene.camera.target);
-    Ok(jittered)
+    jittered
 }
 
 /// Compares the classes of a scene's edges before and after.
@@ -119,7 +115,7 @@ fn may_have_changed(was: Bounded, is: Bounded) -> bool {
 /// where the decision is made.
 struct View<'a> {
     mesh: &'a Mesh,
-    list: EdgeList,
+    list: &'a EdgeList,
     classes: Classes,
     exact: Vec<u32>,
     paper: Vec<u32>,
@@ -128,14 +124,14 @@ struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    fn of(scene: &Scene, object: &'a crate::scene::Object, crease_angle: CreaseAngle) -> Self {
+    fn of(scene: &'a Scene, object: &'a Object, crease_angle: CreaseAngle) -> Self {
         let mesh: &Mesh = &object.mesh;
         let edges = scene.edges(object);
         let eye = scene.eye(object, SilhouetteRule::Exact);
         let classes = Classes::new(mesh, edges.list(), crease_angle, ClassSet::EDGES);
         let exact = edges.silhouette(eye, SilhouetteRule::Exact);
         let paper = edges.silhouette(scene.eye(object, SilhouetteRule::Paper), SilhouetteRule::Paper);
-        Self { mesh, list: edges.list().clone(), classes, exact, paper, eye, crease_angle }
+        Self { mesh, list: edges.list(), classes, exact, paper, eye, crease_angle }
     }
 
     fn is_silhouette(&self, edge: u32) -> bool {
@@ -199,7 +195,7 @@ mod tests {
     #[test]
     fn nothing_flips_on_a_cube_seen_from_afar_and_nothing_ever_when_nothing_moves() {
         let sound = scene(Shape::Cube, CameraSettings::default());
-        let flipped = flips(&sound, &jittered(&sound).unwrap());
+        let flipped = flips(&sound, &jittered(&sound));
         assert_eq!(flipped, Flips { edges: 18, ..Flips::default() });
         assert_eq!(flips(&sound, &sound), Flips { edges: 18, ..Flips::default() });
     }
@@ -213,7 +209,7 @@ mod tests {
             let camera =
                 CameraSettings { eye: Some(eye), target: Some(DVec3::splat(0.5)), ..CameraSettings::default() };
             let edge_on = scene(Shape::Cube, camera);
-            let flipped = flips(&edge_on, &jittered(&edge_on).unwrap());
+            let flipped = flips(&edge_on, &jittered(&edge_on));
             assert_eq!(flipped.unexplained, 0, "{axis} {flipped:?}");
             found += flipped.exact;
         }
