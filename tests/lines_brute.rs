@@ -13,6 +13,9 @@ use tinta::lines::{LineSegment, VisibleLines};
 use tinta::tolerances::CONTACT;
 use tinta::{LoadOptions, Scene, load};
 
+/// Distance below which two lines are one in the picture, pixels.
+const SAME_LINE_PX: f64 = 1e-3;
+
 /// An edge of an object: the object's number and two positions, the lower first.
 type EdgeKey = (u32, [u32; 2]);
 
@@ -230,33 +233,46 @@ impl<'a> Brute<'a> {
         let cuts = self.cuts();
         agreement.cuts = cuts.len();
         let images: Vec<Option<[DVec2; 2]>> = cuts.iter().map(|cut| self.clipped(cut.ends)).collect();
-        let sum = |touches: bool| -> f64 {
-            let of_these = images.iter().zip(&cuts).filter(|(_, cut)| cut.touches == touches);
-            of_these.filter_map(|(image, _)| *image).map(|[a, b]| a.distance(b)).sum()
-        };
-        let (expected, uncertain) = (sum(false), sum(true));
-        let on_image = |piece: &LineSegment, image: &[DVec2; 2]| {
+        let lies_on = |ends: [DVec2; 2], image: &[DVec2; 2]| {
             let along = image[1] - image[0];
-            let of_end = |end: &DVec2| {
-                let share = ((*end - image[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-                (image[0] + along * share).distance(*end)
+            let of_end = |end: DVec2| {
+                let share = ((end - image[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+                (image[0] + along * share).distance(end)
             };
-            piece.ends_px.iter().map(of_end).fold(0.0, f64::max)
+            of_end(ends[0]).max(of_end(ends[1]))
         };
+        // Of lines that cannot be told apart in the picture one is drawn.
+        let covers = |cover: usize, cut: usize| {
+            let pair = images[cover].zip(images[cut]);
+            pair.is_some_and(|(cover, cut)| lies_on(cut, &cover) < SAME_LINE_PX)
+        };
+        let is_covered = |cut: usize| {
+            (0..cuts.len()).any(|cover| cover != cut && covers(cover, cut) && (cover < cut || !covers(cut, cover)))
+        };
+        let sum = |is_counted: &dyn Fn(usize) -> bool| -> f64 {
+            let counted = (0..cuts.len()).filter(|cut| is_counted(*cut));
+            counted.filter_map(|cut| images[cut]).map(|[a, b]| a.distance(b)).sum()
+        };
+        let (expected, uncertain) = (sum(&|cut| !cuts[cut].touches), sum(&|cut| cuts[cut].touches));
+        let least = sum(&|cut| !cuts[cut].touches && !is_covered(cut));
         let actual: f64 = intersections.iter().map(|piece| length(piece)).sum();
         assert!(
-            actual > expected * 0.998 - 1e-2 && (actual < expected + 1e-2 || uncertain > 0.0),
-            "intersections: {actual} px instead of {expected} and up to {uncertain}"
+            actual > least * 0.998 - 1e-2 && (actual < expected + 1e-2 || uncertain > 0.0),
+            "intersections: {actual} px instead of {least} to {expected} and up to {uncertain}"
         );
         for piece in intersections {
-            let places = (0..cuts.len()).filter_map(|cut| Some((on_image(piece, &images[cut]?), cut)));
-            let (distance, cut) = places.min_by(|a, b| a.0.total_cmp(&b.0)).expect("an intersection");
-            if uncertain > 0.0 && distance > 1e-3 {
-                continue;
+            let places = (0..cuts.len()).filter_map(|cut| Some((lies_on(piece.ends_px, &images[cut]?), cut)));
+            let places: Vec<(f64, usize)> = places.filter(|(distance, _)| *distance < SAME_LINE_PX).collect();
+            // Where it lies on several it is one of them.
+            let looks = places.iter().map(|(_, cut)| {
+                let (faces, mut look) = (cuts[*cut].faces, agreement);
+                self.look(piece, cuts[*cut].ends, |face| faces.contains(&face), random, &mut look);
+                look
+            });
+            match looks.min_by(|a, b| a.wrong_px.total_cmp(&b.wrong_px)) {
+                Some(look) => agreement = look,
+                None => assert!(uncertain > 0.0, "{piece:?} lies on no intersection"),
             }
-            assert!(distance < 1e-3, "{piece:?} lies on no intersection: {distance} px");
-            let faces = cuts[cut].faces;
-            self.look(piece, cuts[cut].ends, |face| faces.contains(&face), random, &mut agreement);
         }
         agreement
     }
@@ -387,6 +403,13 @@ fn what_is_seen_of_the_ant_and_the_gear_is_what_rays_see() {
         let share = agreement.wrong_px / agreement.length_px;
         assert!(agreement.longest_wrong_px <= 0.05 && share < 1e-3, "{name} {view} {parallel}: {agreement:?}");
     }
+}
+
+#[test]
+fn lines_that_cannot_be_told_apart_in_the_picture_are_drawn_once() {
+    // Of 10,000 random scenes the two with cuts that near to one another.
+    check(3, 287_756_342_340_050_861);
+    check(3, 7_113_230_251_776_330_223);
 }
 
 proptest! {
