@@ -1,7 +1,7 @@
 //! The window: models turn under the mouse, two styles side by side, every setting a dial, every buffer visible.
 //!
 //! In: models and a first state. Out: pictures on a screen, and files. The pictures are those of the headless
-//! [`crate::Renderer`], drawn on a thread of its own and shown as textures: the same bytes as `tinta render` writes.
+//! [`crate::Renderer`], drawn on threads of their own and shown as textures: the same bytes as `tinta render` writes.
 //! Everything that decides what is shown is in [`ViewerState`], a plain value that events change; winit and egui are known
 //! here only.
 //!
@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `state.rs`, `event.rs`, `orbit.rs`, `dials.rs`, `buffer.rs`, `compose.rs` | values: what is shown, what happens, how it changes |
 //! | `viewer.rs` | the state with the threads that work for it |
-//! | `draw.rs`, `load.rs`, `watch.rs`, `price.rs`, `save.rs`, `report.rs` | the threads and what they tell |
+//! | `draw.rs`, `drawers.rs`, `load.rs`, `watch.rs`, `price.rs`, `save.rs`, `report.rs` | the threads and what they tell |
 //! | `ui.rs`, `panel.rs`, `plot.rs`, `keys.rs` | widgets: they read the state and make events |
 //! | `app.rs`, `replay.rs` | the window itself, and recordings played in it |
 
@@ -18,6 +18,7 @@ mod buffer;
 mod compose;
 mod dials;
 mod draw;
+mod drawers;
 mod event;
 mod keys;
 mod load;

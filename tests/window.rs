@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use tinta::picture::write_rgba_png;
 use tinta::window::{Layout, Side, Viewer, ViewerEvent, ViewerOptions, ViewerState};
-use tinta::{Backend, LoadOptions, Picture};
+use tinta::{Backend, LoadOptions, Picture, View};
 
 /// A viewer of these models without a window, at rest.
 fn viewer(models: &[&str], backend: Backend, shaders: Option<&Path>) -> Viewer {
@@ -314,6 +314,65 @@ fn recorded_events_lead_to_the_pictures_they_led_to() {
     let read = |name: &str| Picture::read_png(&folder.path().join(name)).unwrap();
     assert_eq!(read("first.png"), read("back.png"));
     assert_ne!(read("first.png"), read("orbit.png"));
+}
+
+#[test]
+fn a_drag_in_the_window_and_a_preset_lead_to_the_picture_that_tinta_render_draws() {
+    let Some(display) = Display::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let here = |name: &str| folder.path().join(name).display().to_string();
+    std::fs::write(here("a.toml"), "tones = 1\nfilter = \"sobel\"\n").unwrap();
+    let mut recording = "{\"frame\":0,\"event\":{\"resize\":[160,120]}}\n".to_owned();
+    (1..=24).for_each(|frame| {
+        recording += &format!("{{\"frame\":{frame},\"event\":{{\"turn\":[0.125,0.0]}},\"drag\":true}}\n");
+    });
+    recording += &format!("{{\"frame\":25,\"screenshot\":{:?}}}\n", here("turned.png"));
+    std::fs::write(here("drag.jsonl"), recording).unwrap();
+    let output =
+        display.view(&["builtin:bust", "--preset", &here("a.toml"), "--replay", &here("drag.jsonl"), "--json"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let shown = record["drag_frame_ms"]["all"].as_array().unwrap().len();
+    assert!((1..=24).contains(&shown), "{shown} pictures were shown during the drag");
+    // 24 eighths of a height are three half turns.
+    let azimuth = View::DEFAULT.azimuth_degrees - 540.0;
+    let view = format!("--view={azimuth},{}", View::DEFAULT.elevation_degrees);
+    let drawn = Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .args(["render", "builtin:bust", "-o", &here("drawn.png"), "--preset", &here("a.toml"), &view])
+        .args(["--size", "160x120"])
+        .output()
+        .unwrap();
+    assert!(drawn.status.success(), "{}", String::from_utf8_lossy(&drawn.stderr));
+    let read = |name: &str| Picture::read_png(&folder.path().join(name)).unwrap();
+    assert_eq!(read("drawn.png").difference(&read("turned.png")).unwrap().pixels, 0);
+}
+
+#[test]
+fn while_the_model_turns_no_older_picture_is_shown_after_a_newer_one() {
+    let turn = || ViewerEvent::Turn([0.01, 0.005]);
+    let mut one_by_one = viewer(&["builtin:gear"], Backend::Auto, None);
+    let pictures: Vec<Picture> = (0..60).map(|_| shown(&mut one_by_one, [turn()])).collect();
+    let mut turning = viewer(&["builtin:gear"], Backend::Auto, None);
+    let mut seen = Vec::new();
+    for _ in 0..60 {
+        turning.event(turn());
+        turning.ask();
+        while !turning.is_asked() {
+            turning.wait().unwrap();
+            turning.ask();
+        }
+        seen.extend(turning.shown());
+    }
+    turning.rest().unwrap();
+    seen.extend(turning.shown());
+    seen.dedup();
+    assert!(seen.len() > 20, "{} pictures were shown", seen.len());
+    let first = seen.remove(0);
+    assert!(!pictures.contains(&first), "the first is of the view before the turn");
+    let numbers: Vec<usize> =
+        seen.iter().map(|seen| pictures.iter().position(|picture| picture == seen).unwrap()).collect();
+    assert!(numbers.is_sorted(), "{numbers:?}");
+    assert_eq!(numbers.last(), Some(&59));
 }
 
 #[test]

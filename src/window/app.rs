@@ -45,6 +45,8 @@ pub struct PlayedRecord {
     pub frame_ms: Summary,
     /// Frames that went on while something was being read or drawn.
     pub free_frame_ms: Summary,
+    /// In drags, from one new picture on the screen to the next.
+    pub drag_frame_ms: Summary,
     /// Pixels of the window to a point.
     pub scale: f64,
 }
@@ -71,7 +73,7 @@ pub fn open(options: WindowOptions) -> Result<Option<PlayedRecord>> {
         let _ = proxy.send_event(News);
     };
     let viewer = Viewer::start(options.viewer.clone(), wake)?;
-    let player = options.replay.map(|replay| Player { replay, frame: 0, is_free: false });
+    let player = options.replay.map(|replay| Player { replay, frame: 0, is_free: false, dragged: None });
     let mut app = App {
         viewer: Some(viewer),
         shown: None,
@@ -99,6 +101,8 @@ struct Player {
     frame: u64,
     /// Whether frames go on without waiting for what they started.
     is_free: bool,
+    /// In a drag: the number of the picture shown last, and when that was.
+    dragged: Option<(u64, Instant)>,
 }
 
 /// What frames took.
@@ -107,6 +111,7 @@ struct Times {
     first_picture_ms: Option<f64>,
     frame_ms: Vec<f64>,
     free_frame_ms: Vec<f64>,
+    drag_frame_ms: Vec<f64>,
     scale: f64,
 }
 
@@ -116,6 +121,7 @@ impl Times {
             first_picture_ms: self.first_picture_ms.unwrap_or_default(),
             frame_ms: Summary::new(self.frame_ms),
             free_frame_ms: Summary::new(self.free_frame_ms),
+            drag_frame_ms: Summary::new(self.drag_frame_ms),
             scale: self.scale,
         }
     }
@@ -264,6 +270,12 @@ fn play(player: &mut Player, shown: &mut Shown, times: &mut Times, started: Inst
     let lines: Vec<_> = player.replay.lines(player.frame).cloned().collect();
     lines.iter().filter_map(|line| line.event.clone()).for_each(|event| shown.event(event));
     player.is_free = lines.iter().any(|line| line.free);
+    if lines.iter().any(|line| line.drag) {
+        drag(player, shown, times)?;
+        player.frame += 1;
+        return Ok(player.frame > player.replay.last_frame());
+    }
+    player.dragged = None;
     if !player.is_free {
         shown.viewer.rest()?;
         if shown.follows_window {
@@ -292,6 +304,25 @@ fn play(player: &mut Player, shown: &mut Shown, times: &mut Times, started: Inst
     }
     player.frame += 1;
     Ok(!player.is_free && player.frame > player.replay.last_frame())
+}
+
+/// A frame of a drag: waits until its picture is begun, and shows the newest one.
+fn drag(player: &mut Player, shown: &mut Shown, times: &mut Times) -> Result<()> {
+    let viewer = &mut shown.viewer;
+    let (number, since) = *player.dragged.get_or_insert_with(|| (viewer.picture_number, Instant::now()));
+    viewer.take_reports()?;
+    viewer.ask();
+    while !viewer.is_asked() {
+        viewer.wait()?;
+        viewer.ask();
+    }
+    let newest = viewer.picture_number;
+    if newest != number {
+        shown.frame(false)?;
+        times.drag_frame_ms.push(milliseconds_since(since));
+        player.dragged = Some((newest, Instant::now()));
+    }
+    Ok(())
 }
 
 impl ApplicationHandler<News> for App {

@@ -1,4 +1,4 @@
-//! The thread that draws: it owns the renderer, takes jobs and answers with pictures, so that the window answers meanwhile.
+//! A thread that draws: it owns a renderer, takes jobs and answers with pictures, so that the window answers meanwhile.
 //!
 //! In: a [`Job`], all values. Out: the pictures that `tinta render` draws with the same settings, byte for byte, because
 //! it is the same renderer with the same plans.
@@ -58,7 +58,7 @@ pub struct Cost {
     pub ink: Option<Ink>,
 }
 
-/// What the drawing thread is told.
+/// What a drawing thread is told.
 pub enum Order {
     /// Draw this.
     Draw(Box<Job>),
@@ -197,6 +197,11 @@ impl Job {
         self.scene.seen_with(&SceneSettings { camera: self.camera()?, ..self.settings.clone() })
     }
 
+    /// Whether the same models are drawn as in another, in pictures of the same size.
+    pub fn is_of_same_scene_and_size(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene) && self.settings.size == other.settings.size
+    }
+
     /// Whether it would draw the same as another.
     pub fn is_same(&self, other: &Self) -> bool {
         let key = |job: &Self| (job.settings.size, job.settings.background, job.settings.color);
@@ -207,27 +212,27 @@ impl Job {
     }
 }
 
-/// Starts the thread. It ends when its orders do, and must be waited for then: a driver does not bear a program's end while it
-/// draws.
-pub fn start(backend: Backend, reporter: Reporter) -> std::io::Result<(Sender<Order>, JoinHandle<()>)> {
+/// Starts a thread, which names itself by its number. It ends when its orders do, and must be waited for then: a driver does
+/// not bear a program's end while it draws.
+pub fn start(backend: Backend, number: usize, reporter: Reporter) -> std::io::Result<(Sender<Order>, JoinHandle<()>)> {
     let (orders, taken) = channel();
     let thread = std::thread::Builder::new().name("drawing".to_owned());
-    let thread = thread.spawn(move || work(backend, &taken, &reporter))?;
+    let thread = thread.spawn(move || work(backend, number, &taken, &reporter))?;
     Ok((orders, thread))
 }
 
-fn work(backend: Backend, orders: &Receiver<Order>, reporter: &Reporter) {
+fn work(backend: Backend, number: usize, orders: &Receiver<Order>, reporter: &Reporter) {
     let mut drawer = match Drawer::new(backend) {
         Ok(drawer) => drawer,
-        Err(error) => return reporter.say(Report::NoRenderer(error)),
+        Err(error) => return reporter.say(Report::NoRenderer(number, error)),
     };
-    reporter.say(Report::Renderer(Box::new(drawer.context().clone())));
+    reporter.say(Report::Renderer(number, Box::new(drawer.context().clone())));
     // Until the viewer lets go of its end.
     while let Ok(order) = orders.recv() {
         reporter.say(match order {
             Order::Draw(job) => match drawer.draw(&job) {
-                Ok((drawings, shader_log)) => Report::Drawn { drawings, shader_log },
-                Err(error) => Report::NotDrawn(error),
+                Ok((drawings, shader_log)) => Report::Drawn { thread: number, drawings, shader_log },
+                Err(error) => Report::NotDrawn(number, error),
             },
             Order::Price(job) => match drawer.price(&job) {
                 Ok((scene, costs)) => Report::Priced { scene: Box::new(scene), costs },

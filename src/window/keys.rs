@@ -29,6 +29,7 @@ pub const SHEET: &[(&str, &str)] = &[
     ("Ctrl L", "save the exact lines of this view (SVG)"),
     ("Ctrl T", "save a turn around the model (GIF)"),
     ("Ctrl P", "save style and settings (preset, TOML)"),
+    ("drop a file", "show that model; a preset (.toml): its style and settings"),
     ("F11", "full screen"),
     ("H", "this sheet"),
 ];

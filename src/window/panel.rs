@@ -38,6 +38,7 @@ pub fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     choices(ui, "presets", "", SHIPPED.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::OpenPreset(name.to_owned()));
     });
+    preset_file(ui, events);
     faithful(ui, style, side, events);
     ui.separator();
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
@@ -57,6 +58,22 @@ pub fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
             Some(Err(problem)) => drop(ui.label(problem)),
             None => {}
         }
+    });
+}
+
+/// A field for a preset's file; files can be dropped on the window, too.
+fn preset_file(ui: &mut Ui, events: &mut Vec<ViewerEvent>) {
+    ui.horizontal(|ui| {
+        let id = ui.id().with("preset file");
+        let mut path: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+        ui.label("from a file");
+        let wanted = egui::vec2(ui.available_width() - 60.0, ui.spacing().interact_size.y);
+        let field = ui.add_sized(wanted, egui::TextEdit::singleline(&mut path).hint_text("preset.toml"));
+        let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        if (ui.small_button("open").clicked() || is_entered) && !path.trim().is_empty() {
+            events.push(ViewerEvent::OpenPreset(path.trim().to_owned()));
+        }
+        ui.data_mut(|data| data.insert_temp(id, path));
     });
 }
 

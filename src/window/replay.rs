@@ -29,6 +29,9 @@ pub struct Line {
     /// Frames go on without waiting for what the event starts; how long each takes is in the record.
     #[serde(default)]
     pub free: bool,
+    /// The frame is one of a drag: it shows the newest picture there is as soon as its own is begun.
+    #[serde(default)]
+    pub drag: bool,
 }
 
 /// A recording.

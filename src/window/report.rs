@@ -14,19 +14,21 @@ use std::sync::mpsc::Sender;
 /// News from a thread.
 #[derive(Debug)]
 pub enum Report {
-    /// There is something to draw with.
-    Renderer(Box<ContextInfo>),
-    /// There is nothing to draw with.
-    NoRenderer(Error),
+    /// A drawing thread has something to draw with.
+    Renderer(usize, Box<ContextInfo>),
+    /// It has nothing to draw with.
+    NoRenderer(usize, Error),
     /// A job is done; where a new shader was refused, its log.
     Drawn {
+        /// The drawing thread.
+        thread: usize,
         /// The pictures.
         drawings: Vec<Drawing>,
         /// What the driver said.
         shader_log: Option<String>,
     },
-    /// A job cannot be done.
-    NotDrawn(Error),
+    /// A drawing thread's job cannot be done.
+    NotDrawn(usize, Error),
     /// What a job costs, and the scene it draws.
     Priced {
         /// The scene.
@@ -36,7 +38,7 @@ pub enum Report {
     },
     /// What a job costs cannot be found out.
     NotPriced(Error),
-    /// The drawing thread has new shaders.
+    /// A drawing thread has new shaders.
     ShadersTaken,
     /// It has refused them and uses those before.
     ShadersRefused(Error),

@@ -10,6 +10,7 @@ use super::state::{Content, Pane};
 use super::viewer::Viewer;
 use crate::picture::Picture;
 use egui::{Align2, Color32, Context, CursorIcon, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2};
+use std::path::Path;
 use std::time::Duration;
 
 /// Width of the panel, points.
@@ -84,8 +85,10 @@ pub fn frame(context: &Context, viewer: &Viewer, textures: &mut Textures, follow
         let paths = input.raw.dropped_files.iter().filter_map(|file| file.path.as_ref());
         paths.map(|path| path.to_string_lossy().into_owned()).collect::<Vec<_>>()
     });
-    if !dropped.is_empty() {
-        events.push(ViewerEvent::Open(dropped));
+    let (presets, models): (Vec<String>, _) = dropped.into_iter().partition(|path| is_preset(path));
+    events.extend(presets.into_iter().map(ViewerEvent::OpenPreset));
+    if !models.is_empty() {
+        events.push(ViewerEvent::Open(models));
     }
     egui::TopBottomPanel::bottom("status").exact_height(STATUS_HEIGHT).show(context, |ui| status(ui, viewer));
     if state.has_panel {
@@ -102,6 +105,11 @@ pub fn frame(context: &Context, viewer: &Viewer, textures: &mut Textures, follow
         context.request_repaint_after(LOADING_INTERVAL);
     }
     events
+}
+
+/// Whether a file's name is that of a preset.
+fn is_preset(path: &str) -> bool {
+    Path::new(path).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
 }
 
 fn status(ui: &mut Ui, viewer: &Viewer) {

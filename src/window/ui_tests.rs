@@ -109,6 +109,25 @@ fn keys_switch_styles_and_a_dropped_file_is_opened() {
 }
 
 #[test]
+fn a_dropped_preset_is_put_on_the_active_side_and_one_that_cannot_be_read_is_a_sentence() {
+    let mut frames = Frames::new();
+    let file = tempfile::Builder::new().suffix(".toml").tempfile().unwrap();
+    std::fs::write(file.path(), "style = \"two-pass\"\ntones = 1\n").unwrap();
+    let drop = |path: &Path| RawInput {
+        dropped_files: vec![egui::DroppedFile { path: Some(path.to_owned()), ..Default::default() }],
+        ..RawInput::default()
+    };
+    frames.show_with(drop(file.path()));
+    assert_eq!((frames.viewer.state.style(Side::Left).name(), &frames.viewer.state.message), ("two-pass", &None));
+    assert_eq!(frames.viewer.state.models, ["builtin:open-box"]);
+    std::fs::write(file.path(), "filter = \"prewitt\"\n").unwrap();
+    frames.show_with(drop(file.path()));
+    let message = frames.viewer.state.message.clone().unwrap();
+    assert!(message.contains(".toml") && message.contains("prewitt"), "{message}");
+    assert_eq!(frames.viewer.state.style(Side::Left).name(), "two-pass");
+}
+
+#[test]
 fn a_frame_in_which_nothing_happens_makes_no_event_and_asks_for_no_other() {
     let mut frames = Frames::new();
     for event in [ViewerEvent::Panel, ViewerEvent::KeySheet, ViewerEvent::Price] {

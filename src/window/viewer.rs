@@ -1,11 +1,12 @@
 //! The viewer without its window: the state, the threads that work for it, and what they have told.
 //!
-//! The window asks [`Viewer::take_reports`] for news when it is woken, hands over events, and paints what is known. One
-//! picture is being drawn at most; when it is there and no longer what is wanted, the next one is asked for. So the newest
+//! The window asks [`Viewer::take_reports`] for news when it is woken, hands over events, and paints what is known. Each
+//! drawing thread draws one picture; when it is there and no longer what is wanted, the next one is asked for. So the newest
 //! wish is always at most a picture away, and nothing is drawn while nothing changes.
 
 use super::compose::composed;
-use super::draw::{self, Drawing, Job, Order};
+use super::draw::{Drawing, Job};
+use super::drawers::{Drawers, Ended};
 use super::event::{Effect, Save, Side, ViewerEvent};
 use super::load::{LoadedModels, Loader};
 use super::price::Price;
@@ -57,18 +58,18 @@ pub struct Viewer {
     pub picture_number: u64,
     /// The job that the drawings are of.
     drawn: Option<Job>,
-    asked: Option<Job>,
+    /// Its number.
+    drawn_number: u64,
     is_pricing: bool,
     reporter: Reporter,
     reports: Receiver<Report>,
-    /// Until the viewer ends.
-    orders: Option<Sender<Order>>,
-    /// Those with a driver at work.
-    drawing_threads: Vec<JoinHandle<()>>,
+    drawers: Drawers,
+    /// Those that write files.
+    saving_threads: Vec<JoinHandle<()>>,
     loader: Loader,
     watched: Sender<Vec<PathBuf>>,
     loads_going_on: u64,
-    /// The drawing thread's last words, where it has gone.
+    /// The drawing threads' last words, where they have gone.
     gone: Option<Error>,
 }
 
@@ -82,9 +83,10 @@ impl Viewer {
         let no_thread = |error: std::io::Error| Error::gl("starting the window's threads", error.to_string());
         let (sender, reports) = channel();
         let reporter = Reporter::new(sender, wake);
-        let (orders, drawing) = draw::start(options.backend, reporter.clone()).map_err(no_thread)?;
+        let mut drawers = Drawers::start(options.backend, reporter.clone()).map_err(no_thread)?;
         if let Some(folder) = &options.shaders {
-            let _ = orders.send(Order::Shaders(watch::shaders_in(folder)));
+            // One that has ended will say why.
+            let _ = drawers.replace_shaders(watch::shaders_in(folder));
         }
         let watched = watch::start(options.shaders.clone(), reporter.clone()).map_err(no_thread)?;
         let loader = Loader::new(options.load.clone(), reporter.clone());
@@ -106,12 +108,12 @@ impl Viewer {
             drawings: Vec::new(),
             picture_number: 0,
             drawn: None,
-            asked: None,
+            drawn_number: 0,
             is_pricing: false,
             reporter,
             reports,
-            orders: Some(orders),
-            drawing_threads: vec![drawing],
+            drawers,
+            saving_threads: Vec::new(),
             loader,
             watched,
             loads_going_on: 0,
@@ -177,22 +179,40 @@ impl Viewer {
     /// Asks for the picture of the state, if it is not there, and for its price when it is. To be called after events.
     pub fn ask(&mut self) {
         let Some(job) = self.job() else { return };
-        if self.asked.is_some() || self.is_pricing {
+        if self.is_pricing {
             return;
         }
-        let is_drawn = self.drawn.as_ref().is_some_and(|drawn| drawn.is_same(&job));
-        if !is_drawn {
-            self.asked = Some(job.clone());
-            self.send(Order::Draw(Box::new(job)));
-        } else if self.state.has_price && self.price.sides.is_empty() && self.problem.is_none() {
+        let newest = self.drawers.newest();
+        let is_asked = newest.or(self.drawn.as_ref()).is_some_and(|newest| newest.is_same(&job));
+        let sent = if !is_asked {
+            // Other models, and pictures of another size, come one by one.
+            let is_moving = newest.zip(self.drawn.as_ref()).is_some_and(|(newest, drawn)| {
+                [newest, drawn].iter().all(|other| other.is_of_same_scene_and_size(&job))
+            });
+            self.drawers.draw(job, is_moving)
+        } else if newest.is_none() && self.state.has_price && self.price.sides.is_empty() && self.problem.is_none() {
             self.is_pricing = true;
-            self.send(Order::Price(Box::new(job)));
-        }
+            self.drawers.price(job)
+        } else {
+            Ok(())
+        };
+        self.check(sent);
+    }
+
+    /// Whether the picture of the state is there or being drawn.
+    pub fn is_asked(&self) -> bool {
+        let newest = self.drawers.newest().or(self.drawn.as_ref());
+        self.job().is_none_or(|job| newest.is_some_and(|newest| newest.is_same(&job)))
+    }
+
+    /// Whether a picture is being drawn.
+    pub fn is_drawing(&self) -> bool {
+        self.drawers.newest().is_some()
     }
 
     /// Whether nothing is being read, drawn or measured.
     pub fn is_at_rest(&self) -> bool {
-        self.loads_going_on == 0 && self.asked.is_none() && !self.is_pricing && !self.price.is_measuring()
+        self.loads_going_on == 0 && !self.is_drawing() && !self.is_pricing && !self.price.is_measuring()
     }
 
     /// A side's picture.
@@ -241,10 +261,9 @@ impl Viewer {
         Some(command.map_err(|error| error.to_string()))
     }
 
-    fn send(&mut self, order: Order) {
-        let is_taken = self.orders.as_ref().is_some_and(|orders| orders.send(order).is_ok());
-        if !is_taken && self.gone.is_none() {
-            self.gone = Some(Error::gl("drawing", "the drawing thread has ended"));
+    fn check(&mut self, sent: std::result::Result<(), Ended>) {
+        if sent.is_err() && self.gone.is_none() {
+            self.gone = Some(Error::gl("drawing", "a drawing thread has ended"));
         }
     }
 
@@ -270,9 +289,9 @@ impl Viewer {
             reporter.say(Report::Saved(saved.map_or_else(|error| error.to_string(), |text| format!("saved {text}"))));
         };
         self.state.message = Some("saving".to_owned());
-        self.drawing_threads.retain(|thread| !thread.is_finished());
+        self.saving_threads.retain(|thread| !thread.is_finished());
         match std::thread::Builder::new().name("saving".to_owned()).spawn(work) {
-            Ok(thread) => self.drawing_threads.push(thread),
+            Ok(thread) => self.saving_threads.push(thread),
             Err(_) => {
                 self.state.message = Some("no thread to save on could be started; close something".to_owned());
             }
@@ -281,10 +300,30 @@ impl Viewer {
 
     fn take(&mut self, report: Report) {
         match report {
-            Report::Renderer(context) => self.surroundings.context = Some(context),
-            Report::NoRenderer(error) => self.gone = Some(error),
-            Report::Drawn { drawings, shader_log } => self.drawn(drawings, shader_log),
-            Report::NotDrawn(error) => self.not_drawn(&error),
+            Report::Renderer(thread, context) => {
+                self.drawers.opened(thread, &context);
+                self.surroundings.context.get_or_insert(context);
+            }
+            Report::NoRenderer(thread, error) => {
+                if !self.drawers.lost(thread) {
+                    self.gone = Some(error);
+                }
+            }
+            Report::Drawn { thread, drawings, shader_log } => {
+                if shader_log.is_some() {
+                    self.shader_log = shader_log;
+                }
+                if let Some(job) = self.done(thread) {
+                    self.drawn(job, drawings);
+                }
+            }
+            Report::NotDrawn(thread, error) => {
+                if let Some(job) = self.done(thread) {
+                    // Not asked for again until something changes; the last picture stays.
+                    self.drawn = Some(job);
+                    self.problem = Some(error.to_string());
+                }
+            }
             Report::Priced { scene, costs } => {
                 self.is_pricing = false;
                 let is_current = self.job().zip(self.drawn.as_ref()).is_some_and(|(job, drawn)| job.is_same(drawn));
@@ -319,7 +358,10 @@ impl Viewer {
             Report::Prepared => {}
             Report::Measured(number, errors) => self.price.measured(number, errors),
             Report::ModelChanged => self.open(self.state.models.clone()),
-            Report::ShadersChanged(shaders) => self.send(Order::Shaders(shaders)),
+            Report::ShadersChanged(shaders) => {
+                let sent = self.drawers.replace_shaders(shaders);
+                self.check(sent);
+            }
             Report::Saved(text) => self.state.message = Some(text),
         }
     }
@@ -343,39 +385,35 @@ impl Viewer {
         self.price.view_changed();
     }
 
-    fn drawn(&mut self, drawings: Vec<Drawing>, shader_log: Option<String>) {
-        let job = self.asked.take();
-        let is_same_view = self.drawn.as_ref().zip(job.as_ref()).is_some_and(|(before, now)| {
-            Arc::ptr_eq(&before.scene, &now.scene)
-                && before.orbit == now.orbit
-                && before.settings.size == now.settings.size
-        });
+    /// The job that a thread has done, unless a later one is shown already.
+    fn done(&mut self, thread: usize) -> Option<Job> {
+        let (number, job) = self.drawers.done(thread)?;
+        let is_news = number > self.drawn_number;
+        self.drawn_number = self.drawn_number.max(number);
+        is_news.then_some(job)
+    }
+
+    fn drawn(&mut self, job: Job, drawings: Vec<Drawing>) {
+        let is_same_view = self
+            .drawn
+            .as_ref()
+            .is_some_and(|before| before.orbit == job.orbit && before.is_of_same_scene_and_size(&job));
         match is_same_view {
             true => self.price.style_changed(),
             false => self.price.view_changed(),
         }
-        self.drawn = job;
+        self.drawn = Some(job);
         self.drawings = drawings;
         self.picture_number += 1;
         self.problem = None;
-        if shader_log.is_some() {
-            self.shader_log = shader_log;
-        }
-    }
-
-    fn not_drawn(&mut self, error: &Error) {
-        // Not asked for again until something changes; the last picture stays.
-        self.drawn = self.asked.take();
-        self.problem = Some(error.to_string());
     }
 }
 
 impl Drop for Viewer {
-    /// Waits for the picture that is being drawn and for files that are being written.
+    /// Waits for files that are being written.
     fn drop(&mut self) {
-        self.orders = None;
         self.price.view_changed();
-        for thread in self.drawing_threads.drain(..) {
+        for thread in self.saving_threads.drain(..) {
             // One that has panicked has said so.
             let _ = thread.join();
         }

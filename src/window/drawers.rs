@@ -1,0 +1,152 @@
+//! The threads that draw, and what each is at.
+//!
+//! One draws, until the picture changes faster than it can: then, where drawing is the processor's work, a second one takes
+//! every other picture. Mesa's software drivers compute vertices on one core, so that a second core would wait for them.
+
+use super::draw::{self, Job, Order};
+use super::report::Reporter;
+use crate::gl::{Backend, ContextInfo};
+use crate::threads::cores;
+use std::collections::HashMap;
+use std::sync::mpsc::Sender;
+use std::thread::JoinHandle;
+
+/// Most threads that draw.
+const MOST: usize = 2;
+
+/// The threads.
+pub struct Drawers {
+    backend: Backend,
+    reporter: Reporter,
+    threads: Vec<Thread>,
+    /// Shaders that were replaced, for a thread that starts later.
+    shaders: Option<HashMap<String, String>>,
+    /// Whether another thread would draw more pictures.
+    may_grow: bool,
+    /// Jobs so far.
+    count: u64,
+}
+
+/// One of them.
+struct Thread {
+    /// Until it shall end.
+    orders: Option<Sender<Order>>,
+    handle: Option<JoinHandle<()>>,
+    /// What it draws, and which job of all that is.
+    job: Option<(u64, Job)>,
+}
+
+impl Drawers {
+    /// Starts the first.
+    ///
+    /// # Errors
+    ///
+    /// When there is no thread to be had.
+    pub fn start(backend: Backend, reporter: Reporter) -> std::io::Result<Self> {
+        let mut drawers = Self { backend, reporter, threads: Vec::new(), shaders: None, may_grow: false, count: 0 };
+        drawers.add()?;
+        Ok(drawers)
+    }
+
+    fn add(&mut self) -> std::io::Result<()> {
+        let (orders, handle) = draw::start(self.backend, self.threads.len(), self.reporter.clone())?;
+        if let Some(shaders) = &self.shaders {
+            // One that has ended will be found to have when it is to draw.
+            let _ = orders.send(Order::Shaders(shaders.clone()));
+        }
+        self.threads.push(Thread { orders: Some(orders), handle: Some(handle), job: None });
+        Ok(())
+    }
+
+    /// Takes what a thread's context says: whether a second thread is worth having.
+    pub fn opened(&mut self, thread: usize, context: &ContextInfo) {
+        if thread == 0 {
+            self.may_grow = context.is_software() && cores() > 1;
+        }
+    }
+
+    /// Does without a thread that cannot draw; whether there is still one that can.
+    pub fn lost(&mut self, thread: usize) -> bool {
+        self.may_grow = false;
+        if let Some(lost) = self.threads.get_mut(thread) {
+            (lost.orders, lost.job) = (None, None);
+        }
+        self.threads.iter().any(|thread| thread.orders.is_some())
+    }
+
+    /// The last job that was given out and is not done.
+    pub fn newest(&self) -> Option<&Job> {
+        let jobs = self.threads.iter().filter_map(|thread| thread.job.as_ref());
+        jobs.max_by_key(|(number, _)| *number).map(|(_, job)| job)
+    }
+
+    /// Gives a job to a thread that has nothing to do. While the view changes and there is none, one is started if it helps.
+    ///
+    /// # Errors
+    ///
+    /// When a thread has ended.
+    pub fn draw(&mut self, job: Job, is_moving: bool) -> Result<(), Ended> {
+        let is_free = |thread: &&mut Thread| thread.orders.is_some() && thread.job.is_none();
+        if !self.threads.iter_mut().any(|thread| is_free(&thread)) {
+            if !is_moving || !self.may_grow || self.threads.len() == MOST || self.add().is_err() {
+                return Ok(());
+            }
+        }
+        let Some(thread) = self.threads.iter_mut().find(is_free) else { return Ok(()) };
+        self.count += 1;
+        thread.job = Some((self.count, job.clone()));
+        thread.send(Order::Draw(Box::new(job)))
+    }
+
+    /// Has a job timed by the first thread.
+    ///
+    /// # Errors
+    ///
+    /// When it has ended.
+    pub fn price(&self, job: Job) -> Result<(), Ended> {
+        self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::Price(Box::new(job))))
+    }
+
+    /// Has shaders used from now on.
+    ///
+    /// # Errors
+    ///
+    /// When a thread has ended.
+    pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<(), Ended> {
+        self.shaders = Some(shaders.clone());
+        let working = self.threads.iter().filter(|thread| thread.orders.is_some());
+        working.map(|thread| thread.send(Order::Shaders(shaders.clone()))).collect()
+    }
+
+    /// The job that a thread has done, with its number.
+    pub fn done(&mut self, thread: usize) -> Option<(u64, Job)> {
+        self.threads.get_mut(thread)?.job.take()
+    }
+
+    /// How many there are.
+    #[cfg(test)]
+    pub fn len(&self) -> usize {
+        self.threads.len()
+    }
+}
+
+/// A thread has ended that should not have.
+#[derive(Debug)]
+pub struct Ended;
+
+impl Thread {
+    fn send(&self, order: Order) -> Result<(), Ended> {
+        self.orders.as_ref().ok_or(Ended)?.send(order).map_err(|_| Ended)
+    }
+}
+
+impl Drop for Drawers {
+    /// Waits for what is being drawn: a driver does not bear a program's end while it draws.
+    fn drop(&mut self) {
+        self.threads.iter_mut().for_each(|thread| thread.orders = None);
+        for handle in self.threads.iter_mut().filter_map(|thread| thread.handle.take()) {
+            // One that has panicked has said so.
+            let _ = handle.join();
+        }
+    }
+}
