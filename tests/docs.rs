@@ -174,7 +174,7 @@ const CARGO: [&str; 14] = [
 /// What is wrong with a cargo command; `None` for nothing.
 fn cargo_fault(words: &[&str], manifest: &str, sources: &str) -> Option<String> {
     let words: Vec<&str> = words.iter().copied().filter(|word| !word.starts_with('+')).collect();
-    let Some(subcommand) = words.get(1) else { return None };
+    let subcommand = words.get(1)?;
     if !CARGO.contains(subcommand) {
         return Some(format!("cargo has no {subcommand} here"));
     }

@@ -90,6 +90,10 @@ fn every_command_in_the_documents_is_one() {
     let mut wrong = Vec::new();
     for named in documents().iter().flat_map(|document| commands(document)) {
         checked += 1;
+        // Without the window there is no such command.
+        if cfg!(not(feature = "window")) && named.text.starts_with("tinta view") {
+            continue;
+        }
         let Err(error) = Arguments::command().try_get_matches_from(words(&named.text)) else { continue };
         let is_only_named = !named.in_block
             && matches!(
