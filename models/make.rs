@@ -1,9 +1,9 @@
 //! Makes the four built-in models: a portrait bust, an open box, an ant and a
-//! gear.
+//! gear; and two small ones that pictures of options need.
 //!
 //! `cargo run --release --example make-models -- [OUTDIR]` writes `bust.obj`,
 //! `open-box.obj`, `ant.obj`, `gear.obj` and the colours beside them
-//! (`*.mtl`) into OUTDIR, `models` by default. The files are the same byte
+//! (`*.mtl`), `pawn.obj`, `pawn.ppm` and `hop.md2` into OUTDIR, `models` by default. The files are the same byte
 //! for byte on every run; `SOURCES.md` says what each model is for.
 
 #[path = "make/ant.rs"]
@@ -30,6 +30,8 @@ mod obj;
 mod open_box;
 #[path = "make/polygonise.rs"]
 mod polygonise;
+#[path = "make/samples.rs"]
+mod samples;
 #[path = "make/sweep.rs"]
 mod sweep;
 #[path = "make/vector.rs"]
@@ -66,5 +68,5 @@ fn write_all(folder: &Path) -> Result<(), String> {
         obj::write(&model, folder)?;
         println!("{}.obj: {} triangles", model.name, model.triangle_count());
     }
-    Ok(())
+    samples::write(folder)
 }

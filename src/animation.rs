@@ -5,6 +5,23 @@
 //!
 //! GIF and APNG are put together in memory and written when the last picture is in. A file growing on the disk would
 //! need less memory, but would be left behind, half, when the program is interrupted.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use tinta::{AnimationTarget, AnimationWriter, Picture, Size};
+//!
+//! let folder = tempfile::tempdir().expect("a folder");
+//! let name = folder.path().join("two.gif").display().to_string();
+//! let mut writer = AnimationWriter::new(AnimationTarget::check(&name, false)?, 2, 100)?;
+//! let size = Size { width: 4, height: 4 };
+//! for grey in [0, 255] {
+//!     writer.add(Picture { size, pixels: [grey, grey, grey, 255].repeat(16) })?;
+//! }
+//! writer.finish()?;
+//! assert!(std::fs::read(name).expect("the file").starts_with(b"GIF89a"));
+//! # Ok(())
+//! # }
+//! ```
 
 mod apng;
 mod changes;

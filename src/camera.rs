@@ -1,6 +1,24 @@
 //! Where the scene is seen from: asked for in the user's words, fitted to the scene, checked, as f64 matrices.
 //!
 //! In: [`CameraSettings`] and the scene's points. Out: a [`Camera`] in world space, file units, y up.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use glam::DVec3;
+//! use std::sync::Arc;
+//! use tinta::{CameraSettings, LoadOptions, Scene, SceneSettings, load};
+//!
+//! let mesh = load("builtin:gear", &LoadOptions::default())?.mesh;
+//! let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
+//!
+//! let settings = CameraSettings { eye: Some(DVec3::new(0.0, 0.0, 9.0)), fov_y_degrees: 45.0, ..Default::default() };
+//! let seen = scene.seen_with(&SceneSettings { camera: settings, ..Default::default() })?;
+//! assert_eq!(seen.camera.eye, DVec3::new(0.0, 0.0, 9.0));
+//! // The camera looks along -z, so that backward is +z.
+//! assert!(seen.camera.backward().z > 0.99);
+//! # Ok(())
+//! # }
+//! ```
 
 use crate::error::{Error, Result};
 use crate::tolerances::{

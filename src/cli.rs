@@ -2,6 +2,8 @@
 
 mod again;
 mod compare;
+#[cfg(test)]
+mod documents;
 mod edges;
 mod figures;
 mod info;

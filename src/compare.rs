@@ -3,6 +3,21 @@
 //! In: two pictures of lines alone (dark on light, or ink by its alpha). Out: counts and a map of agreement. A pixel of ink
 //! counts as drawn by both where the other drawing has ink within a tolerance, for lines of different width and half a
 //! pixel's difference are the same lines to the eye.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use tinta::compare::{Agreement, InkMask};
+//! use tinta::{Picture, Size};
+//!
+//! let size = Size { width: 3, height: 1 };
+//! let [ink, paper] = [[0, 0, 0, 255], [255; 4]];
+//! let lines = |pixels: [[u8; 4]; 3]| InkMask::of(&Picture { size, pixels: pixels.concat() });
+//! let both = Agreement::of(&lines([ink, paper, paper]), &lines([paper, ink, paper]), 1);
+//! // A pixel beside is the same line within a tolerance of one pixel.
+//! assert_eq!(both.map(|both| both.numbers.only_left_px), Some(0));
+//! # Ok(())
+//! # }
+//! ```
 
 use crate::picture::Picture;
 use crate::scene::Size;

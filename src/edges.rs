@@ -3,6 +3,19 @@
 //! In: a [`Mesh`]. Out: [`EdgeList`] (which edges there are), [`Classes`] (which are boundary, crease, non-manifold or a
 //! seam, whatever the view) and [`Silhouettes`] (which separate front from back faces, for an [`Eye`]). Dachsbacher,
 //! *Beethoven aus Bits und Bytes*, section "Inking"; errata D1 to D5 and D10.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use tinta::edges::{ClassSet, Classes, CreaseAngle};
+//! use tinta::{EdgeList, LoadOptions, load};
+//!
+//! let mesh = load("builtin:open-box", &LoadOptions::default())?.mesh;
+//! let edges = EdgeList::new(&mesh);
+//! let counts = Classes::new(&mesh, &edges, CreaseAngle::default(), ClassSet::EDGES).counts();
+//! assert_eq!((counts.boundary, counts.crease), (4, 8));
+//! # Ok(())
+//! # }
+//! ```
 
 mod build;
 mod classes;

@@ -2,6 +2,12 @@
 //!
 //! A message names the file, option or driver concerned, says what is wrong and what to do about it.
 //! The library returns these and never prints or exits; `main` prints them and exits with code 2.
+//!
+//! ```
+//! let error = tinta::load("nowhere.obj", &tinta::LoadOptions::default()).map(drop).unwrap_err();
+//! assert_eq!(error.to_string(), "nowhere.obj: there is no such file; check the name");
+//! assert_eq!(error.kind(), "model");
+//! ```
 
 /// The result of anything in this crate that can fail.
 pub type Result<T> = std::result::Result<T, Error>;

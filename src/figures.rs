@@ -4,6 +4,15 @@
 //! In: a picture size and a renderer. Out: pictures, measured numbers ([`Numbers`]) and a page with both
 //! ([`page::page`]). The list knows neither GL nor clap: a panel is a scene's settings and a style, and beside them the
 //! words that make `tinta` draw the same, which a test holds against each other.
+//!
+//! ```
+//! use tinta::Size;
+//! use tinta::figures::figures;
+//!
+//! let size = Size { width: 256, height: 256 };
+//! let tones = figures(size).into_iter().find(|figure| figure.id == "evangelista-5").expect("figure 5");
+//! assert_eq!(tones.panels().len(), 4, "Phong, one, two and three tones");
+//! ```
 
 mod dachsbacher;
 mod draw;

@@ -3,6 +3,18 @@
 //! The only module with `unsafe` code. In: a [`crate::plan::Plan`] and a [`crate::scene::Scene`]. Out: pixels and times.
 //! It knows no style. Every `unsafe` block here rests on two facts, which its comment names: the context these functions
 //! were loaded from is current on this thread, and the objects passed are alive.
+//!
+//! ```
+//! use tinta::gl::context::{Attempt, Outcome, attempts};
+//!
+//! // Every way to a context on this machine, and what came of it.
+//! for Attempt { device, outcome } in attempts(tinta::Backend::Auto) {
+//!     match outcome {
+//!         Outcome::Context(info) => println!("{device}: {}", info.renderer),
+//!         Outcome::Error(reason) => println!("{device}: {reason}"),
+//!     }
+//! }
+//! ```
 
 #![expect(unsafe_code, reason = "OpenGL is a C interface; this module wraps all of it")]
 

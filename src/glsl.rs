@@ -1,4 +1,9 @@
 //! The shaders, whole files from `glsl/`, carried inside the program.
+//!
+//! ```
+//! let filter = tinta::glsl::source("evangelista/border.frag").expect("a shader of the paper");
+//! assert!(filter.starts_with("#version 120") && filter.contains("DETECTION_FACTOR 0.2f"));
+//! ```
 
 /// A shader's path below `glsl/` and its text.
 pub type Source = (&'static str, &'static str);

@@ -17,6 +17,20 @@
 //!
 //! This holds for faces that are drawn with a depth test (GL_LESS or GL_LEQUAL) and without polygon offset, which would push
 //! steep faces behind what they hide.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use std::sync::Arc;
+//! use tinta::{LoadOptions, Scene, SceneSettings, load};
+//!
+//! let mesh = load("builtin:gear", &LoadOptions::default())?.mesh;
+//! let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
+//!
+//! let counts = scene.hiding(&scene.objects[0]).counts();
+//! assert_eq!((counts.shells, counts.sound_shells), (1, 1), "a gear is one closed surface");
+//! # Ok(())
+//! # }
+//! ```
 
 mod distance;
 mod flags;

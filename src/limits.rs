@@ -3,6 +3,11 @@
 //! A file's own numbers are compared with what the file can hold before memory is asked for. What is left is bounded here:
 //! reading a model takes at most [`MEMORY_FACTOR`] times the bytes read and [`MEMORY_SLACK_BYTES`]; a picture has limits of its
 //! own, as a few bytes may rightly be a large one. The document `docs/limits.md` lists them all, which a test checks.
+//!
+//! ```
+//! // Eight thousand pixels a side, four bytes each, is the largest picture believed.
+//! assert_eq!(tinta::limits::PICTURE_BYTES, 8192 * 8192 * 4);
+//! ```
 
 /// Most main memory that reading a model takes, in its files' bytes, beyond [`MEMORY_SLACK_BYTES`].
 pub const MEMORY_FACTOR: usize = 20;

@@ -5,6 +5,22 @@
 //! of an edge can change only where its image crosses that of a nearer edge at which a surface ends or turns away
 //! (boundary, non-manifold, silhouette), or where the edge passes through a face (Appel 1967). All these places are found,
 //! the edge is cut there, and each piece is decided by one ray.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use std::sync::Arc;
+//! use tinta::lines::svg;
+//! use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, VisibleLines, load};
+//!
+//! let mesh = load("builtin:open-box", &LoadOptions::default())?.mesh;
+//! let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
+//!
+//! let lines = VisibleLines::of(&scene, &LineSettings::default())?;
+//! assert!(lines.segments.iter().any(|segment| segment.is_visible) && lines.segments.iter().any(|segment| !segment.is_visible));
+//! assert!(svg(&lines, &SvgSettings::default())?.contains("<svg"));
+//! # Ok(())
+//! # }
+//! ```
 
 pub(crate) mod boxes;
 mod cast;

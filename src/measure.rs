@@ -2,6 +2,21 @@
 //!
 //! In: models and a list of settings. Out: a [`Row`] for each as soon as it is known. What the numbers mean stands in
 //! docs/measuring.md.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use std::sync::Arc;
+//! use tinta::measure::Reference;
+//! use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, load};
+//!
+//! let mesh = load("builtin:open-box", &LoadOptions::default())?.mesh;
+//! let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
+//!
+//! let reference = Reference::of(&scene, &LineSettings::default())?;
+//! assert!(reference.length_px() > 1000.0, "all visible lines of the box, in a picture of 512 pixels");
+//! # Ok(())
+//! # }
+//! ```
 
 mod ink;
 mod reference;

@@ -3,6 +3,17 @@
 //! In: a file's polygons (`Soup`, one reader a format). Out: [`Mesh`], which everything after it shares:
 //! the edge list needs the welded positions, GL the corners' normals, the reference lines the f64 coordinates.
 //! Positions stay in f64 and in the file's own units; what GL gets is recentred and scaled by the scene.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use tinta::{LoadOptions, load};
+//!
+//! let loaded = load("builtin:gear", &LoadOptions::default())?;
+//! assert_eq!(loaded.mesh.triangles.len(), 1880);
+//! assert!(loaded.remarks.is_empty(), "nothing is wrong with it");
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod builtin;
 pub mod defects;

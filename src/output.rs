@@ -3,6 +3,20 @@
 //! Pictures, animations and texts all go through here. Nothing half is left however the program ends, without handling
 //! signals: what is written is complete in memory first, and on the disk before it gets its name. The price is its size in
 //! memory. What holds when, and what no program can promise: docs/faults.md.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use tinta::TextTarget;
+//!
+//! let folder = tempfile::tempdir().expect("a folder");
+//! let name = folder.path().join("lines.svg").display().to_string();
+//! // Checked before the work, written whole after it.
+//! let target = TextTarget::check(&name)?;
+//! target.write("<svg/>")?;
+//! assert_eq!(std::fs::read_to_string(name).expect("the file"), "<svg/>");
+//! # Ok(())
+//! # }
+//! ```
 
 mod beside;
 

@@ -1,4 +1,17 @@
 //! A picture: RGBA8 and its size; written to files and read from them. The image crate is known here and in `src/picture/read.rs` only.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use tinta::{Picture, Size, Target};
+//!
+//! let folder = tempfile::tempdir().expect("a folder");
+//! let name = folder.path().join("red.png").display().to_string();
+//! let red = Picture { size: Size { width: 2, height: 1 }, pixels: [255, 0, 0, 255].repeat(2) };
+//! Target::check(&name, false)?.write(&red)?;
+//! assert_eq!(Picture::read_png(name.as_ref())?, red);
+//! # Ok(())
+//! # }
+//! ```
 
 mod pcx;
 pub(crate) mod png_text;

@@ -1,6 +1,23 @@
 //! What a style wants GL to do, as plain data: passes of steps, each with all the state it needs.
 //!
 //! A style makes it from a scene, `gl` carries it out, and anybody can print, compare or check it without a GPU.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use std::sync::Arc;
+//! use tinta::{LoadOptions, Scene, SceneSettings, Show, Style, StyleName, load};
+//!
+//! let mesh = load("builtin:bust", &LoadOptions::default())?.mesh;
+//! let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
+//!
+//! let plan = Style::named(StyleName::ThreePass).plan(&scene, Show::Final)?;
+//! let passes: Vec<&str> = plan.passes.iter().map(|pass| pass.name).collect();
+//! assert_eq!(passes, ["map", "tones", "border"]);
+//! // A plan prints as what it does, step by step.
+//! assert!(plan.to_string().contains("evangelista/border.frag"));
+//! # Ok(())
+//! # }
+//! ```
 
 mod display;
 pub mod prune;

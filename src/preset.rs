@@ -3,6 +3,18 @@
 //! A preset is exactly a command line kept in a file: `line-width = 3` is `--line-width 3`. What names and values there are
 //! is known where the options are defined, so this module keeps [`Options`] as names and texts; `settings.rs` and `style.rs` say
 //! which options make given settings, which is how a window writes down what it shows.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use tinta::Preset;
+//! use tinta::preset::{OptionValue, to_toml};
+//!
+//! let preset = Preset::parse("ink.toml", "style = \"inking\"\nline-width = 3\n")?;
+//! assert_eq!(preset.options["line-width"], OptionValue::text("3"));
+//! assert_eq!(Preset::parse("again.toml", &to_toml(&preset.options, ""))?.options, preset.options);
+//! # Ok(())
+//! # }
+//! ```
 
 mod settings;
 mod shipped;

@@ -2,6 +2,22 @@
 //!
 //! In PNG it is a `tEXt` chunk, in SVG an element of `<metadata>`; both hold the same JSON in ASCII. There is no date in it, nor
 //! where the picture was written: the same drawing is the same bytes.
+//!
+//! ```
+//! use tinta::Recipe;
+//!
+//! let recipe = Recipe {
+//!     version: "0.1.0".to_owned(),
+//!     command: "render".to_owned(),
+//!     style: "inking".to_owned(),
+//!     size: [64, 64],
+//!     models: vec!["my cow.obj".to_owned()],
+//!     options: Default::default(),
+//!     files: Vec::new(),
+//!     gl: None,
+//! };
+//! assert!(recipe.command_line("cow.png").contains("'my cow.obj'"), "as a shell takes it");
+//! ```
 
 use crate::error::{Error, Result};
 use crate::files::shown;

@@ -1,4 +1,11 @@
 //! What one rendering was and took, as one JSON object.
+//!
+//! ```
+//! use tinta::record::Summary;
+//!
+//! let times = Summary::new(vec![3.0, 1.0, 2.0]);
+//! assert_eq!((times.min, times.median, times.max), (1.0, 2.0, 3.0));
+//! ```
 
 mod lines;
 

@@ -1,11 +1,25 @@
 //! A GL context and what it holds: scenes and styles go in, pictures and times come out.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use std::sync::Arc;
+//! use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Size, Style, StyleName, load};
+//!
+//! let mesh = load("builtin:gear", &LoadOptions::default())?.mesh;
+//! let settings = SceneSettings { size: Size { width: 64, height: 64 }, ..Default::default() };
+//! let scene = Scene::new(vec![Arc::new(mesh)], &settings)?;
+//! let mut renderer = Renderer::new(Backend::Auto)?;
+//! let picture = renderer.render(&scene, &Style::named(StyleName::ThreePass))?;
+//! assert_eq!(picture.pixels.len(), 64 * 64 * 4);
+//! # Ok(())
+//! # }
+//! ```
 
 use crate::camera::CameraSettings;
 use crate::error::{Error, Result};
 use crate::gl::context::{Context, Current};
 use crate::gl::execute::Resources;
 use crate::gl::{Backend, ContextInfo, Fault};
-use crate::glsl::SOURCES;
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::prune::{Pruning, prune};
@@ -241,8 +255,9 @@ impl Renderer {
         })
     }
 
-    /// Uses these texts instead of the shaders built in, by their paths below `glsl/`; those not among them are the built-in
-    /// ones again. All that replace one are compiled now, so that a mistake is found before the next picture.
+    /// Uses these texts as shaders, by their paths below `glsl/`: in place of the built-in ones of that path, or beside them
+    /// where there is none, for plans of your own that name them in a [`Program`]. Those given before and not now are gone.
+    /// A vertex shader's path ends with `.vert`. All are compiled now, so that a mistake is found before the next picture.
     ///
     /// # Errors
     ///
@@ -251,7 +266,9 @@ impl Renderer {
         self.resources.refuse_if_lost("replacing shaders")?;
         let _current = self.context.enter()?;
         let before = self.resources.replace_shaders(shaders.clone());
-        let paths = SOURCES.iter().map(|(path, _)| *path).filter(|path| shaders.contains_key(*path));
+        // In a fixed order: of several mistakes the same one is said every time.
+        let mut paths: Vec<&String> = shaders.keys().collect();
+        paths.sort();
         let compiled = paths.into_iter().try_for_each(|path| self.resources.compile(path));
         if compiled.is_err() {
             self.resources.replace_shaders(before);

@@ -4,6 +4,12 @@
 //! In: [`Row`]s of one machine or several, and [`ReportInfo`] about the run. Out: files in a folder, each written whole.
 //! Nothing here measures, draws models or looks at the clock. The plots are work-precision diagrams as numerical
 //! analysts draw them (Hairer, Nørsett, Wanner: Solving Ordinary Differential Equations I, section II.10).
+//!
+//! ```
+//! // The first line names the columns.
+//! let table = tinta::report::csv(&[]);
+//! assert_eq!(table.lines().count(), 1);
+//! ```
 
 mod canvas;
 mod columns;

@@ -3,6 +3,24 @@
 //! GL draws in scene space: the scene's centre is the origin and its radius 1, so that f32 suffices wherever the model
 //! lies and however large it is, and so that the papers' light, given in eye space without a unit, always stands at the
 //! same place relative to what it lights (errata E11). Scene space only moves and scales world space; nothing turns.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use std::sync::Arc;
+//! use tinta::{Background, LoadOptions, Scene, SceneSettings, Size, load};
+//!
+//! let ant = Arc::new(load("builtin:ant", &LoadOptions::default())?.mesh);
+//! let settings = SceneSettings {
+//!     copies: 4,
+//!     size: Size { width: 320, height: 240 },
+//!     background: Background::Transparent,
+//!     ..SceneSettings::default()
+//! };
+//! let scene = Scene::new(vec![ant], &settings)?;
+//! assert_eq!((scene.objects.len(), scene.triangle_count()), (4, 4 * 3964));
+//! # Ok(())
+//! # }
+//! ```
 
 mod extent;
 mod pictures;

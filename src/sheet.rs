@@ -1,5 +1,16 @@
 //! Sheets: pictures side by side with titles above and lines of text with colour swatches below. The one file that knows
 //! the font, Noto Sans Mono as bitmaps, which needs no rasteriser and no file.
+//!
+//! ```
+//! use tinta::sheet::{Caption, Panel, sheet};
+//! use tinta::{Picture, Size};
+//!
+//! let size = Size { width: 40, height: 30 };
+//! let picture = Picture { size, pixels: [255, 0, 0, 255].repeat(size.pixel_count()) };
+//! let panel = |title: &str| Panel { title: title.to_owned(), subtitle: String::new(), picture: picture.clone() };
+//! let whole = sheet(&[panel("left"), panel("right")], &[Caption { swatch: None, text: "two".to_owned() }]);
+//! assert!(whole.size.width > 80 && whole.size.height > 30);
+//! ```
 
 use crate::picture::Picture;
 use crate::scene::Size;

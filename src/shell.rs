@@ -1,4 +1,9 @@
 //! Command lines as a shell takes them, for files and reports that carry the command that made them.
+//!
+//! ```
+//! assert_eq!(tinta::shell::quoted("my cow.obj"), "'my cow.obj'");
+//! assert_eq!(tinta::shell::quoted("cow.obj"), "cow.obj");
+//! ```
 
 /// The program's name and its words, quoted where that is needed.
 pub fn command_line(words: impl Iterator<Item = String>) -> String {

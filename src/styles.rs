@@ -11,6 +11,25 @@
 //! | `ink` | of this project: Evangelista's passes with a map and a filter that answer to geometry |
 //! | `charcoal` | Valente 2007 |
 //! | `sand` | Valente 2007, section 4 |
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use std::sync::Arc;
+//! use tinta::styles::{Cartoon, Tones};
+//! use tinta::{LoadOptions, Scene, SceneSettings, Show, Style, load};
+//!
+//! let mesh = load("builtin:bust", &LoadOptions::default())?.mesh;
+//! let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
+//!
+//! let cartoon = Cartoon { tones: Tones { count: 2, ..Tones::default() }, ..Cartoon::default() };
+//! let plan = Style::ThreePass(cartoon.clone()).plan(&scene, Show::Final)?;
+//! assert_eq!(plan.passes.len(), 3);
+//! // Nonsense is refused by the option's name.
+//! let wrong = Cartoon { tones: Tones { count: 4, ..Tones::default() }, ..cartoon };
+//! assert!(Style::ThreePass(wrong).plan(&scene, Show::Final).is_err());
+//! # Ok(())
+//! # }
+//! ```
 
 mod border;
 mod cartoon;

@@ -5,6 +5,18 @@
 //! The same settings give the same bytes on every machine: the numbers come from a generator of our own instead of the
 //! text's `rand()` (errata V8), sums are done in a fixed order, and nothing that a platform's mathematics library
 //! rounds in its own way reaches a byte unrounded.
+//!
+//! ```
+//! # fn main() -> tinta::Result<()> {
+//! use tinta::Size;
+//! use tinta::textures::NoiseTexture;
+//!
+//! let noise = NoiseTexture { size: Size { width: 32, height: 32 }, seed: 7 };
+//! assert_eq!(noise.picture()?, noise.clone().picture()?, "the same on every machine");
+//! assert_ne!(noise.picture()?, NoiseTexture { seed: 8, ..noise }.picture()?);
+//! # Ok(())
+//! # }
+//! ```
 
 mod blur;
 mod contrast;

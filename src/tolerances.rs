@@ -1,4 +1,9 @@
 //! Every number that decides "near enough", with its unit and its reason.
+//!
+//! ```
+//! // The cosine of the angle between equal normals, rounded, still counts as parallel.
+//! assert!(1.0 - tinta::tolerances::PARALLEL_COSINE < 1.0);
+//! ```
 
 /// Default of `--weld`, a share of the model's bounding-box diagonal: one unit in the last place of an f32 file.
 pub const WELD: f64 = 1e-7;

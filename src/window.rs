@@ -12,6 +12,16 @@
 //! | `draw.rs`, `drawers.rs`, `load.rs`, `watch.rs`, `price.rs`, `save.rs`, `report.rs` | the threads and what they tell |
 //! | `ui.rs`, `panel.rs`, `plot.rs`, `keys.rs` | widgets: they read the state and make events |
 //! | `app.rs`, `replay.rs` | the window itself, and recordings played in it |
+//!
+//! ```
+//! use tinta::window::{Orbit, Side, ViewerEvent, ViewerState};
+//!
+//! let mut state = ViewerState::new(vec!["builtin:gear".to_owned()], Orbit::default());
+//! let before = state.orbit.view;
+//! state.update(ViewerEvent::Turn([0.25, 0.0]));
+//! assert_ne!(state.orbit.view, before);
+//! assert_eq!(state.style(Side::Left).name(), "three-pass");
+//! ```
 
 mod app;
 mod buffer;

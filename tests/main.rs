@@ -9,7 +9,9 @@ mod cli_lines;
 mod cli_measure;
 mod corpus;
 mod docs;
+mod docs_run;
 mod edges;
+mod examples;
 #[cfg(unix)]
 mod external;
 mod faults;

@@ -3,6 +3,8 @@
 mod animate;
 mod keep;
 mod lines;
+#[cfg(test)]
+mod option_pictures;
 mod prune;
 #[cfg(test)]
 mod round_trip;

@@ -375,7 +375,7 @@ impl Resources {
     }
 
     /// Compiles a shader by itself and lets go of it.
-    pub fn compile(&self, path: &'static str) -> Result<()> {
+    pub fn compile(&self, path: &str) -> Result<()> {
         let kind = if path.ends_with(".vert") { glow::VERTEX_SHADER } else { glow::FRAGMENT_SHADER };
         Shader::new(&self.gl, kind, path).map(drop)
     }

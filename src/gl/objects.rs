@@ -207,7 +207,7 @@ pub struct Shader {
 
 impl Shader {
     /// Compiles the shader of this path below `glsl/`.
-    pub fn new(gl: &Rc<Gl>, kind: u32, path: &'static str) -> Result<Self> {
+    pub fn new(gl: &Rc<Gl>, kind: u32, path: &str) -> Result<Self> {
         let failed = |log: &str| Error::Shader { path: path.to_owned(), log: one_line(log) };
         let replaced = gl.replaced_shaders.borrow();
         let built_in = || crate::glsl::source(path);

@@ -119,7 +119,7 @@ fn refuse_what_is_for_one_picture(arguments: &Arguments) -> Result<()> {
 }
 
 /// A scene for each picture, and how long reading took, milliseconds.
-fn scenes(arguments: &Arguments, style: &Style) -> Result<(Vec<Scene>, f64)> {
+pub(super) fn scenes(arguments: &Arguments, style: &Style) -> Result<(Vec<Scene>, f64)> {
     let settings = arguments.scene.settings(arguments.camera.settings());
     if let Some(movement) = &arguments.animation.animate {
         let start = Instant::now();

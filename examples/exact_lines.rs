@@ -1,0 +1,35 @@
+//! Finds the visible lines of a model exactly and writes them as SVG, hidden ones dashed. No OpenGL is opened.
+//!
+//! `cargo run --example exact_lines -- cow.obj cow.svg`
+
+use std::sync::Arc;
+use tinta::edges::Class;
+use tinta::lines::{Hidden, svg};
+use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, TextTarget, VisibleLines, load};
+
+fn main() -> tinta::Result<()> {
+    let mut words = std::env::args().skip(1);
+    let model = words.next().unwrap_or_else(|| "builtin:gear".to_owned());
+    let output = words.next().unwrap_or_else(|| "lines.svg".to_owned());
+    let (visible, hidden) = draw(&model, &output)?;
+    println!("{visible} visible pieces of lines, {hidden} hidden ones");
+    Ok(())
+}
+
+/// Writes a model's lines; how many pieces are visible and how many hidden.
+pub fn draw(model: &str, output: &str) -> tinta::Result<(usize, usize)> {
+    let target = TextTarget::check(output)?;
+    let mesh = load(model, &LoadOptions::default())?.mesh;
+    let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
+    let lines = VisibleLines::of(&scene, &LineSettings::default())?;
+    let creases = lines.segments.iter().filter(|segment| segment.class == Class::Crease).count();
+    let settings = SvgSettings {
+        title: format!("{model}, {creases} pieces of creases"),
+        hidden: Hidden::Dashed,
+        line_width_px: 1.5,
+        ..SvgSettings::default()
+    };
+    target.write(&svg(&lines, &settings)?)?;
+    let visible = lines.segments.iter().filter(|segment| segment.is_visible).count();
+    Ok((visible, lines.segments.len() - visible))
+}

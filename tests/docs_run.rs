@@ -1,0 +1,90 @@
+//! What the documents say is done and said: the first ten minutes run as written, and every sentence quoted is printed.
+
+use crate::support::{root, skip};
+use std::process::Command;
+
+/// A file that cannot be drawn, or only with a remark.
+const ODD_FILES: [(&str, &str); 5] = [
+    ("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+    ("odd.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 2 2\nf 1 2 3\nf 1 1 2\n"),
+    ("plain.obj", "mtllib none.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+    ("noise.ply", "no header\n"),
+    ("empty.obj", ""),
+];
+
+#[test]
+fn every_sentence_quoted_in_troubleshooting_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    ODD_FILES.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());
+    let nowhere = folder.path().join("nowhere").display().to_string();
+    let said = |environment: &[(&str, &str)], words: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_tinta"));
+        for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "GALLIUM_DRIVER"] {
+            command.env_remove(name);
+        }
+        let words = words.split(' ');
+        let output = command.args(words).envs(environment.iter().copied()).current_dir(folder.path()).output().unwrap();
+        [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat()
+    };
+    let mut all = String::new();
+    for words in [
+        "render bad.obj -o a.png",
+        "render odd.obj -o a.png --size 16",
+        "render plain.obj -o a.png --size 16",
+        "render noise.ply -o a.png",
+        "render empty.obj -o a.png",
+        "render nowhere.obj -o a.png",
+        "render builtin:ant -o nodir/a.png",
+        "render builtin:ant -o a.png --size 20000",
+        "render builtin:open-box -o a.png --style inking --line-width 300 --size 16",
+        "render builtin:open-box -o a.png --style inking --texture on --size 16",
+        "render builtin:open-box -o a.svg --eye 100,0,0 --target 200,0,0",
+    ] {
+        all.push_str(&said(&[], words));
+    }
+    if cfg!(feature = "window") {
+        all.push_str(&said(&[], "view"));
+    } else {
+        skip("the window's sentence: built without the window");
+        all.push_str("tinta: no window can be opened (neither WAYLAND_DISPLAY nor WAYLAND_SOCKET nor DISPLAY is set)");
+    }
+    // One driver's library is enough to draw with, so that both must fail.
+    all.push_str(&said(&[("GALLIUM_DRIVER", "none"), ("LIBGL_DRIVERS_PATH", &nowhere)], "info"));
+    let page = std::fs::read_to_string(root().join("docs/troubleshooting.md")).unwrap();
+    let quoted: Vec<&str> = page.lines().filter_map(|line| line.strip_prefix("> ")).map(str::trim).collect();
+    assert!(quoted.len() >= 14, "only {quoted:?} were found");
+    let missing: Vec<&str> = quoted.into_iter().filter(|sentence| !all.contains(*sentence)).collect();
+    assert!(
+        missing.is_empty(),
+        "docs/troubleshooting.md quotes what no command here says: {missing:#?}\nsaid was:\n{all}"
+    );
+}
+
+#[test]
+fn the_first_ten_minutes_go_as_they_are_written() {
+    let folder = tempfile::tempdir().unwrap();
+    for (from, to) in [("models/pawn.obj", "cow.obj"), ("models/pawn.ppm", "cow.ppm")] {
+        std::fs::copy(root().join(from), folder.path().join(to)).unwrap();
+    }
+    let page = std::fs::read_to_string(root().join("docs/first-ten-minutes.md")).unwrap();
+    let mut count = 0;
+    for command in page.lines().filter_map(|line| line.strip_prefix("    tinta ")) {
+        if command.starts_with("view") {
+            continue;
+        }
+        let output = Command::new(env!("CARGO_BIN_EXE_tinta"))
+            .args(command.split(' '))
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(0), "tinta {command}: {}", String::from_utf8_lossy(&output.stderr));
+        let words: Vec<&str> = command.split(' ').collect();
+        if let Some(at) = words.iter().position(|word| *word == "-o") {
+            let written = folder.path().join(words[at + 1]);
+            assert!(written.exists(), "tinta {command} wrote nothing");
+        }
+        count += 1;
+    }
+    assert!(count >= 12, "only {count} commands were found");
+    assert!(folder.path().join("mine.toml").exists() && folder.path().join("results/report.html").exists());
+}
