@@ -99,6 +99,16 @@ fn fish(command: &Command, written: &str) -> String {
         }
     }
     for command in command.get_subcommands() {
+        // Of clap's own script positional arguments are missing.
+        for arg in command.get_positionals().filter(|arg| !arg.get_possible_values().is_empty()) {
+            let names: Vec<String> =
+                arg.get_possible_values().iter().map(|value| value.get_name().to_owned()).collect();
+            script.push_str(&format!(
+                "complete -c tinta -n \"__fish_tinta_using_subcommand {}\" -f -a \"{}\"\n",
+                command.get_name(),
+                names.join(" ")
+            ));
+        }
         if command.get_arguments().any(|arg| arg.get_long() == Some(PRESET)) {
             script.push_str(&format!(
                 "complete -c tinta -n \"__fish_tinta_using_subcommand {}\" -l {PRESET} -r -F -a \"{}\"\n",

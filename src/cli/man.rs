@@ -37,13 +37,26 @@ struct Page {
     text: String,
 }
 
-/// What no option says: variables, and what they do.
-const ENVIRONMENT: [(&str, &str); 4] = [
-    ("DISPLAY, WAYLAND_DISPLAY", "Where tinta view opens its window. All other commands need no display."),
+/// What the program is, for its own page.
+const DESCRIPTION: &str = "\
+Draws 3D models the way the papers of 2001 to 2007 made them: the published OpenGL 2.1 programs almost verbatim, and exact visible \
+lines. No display and no graphics card is needed: OpenGL comes through EGL or OSMesa, from Mesa's software renderer where nothing \
+else is there. Models are files, or built in, such as builtin:bust. Each command has a page of its own with all its options and their \
+defaults.";
+
+/// Where a window opens.
+const DISPLAY: (&str, &str) =
+    ("DISPLAY, WAYLAND_DISPLAY", "Where tinta view opens its window. All other commands need no display.");
+
+/// Variables that Mesa reads.
+const ENVIRONMENT: [(&str, &str); 3] = [
     ("GALLIUM_DRIVER", "Mesa's software driver: llvmpipe, or the slower softpipe. Unset, Mesa chooses."),
     ("LIBGL_ALWAYS_SOFTWARE", "If it is 1, Mesa leaves graphics cards alone."),
     ("LP_NUM_THREADS", "How many threads Mesa's llvmpipe draws with; unset, one for each core."),
 ];
+
+/// Commands that open no OpenGL.
+const WITHOUT_OPENGL: [&str; 4] = ["edges", "textures", "completions", "man"];
 
 /// What the exit code says.
 const EXIT_CODES: [(&str, &str); 3] = [
@@ -85,34 +98,45 @@ fn examples(whole: &Command) -> Vec<String> {
 fn page(command: &Command, examples: &[String], commands: &[String]) -> String {
     let usage = command.clone().render_usage().to_string();
     let usage = usage.strip_prefix("Usage: ").unwrap_or(&usage).to_owned();
-    let man = Man::new(command.clone().override_usage(usage))
-        .source(format!("tinta {}", env!("CARGO_PKG_VERSION")))
-        .manual("tinta");
-    let mut text = written(|out| man.render_title(out));
+    let man = Man::new(command.clone().override_usage(usage));
+    // roff leaves out an empty date, and with it the order of what follows.
+    let title = command.get_display_name().unwrap_or("tinta");
+    let mut text = format!(".TH {title} 1 \"\" \"tinta {}\" \"tinta\"\n", env!("CARGO_PKG_VERSION"));
     text += &written(|out| man.render_name_section(out));
     text += &written(|out| man.render_synopsis_section(out));
-    text += &written(|out| man.render_description_section(out));
+    let mut description = Roff::new();
+    description.control("SH", ["DESCRIPTION"]);
+    if commands.is_empty() {
+        let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+        let more = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+        described(&mut description, &format!("{about}.\n\n{more}"));
+    } else {
+        described(&mut description, DESCRIPTION);
+    }
+    text += &description.render();
     text += &with_subsections(command, &written(|out| man.render_options_section(out)));
     if !commands.is_empty() {
         text += &written(|out| man.render_subcommands_section(out)).replace(".SH SUBCOMMANDS", ".SH COMMANDS");
     }
     let mut rest = Roff::new();
-    if commands.is_empty() {
-        notes(&mut rest, &command.get_after_help().map(ToString::to_string).unwrap_or_default());
-    }
     if !examples.is_empty() {
         rest.control("SH", ["EXAMPLES"]);
         as_it_stands(&mut rest, examples.iter().flat_map(|example| example.lines()));
     }
     listed(&mut rest, "EXIT STATUS", &EXIT_CODES);
-    listed(&mut rest, "ENVIRONMENT", &ENVIRONMENT);
+    if !WITHOUT_OPENGL.contains(&command.get_name()) {
+        listed(&mut rest, "ENVIRONMENT", &ENVIRONMENT);
+        if command.get_name() == "view" || !commands.is_empty() {
+            row(&mut rest, DISPLAY);
+        }
+    }
     rest.control("SH", ["SEE ALSO"]);
     let others: Vec<String> = match commands {
         [] => vec!["tinta(1)".to_owned()],
         commands => commands.iter().map(|name| format!("tinta-{name}(1)")).collect(),
     };
     rest.text([roman(others.join(", "))]);
-    text + &rest.to_roff()
+    text + &rest.render()
 }
 
 /// What is written into memory, where writing does not fail.
@@ -138,13 +162,9 @@ fn with_subsections(command: &Command, options: &str) -> String {
     lines.collect()
 }
 
-/// The text below a command's help: paragraphs, and lines set in by two blanks as they stand.
-fn notes(page: &mut Roff, text: &str) {
-    if text.is_empty() {
-        return;
-    }
-    page.control("SH", ["NOTES"]);
-    for (number, paragraph) in text.split("\n\n").enumerate() {
+/// Paragraphs, and lines set in by two blanks as they stand.
+fn described(page: &mut Roff, text: &str) {
+    for (number, paragraph) in text.trim_end().split("\n\n").enumerate() {
         if number > 0 {
             page.control("PP", []);
         }
@@ -153,13 +173,14 @@ fn notes(page: &mut Roff, text: &str) {
             page.text([roman(line)]);
         });
         if !set_in.is_empty() {
+            page.control("PP", []);
             as_it_stands(page, set_in.into_iter());
         }
     }
 }
 
 fn as_it_stands<'a>(page: &mut Roff, lines: impl Iterator<Item = &'a str>) {
-    page.control("PP", []).control("nf", []);
+    page.control("nf", []);
     lines.for_each(|line| {
         page.text([roman(line)]);
     });
@@ -168,9 +189,11 @@ fn as_it_stands<'a>(page: &mut Roff, lines: impl Iterator<Item = &'a str>) {
 
 fn listed(page: &mut Roff, heading: &str, rows: &[(&str, &str)]) {
     page.control("SH", [heading]);
-    for (name, what) in rows {
-        page.control("TP", []).text([bold(*name)]).text([roman(*what)]);
-    }
+    rows.iter().for_each(|named| row(page, *named));
+}
+
+fn row(page: &mut Roff, (name, what): (&str, &str)) {
+    page.control("TP", []).text([bold(name)]).text([roman(what)]);
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 # bash takes words apart at : and =, so that the function above would know neither builtin:bust nor --style=ink. Here they are
 # put together again, and what of an answer stands on the line already is left out.
 _tinta_words() {
-    local words=() word last open=
+    local words=() word last open=''
     for word in "${COMP_WORDS[@]:0:COMP_CWORD + 1}"; do
         last=$((${#words[@]} - 1))
         if [[ $word == = && ${words[last]} == --* ]]; then
@@ -12,14 +12,14 @@ _tinta_words() {
             open=yes
         elif [[ $open ]]; then
             words[last]+=$word
-            open=
+            open=''
         else
             words+=("$word")
         fi
     done
     local COMP_CWORD=$((${#words[@]} - 1))
     local COMP_WORDS=("${words[@]}")
-    local cur=${words[COMP_CWORD]} prev= names= is_model=
+    local cur=${words[COMP_CWORD]} prev='' names='' is_model=''
     if [[ $COMP_CWORD -gt 0 ]]; then
         prev=${words[COMP_CWORD - 1]}
     fi
@@ -45,8 +45,10 @@ _tinta_words() {
         names=$(compgen -W "$names" -- "$cur")
     fi
     if [[ $names ]]; then
-        local IFS=$'\n'
-        COMPREPLY=($names $(compgen -f -- "$cur"))
+        COMPREPLY=()
+        while IFS= read -r word; do
+            [[ $word ]] && COMPREPLY+=("$word")
+        done <<<"$names"$'\n'"$(compgen -f -- "$cur")"
     elif [[ $is_model ]]; then
         # Nothing is said, so bash offers files.
         COMPREPLY=()
