@@ -18,7 +18,7 @@ fn part(shell: Shell, script: &str, command: &str) -> String {
         rest.split_once(end).unwrap().0.to_owned()
     };
     match shell {
-        Shell::Bash => between(&format!("\n        tinta__subcmd__{command})\n"), "\n        tinta__subcmd__"),
+        Shell::Bash => between(&format!("\n        tinta__subcmd__{command})\n"), "\n            ;;"),
         Shell::Zsh => between(&format!("\n({command})\n_arguments"), "\n;;"),
         Shell::Fish => {
             let start = format!("complete -c tinta -n \"__fish_tinta_using_subcommand {command}\"");
