@@ -19,7 +19,7 @@ fn part(shell: Shell, script: &str, command: &str) -> String {
     };
     match shell {
         Shell::Bash => between(&format!("\n        tinta__subcmd__{command})\n"), "\n            ;;"),
-        Shell::Zsh => between(&format!("\n({command})\n_arguments"), "\n;;"),
+        Shell::Zsh => between(&format!("({command})\n_arguments"), "\n;;"),
         Shell::Fish => {
             let start = format!("complete -c tinta -n \"__fish_tinta_using_subcommand {command}\"");
             script.lines().filter(|line| line.starts_with(&start)).collect::<Vec<_>>().join("\n") + "\n"
