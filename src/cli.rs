@@ -4,10 +4,12 @@ mod again;
 mod compare;
 #[cfg(test)]
 mod documents;
+mod completions;
 mod edges;
 mod figures;
 mod info;
 mod inputs;
+mod man;
 mod measure;
 mod models;
 mod options;
@@ -47,6 +49,8 @@ Examples:
   tinta figures -o figures                       the three texts' figures, drawn and measured again
   tinta stress -o stress                         stiff and extreme cases, and what came of each
   tinta info                                     which OpenGL is there
+  tinta completions bash                         a script with which bash completes all this; zsh and fish too
+  tinta man -o man                               manual pages
 
 Exit codes: 0 done, 1 a check found a difference, 2 could not be done; the reason is one sentence on standard error.")]
 pub struct Arguments {
@@ -67,6 +71,8 @@ enum Command {
     Figures(figures::Arguments),
     Stress(stress::Arguments),
     Info(info::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
 }
 
 /// How something that was done came out.
@@ -104,6 +110,8 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Stress(arguments) => return stress::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
     }
     .map(|()| Verdict::Good)
 }

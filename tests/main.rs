@@ -21,6 +21,8 @@ mod hiding;
 mod hostile;
 mod improved;
 mod inking;
+#[cfg(unix)]
+mod installing;
 mod licences;
 mod lines_brute;
 mod lines_degenerate;

@@ -238,7 +238,7 @@ impl<'a> Merge<'a> {
 }
 
 /// How options that are on or off call their value.
-const ON_OFF: &str = "ON|OFF";
+pub const ON_OFF: &str = "ON|OFF";
 
 fn long<'a>(command: &'a Command, name: &str) -> Option<&'a Arg> {
     command.get_arguments().find(|arg| arg.get_long() == Some(name))

@@ -1,0 +1,151 @@
+//! What the scripts hold against what the command line takes.
+
+use super::*;
+use clap::error::ErrorKind;
+
+const SHELLS: [Shell; 3] = [Shell::Bash, Shell::Zsh, Shell::Fish];
+
+fn whole() -> Command {
+    let mut whole = super::super::Arguments::command().disable_help_subcommand(true);
+    whole.build();
+    whole
+}
+
+/// What a script says of one command.
+fn part(shell: Shell, script: &str, command: &str) -> String {
+    let between = |start: &str, end: &str| {
+        let rest = script.split_once(start).unwrap_or_else(|| panic!("{command}: no {start:?}")).1;
+        rest.split_once(end).unwrap().0.to_owned()
+    };
+    match shell {
+        Shell::Bash => between(&format!("\n        tinta__subcmd__{command})\n"), "\n            ;;"),
+        Shell::Zsh => between(&format!("({command})\n_arguments"), "\n;;"),
+        Shell::Fish => {
+            let start = format!("complete -c tinta -n \"__fish_tinta_using_subcommand {command}\"");
+            script.lines().filter(|line| line.starts_with(&start)).collect::<Vec<_>>().join("\n") + "\n"
+        }
+    }
+}
+
+#[test]
+fn every_command_and_long_option_is_in_every_script() {
+    let whole = whole();
+    for shell in SHELLS {
+        let script = script(shell);
+        let mut options = 0;
+        for command in whole.get_subcommands() {
+            let name = command.get_name();
+            let is_named = match shell {
+                Shell::Bash => script.contains(&format!("tinta,{name})")),
+                Shell::Zsh => script.contains(&format!("'{name}:")),
+                Shell::Fish => script.contains(&format!("-a \"{name}\" -d ")),
+            };
+            assert!(is_named, "{shell:?} does not know {name}");
+            let part = part(shell, &script, name);
+            for option in command.get_arguments().filter_map(|arg| arg.get_long()) {
+                let is_there = match shell {
+                    Shell::Bash => part.split([' ', '"', '\n']).any(|word| word == format!("--{option}")),
+                    Shell::Zsh => part.contains(&format!("--{option}[")) || part.contains(&format!("--{option}=[")),
+                    Shell::Fish => part.contains(&format!(" -l {option} ")),
+                };
+                assert!(is_there, "{shell:?} does not know {name} --{option}");
+                options += 1;
+            }
+        }
+        assert!(options > 200, "{shell:?}: only {options} options");
+    }
+}
+
+/// What clap says of a value, if it refuses it.
+fn refusal(command: &Command, option: &str, value: &str) -> Option<String> {
+    let words = [command.get_name().to_owned(), format!("--{option}={value}")];
+    let error = command.clone().try_get_matches_from(words).err()?;
+    matches!(error.kind(), ErrorKind::InvalidValue | ErrorKind::ValueValidation).then(|| error.to_string())
+}
+
+#[test]
+fn every_name_offered_is_taken_and_every_choice_is_offered() {
+    let whole = whole();
+    let with_values = values::with_values(super::super::Arguments::command());
+    let (mut names, mut choices) = (0, 0);
+    for command in whole.get_subcommands() {
+        let offering = with_values.find_subcommand(command.get_name()).unwrap();
+        for arg in offering.get_arguments().filter(|arg| values::takes_value(arg)) {
+            let option = arg.get_long().unwrap();
+            let what = format!("{} --{option}", command.get_name());
+            let offered = arg.get_possible_values();
+            let offered: Vec<&str> = offered.iter().map(|value| value.get_name()).collect();
+            for value in &offered {
+                assert_eq!(refusal(command, option, value), None, "{what} offers {value}");
+                names += 1;
+            }
+            // A choice among names says so; all of them must be offered.
+            let Some(text) = refusal(command, option, "?") else { continue };
+            if let Some(list) = text.split_once("choose ").map(|(_, list)| list.lines().next().unwrap()) {
+                assert!(!offered.is_empty(), "{what} is a choice ({list}): offer its names in completions/values.rs");
+                choices += 1;
+                for name in list.strip_prefix("one of ").into_iter().flat_map(|list| list.split(", ")) {
+                    let name = name.trim_start_matches("or ");
+                    assert!(offered.contains(&name), "{what} takes {name}, which is not offered");
+                }
+            }
+        }
+    }
+    assert!(names > 300 && choices > 40, "{names} names of {choices} choices");
+}
+
+#[test]
+fn groups_of_stress_are_those_its_help_names() {
+    let whole = whole();
+    let only = whole.find_subcommand("stress").unwrap().get_arguments().find(|arg| arg.get_long() == Some("only"));
+    let help = only.unwrap().get_help().unwrap().to_string();
+    let listed = help.split_once(": ").unwrap().1.split_once(" [").unwrap().0;
+    assert_eq!(listed.split(", ").collect::<Vec<_>>(), values::GROUPS);
+}
+
+#[test]
+fn files_are_offered_where_files_are_taken_and_nothing_where_numbers_are() {
+    use clap::ValueHint::{AnyPath, DirPath, FilePath, Other};
+    let with_values = values::with_values(super::super::Arguments::command());
+    let hint = |command: &str, id: &str| {
+        let command = with_values.find_subcommand(command).unwrap();
+        command.get_arguments().find(|arg| arg.get_id() == id).unwrap().get_value_hint()
+    };
+    assert_eq!(hint("render", "models"), FilePath);
+    assert_eq!(hint("render", "output"), FilePath);
+    assert_eq!(hint("render", "preset"), FilePath);
+    assert_eq!(hint("render", "dump"), DirPath);
+    assert_eq!(hint("measure", "output"), DirPath);
+    assert_eq!(hint("measure", "merge"), FilePath);
+    assert_eq!(hint("compare", "output"), AnyPath);
+    assert_eq!(hint("again", "picture"), FilePath);
+    assert_eq!(hint("render", "fov"), Other);
+    assert_eq!(hint("render", "background"), Other);
+}
+
+#[test]
+fn an_option_takes_a_value_in_all_commands_or_in_none() {
+    // bash's words are put together before it is known whose option it is.
+    let whole = whole();
+    let with_value = with_value(&whole);
+    assert!(with_value.iter().any(|option| option == "-o") && with_value.len() > 80, "{with_value:?}");
+    for command in whole.get_subcommands() {
+        for arg in command.get_arguments().filter(|arg| !arg.get_action().takes_values()) {
+            let long = format!("--{}", arg.get_long().unwrap_or_default());
+            assert!(!with_value.contains(&long), "{} {long}", command.get_name());
+        }
+    }
+}
+
+#[test]
+fn nothing_is_left_of_the_templates_marks() {
+    for shell in SHELLS {
+        let script = script(shell);
+        for mark in ["@models@", "@presets@", "@with-models@", "@with-value@"] {
+            assert!(!script.contains(mark), "{shell:?}: {mark}");
+        }
+        for own in ["builtin:bust", "paper:valente-sand"] {
+            assert!(script.replace("\\:", ":").contains(own), "{shell:?}: {own}");
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! `tinta man`: a manual page for the program and one for each command.
+//!
+//! clap_mangen writes names, synopses and options from the definition that also reads the command line. Examples, exit
+//! codes, environment and the texts below `--help` are put below them.
+
+use clap::{Command, CommandFactory};
+use clap_mangen::Man;
+use roff::{Roff, bold, roman};
+use std::path::PathBuf;
+use tinta::{Result, TextTarget};
+
+/// Write the manual pages: tinta.1 and one for each command, such as tinta-render.1
+#[derive(clap::Args)]
+#[command(after_help = "\
+To read them: man -l man/tinta.1, or with -o ~/.local/share/man/man1 from then on: man tinta. The Debian package brings them along.")]
+pub struct Arguments {
+    /// Folder to write into; made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+pub fn run(arguments: &Arguments) -> Result<()> {
+    super::make_folder(&arguments.output)?;
+    let targets = pages().into_iter().map(|page| {
+        let path = arguments.output.join(&page.file);
+        TextTarget::check(&path.to_string_lossy()).map(|target| (target, page.text))
+    });
+    let targets = targets.collect::<Result<Vec<_>>>()?;
+    targets.iter().try_for_each(|(target, text)| target.write(text))
+}
+
+/// A manual page.
+struct Page {
+    /// Its file: `tinta-render.1`.
+    file: String,
+    /// In man's language.
+    text: String,
+}
+
+/// What the program is, for its own page.
+const DESCRIPTION: &str = "\
+Draws 3D models the way the papers of 2001 to 2007 made them: the published OpenGL 2.1 programs almost verbatim, and exact visible \
+lines. No display and no graphics card is needed: OpenGL comes through EGL or OSMesa, from Mesa's software renderer where nothing \
+else is there. Models are files, or built in, such as builtin:bust. Each command has a page of its own with all its options and their \
+defaults.";
+
+/// Where a window opens.
+const DISPLAY: (&str, &str) =
+    ("DISPLAY, WAYLAND_DISPLAY", "Where tinta view opens its window. All other commands need no display.");
+
+/// Variables that Mesa reads.
+const ENVIRONMENT: [(&str, &str); 3] = [
+    ("GALLIUM_DRIVER", "Mesa's software driver: llvmpipe, or the slower softpipe. Unset, Mesa chooses."),
+    ("LIBGL_ALWAYS_SOFTWARE", "If it is 1, Mesa leaves graphics cards alone."),
+    ("LP_NUM_THREADS", "How many threads Mesa's llvmpipe draws with; unset, one for each core."),
+];
+
+/// Commands that open no OpenGL.
+const WITHOUT_OPENGL: [&str; 4] = ["edges", "textures", "completions", "man"];
+
+/// What the exit code says.
+const EXIT_CODES: [(&str, &str); 3] = [
+    ("0", "Done."),
+    ("1", "A check found a difference: pictures that should be equal differ, or a case did not end as it must."),
+    ("2", "It could not be done; the reason is one sentence on standard error."),
+];
+
+fn pages() -> Vec<Page> {
+    let mut whole = super::Arguments::command().disable_help_subcommand(true);
+    whole.build();
+    let examples = examples(&whole);
+    let all: Vec<String> = whole.get_subcommands().map(|command| command.get_name().to_owned()).collect();
+    let of_all = Page { file: "tinta.1".to_owned(), text: page(&whole, &examples, &all) };
+    let of_commands = whole.get_subcommands().map(|command| {
+        let name = command.get_name();
+        let own: Vec<String> =
+            examples.iter().filter(|example| example.split_whitespace().nth(1) == Some(name)).cloned().collect();
+        Page { file: format!("tinta-{name}.1"), text: page(command, &own, &[]) }
+    });
+    std::iter::once(of_all).chain(of_commands).collect()
+}
+
+/// The examples below the program's help; what continues on a second line stays with its first.
+fn examples(whole: &Command) -> Vec<String> {
+    let text = whole.get_after_help().map(ToString::to_string).unwrap_or_default();
+    let lines = text.lines().skip_while(|line| *line != "Examples:").skip(1).take_while(|line| !line.is_empty());
+    let mut examples: Vec<String> = Vec::new();
+    for line in lines.filter_map(|line| line.strip_prefix("  ")) {
+        match examples.last_mut() {
+            Some(example) if line.starts_with(' ') => *example = format!("{example}\n{line}"),
+            _ => examples.push(line.to_owned()),
+        }
+    }
+    examples
+}
+
+/// A page; the program's own names `commands`.
+fn page(command: &Command, examples: &[String], commands: &[String]) -> String {
+    let usage = command.clone().render_usage().to_string();
+    let usage = usage.strip_prefix("Usage: ").unwrap_or(&usage).to_owned();
+    let man = Man::new(command.clone().override_usage(usage));
+    // roff leaves out an empty date, and with it the order of what follows.
+    let title = command.get_display_name().unwrap_or("tinta");
+    let mut text = format!(".TH {title} 1 \"\" \"tinta {}\" \"tinta\"\n", env!("CARGO_PKG_VERSION"));
+    text += &written(|out| man.render_name_section(out));
+    text += &written(|out| man.render_synopsis_section(out));
+    let mut description = Roff::new();
+    description.control("SH", ["DESCRIPTION"]);
+    if commands.is_empty() {
+        let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+        let more = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+        described(&mut description, &format!("{about}.\n\n{more}"));
+    } else {
+        described(&mut description, DESCRIPTION);
+    }
+    text += &description.render();
+    text += &with_subsections(command, &written(|out| man.render_options_section(out)));
+    if !commands.is_empty() {
+        text += &written(|out| man.render_subcommands_section(out)).replace(".SH SUBCOMMANDS", ".SH COMMANDS");
+    }
+    let mut rest = Roff::new();
+    if !examples.is_empty() {
+        rest.control("SH", ["EXAMPLES"]);
+        as_it_stands(&mut rest, examples.iter().flat_map(|example| example.lines()));
+    }
+    listed(&mut rest, "EXIT STATUS", &EXIT_CODES);
+    if !WITHOUT_OPENGL.contains(&command.get_name()) {
+        listed(&mut rest, "ENVIRONMENT", &ENVIRONMENT);
+        if command.get_name() == "view" || !commands.is_empty() {
+            row(&mut rest, DISPLAY);
+        }
+    }
+    rest.control("SH", ["SEE ALSO"]);
+    let others: Vec<String> = match commands {
+        [] => vec!["tinta(1)".to_owned()],
+        commands => commands.iter().map(|name| format!("tinta-{name}(1)")).collect(),
+    };
+    rest.text([roman(others.join(", "))]);
+    text + &rest.render()
+}
+
+/// What is written into memory, where writing does not fail.
+fn written(write: impl Fn(&mut dyn std::io::Write) -> std::io::Result<()>) -> String {
+    let mut text = Vec::new();
+    let _ = write(&mut text);
+    String::from_utf8_lossy(&text).into_owned()
+}
+
+/// clap_mangen makes a section of each group of options, in capitals; here they are parts of one.
+fn with_subsections(command: &Command, options: &str) -> String {
+    let mut headings: Vec<&str> = Vec::new();
+    for heading in command.get_arguments().filter_map(|arg| arg.get_help_heading()) {
+        if !headings.contains(&heading) {
+            headings.push(heading);
+        }
+    }
+    let mut headings = headings.into_iter();
+    let lines = options.lines().map(|line| match line.starts_with(".SH ") && line != ".SH OPTIONS" {
+        true => Roff::new().control("SS", headings.next()).to_roff(),
+        false => format!("{line}\n"),
+    });
+    lines.collect()
+}
+
+/// Paragraphs, and lines set in by two blanks as they stand.
+fn described(page: &mut Roff, text: &str) {
+    for (number, paragraph) in text.trim_end().split("\n\n").enumerate() {
+        if number > 0 {
+            page.control("PP", []);
+        }
+        let (set_in, running): (Vec<&str>, Vec<&str>) = paragraph.lines().partition(|line| line.starts_with("  "));
+        running.into_iter().for_each(|line| {
+            page.text([roman(line)]);
+        });
+        if !set_in.is_empty() {
+            page.control("PP", []);
+            as_it_stands(page, set_in.into_iter());
+        }
+    }
+}
+
+fn as_it_stands<'a>(page: &mut Roff, lines: impl Iterator<Item = &'a str>) {
+    page.control("nf", []);
+    lines.for_each(|line| {
+        page.text([roman(line)]);
+    });
+    page.control("fi", []);
+}
+
+fn listed(page: &mut Roff, heading: &str, rows: &[(&str, &str)]) {
+    page.control("SH", [heading]);
+    rows.iter().for_each(|named| row(page, *named));
+}
+
+fn row(page: &mut Roff, (name, what): (&str, &str)) {
+    page.control("TP", []).text([bold(name)]).text([roman(what)]);
+}
+
+#[cfg(test)]
+mod tests;

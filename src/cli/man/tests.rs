@@ -1,0 +1,66 @@
+//! What the pages hold against what the command line takes.
+
+use super::*;
+
+fn whole() -> Command {
+    let mut whole = super::super::Arguments::command().disable_help_subcommand(true);
+    whole.build();
+    whole
+}
+
+#[test]
+fn every_command_has_a_page_and_every_long_option_is_on_it_with_its_help() {
+    let (whole, pages) = (whole(), pages());
+    assert_eq!(pages.len(), whole.get_subcommands().count() + 1);
+    let mut options = 0;
+    for command in whole.get_subcommands() {
+        let file = format!("tinta-{}.1", command.get_name());
+        let page = &pages.iter().find(|page| page.file == file).expect(&file).text;
+        for arg in command.get_arguments() {
+            let Some(long) = arg.get_long() else { continue };
+            let name = format!("\\-\\-{}", long.replace('-', "\\-"));
+            let rest = page.lines().skip_while(|line| !line.contains(&format!("\\fB{name}\\fR"))).nth(1);
+            let help = rest.unwrap_or_else(|| panic!("{file} has no --{long}"));
+            let first: String = arg.get_help().unwrap().to_string().chars().take_while(|c| c.is_alphabetic()).collect();
+            assert!(help.starts_with(&first) && !first.is_empty(), "{file} --{long}: {help:?}");
+            options += 1;
+        }
+    }
+    assert!(options > 200, "only {options} options");
+}
+
+#[test]
+fn every_page_has_its_sections_and_the_programs_own_names_all_others() {
+    let pages = pages();
+    for Page { file, text } in &pages {
+        for section in ["NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "\"EXIT STATUS\"", "\"SEE ALSO\""] {
+            assert_eq!(text.matches(&format!("\n.SH {section}\n")).count(), 1, "{file}: {section}");
+        }
+        // Only tinta view opens a window.
+        assert_eq!(text.contains("WAYLAND_DISPLAY"), file == "tinta.1" || file == "tinta-view.1", "{file}");
+        if file != "tinta.1" {
+            let name = file.trim_end_matches(".1").replace('-', "\\-");
+            assert!(pages[0].text.contains(&format!("{name}(1)")), "tinta.1 does not name {file}");
+            assert!(text.contains("\ntinta(1)\n"), "{file}");
+        }
+    }
+}
+
+#[test]
+fn examples_are_on_the_pages_of_their_commands() {
+    let pages = pages();
+    let page = |file: &str| &pages.iter().find(|page| page.file == file).unwrap().text;
+    assert_eq!(page("tinta.1").matches("\ntinta render ").count(), 4);
+    assert_eq!(page("tinta-render.1").matches("\ntinta render ").count(), 4);
+    // With its second line.
+    assert!(page("tinta-render.1").contains("with options kept in a file"));
+    assert_eq!(page("tinta-again.1").matches("\ntinta again ").count(), 1);
+}
+
+#[test]
+fn a_groups_heading_keeps_its_letters() {
+    let pages = pages();
+    let page = &pages.iter().find(|page| page.file == "tinta-render.1").unwrap().text;
+    assert!(page.contains("\n.SS Camera\n") && page.contains("\n.SS \"Style dietrich\"\n"), "{page}");
+    assert!(!page.contains("CAMERA"));
+}
