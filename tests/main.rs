@@ -1,6 +1,7 @@
 //! Tests that need a GL context or the finished program. One binary, so that it links once.
 
 mod animation;
+mod assimp;
 mod charcoal;
 mod charcoal_twin;
 mod cli;
@@ -15,6 +16,7 @@ mod external;
 mod faults;
 mod figures;
 mod goldens;
+mod gltf;
 mod hiding;
 mod hostile;
 mod improved;
