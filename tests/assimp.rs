@@ -7,10 +7,13 @@ use crate::hostile::refused;
 #[test]
 fn without_the_feature_these_formats_are_named_with_what_to_do() {
     let folder = Folder::new();
-    for (name, format) in [("foo.ms3d", "MS3D"), ("foo.X", "X"), ("foo.dxf", "DXF"), ("foo.lwo", "LWO"), ("foo.ase", "ASE")] {
+    for (name, format) in
+        [("foo.ms3d", "MS3D"), ("foo.X", "X"), ("foo.dxf", "DXF"), ("foo.lwo", "LWO"), ("foo.ase", "ASE")]
+    {
         // Whatever its lines look like.
         let model = folder.file(name, b"v 0 0 0\nf 1 1 1\n");
-        let sentence = format!("{name}: {format} is read by libassimp; install libassimp5 and build with --features assimp");
+        let sentence =
+            format!("{name}: {format} is read by libassimp; install libassimp5 and build with --features assimp");
         refused(&tinta(&["edges", &model]), &[&sentence]);
     }
 }
@@ -21,8 +24,8 @@ mod with_the_library {
     use crate::hostile::one_line;
     use crate::support::skip;
     use glam::{DVec3, dvec3};
-    use tinta::mesh::read_bytes;
-    use tinta::{LoadOptions, Mesh, UpAxis, load};
+    use tinta::mesh::{UpAxis, read_bytes};
+    use tinta::{LoadOptions, Mesh, load};
 
     /// The corners of the box, in each format's own axes.
     fn corners() -> [[f32; 3]; 8] {
@@ -30,8 +33,7 @@ mod with_the_library {
     }
 
     /// Its sides, counter-clockwise from outside where x, y, z are right-handed.
-    const SIDES: [[usize; 4]; 6] =
-        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    const SIDES: [[usize; 4]; 6] = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
 
     fn turned([a, b, c, d]: [usize; 4]) -> [usize; 4] {
         [d, c, b, a]
@@ -125,7 +127,8 @@ mod with_the_library {
             let indices: Vec<u8> = corners.into_iter().flat_map(short).collect();
             [short(0), indices, floats(&[0.0; 9]), floats(&[0.0; 6]), vec![1, 0]].concat()
         };
-        let colors = floats(&[0.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.25, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0]);
+        let colors =
+            floats(&[0.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.25, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0]);
         [
             [b"MS3D000000".as_slice(), &4u32.to_le_bytes()].concat(),
             [short(8), corners().iter().flat_map(vertex).collect()].concat(),

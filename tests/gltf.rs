@@ -6,8 +6,8 @@ use crate::support::{public_models, renderer, skip};
 use base64::Engine;
 use glam::{DVec2, DVec3, dvec3};
 use serde_json::{Value, json};
-use tinta::mesh::{NONE, read_bytes};
-use tinta::{Backend, LoadOptions, Loaded, Mesh, Result, Style, StyleName, load};
+use tinta::mesh::{Loaded, NONE, read_bytes};
+use tinta::{Backend, LoadOptions, Mesh, Result, Style, StyleName, load};
 
 /// A glTF file as it grows.
 struct File {
@@ -230,8 +230,11 @@ fn a_box_draws_the_same_picture_as_the_same_box_in_obj() {
         };
         file.push("images", image);
         file.push("textures", json!({"source": 0}));
-        file.push("materials", json!({"pbrMetallicRoughness": {
-            "baseColorFactor": [linear(0.5), linear(0.25), 1, 1], "baseColorTexture": {"index": 0}}}));
+        file.push(
+            "materials",
+            json!({"pbrMetallicRoughness": {
+            "baseColorFactor": [linear(0.5), linear(0.25), 1, 1], "baseColorTexture": {"index": 0}}}),
+        );
         file.json["meshes"][0]["primitives"][0]["material"] = json!(0);
         let gltf = load(&folder.file("box.glb", &file.binary()), &LoadOptions::default()).unwrap().mesh;
         assert!(gltf.materials[0].has_texture());
@@ -260,8 +263,11 @@ fn nodes_move_turn_scale_and_mirror_what_is_below_them() {
     for (mirror, sign) in [(1.0, 1.0), (-1.0, -1.0)] {
         let mut file = File::new();
         let mesh = add_box(&mut file);
-        file.push("nodes", json!({"children": [1], "scale": [2.0 * mirror, 1, 1], "rotation": [0, 0, half, half],
-            "translation": [0, 0, 5]}));
+        file.push(
+            "nodes",
+            json!({"children": [1], "scale": [2.0 * mirror, 1, 1], "rotation": [0, 0, half, half],
+            "translation": [0, 0, 5]}),
+        );
         file.push("nodes", json!({"mesh": mesh, "matrix": matrix}));
         // Not in the scene.
         file.push("nodes", json!({"mesh": mesh, "translation": [100, 0, 0]}));
@@ -347,8 +353,10 @@ fn sparse_strided_and_quantised_positions_come_out_where_they_should() {
     // Sparse over nothing: zeros but for two of three.
     let mut file = File::new();
     let (places, values) = (file.view(&[1, 0, 2, 0]), file.view(&bytes_of(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0])));
-    let sparse = json!({"count": 2, "indices": {"bufferView": places, "componentType": 5123}, "values": {"bufferView": values}});
-    let positions = file.push("accessors", json!({"componentType": 5126, "type": "VEC3", "count": 3, "sparse": sparse}));
+    let sparse =
+        json!({"count": 2, "indices": {"bufferView": places, "componentType": 5123}, "values": {"bufferView": values}});
+    let positions =
+        file.push("accessors", json!({"componentType": 5126, "type": "VEC3", "count": 3, "sparse": sparse}));
     square_file(positions, json!({}), &mut file);
     assert_eq!(file.mesh().positions, square);
     // Sparse over something, where the third is replaced.

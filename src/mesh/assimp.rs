@@ -5,6 +5,8 @@
 //! What comes out of it, and of which version, is in `library.rs`, the one file with `unsafe` code here.
 
 #[cfg(feature = "assimp")]
+mod imported;
+#[cfg(feature = "assimp")]
 mod library;
 #[cfg(feature = "assimp")]
 mod scene;
@@ -66,8 +68,9 @@ pub fn read(
     _: &Folder,
     _: &mut Vec<String>,
 ) -> crate::Result<Soup> {
-    let problem =
-        format!("{format} is read by libassimp; install libassimp5 and build with --features assimp, or save it as OBJ");
+    let problem = format!(
+        "{format} is read by libassimp; install libassimp5 and build with --features assimp, or save it as OBJ"
+    );
     Err(crate::Error::model(path, problem))
 }
 

@@ -46,12 +46,7 @@ pub fn read(
 }
 
 /// The same; the error is a sentence without the file's name.
-fn contents(
-    bytes: &[u8],
-    path: &str,
-    folder: &Folder,
-    remarks: &mut Vec<String>,
-) -> std::result::Result<Soup, String> {
+fn contents(bytes: &[u8], path: &str, folder: &Folder, remarks: &mut Vec<String>) -> std::result::Result<Soup, String> {
     let (json, data) = container::open(bytes)?;
     let root = container::parse(json)?;
     refuse_unknown_extensions(&root)?;
@@ -59,12 +54,8 @@ fn contents(
     let accessors = Accessors { root: &root, buffers: &buffers };
     let nodes = Nodes::of(&root)?;
     let Materials { list, coordinates, unread_pictures } = Materials::of(&root, &buffers, path)?;
-    let mut soup = Soup {
-        materials: list,
-        files: buffers.files.clone(),
-        bytes_beside: buffers.bytes_beside,
-        ..Soup::default()
-    };
+    let mut soup =
+        Soup { materials: list, files: buffers.files.clone(), bytes_beside: buffers.bytes_beside, ..Soup::default() };
     let outlines = nodes.outlines(&root, &accessors, &coordinates)?;
     refuse_too_much(&outlines, bytes.len() + buffers.bytes_beside)?;
     let mut left_out = LeftOut { unread_pictures, ..LeftOut::of(&root) };
@@ -105,7 +96,10 @@ fn is_understood(extension: &str) -> bool {
 /// Refuses meshes that nodes repeat beyond what the file is worth, before anything is made of them.
 fn refuse_too_much(outlines: &[(Outline<'_>, Vec<usize>)], file_bytes: usize) -> std::result::Result<(), String> {
     let sum = |count: fn(&Outline<'_>) -> usize| -> usize {
-        outlines.iter().map(|(outline, places)| count(outline).saturating_mul(places.len())).fold(0, usize::saturating_add)
+        outlines
+            .iter()
+            .map(|(outline, places)| count(outline).saturating_mul(places.len()))
+            .fold(0, usize::saturating_add)
     };
     let (vertices, triangles) = (sum(|outline| outline.vertices()), sum(|outline| outline.triangles()));
     if is_too_much(file_bytes, vertices, triangles.saturating_mul(3), triangles) {

@@ -35,7 +35,7 @@ pub struct LoadOptions {
     /// has the model's own name.
     #[serde(serialize_with = "as_text")]
     pub skin: Option<PathBuf>,
-    /// Whether files that the model names, materials and pictures, may lie outside its folder. Default: no, they are not
+    /// Whether files that the model names, materials, data and pictures, may lie outside its folder. Default: no, they are not
     /// followed, whether named by `..`, absolutely or through links, and that is said.
     pub allow_external: bool,
 }
@@ -243,8 +243,8 @@ fn soup(
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").filter(|_| !stl::is_binary(bytes));
     let bytes = text.unwrap_or(bytes);
     let named = Format::by_name(path);
-    let found = Format::by_content(bytes)
-        .filter(|found| !matches!(named, Some(Format::Assimp(_))) || found.is_unmistakable());
+    let found =
+        Format::by_content(bytes).filter(|found| !matches!(named, Some(Format::Assimp(_))) || found.is_unmistakable());
     let format = found.or(named).ok_or_else(|| {
         Error::model(path, format!("this is not a model in a format known here; use an {} file", Format::NAMES))
     })?;

@@ -62,7 +62,8 @@ impl Corner {
 pub fn is_too_much(file_bytes: usize, vertices: usize, corners: usize, triangles: usize) -> bool {
     /// What a vertex, a corner and a triangle take at the moment when a mesh takes most, bytes.
     const BYTES: [usize; 3] = [80, 12, 90];
-    let needed = [vertices, corners, triangles].into_iter().zip(BYTES).map(|(count, bytes)| count.saturating_mul(bytes));
+    let needed =
+        [vertices, corners, triangles].into_iter().zip(BYTES).map(|(count, bytes)| count.saturating_mul(bytes));
     let most = file_bytes.saturating_mul(MEMORY_FACTOR).saturating_add(MEMORY_SLACK_BYTES);
     needed.fold(0, usize::saturating_add) > most || triangles > TRIANGLES
 }

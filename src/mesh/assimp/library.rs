@@ -6,6 +6,7 @@
 
 #![expect(unsafe_code, reason = "libassimp is a C interface; this module wraps all of it")]
 
+use super::imported::{Imported, ImportedMaterial, ImportedMesh, ImportedNode};
 use crate::limits::MODEL_BYTES;
 use crate::mesh::folder::Folder;
 use libloading::{Library, Symbol};
@@ -26,50 +27,6 @@ const TEXTURE_TYPE_DIFFUSE: u32 = 1;
 const TEXTURE_TYPE_BASE_COLOR: u32 = 12;
 const SUCCESS: i32 = 0;
 const FAILURE: i32 = -1;
-
-/// What the library made of a file.
-#[derive(Debug, Default)]
-pub struct Imported {
-    pub meshes: Vec<ImportedMesh>,
-    /// The tree's root first, every node after the one it lies below.
-    pub nodes: Vec<ImportedNode>,
-    pub materials: Vec<ImportedMaterial>,
-    pub animations: usize,
-}
-
-/// Vertices and polygons of one material.
-#[derive(Debug, Default)]
-pub struct ImportedMesh {
-    pub positions: Vec<[f32; 3]>,
-    /// As many as positions, or none; so the next.
-    pub normals: Vec<[f32; 3]>,
-    /// Origin at the lower left.
-    pub texture_coordinates: Vec<[f32; 3]>,
-    /// The polygons' corners one after the other.
-    pub indices: Vec<u32>,
-    /// How many corners each polygon has; points have one, lines two.
-    pub sizes: Vec<u32>,
-    pub material: u32,
-    pub has_colors: bool,
-}
-
-/// A place in the scene.
-#[derive(Debug)]
-pub struct ImportedNode {
-    pub parent: Option<usize>,
-    /// Parent from node, row after row.
-    pub matrix: [f32; 16],
-    pub meshes: Vec<u32>,
-}
-
-/// A surface.
-#[derive(Debug, Default)]
-pub struct ImportedMaterial {
-    pub name: String,
-    pub color: Option<[f32; 3]>,
-    /// Its picture's name in the file.
-    pub texture: Option<String>,
-}
 
 #[repr(C)]
 struct AiString {
@@ -286,7 +243,8 @@ unsafe fn list<'a, T>(pointer: *const T, count: u32) -> &'a [T] {
 unsafe fn imported(scene: &AiScene, functions: &Functions) -> Imported {
     // SAFETY: the library's lists have as many members as it says, none of them null once it has checked the scene.
     unsafe {
-        let pointers = |pointer: *const *const AiMesh, count| list(pointer, count).iter().filter_map(|mesh| mesh.as_ref());
+        let pointers =
+            |pointer: *const *const AiMesh, count| list(pointer, count).iter().filter_map(|mesh| mesh.as_ref());
         let materials = list(scene.materials, scene.material_count).iter().filter(|material| !material.is_null());
         Imported {
             meshes: pointers(scene.meshes, scene.mesh_count).map(|mesh| imported_mesh(mesh)).collect(),
@@ -359,7 +317,8 @@ unsafe fn imported_material(material: *const c_void, functions: &Functions) -> I
 
 extern "C" fn open(io: *mut AiFileIo, name: *const c_char, mode: *const c_char) -> *mut AiFile {
     // SAFETY: the library hands back what `import` gave it, and texts that end with 0.
-    let (files, name, mode) = unsafe { (&mut *(*io).data.cast::<Files<'_>>(), CStr::from_ptr(name), CStr::from_ptr(mode)) };
+    let (files, name, mode) =
+        unsafe { (&mut *(*io).data.cast::<Files<'_>>(), CStr::from_ptr(name), CStr::from_ptr(mode)) };
     let bytes = match (mode.to_bytes().starts_with(b"r"), name.to_str()) {
         (true, Ok(name)) => files.open(name),
         _ => None,

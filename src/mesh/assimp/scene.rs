@@ -2,7 +2,8 @@
 //!
 //! The library stands models upright, whatever axis is up in their format, so that nothing is turned here but by `--up-axis`.
 
-use super::library::{self, Files, Imported, ImportedMaterial};
+use super::imported::{Imported, ImportedMaterial, ImportedMesh};
+use super::library::{self, Files};
 use crate::error::{Error, Result};
 use crate::files::shown;
 use crate::limits::MATERIALS;
@@ -79,8 +80,9 @@ fn soup_of(imported: &Imported, file_bytes: usize, path: &str, remarks: &mut Vec
 
 /// Refuses meshes that nodes repeat beyond what the file is worth.
 fn refuse_too_much(imported: &Imported, file_bytes: usize, path: &str) -> Result<()> {
-    let meshes = || imported.nodes.iter().flat_map(|node| &node.meshes).filter_map(|mesh| imported.meshes.get(*mesh as usize));
-    let sum = |count: fn(&library::ImportedMesh) -> usize| meshes().map(count).fold(0, usize::saturating_add);
+    let meshes =
+        || imported.nodes.iter().flat_map(|node| &node.meshes).filter_map(|mesh| imported.meshes.get(*mesh as usize));
+    let sum = |count: fn(&ImportedMesh) -> usize| meshes().map(count).fold(0, usize::saturating_add);
     let (vertices, corners) = (sum(|mesh| mesh.positions.len()), sum(|mesh| mesh.indices.len()));
     if is_too_much(file_bytes, vertices, corners, corners) {
         return Err(Error::model(

@@ -124,36 +124,40 @@ impl<'a> Accessors<'a> {
         }
         match &accessor.sparse {
             None => Ok(()),
-            Some(sparse) => self.replacements(index, sparse, has, layout, |place, element| {
-                if place < count {
-                    put(place, element, layout);
-                }
-            }),
+            Some(sparse) => self.replacements(index, sparse, has, count, layout, put),
         }
     }
 
-    /// Gives the elements of a sparse accessor that take others' places to `put`.
+    /// Gives the elements of a sparse accessor that take the places of the first `most` others to `put`.
     fn replacements(
         &self,
         index: Index<Accessor>,
         sparse: &Sparse,
         has: usize,
+        most: usize,
         layout: Layout,
-        mut put: impl FnMut(usize, &[u8]),
+        mut put: impl FnMut(usize, &[u8], Layout),
     ) -> Result<(), String> {
-        let damaged = || format!("its accessor {index} replaces elements that it does not have; export it again");
+        let damaged = || {
+            format!("its accessor {index} replaces elements that it does not have, or out of order; export it again")
+        };
         let Valid(kind) = &sparse.indices.component_type else { return Err(damaged()) };
         let count = usize::try_from(sparse.count.0).map_err(|_| damaged())?;
         let places = Layout { kind: kind.0, numbers: 1, normalized: false };
         let (at, values) = (&sparse.indices, &sparse.values);
         let numbers = self.records(index, at.buffer_view, at.byte_offset.0, count, places.bytes(), false)?;
         let elements = self.records(index, values.buffer_view, values.byte_offset.0, count, layout.bytes(), false)?;
+        let mut next = 0;
         for (number, element) in numbers.zip(elements) {
             let place = places.number(number, 0) as usize;
-            if place >= has {
+            if place < next || place >= has {
                 return Err(damaged());
             }
-            put(place, element);
+            if place >= most {
+                break;
+            }
+            put(place, element, layout);
+            next = place + 1;
         }
         Ok(())
     }

@@ -91,12 +91,14 @@ impl<'a> Buffers<'a> {
     pub fn view(&self, root: &Root, index: Index<View>) -> Result<&[u8], String> {
         let view = root.get(index).ok_or_else(|| format!("its buffer view {index} is not in it; export it again"))?;
         let number = view.buffer.value();
-        let place = self.places.get(number).ok_or_else(|| format!("its buffer {number} is not in it; export it again"))?;
+        let place =
+            self.places.get(number).ok_or_else(|| format!("its buffer {number} is not in it; export it again"))?;
         let bytes = self.contents.get(*place.as_ref().map_err(Clone::clone)?).map_or(&[][..], |bytes| bytes);
         let (start, length) = (view.byte_offset.unwrap_or_default().0, view.byte_length.0);
-        let part = usize::try_from(start).ok().zip(usize::try_from(length).ok()).and_then(|(start, length)| {
-            bytes.get(start..start.checked_add(length)?)
-        });
+        let part = usize::try_from(start)
+            .ok()
+            .zip(usize::try_from(length).ok())
+            .and_then(|(start, length)| bytes.get(start..start.checked_add(length)?));
         part.ok_or_else(|| {
             format!("its buffer view {index} reaches beyond the {} bytes of its buffer; export it again", bytes.len())
         })

@@ -26,7 +26,8 @@ pub fn is_binary(head: &[u8]) -> bool {
 
 /// Whether the beginning of a file reads like glTF's JSON.
 pub fn is_json(head: &[u8]) -> bool {
-    const WORDS: [&[u8]; 6] = [b"\"asset\"", b"\"accessors\"", b"\"buffers\"", b"\"bufferViews\"", b"\"meshes\"", b"\"nodes\""];
+    const WORDS: [&[u8]; 6] =
+        [b"\"asset\"", b"\"accessors\"", b"\"buffers\"", b"\"bufferViews\"", b"\"meshes\"", b"\"nodes\""];
     head.trim_ascii_start().starts_with(b"{") && WORDS.iter().any(|word| memchr::memmem::find(head, word).is_some())
 }
 

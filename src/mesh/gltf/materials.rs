@@ -36,7 +36,8 @@ impl Coordinates {
         };
         let (sine, cosine) = rotation.0.sin_cos();
         // KHR_texture_transform: translation * rotation * scale, clockwise as v points down.
-        let matrix = Mat2::from_cols(Vec2::new(cosine, -sine), Vec2::new(sine, cosine)) * Mat2::from_diagonal(scale.0.into());
+        let matrix =
+            Mat2::from_cols(Vec2::new(cosine, -sine), Vec2::new(sine, cosine)) * Mat2::from_diagonal(scale.0.into());
         Self { set: tex_coord.unwrap_or(texture.tex_coord), matrix, offset: offset.0.into(), is_changed: true }
     }
 
@@ -112,8 +113,8 @@ pub fn see_through(root: &Root) -> usize {
 
 /// A share of light as the share of a byte that shows it: sRGB, as all other colours of models here.
 fn to_srgb(linear: f32) -> f32 {
-    let linear = if linear.is_finite() { linear.clamp(0.0, 1.0) } else { 1.0 };
-    if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+    let linear = if linear.is_finite() { f64::from(linear.clamp(0.0, 1.0)) } else { 1.0 };
+    (if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }) as f32
 }
 
 /// The file's pictures, each taken once.
@@ -139,13 +140,19 @@ impl Images<'_> {
         if let Some(known) = self.known.get(&number) {
             return Ok(Some(known.clone()));
         }
-        let image =
-            self.root.images.get(number).ok_or_else(|| format!("its picture {number} is not in it; export it again"))?;
-        let embedded = |bytes| Image::Embedded(Arc::new(EmbeddedPicture { name: format!("{}: picture {number}", self.path), bytes }));
+        let image = self
+            .root
+            .images
+            .get(number)
+            .ok_or_else(|| format!("its picture {number} is not in it; export it again"))?;
+        let embedded = |bytes| {
+            Image::Embedded(Arc::new(EmbeddedPicture { name: format!("{}: picture {number}", self.path), bytes }))
+        };
         let image = match (&image.uri, image.buffer_view) {
             (_, Some(view)) => {
                 let bytes = self.buffers.view(self.root, view)?;
-                self.room = self.room.checked_sub(bytes.len()).ok_or("its pictures share their bytes; export it again")?;
+                self.room =
+                    self.room.checked_sub(bytes.len()).ok_or("its pictures share their bytes; export it again")?;
                 embedded(bytes.to_vec())
             }
             (Some(uri), None) => match uri::parse(uri)? {

@@ -10,6 +10,7 @@ use gltf::json::mesh::{Mode, MorphTarget, Primitive, Semantic};
 use gltf::json::validation::Checked::{self, Valid};
 use gltf::json::{Accessor, Index, Mesh, Root, Skin};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// What a mesh holds, before any of it is read.
 pub struct Outline<'a> {
@@ -66,8 +67,10 @@ impl<'a> Outline<'a> {
             if material.is_some_and(|material| material >= root.materials.len()) {
                 return Err("it uses materials that are not in it; export it again".to_owned());
             }
-            let read_by = material.and_then(|material| coordinates.get(material)).copied().unwrap_or(Coordinates::DEFAULT);
-            let targets: Vec<_> = primitive.targets.iter().flatten().map(|target| (target.positions, target.normals)).collect();
+            let read_by =
+                material.and_then(|material| coordinates.get(material)).copied().unwrap_or(Coordinates::DEFAULT);
+            let targets: Vec<_> =
+                primitive.targets.iter().flatten().map(|target| (target.positions, target.normals)).collect();
             // Materials that change texture coordinates have vertices of their own.
             let key = (&primitive.attributes, targets, read_by.set, material.filter(|_| read_by.is_changed));
             let set = match known.get(&key) {
@@ -89,18 +92,18 @@ impl<'a> Outline<'a> {
         Ok(outline)
     }
 
-    /// How many vertices it has.
+    /// How many vertices it has; a set of none counts as one, as it is work too.
     pub fn vertices(&self) -> usize {
-        self.sets.iter().map(|set| set.count).fold(0, usize::saturating_add)
+        self.sets.iter().map(|set| set.count.max(1)).fold(0, usize::saturating_add)
     }
 
-    /// How many triangles it has at most.
+    /// How many triangles it has at most, likewise.
     pub fn triangles(&self) -> usize {
         let triangles = self.pieces.iter().map(|piece| match piece.mode {
             Mode::Triangles => piece.corners / 3,
             _ => piece.corners.saturating_sub(2),
         });
-        triangles.fold(0, usize::saturating_add)
+        triangles.map(|triangles| triangles.max(1)).fold(0, usize::saturating_add)
     }
 }
 
@@ -137,22 +140,29 @@ pub fn put(
             Ok(triangles(&indices, piece.mode))
         })
         .collect::<Result<_, String>>()?;
+    let mut skins: HashMap<usize, Vec<DMat4>> = HashMap::new();
     for place in places {
         let node = &accessors.root.nodes[*place];
         let weights = node.weights.as_ref().or(outline.mesh.weights.as_ref()).map_or(&[][..], Vec::as_slice);
         let joints = match node.skin {
             None => None,
-            Some(skin) => {
-                let found = accessors.root.get(skin);
-                let skin = found.ok_or_else(|| format!("its skin {skin} is not in it; export it again"))?;
-                Some(joint_matrices(skin, accessors, nodes)?)
-            }
+            Some(skin) => Some(match skins.entry(skin.value()) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(unknown) => {
+                    let found = accessors.root.get(skin);
+                    let skin = found.ok_or_else(|| format!("its skin {skin} is not in it; export it again"))?;
+                    unknown.insert(joint_matrices(skin, accessors, nodes)?)
+                }
+            }),
         };
-        for (number, set) in outline.sets.iter().enumerate() {
+        let joints = joints.map(|joints| joints.as_slice());
+        let put = |set| {
             let vertices = Vertices::read(set, weights, joints.is_some(), accessors)?;
-            let placed = Placed::put(soup, &vertices, &nodes.scene_from_node[*place], joints.as_deref())?;
-            let pieces = outline.pieces.iter().zip(&triangles).filter(|(piece, _)| piece.set == number);
-            pieces.for_each(|(piece, triangles)| placed.put_faces(soup, triangles, piece.material));
+            Placed::put(soup, &vertices, &nodes.scene_from_node[*place], joints)
+        };
+        let sets: Vec<Placed> = outline.sets.iter().map(put).collect::<Result<_, String>>()?;
+        for (piece, triangles) in outline.pieces.iter().zip(&triangles) {
+            sets[piece.set].put_faces(soup, triangles, piece.material);
         }
     }
     Ok(())
@@ -177,11 +187,15 @@ fn triangles(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
 
 /// For each joint of a skin: scene from the mesh as it was bound to it.
 fn joint_matrices(skin: &Skin, accessors: &Accessors<'_>, nodes: &Nodes) -> Result<Vec<DMat4>, String> {
+    if skin.joints.len() > nodes.scene_from_node.len() {
+        return Err("its skin has more joints than there are nodes; export it again".to_owned());
+    }
     let bound: Option<Vec<[f64; 16]>> =
         skin.inverse_bind_matrices.map(|index| accessors.numbers(index, skin.joints.len())).transpose()?;
     let matrix = |(place, joint): (usize, &Index<gltf::json::Node>)| {
         let scene_from_joint = nodes.scene_from_node.get(joint.value());
-        let scene_from_joint = scene_from_joint.ok_or_else(|| format!("its node {joint} is not in it; export it again"))?;
+        let scene_from_joint =
+            scene_from_joint.ok_or_else(|| format!("its node {joint} is not in it; export it again"))?;
         let joint_from_mesh = bound.as_ref().and_then(|bound| bound.get(place)).map(DMat4::from_cols_array);
         Ok(*scene_from_joint * joint_from_mesh.unwrap_or(DMat4::IDENTITY))
     };
@@ -230,7 +244,8 @@ impl Vertices {
         let (mut sum, mut shares) = (DMat4::ZERO, 0.0);
         for (numbers, weights) in self.weights.iter().filter_map(|list| list.get(vertex)) {
             for (number, share) in numbers.iter().zip(weights).filter(|(_, share)| **share != 0.0) {
-                let joint = joints.get(*number as usize).ok_or("its skin lacks joints that vertices name; export it again")?;
+                let joint =
+                    joints.get(*number as usize).ok_or("its skin lacks joints that vertices name; export it again")?;
                 sum += *joint * *share;
                 shares += *share;
             }

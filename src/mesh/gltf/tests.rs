@@ -32,9 +32,7 @@ pub fn binary() -> Vec<u8> {
     data.resize(data.len().next_multiple_of(4), 0);
     let length = 12 + 8 + json.len() + 8 + data.len();
     let words = |numbers: [usize; 2]| numbers.map(|number| (number as u32).to_le_bytes()).concat();
-    let chunk = |kind: &[u8; 4], chunk: &[u8]| {
-        [(chunk.len() as u32).to_le_bytes().as_slice(), kind, chunk].concat()
-    };
+    let chunk = |kind: &[u8; 4], chunk: &[u8]| [(chunk.len() as u32).to_le_bytes().as_slice(), kind, chunk].concat();
     [b"glTF".as_slice(), &words([2, length]), &chunk(b"JSON", &json), &chunk(b"BIN\0", &data)].concat()
 }
 
