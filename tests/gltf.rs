@@ -377,7 +377,7 @@ fn sparse_strided_and_quantised_positions_come_out_where_they_should() {
     let normals = file.push("accessors", accessor(12));
     square_file(positions, json!({"attributes": {"NORMAL": normals}}), &mut file);
     let mesh = file.mesh();
-    assert_eq!((mesh.positions, mesh.normals.len(), mesh.normals[0].z), (square.to_vec(), 1, 1.0));
+    assert_eq!((mesh.positions, mesh.normals.len(), mesh.normals[0].z), (square.to_vec(), 3, 1.0));
     // KHR_mesh_quantization: shares of 32767 in shorts with a padding, made larger by the node.
     let mut file = File::new();
     let shorts = [[0i16, 0, 0, 9], [32767, 0, 0, 9], [0, -32768, 0, 9]];
@@ -514,6 +514,7 @@ fn files_that_lie_about_themselves_are_refused_in_a_sentence() {
         let mut file = box_file();
         file.push("scenes", json!({"nodes": [0]}));
         file.push("skins", json!({"joints": [0]}));
+        file.json["nodes"][0]["skin"] = json!(0);
         file.push("materials", json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}));
         file.push("textures", json!({"source": 0}));
         file.push("images", json!({"uri": "a.png"}));
