@@ -35,10 +35,6 @@ mod with_the_library {
     /// Its sides, counter-clockwise from outside where x, y, z are right-handed.
     const SIDES: [[usize; 4]; 6] = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
 
-    fn turned([a, b, c, d]: [usize; 4]) -> [usize; 4] {
-        [d, c, b, a]
-    }
-
     fn triangles() -> impl Iterator<Item = [usize; 3]> {
         SIDES.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
     }

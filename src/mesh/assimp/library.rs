@@ -359,7 +359,8 @@ extern "C" fn tell(file: *mut AiFile) -> usize {
 
 extern "C" fn size(file: *mut AiFile) -> usize {
     // SAFETY: as in `read`.
-    unsafe { (&(*file).bytes).len() }
+    let file = unsafe { &*file };
+    file.bytes.len()
 }
 
 /// As C's `fseek`: an offset below zero comes as a number beyond all others.
