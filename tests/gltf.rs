@@ -554,7 +554,7 @@ fn files_that_lie_about_themselves_are_refused_in_a_sentence() {
     change("/scene", json!(9), "its scene 9 is not in it");
     change("/scenes/0/nodes", json!([9]), "its node 9 is not in it");
     change("/textures/0/source", json!(9), "its picture 9 is not in it");
-    change("/images/0", json!({}), "its picture 0  is neither in it nor beside it");
+    change("/images", json!([{}]), "its picture 0 is neither in it nor beside it");
     change("/materials/0/pbrMetallicRoughness/baseColorTexture/index", json!(9), "its texture 9 is not in it");
     change("/meshes", json!("none"), "its JSON is not glTF's");
     change("/nodes", json!([]), "it holds no vertices and no faces");

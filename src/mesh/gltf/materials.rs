@@ -2,7 +2,6 @@
 
 use super::buffers::Buffers;
 use super::uri::{self, Uri};
-use crate::files::shown;
 use crate::limits::MATERIALS;
 use crate::mesh::{EmbeddedPicture, Material};
 use glam::{Mat2, Vec2};
@@ -160,8 +159,7 @@ impl Images<'_> {
                 Uri::File(name) => Image::File(name.into()),
             },
             (None, None) => {
-                let name = image.name.as_deref().map(shown).unwrap_or_default();
-                return Err(format!("its picture {number} {name} is neither in it nor beside it; export it again"));
+                return Err(format!("its picture {number} is neither in it nor beside it; export it again"));
             }
         };
         self.known.insert(number, image.clone());
