@@ -8,7 +8,8 @@
 //!                                          └─► VisibleLines (exact, f64) ─► SVG, reference ──────────────┴─► Row ─► report
 //! ```
 //!
-//! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`].
+//! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`],
+//! but for what calls libassimp (cargo feature `assimp`).
 //! Everything else is tested without a context, a window or a clock.
 //!
 //! ```no_run

@@ -63,6 +63,9 @@ pub const MATERIALS: usize = 16_384;
 /// Most material files that an OBJ model may name.
 pub const MATERIAL_FILES: usize = 1024;
 
+/// Most levels of a glTF file's tree of nodes: skeletons have a few dozen.
+pub const NODE_LEVELS: usize = 4096;
+
 /// Most skins of an MD2 model that are looked for; the game's own limit is 32.
 pub const SKINS: usize = 256;
 

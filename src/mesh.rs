@@ -15,11 +15,13 @@
 //! # }
 //! ```
 
+mod assimp;
 pub mod builtin;
 pub mod defects;
 mod folder;
 mod format;
 mod frame;
+mod gltf;
 mod hilbert;
 pub mod load;
 mod md2;
@@ -38,6 +40,7 @@ mod weld;
 use glam::{DVec3, Vec2, Vec3};
 use serde::Serialize;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 pub use builtin::BUILTINS;
 pub use defects::Defects;
@@ -81,13 +84,32 @@ pub struct Mesh {
 pub struct Material {
     /// Its name in the file.
     pub name: String,
-    /// Diffuse colour, red, green, blue in [0, 1] (MTL `Kd`); `None` where the file gives none.
+    /// Diffuse colour, red, green, blue in [0, 1] (MTL `Kd`, glTF's base colour as sRGB); `None` where the file gives none.
     pub color: Option<[f32; 3]>,
-    /// The colour texture's file (MTL `map_Kd`, an MD2 model's skin) where it was found; not opened until a style needs it.
+    /// The colour texture's file (MTL `map_Kd`, an MD2 model's skin, glTF's base colour) where it was found; not opened until a style needs it.
     pub texture: Option<PathBuf>,
     /// The folder, by its real path, that the texture must still lie in when it is opened; `None`: anywhere.
     #[serde(skip)]
     pub texture_within: Option<PathBuf>,
+    /// The colour texture where the model's own file holds it (glTF); then `texture` is `None`.
+    #[serde(skip)]
+    pub embedded: Option<Arc<EmbeddedPicture>>,
+}
+
+impl Material {
+    /// Whether it has a colour texture, in a file or in the model's own.
+    pub fn has_texture(&self) -> bool {
+        self.texture.is_some() || self.embedded.is_some()
+    }
+}
+
+/// A picture file inside a model file; not decoded until a style needs it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct EmbeddedPicture {
+    /// The model and which of its pictures, for messages.
+    pub name: String,
+    /// The file's bytes, PNG or JPEG.
+    pub bytes: Vec<u8>,
 }
 
 impl Mesh {

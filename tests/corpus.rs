@@ -12,12 +12,13 @@ type Target = fn(&[u8]);
 
 #[test]
 fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
-    let targets: [(&str, Target); 12] = [
+    let targets: [(&str, Target); 13] = [
         ("obj", readers::obj),
         ("ply", readers::ply),
         ("stl", readers::stl),
         ("md2", readers::md2),
         ("three_ds", readers::three_ds),
+        ("gltf", readers::gltf),
         ("load", readers::load),
         ("picture", readers::picture),
         ("ramp", readers::ramp),

@@ -308,6 +308,7 @@ fn the_limits_are_documented_as_they_are() {
         ("STL_LINE_BYTES", STL_LINE_BYTES as u64),
         ("MATERIALS", MATERIALS as u64),
         ("MATERIAL_FILES", MATERIAL_FILES as u64),
+        ("NODE_LEVELS", NODE_LEVELS as u64),
         ("SKINS", SKINS as u64),
         ("REMARKS", REMARKS as u64),
         ("SHOWN_CHARACTERS", SHOWN_CHARACTERS as u64),

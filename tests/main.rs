@@ -1,6 +1,7 @@
 //! Tests that need a GL context or the finished program. One binary, so that it links once.
 
 mod animation;
+mod assimp;
 mod charcoal;
 mod charcoal_twin;
 mod cli;
@@ -16,6 +17,7 @@ mod examples;
 mod external;
 mod faults;
 mod figures;
+mod gltf;
 mod goldens;
 mod hiding;
 mod hostile;

@@ -50,7 +50,7 @@ fn random_view(scene: &Scene, dice: &mut Dice) -> Scene {
 /// Draws many views of a model in every style, in full and pruned, and compares the bytes.
 fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
     let scene = Scene::new(vec![mesh.clone()], &SceneSettings::default()).unwrap();
-    let has_skin = !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.texture.is_some());
+    let has_skin = !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.has_texture());
     let mut styles: Vec<Style> = StyleName::ALL
         .iter()
         .filter(|(name, _)| *name != "sand" || has_skin)

@@ -2,5 +2,5 @@
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    tinta_fuzz::memory::within(tinta_fuzz::memory::of_model(bytes), || tinta_fuzz::readers::load(bytes));
+    tinta_fuzz::memory::within(tinta_fuzz::memory::of_gltf(bytes), || tinta_fuzz::readers::load(bytes));
 });

@@ -62,6 +62,15 @@ pub fn of_model(bytes: &[u8]) -> usize {
     bytes.len() * tinta::limits::MEMORY_FACTOR + SLACK_BYTES
 }
 
+/// Most memory for what may be glTF, whose nodes show one mesh many times and whose accessors may be zeros without any bytes: what
+/// docs/limits.md allows besides is used up rightly.
+pub fn of_gltf(bytes: &[u8]) -> usize {
+    match bytes.contains(&b'{') {
+        true => bytes.len() * tinta::limits::MEMORY_FACTOR + tinta::limits::MEMORY_SLACK_BYTES,
+        false => of_model(bytes),
+    }
+}
+
 /// Most memory for a picture: its pixels at 12 bytes each (16 bits a channel in the file, 8 bits after it), as many as the
 /// file can hold and as are read.
 pub fn of_picture(bytes: &[u8]) -> usize {

@@ -37,6 +37,16 @@ pub fn three_ds(bytes: &[u8]) {
     model_of(bytes, b"", "fuzz.3ds");
 }
 
+/// A glTF model, JSON or GLB; pictures in it are no longer than it.
+pub fn gltf(bytes: &[u8]) {
+    let loaded = read_bytes(bytes, "fuzz.gltf", b"", &LoadOptions::default());
+    if let Ok(Loaded { mesh, .. }) = &loaded {
+        let pictures = mesh.materials.iter().filter_map(|material| material.embedded.as_ref());
+        pictures.for_each(|picture| assert!(picture.bytes.len() <= bytes.len()));
+    }
+    check_model(loaded);
+}
+
 /// A model of any format, by its content alone, with other options than the default: the first byte says which.
 pub fn load(bytes: &[u8]) {
     let Some((how, bytes)) = bytes.split_first() else { return };

@@ -14,7 +14,7 @@ use tinta::{Backend, Error, Picture, Renderer, Result, Scene, Show, StyleName, T
 /// Draw one scene in two styles side by side, and show which lines both drew
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS) or built-in models; several make one scene
+    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models; several make one scene
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 

@@ -11,7 +11,7 @@ use tinta::{EdgeList, Error, Result, Scene, SceneSettings};
 /// Count a model's edges by class, and time how they are found
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Model file (OBJ, PLY, STL, MD2, 3DS) or built-in model
+    /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in model
     #[arg(value_name = "MODEL")]
     model: String,
 

@@ -40,7 +40,7 @@ pub struct Arguments {
     #[arg(long)]
     quick: bool,
 
-    /// Model with its own texture for the figures that need one (MD2, OBJ, 3DS) [default: those figures are left out]
+    /// Model with its own texture for the figures that need one (MD2, OBJ, 3DS, glTF) [default: those figures are left out]
     #[arg(long, value_name = "FILE")]
     model: Option<String>,
 
@@ -133,7 +133,7 @@ impl Arguments {
         let options = LoadOptions { skin: self.skin.clone(), ..LoadOptions::default() };
         let mesh = load_meshes(std::slice::from_ref(path), &options)?.pop();
         match mesh {
-            Some(mesh) if mesh.materials.iter().any(|material| material.texture.is_some()) => Ok(Some(mesh)),
+            Some(mesh) if mesh.materials.iter().any(|material| material.has_texture()) => Ok(Some(mesh)),
             _ => Err(Error::Setting {
                 setting: format!("--model {path}"),
                 problem: "no picture for it was found, and these figures draw with a model's own; name one with --skin"

@@ -22,7 +22,7 @@ use tinta::{Backend, Error, Mesh, Renderer, Result, Scene, SceneSettings, Show, 
 /// Measure every style's error against its run time; a table, plots and a page come out
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS) or built-in models, each measured by itself
+    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models, each measured by itself
     #[arg(value_name = "MODEL", required_unless_present_any = ["suite", "merge"])]
     models: Vec<String>,
 

@@ -80,7 +80,7 @@ pub struct ModelArguments {
     #[arg(long, value_name = "FILE")]
     skin: Option<PathBuf>,
 
-    /// Follow material files and pictures that the model names outside its folder [default: off, said and not followed]
+    /// Follow material files, data and pictures that the model names outside its folder [default: off, said and not followed]
     #[arg(long)]
     allow_external: bool,
 

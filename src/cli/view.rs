@@ -13,7 +13,7 @@ use tinta::{Backend, Background, Color, Error, Result, Size, Style, StyleName, V
 #[derive(clap::Args)]
 #[command(after_help = "In the window H lists the keys. Drop a model's file on it to see that one.")]
 pub struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS) or built-in models; several make one scene [default: builtin:bust]
+    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models; several make one scene [default: builtin:bust]
     #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
     models: Vec<String>,
 

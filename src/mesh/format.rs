@@ -1,6 +1,6 @@
 //! Which format a model file is in: by its content first, by its name second.
 
-use super::{md2, obj, stl, three_ds};
+use super::{assimp, gltf, md2, obj, stl, three_ds};
 use std::path::Path;
 
 /// The formats read here.
@@ -11,11 +11,14 @@ pub enum Format {
     Stl,
     Md2,
     ThreeDs,
+    Gltf,
+    /// Read by libassimp; what people call it.
+    Assimp(&'static str),
 }
 
 impl Format {
     /// All of them, for messages.
-    pub const NAMES: &'static str = "OBJ, PLY, STL, MD2 or 3DS";
+    pub const NAMES: &'static str = "OBJ, PLY, STL, MD2, 3DS or glTF";
 
     pub fn name(self) -> &'static str {
         match self {
@@ -24,6 +27,8 @@ impl Format {
             Self::Stl => "STL",
             Self::Md2 => "MD2",
             Self::ThreeDs => "3DS",
+            Self::Gltf => "glTF",
+            Self::Assimp(name) => name,
         }
     }
 
@@ -34,14 +39,23 @@ impl Format {
             "stl" => Some(Self::Stl),
             "md2" => Some(Self::Md2),
             "3ds" => Some(Self::ThreeDs),
-            _ => None,
+            "gltf" | "glb" => Some(Self::Gltf),
+            extension => assimp::format_of(extension).map(Self::Assimp),
         }
+    }
+
+    /// Whether a file begins in a way that other formats do not. Text of all kinds may have a line that could be OBJ's or STL's.
+    pub fn is_unmistakable(self) -> bool {
+        !matches!(self, Self::Obj | Self::Stl)
     }
 
     pub fn by_content(bytes: &[u8]) -> Option<Self> {
         let head = &bytes[..bytes.len().min(4096)];
         if head.starts_with(b"ply\n") || head.starts_with(b"ply\r") {
             return Some(Self::Ply);
+        }
+        if gltf::is_binary(head) || gltf::is_json(head) {
+            return Some(Self::Gltf);
         }
         if head.starts_with(md2::MAGIC) {
             return Some(Self::Md2);
@@ -69,8 +83,12 @@ mod tests {
         let mut binary = vec![0u8; 84 + 50];
         binary[80] = 1;
         assert_eq!(Format::by_content(&binary), Some(Format::Stl));
+        assert_eq!(Format::by_name("a.MS3D"), Some(Format::Assimp("MS3D")));
         assert_eq!(Format::by_content(b"IDP2\x08\0\0\0"), Some(Format::Md2));
         assert_eq!(Format::by_content(b"MM\x10\0\0\0\x02\0\x0a\0\0\0\x03\0\0\0"), Some(Format::ThreeDs));
+        assert_eq!(Format::by_content(b"glTF\x02\0\0\0"), Some(Format::Gltf));
+        assert_eq!(Format::by_content(b" {\n  \"asset\": {}}"), Some(Format::Gltf));
+        assert_eq!(Format::by_content(b"{\"v\": 1}"), None, "other JSON");
         assert_eq!(Format::by_content(b"MM\0*\0\0\0\x08"), None, "a TIFF picture");
     }
 }

@@ -3,7 +3,7 @@
 use super::folder::Folder;
 use super::format::Format;
 use super::obj::Materials;
-use super::{Defects, Mesh, ModelFrame, builtin, md2, obj, ply, skin, soup::Soup, stl, three_ds};
+use super::{Defects, Mesh, ModelFrame, assimp, builtin, gltf, md2, obj, ply, skin, soup::Soup, stl, three_ds};
 use crate::error::{Error, Result};
 use crate::files;
 use crate::limits::MODEL_BYTES;
@@ -35,7 +35,7 @@ pub struct LoadOptions {
     /// has the model's own name.
     #[serde(serialize_with = "as_text")]
     pub skin: Option<PathBuf>,
-    /// Whether files that the model names, materials and pictures, may lie outside its folder. Default: no, they are not
+    /// Whether files that the model names, materials, data and pictures, may lie outside its folder. Default: no, they are not
     /// followed, whether named by `..`, absolutely or through links, and that is said.
     pub allow_external: bool,
 }
@@ -149,13 +149,13 @@ pub struct Loaded {
     pub mesh: Mesh,
     /// The names of the file's frames in order, as `LoadOptions::model_frame` takes them; empty where it has none.
     pub frames: Vec<String>,
-    /// The files that were read besides the model's own: its material libraries. Pictures are read when a style needs them.
+    /// The files that were read besides the model's own: its material libraries, its data. Pictures are read when a style needs them.
     pub files: Vec<PathBuf>,
     /// Sentences about the file, each naming it: a format other than the name says, defects, missing materials, skins.
     pub remarks: Vec<String>,
 }
 
-/// Reads a model: `builtin:NAME`, or an OBJ, PLY, STL, MD2 or 3DS file.
+/// Reads a model: `builtin:NAME`, or an OBJ, PLY, STL, MD2, 3DS or glTF file.
 ///
 /// # Errors
 ///
@@ -177,7 +177,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
     made(soup, path, options, remarks)
 }
 
-/// Reads a model out of memory: an OBJ, PLY, STL, MD2 or 3DS file's bytes. No other file is read: the materials of an OBJ
+/// Reads a model out of memory: an OBJ, PLY, STL, MD2, 3DS or glTF file's bytes. No other file is read: the materials of an OBJ
 /// model are looked for in `materials`, an MTL file's bytes, and pictures that the model names are left out.
 ///
 /// `name` is for messages, and its extension tells the format where the bytes do not.
@@ -243,7 +243,8 @@ fn soup(
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").filter(|_| !stl::is_binary(bytes));
     let bytes = text.unwrap_or(bytes);
     let named = Format::by_name(path);
-    let found = Format::by_content(bytes);
+    let found =
+        Format::by_content(bytes).filter(|found| !matches!(named, Some(Format::Assimp(_))) || found.is_unmistakable());
     let format = found.or(named).ok_or_else(|| {
         Error::model(path, format!("this is not a model in a format known here; use an {} file", Format::NAMES))
     })?;
@@ -264,6 +265,8 @@ fn soup(
         Format::Stl => stl::read(bytes, path)?,
         Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
         Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,
+        Format::Gltf => gltf::read(bytes, path, options, folder, remarks)?,
+        Format::Assimp(format) => assimp::read(bytes, format, path, options, folder, remarks)?,
     };
     soup.check_memory(bytes.len(), path)?;
     Ok(soup)
@@ -300,7 +303,7 @@ mod tests {
     }
 
     /// Small valid files of every format, each with all that its reader knows.
-    fn valid_files() -> [(&'static str, Vec<u8>); 7] {
+    fn valid_files() -> [(&'static str, Vec<u8>); 9] {
         let obj =
             "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -4//-1 -2 -1\n";
         let header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
@@ -325,6 +328,8 @@ mod tests {
             ("b.stl", binary_stl),
             ("b.md2", md2::tests::pyramid()),
             ("b.3ds", three_ds::tests::square()),
+            ("t.gltf", gltf::tests::json()),
+            ("b.glb", gltf::tests::binary()),
         ]
     }
 
@@ -347,7 +352,7 @@ mod tests {
         /// Changed bytes, inserted numbers, cut ends: a mesh of finite numbers or an error that names the file.
         #[test]
         fn damaged_files_give_a_sound_mesh_or_an_error_and_never_a_panic(
-            file in 0usize..7,
+            file in 0usize..9,
             changes in proptest::collection::vec((0usize..600, proptest::num::u8::ANY), 0..6),
             insertion in (0usize..600, proptest::sample::select(vec!["", "nan", "-1", "1e999", "4294967296", "\\\n", "\n", "/", "#"])),
             keep in 0usize..600,

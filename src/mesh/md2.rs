@@ -156,7 +156,7 @@ pub fn read(
     };
     let texture_within = folder.within().filter(|_| texture.is_some()).map(Path::to_path_buf);
     soup.polygon_materials = vec![0; soup.polygon_count()];
-    soup.materials = vec![Material { name: "skin".to_owned(), color: None, texture, texture_within }];
+    soup.materials = vec![Material { name: "skin".to_owned(), color: None, texture, texture_within, embedded: None }];
     Ok(soup)
 }
 

@@ -206,6 +206,7 @@ fn material(material: tobj::Material) -> Material {
         color: material.diffuse.map(|color| color.map(|channel| channel.clamp(0.0, 1.0) as f32)),
         texture: material.diffuse_texture.map(PathBuf::from),
         texture_within: None,
+        embedded: None,
     }
 }
 

@@ -126,13 +126,19 @@ pub fn put_on(soup: &mut Soup, skin: &Path, path: &str) -> Result<()> {
     }
     for material in &mut soup.materials {
         // Whoever names it himself may have it anywhere.
-        (material.texture, material.texture_within) = (Some(skin.to_path_buf()), None);
+        (material.texture, material.texture_within, material.embedded) = (Some(skin.to_path_buf()), None, None);
     }
     soup.polygon_materials.resize(soup.polygon_count(), NONE);
     if soup.polygon_materials.contains(&NONE) {
         let added = soup.materials.len() as u32;
         let texture = Some(skin.to_path_buf());
-        soup.materials.push(Material { name: "skin".to_owned(), color: None, texture, texture_within: None });
+        soup.materials.push(Material {
+            name: "skin".to_owned(),
+            color: None,
+            texture,
+            texture_within: None,
+            embedded: None,
+        });
         soup.polygon_materials.iter_mut().filter(|material| **material == NONE).for_each(|material| *material = added);
     }
     Ok(())
@@ -177,8 +183,13 @@ mod tests {
     #[test]
     fn a_skin_goes_onto_all_materials_and_faces_without_one_get_one() {
         let corner = |position| Corner { texture: 0, ..Corner::at(position) };
-        let material =
-            Material { name: "red".to_owned(), color: Some([1.0, 0.0, 0.0]), texture: None, texture_within: None };
+        let material = Material {
+            name: "red".to_owned(),
+            color: Some([1.0, 0.0, 0.0]),
+            texture: None,
+            texture_within: None,
+            embedded: None,
+        };
         let mut soup = Soup {
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
             texture_coordinates: vec![Vec2::ZERO],

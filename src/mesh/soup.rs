@@ -34,8 +34,10 @@ pub struct Soup {
     pub frames: Vec<String>,
     /// What the reader already found.
     pub defects: Defects,
-    /// The files that were read besides the model's own: its material libraries.
+    /// The files that were read besides the model's own: its material libraries, its data.
     pub files: Vec<PathBuf>,
+    /// Bytes of those that hold vertices and faces.
+    pub bytes_beside: usize,
 }
 
 /// One corner of a polygon: indices into the soup's arrays, [`NONE`] where it has none.
@@ -56,6 +58,16 @@ impl Corner {
     }
 }
 
+/// Whether a mesh of so many vertices, corners and triangles takes more memory than files of `file_bytes` may.
+pub fn is_too_much(file_bytes: usize, vertices: usize, corners: usize, triangles: usize) -> bool {
+    /// What a vertex, a corner and a triangle take at the moment when a mesh takes most, bytes.
+    const BYTES: [usize; 3] = [80, 12, 90];
+    let needed =
+        [vertices, corners, triangles].into_iter().zip(BYTES).map(|(count, bytes)| count.saturating_mul(bytes));
+    let most = file_bytes.saturating_mul(MEMORY_FACTOR).saturating_add(MEMORY_SLACK_BYTES);
+    needed.fold(0, usize::saturating_add) > most || triangles > TRIANGLES
+}
+
 impl Soup {
     /// How many polygons there are.
     pub fn polygon_count(&self) -> usize {
@@ -65,13 +77,9 @@ impl Soup {
     /// Refuses what would take more memory as a mesh than a file of `file_bytes` may: no exporter writes so few bytes for so
     /// many vertices and faces, but two bytes can name a polygon's corner.
     pub fn check_memory(&self, file_bytes: usize, name: &str) -> Result<()> {
-        /// What a vertex, a corner and a triangle take at the moment when a mesh takes most, bytes.
-        const BYTES: [usize; 3] = [80, 12, 90];
         let triangles = self.corners.len().saturating_sub(2 * self.polygon_count());
-        let counts = [self.positions.len(), self.corners.len(), triangles];
-        let needed: usize = counts.iter().zip(BYTES).map(|(count, bytes)| count.saturating_mul(bytes)).sum();
-        let most = file_bytes.saturating_mul(MEMORY_FACTOR).saturating_add(MEMORY_SLACK_BYTES);
-        if needed <= most && triangles <= TRIANGLES {
+        let file_bytes = file_bytes.saturating_add(self.bytes_beside);
+        if !is_too_much(file_bytes, self.positions.len(), self.corners.len(), triangles) {
             return Ok(());
         }
         Err(Error::model(

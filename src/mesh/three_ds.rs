@@ -252,7 +252,8 @@ fn face_material(mut bytes: Bytes<'_>) -> Option<(String, Vec<u16>)> {
 
 /// A material; its texture is the file's name for it until it is looked for.
 fn material(bytes: Bytes<'_>) -> std::result::Result<Material, Damage> {
-    let mut material = Material { name: String::new(), color: None, texture: None, texture_within: None };
+    let mut material =
+        Material { name: String::new(), color: None, texture: None, texture_within: None, embedded: None };
     for item in chunks(bytes) {
         match item? {
             (chunk::MATERIAL_NAME, mut data) => {

@@ -138,7 +138,7 @@ impl<'a> CornerKeys<'a> {
         let has_coordinates = !mesh.triangle_texture_coordinates.is_empty();
         Self {
             mesh,
-            has_textures: has_coordinates && mesh.materials.iter().any(|material| material.texture.is_some()),
+            has_textures: has_coordinates && mesh.materials.iter().any(|material| material.has_texture()),
             has_materials: mesh.materials.len() > 1,
         }
     }

@@ -43,9 +43,14 @@ impl Picture {
     ///
     /// Those of [`Picture::read`].
     pub fn from_bytes(bytes: &[u8], name: &str) -> Result<Self> {
+        Self::from_bytes_of(bytes, name, u64::MAX)
+    }
+
+    /// The same of a picture whose pixels may take `most` bytes.
+    pub(crate) fn from_bytes_of(bytes: &[u8], name: &str, most: u64) -> Result<Self> {
         let path = Path::new(name);
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        decode(bytes, &extension.to_ascii_lowercase(), u64::MAX).map_err(|problem| Error::picture(path, problem))
+        decode(bytes, &extension.to_ascii_lowercase(), most).map_err(|problem| Error::picture(path, problem))
     }
 }
 

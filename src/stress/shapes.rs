@@ -328,6 +328,7 @@ fn with_picture(mesh: Mesh, folder: &Path) -> Result<Mesh> {
             color: None,
             texture: Some(path),
             texture_within: None,
+            embedded: None,
         }],
         triangle_materials: vec![0; mesh.triangles.len()],
         ..mesh

@@ -122,7 +122,7 @@ impl Charcoal {
     /// Paper and drawing mixed with the models' own textures in sepia.
     pub(super) fn sand(&self, scene: &Scene, show: Show) -> Result<Plan> {
         let has_texture = |mesh: &Mesh| {
-            !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.texture.is_some())
+            !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.has_texture())
         };
         if let Some(object) = scene.objects.iter().find(|object| !has_texture(&object.mesh)) {
             return Err(Error::setting(

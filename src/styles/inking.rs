@@ -227,7 +227,7 @@ impl Inking {
         if show == Show::Borders && !self.is_inked {
             return Err(Error::setting("--show borders", "there are none with --no-borders; leave out one of the two"));
         }
-        let has_picture = |material: &crate::mesh::Material| material.texture.is_some();
+        let has_picture = |material: &crate::mesh::Material| material.has_texture();
         if self.has_texture && !scene.objects.iter().any(|object| object.mesh.materials.iter().any(has_picture)) {
             return Err(Error::setting(
                 "--texture on",

@@ -1,0 +1,6 @@
+//! Any bytes as a glTF model.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    tinta_fuzz::memory::within(tinta_fuzz::memory::of_gltf(bytes), || tinta_fuzz::readers::gltf(bytes));
+});
