@@ -2,9 +2,9 @@
 
 mod again;
 mod compare;
+mod completions;
 #[cfg(test)]
 mod documents;
-mod completions;
 mod edges;
 mod figures;
 mod info;

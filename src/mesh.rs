@@ -46,7 +46,7 @@ pub use builtin::BUILTINS;
 pub use defects::Defects;
 pub use frame::ModelFrame;
 pub(crate) use hilbert::hilbert_code;
-pub use load::{LoadOptions, Loaded, Normals, UpAxis, load, read_bytes};
+pub use load::{LoadOptions, LoadStage, Loaded, Normals, UpAxis, load, load_watched, read_bytes};
 pub use vertices::{Part, VertexArrays};
 
 /// Stands in index arrays for "this corner has none".

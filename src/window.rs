@@ -49,6 +49,7 @@ pub use buffer::{Buffer, buffers};
 pub use compose::composed;
 pub use draw::{Drawer, Drawing, Job};
 pub use event::{Effect, Layout, Save, Side, ViewerEvent};
+pub use load::Stage;
 pub use orbit::Orbit;
 pub use price::{Point, Price, Priced};
 pub use replay::Replay;

@@ -163,17 +163,40 @@ pub struct Loaded {
 /// [`Error::Strict`] when it has defects and `options.strict`; [`Error::Setting`] when an option is nonsense or not for
 /// this model; [`Error::Picture`] when `options.skin` is no file.
 pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
+    load_watched(path, options, &|_| {})
+}
+
+/// What is being done while a model is read, in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadStage {
+    /// Its bytes come from the disk.
+    Reading,
+    /// They are understood.
+    Parsing,
+    /// Vertices become one, faces that are none are dropped, normals are made.
+    Joining,
+}
+
+/// As [`load`], for whoever shows how far it is: `watch` is told of each stage when it begins.
+///
+/// # Errors
+///
+/// Those of [`load`].
+pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
     check(options)?;
     let mut remarks = Vec::new();
     let soup = match builtin::find(path) {
         Some(model) => builtin::read(&model?, path, &mut remarks)?,
         None => {
+            watch(LoadStage::Reading);
             let bytes = files::read(Path::new(path), MODEL_BYTES)
                 .map_err(|failure| Error::model(path, failure.problem("a model file")))?;
+            watch(LoadStage::Parsing);
             let folder = Folder::of(path, options.allow_external);
             soup(&bytes, path, options, &Materials::Beside(&folder), &folder, &mut remarks)?
         }
     };
+    watch(LoadStage::Joining);
     made(soup, path, options, remarks)
 }
 

@@ -86,13 +86,13 @@ impl Drawers {
     ///
     /// When a thread has ended.
     pub fn draw(&mut self, job: Job, is_moving: bool) -> Result<(), Ended> {
-        let is_free = |thread: &&mut Thread| thread.orders.is_some() && thread.job.is_none();
-        if !self.threads.iter_mut().any(|thread| is_free(&thread)) {
-            if !is_moving || !self.may_grow || self.threads.len() == MOST || self.add().is_err() {
-                return Ok(());
-            }
+        let is_free = |thread: &Thread| thread.orders.is_some() && thread.job.is_none();
+        let may_add = is_moving && self.may_grow && self.threads.len() < MOST;
+        // Where there is no other thread to be had, the picture waits.
+        if !self.threads.iter().any(is_free) && (!may_add || self.add().is_err()) {
+            return Ok(());
         }
-        let Some(thread) = self.threads.iter_mut().find(is_free) else { return Ok(()) };
+        let Some(thread) = self.threads.iter_mut().find(|thread| is_free(thread)) else { return Ok(()) };
         self.count += 1;
         thread.job = Some((self.count, job.clone()));
         thread.send(Order::Draw(Box::new(job)))
@@ -114,19 +114,13 @@ impl Drawers {
     /// When a thread has ended.
     pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<(), Ended> {
         self.shaders = Some(shaders.clone());
-        let working = self.threads.iter().filter(|thread| thread.orders.is_some());
-        working.map(|thread| thread.send(Order::Shaders(shaders.clone()))).collect()
+        let mut working = self.threads.iter().filter(|thread| thread.orders.is_some());
+        working.try_for_each(|thread| thread.send(Order::Shaders(shaders.clone())))
     }
 
     /// The job that a thread has done, with its number.
     pub fn done(&mut self, thread: usize) -> Option<(u64, Job)> {
         self.threads.get_mut(thread)?.job.take()
-    }
-
-    /// How many there are.
-    #[cfg(test)]
-    pub fn len(&self) -> usize {
-        self.threads.len()
     }
 }
 

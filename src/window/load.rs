@@ -2,7 +2,7 @@
 
 use super::report::{Report, Reporter};
 use crate::error::Result;
-use crate::mesh::{LoadOptions, Mesh, load};
+use crate::mesh::{LoadOptions, LoadStage, Mesh, load_watched};
 use crate::scene::{Scene, SceneSettings};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -19,6 +19,15 @@ pub struct LoadedModels {
     pub scene: Arc<Scene>,
     /// What was noticed, to be said once.
     pub remarks: Vec<String>,
+}
+
+/// How far reading is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stage {
+    /// What is being done.
+    pub text: String,
+    /// Steps done, share of all; steps take different times.
+    pub share: f32,
 }
 
 /// Starts threads that read models; the last one asked counts.
@@ -49,7 +58,7 @@ impl Loader {
         let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
         let (options, reporter, last) = (self.options.clone(), self.reporter.clone(), self.last.clone());
         let work = move || {
-            let stage = |text: String| reporter.say(Report::Stage(number, text));
+            let stage = |stage: Stage| reporter.say(Report::Stage(number, stage));
             match scene_of(&models, &options, &stage) {
                 Err(error) => reporter.say(Report::NotLoaded(number, error)),
                 Ok(loaded) => {
@@ -70,22 +79,34 @@ impl Loader {
     }
 }
 
+/// Steps in which a model is read.
+const STEPS_A_MODEL: usize = 3;
+
 /// Reads models and puts them together; says what it does.
-fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(String)) -> Result<LoadedModels> {
+fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> Result<LoadedModels> {
     let (mut meshes, mut remarks): (Vec<Arc<Mesh>>, Vec<String>) = Default::default();
     let mut files: Vec<PathBuf> =
         models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
+    let steps = (STEPS_A_MODEL * models.len() + 1) as f32;
     for (index, model) in models.iter().enumerate() {
         let size = std::fs::metadata(model).map_or(String::new(), |file| format!(", {}", size_text(file.len())));
         let which = if models.len() > 1 { format!(" ({} of {})", index + 1, models.len()) } else { String::new() };
-        stage(format!("reading {model}{size}{which}"));
-        let loaded = load(model, options)?;
+        let loaded = load_watched(model, options, &|step| {
+            let (done, doing) = match step {
+                LoadStage::Reading => (0, "reading"),
+                LoadStage::Parsing => (1, "understanding"),
+                LoadStage::Joining => (2, "joining the vertices of"),
+            };
+            let share = (STEPS_A_MODEL * index + done) as f32 / steps;
+            stage(Stage { text: format!("{doing} {model}{size}{which}"), share });
+        })?;
         remarks.extend(loaded.remarks);
         files.extend(loaded.files);
         meshes.push(Arc::new(loaded.mesh));
     }
     let triangles: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
-    stage(format!("preparing {triangles} triangles for drawing"));
+    let text = format!("preparing {triangles} triangles for drawing");
+    stage(Stage { text, share: (steps - 1.0) / steps });
     let scene = Scene::new(meshes, &SceneSettings::default())?;
     scene.make_arrays();
     Ok(LoadedModels { models: models.to_vec(), files, scene: Arc::new(scene), remarks })
@@ -95,5 +116,26 @@ fn size_text(bytes: u64) -> String {
     match bytes {
         0..1_000_000 => format!("{} kB", bytes.div_ceil(1000)),
         _ => format!("{} MB", bytes / 1_000_000),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::RefCell;
+
+    #[test]
+    fn steps_of_several_models_go_up_to_the_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.obj").display().to_string();
+        std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+        let stages = RefCell::new(Vec::new());
+        let models = [file, "builtin:ant".to_owned()];
+        let loaded = scene_of(&models, &LoadOptions::default(), &|stage| stages.borrow_mut().push(stage)).unwrap();
+        assert_eq!(loaded.scene.objects.len(), 2);
+        let shares: Vec<f32> = stages.borrow().iter().map(|stage| (stage.share * 7.0).round()).collect();
+        // A built-in model is neither read from a disk nor understood.
+        assert_eq!(shares, [0.0, 1.0, 2.0, 5.0, 6.0]);
+        assert!(stages.borrow()[1].text.contains("understanding") && stages.borrow()[1].text.contains("(1 of 2)"));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::draw::{Cost, Drawing};
 use super::event::Side;
-use super::load::LoadedModels;
+use super::load::{LoadedModels, Stage};
 use crate::error::Error;
 use crate::gl::ContextInfo;
 use crate::measure::LineError;
@@ -43,7 +43,7 @@ pub enum Report {
     /// It has refused them and uses those before.
     ShadersRefused(Error),
     /// How far loading is: the number of the load, and what is being done.
-    Stage(u64, String),
+    Stage(u64, Stage),
     /// Models are loaded: the number of the load, and what there is.
     Loaded(u64, Box<LoadedModels>),
     /// Models cannot be loaded.

@@ -214,7 +214,10 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
         window("times and errors").anchor(Align2::LEFT_TOP, [8.0, 8.0]).show(context, |ui| plot::show(ui, viewer));
     }
     if let Some(stage) = &viewer.stage {
-        window("loading").anchor(Align2::CENTER_TOP, [0.0, 8.0]).show(context, |ui| ui.label(stage));
+        window("loading").anchor(Align2::CENTER_TOP, [0.0, 8.0]).show(context, |ui| {
+            ui.label(&stage.text);
+            ui.add(egui::ProgressBar::new(stage.share).show_percentage());
+        });
     }
     for (title, text) in [("this cannot be drawn", &viewer.problem), ("a shader was refused", &viewer.shader_log)] {
         if let Some(text) = text {

@@ -8,7 +8,7 @@ use super::compose::composed;
 use super::draw::{Drawing, Job};
 use super::drawers::{Drawers, Ended};
 use super::event::{Effect, Save, Side, ViewerEvent};
-use super::load::{LoadedModels, Loader};
+use super::load::{LoadedModels, Loader, Stage};
 use super::price::Price;
 use super::report::{Report, Reporter};
 use super::save::{Surroundings, save};
@@ -46,7 +46,7 @@ pub struct Viewer {
     /// What the shown styles cost.
     pub price: Price,
     /// What loading is doing, while it does.
-    pub stage: Option<String>,
+    pub stage: Option<Stage>,
     /// A shader that was refused, with the driver's log.
     pub shader_log: Option<String>,
     /// What is wrong with the models or the picture; stays until it is not.
@@ -269,7 +269,7 @@ impl Viewer {
 
     fn open(&mut self, models: Vec<String>) {
         self.loads_going_on += 1;
-        self.stage = Some("starting to read".to_owned());
+        self.stage = Some(Stage { text: "starting to read".to_owned(), share: 0.0 });
         if let Err(error) = self.loader.start(models) {
             self.loads_going_on -= 1;
             self.stage = None;
