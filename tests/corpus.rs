@@ -12,7 +12,7 @@ type Target = fn(&[u8]);
 
 #[test]
 fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
-    let targets: [(&str, Target); 12] = [
+    let targets: [(&str, Target); 13] = [
         ("obj", readers::obj),
         ("ply", readers::ply),
         ("stl", readers::stl),
@@ -22,6 +22,7 @@ fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
         ("picture", readers::picture),
         ("ramp", readers::ramp),
         ("rows", readers::rows),
+        ("batch", readers::batch),
         ("preset", readers::preset),
         ("recipe", readers::recipe),
         ("command_line", words::command_line),

@@ -70,7 +70,7 @@ fn every_option_named_in_the_documents_exists() {
         String::from_utf8(output.stdout).unwrap()
     };
     let known: String =
-        ["render", "again", "view", "compare", "edges", "textures", "figures", "measure", "info"].map(help).concat();
+        ["render", "again", "view", "compare", "edges", "textures", "figures", "measure", "info", "batch"].map(help).concat();
     for (document, text) in documents() {
         for line in text.lines().filter(|line| line.contains("tinta ")) {
             for option in line.split([' ', '`']).filter(|word| word.starts_with("--") && word.len() > 2) {
@@ -92,6 +92,9 @@ fn the_limits_are_documented_as_they_are() {
         ("MATERIAL_FILE_BYTES", MATERIAL_FILE_BYTES),
         ("PICTURE_FILE_BYTES", PICTURE_FILE_BYTES),
         ("ROWS_BYTES", ROWS_BYTES),
+        ("BATCH_BYTES", BATCH_BYTES),
+        ("JOB_BYTES", JOB_BYTES as u64),
+        ("JOB_ID_BYTES", JOB_ID_BYTES as u64),
         ("PICTURE_SIDE_PX", u64::from(PICTURE_SIDE_PX)),
         ("PICTURE_BYTES", PICTURE_BYTES),
         ("MODEL_PICTURES_BYTES", MODEL_PICTURES_BYTES),

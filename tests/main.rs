@@ -1,6 +1,8 @@
 //! Tests that need a GL context or the finished program. One binary, so that it links once.
 
 mod animation;
+mod batch;
+mod batch_killed;
 mod charcoal;
 mod charcoal_twin;
 mod cli;
