@@ -59,60 +59,61 @@ fn main() {
         return;
     }
     let list = write_list(folder.path(), settings.jobs, 1);
-    // Pictures a second, round by round.
-    let mut rates: Vec<(String, Vec<f64>)> = Vec::new();
+    // Pictures a second and processor milliseconds a picture, round by round.
+    let mut rates: Vec<(String, Vec<f64>, Vec<f64>)> = Vec::new();
     for round in 0..settings.rounds {
         for jobs in [2, 1] {
             let batch = run_batch(&settings, folder.path(), &list, jobs);
             let alone = run_alone(&settings, folder.path(), jobs);
-            for (name, count, seconds) in
+            for (name, count, [seconds, busy]) in
                 [("batch", settings.jobs, batch), ("one process a picture", settings.alone, alone)]
             {
                 let name = format!("{name}, {jobs} at once");
-                let rate = count as f64 / seconds;
-                println!("round {}: {name:<34}{rate:>8.1} a second", round + 1);
-                match rates.iter_mut().find(|(known, _)| *known == name) {
-                    Some((_, rates)) => rates.push(rate),
-                    None => rates.push((name, vec![rate])),
+                let (rate, busy) = (count as f64 / seconds, busy * 1e3 / count as f64);
+                println!("round {}: {name:<34}{rate:>8.1} a second, {busy:>7.2} ms of a processor each", round + 1);
+                match rates.iter_mut().find(|(known, ..)| *known == name) {
+                    Some((_, rates, all_busy)) => {
+                        rates.push(rate);
+                        all_busy.push(busy);
+                    }
+                    None => rates.push((name, vec![rate], vec![busy])),
                 }
             }
         }
     }
     println!("\n{} meshes of {TRIANGLES} triangles, 256x256, medians of {} rounds", settings.jobs, settings.rounds);
     let middle = |rates: &[f64]| median(rates.to_vec()).unwrap_or(f64::NAN);
-    for (name, rates) in &rates {
-        println!("  {name:<34}{:>8.1} a second{:>10.2} ms", middle(rates), 1e3 / middle(rates));
+    for (name, rates, busy) in &rates {
+        println!("  {name:<34}{:>8.1} a second{:>10.2} ms of a processor each", middle(rates), middle(busy));
     }
-    let rows: Vec<Value> = rates.iter().map(|(name, rates)| json!({ "name": name, "a_second": rates })).collect();
+    let row = |(name, rates, busy): &(String, Vec<f64>, Vec<f64>)| json!({ "name": name, "a_second": rates, "processor_ms": busy });
+    let rows: Vec<Value> = rates.iter().map(row).collect();
     write_record("batch", &json!({ "jobs": settings.jobs, "alone": settings.alone, "contestants": rows }));
 }
 
-/// Triangles of each mesh: a sphere of 20 bands and 25 sectors.
-const TRIANGLES: usize = 2 * 20 * 25;
+/// Around the ring of each mesh, a torus, and around its tube.
+const RING: usize = 25;
+const TUBE: usize = 20;
+
+/// Triangles of each mesh.
+const TRIANGLES: usize = 2 * RING * TUBE;
 
 /// Writes meshes that are all different.
 fn write_models(folder: &Path, count: usize) {
-    const BANDS: usize = 20;
-    const SECTORS: usize = 25;
     for number in 0..count {
         let mut text = String::new();
-        for band in 0..=BANDS {
-            for sector in 0..SECTORS {
-                let (down, around) = (band as f64 / BANDS as f64, sector as f64 / SECTORS as f64);
-                let (polar, azimuth) = (down * std::f64::consts::PI, around * std::f64::consts::TAU);
-                let wave = 1.0 + 0.2 * (polar * (2 + number % 7) as f64).sin() * (azimuth * (1 + number % 5) as f64).cos();
-                let radius = wave + 1e-4 * number as f64;
-                let (x, z) = (polar.sin() * azimuth.cos() * radius, polar.sin() * azimuth.sin() * radius);
-                let _ = writeln!(text, "v {x:.6} {:.6} {z:.6}", polar.cos() * radius);
-            }
+        for (ring, tube) in (0..RING).flat_map(|ring| (0..TUBE).map(move |tube| (ring, tube))) {
+            let angle = |place: usize, count: usize| place as f64 / count as f64 * std::f64::consts::TAU;
+            let (around, across) = (angle(ring, RING), angle(tube, TUBE));
+            let wave = 1.0 + 0.3 * (around * (2 + number % 7) as f64).sin() * (across * (number % 5) as f64).cos();
+            let radius = 1.0 + (0.4 * wave + 1e-4 * number as f64) * across.cos();
+            let (x, y, z) = (radius * around.cos(), 0.4 * wave * across.sin(), radius * around.sin());
+            let _ = writeln!(text, "v {x:.6} {y:.6} {z:.6}");
         }
-        for band in 0..BANDS {
-            for sector in 0..SECTORS {
-                let at = |band: usize, sector: usize| band * SECTORS + sector % SECTORS + 1;
-                let [a, b, c, d] =
-                    [at(band, sector), at(band, sector + 1), at(band + 1, sector + 1), at(band + 1, sector)];
-                let _ = writeln!(text, "f {a} {b} {c}\nf {a} {c} {d}");
-            }
+        for (ring, tube) in (0..RING).flat_map(|ring| (0..TUBE).map(move |tube| (ring, tube))) {
+            let at = |ring: usize, tube: usize| ring % RING * TUBE + tube % TUBE + 1;
+            let [a, b, c, d] = [at(ring, tube), at(ring, tube + 1), at(ring + 1, tube + 1), at(ring + 1, tube)];
+            let _ = writeln!(text, "f {a} {b} {c}\nf {a} {c} {d}");
         }
         std::fs::write(folder.join(format!("{number}.obj")), text).expect("a model can be written");
     }
@@ -131,27 +132,35 @@ fn write_list(folder: &Path, models: usize, times: usize) -> PathBuf {
     list
 }
 
-/// Seconds that a batch takes.
-fn run_batch(settings: &Settings, folder: &Path, list: &Path, jobs: usize) -> f64 {
+/// Processor seconds of all processes that this one started and that have ended, and those they started.
+fn processor_seconds() -> f64 {
+    const TICKS_A_SECOND: f64 = 100.0;
+    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields = text.rsplit(')').next().unwrap_or_default().split_ascii_whitespace();
+    fields.skip(13).take(2).filter_map(|field| field.parse::<f64>().ok()).sum::<f64>() / TICKS_A_SECOND
+}
+
+/// Seconds that a batch takes, and those it keeps a processor busy.
+fn run_batch(settings: &Settings, folder: &Path, list: &Path, jobs: usize) -> [f64; 2] {
     let out = folder.join("out");
-    let start = Instant::now();
+    let (start, busy) = (Instant::now(), processor_seconds());
     let status = Command::new(&settings.program)
         .args(["batch", "--jobs", &jobs.to_string(), "-o"])
         .args([&out, list])
         .stderr(Stdio::null())
         .status();
-    let seconds = start.elapsed().as_secs_f64();
+    let seconds = [start.elapsed().as_secs_f64(), processor_seconds() - busy];
     assert!(status.is_ok_and(|status| status.success()), "the batch has been done");
     std::fs::remove_dir_all(&out).expect("its folder can be removed");
     seconds
 }
 
-/// Seconds that single processes take, so many of them at once.
-fn run_alone(settings: &Settings, folder: &Path, at_once: usize) -> f64 {
+/// The same of single processes, so many of them at once.
+fn run_alone(settings: &Settings, folder: &Path, at_once: usize) -> [f64; 2] {
     let out = folder.join("alone");
     std::fs::create_dir_all(&out).expect("a folder");
     let next = AtomicUsize::new(0);
-    let start = Instant::now();
+    let (start, busy) = (Instant::now(), processor_seconds());
     std::thread::scope(|scope| {
         for _ in 0..at_once {
             scope.spawn(|| {
@@ -170,7 +179,7 @@ fn run_alone(settings: &Settings, folder: &Path, at_once: usize) -> f64 {
             });
         }
     });
-    let seconds = start.elapsed().as_secs_f64();
+    let seconds = [start.elapsed().as_secs_f64(), processor_seconds() - busy];
     std::fs::remove_dir_all(&out).expect("its folder can be removed");
     seconds
 }
@@ -207,7 +216,8 @@ fn memory(settings: &Settings, folder: &Path) -> Value {
 fn resident_mib(run: u32) -> f64 {
     let kib = || -> Option<f64> {
         let tasks = std::fs::read_dir(format!("/proc/{run}/task")).ok()?;
-        let children = tasks.flatten().map(|task| std::fs::read_to_string(task.path().join("children")).unwrap_or_default());
+        let children =
+            tasks.flatten().map(|task| std::fs::read_to_string(task.path().join("children")).unwrap_or_default());
         let worker = children.collect::<String>().split_ascii_whitespace().next()?.to_owned();
         let status = std::fs::read_to_string(format!("/proc/{worker}/status")).ok()?;
         status.lines().find(|line| line.starts_with("VmRSS:"))?.split_ascii_whitespace().nth(1)?.parse().ok()

@@ -27,10 +27,8 @@ pub fn said(output: &Output) -> String {
 
 /// The names in a folder, hidden ones too, sorted.
 fn names(folder: &str) -> Vec<String> {
-    let mut names: Vec<String> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|file| file.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let mut names: Vec<String> =
+        std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     names
 }
@@ -41,9 +39,17 @@ fn a_jobs_options_are_those_of_the_command_line_and_its_pictures_too() {
     let preset = folder.file("mine.toml", b"tones = 2\n");
     let pairs: [(&str, &str, &[&str]); 6] = [
         ("plain", "", &[]),
-        ("numbers", r#","fov":25.5,"tone-levels":[0.4,0.8],"view":"-20,30""#, &["--fov", "25.5", "--tone-levels", "0.4,0.8", "--view=-20,30"]),
+        (
+            "numbers",
+            r#","fov":25.5,"tone-levels":[0.4,0.6,0.8],"view":"-20,30""#,
+            &["--fov", "25.5", "--tone-levels", "0.4,0.6,0.8", "--view=-20,30"],
+        ),
         ("switches", r#","parallel":true,"transparent":true,"full":false"#, &["--parallel", "--transparent"]),
-        ("styles", r#","style":"inking","joints":false,"silhouette":"exact""#, &["--style", "inking", "--joints", "off", "--silhouette", "exact"]),
+        (
+            "styles",
+            r#","style":"inking","joints":false,"silhouette":"exact""#,
+            &["--style", "inking", "--joints", "off", "--silhouette", "exact"],
+        ),
         ("osmesa", r#","backend":"osmesa","style":"ink""#, &["--backend", "osmesa", "--style", "ink"]),
         ("preset", &format!(r#","preset":"{preset}""#), &["--preset", &preset]),
     ];
@@ -120,14 +126,22 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
         of(id)["outputs"].as_array().unwrap().iter().map(|file| file["path"].as_str().unwrap().to_owned()).collect()
     };
     let first = paths("first");
-    assert!(first.contains(&"kept/a.toml".to_owned()) && first.iter().any(|path| path.starts_with("steps/01-")), "{first:?}");
+    assert!(
+        first.contains(&"kept/a.toml".to_owned()) && first.iter().any(|path| path.starts_with("steps/01-")),
+        "{first:?}"
+    );
     assert!(of("first")["run"]["printed"].as_str().unwrap().contains("\"first_frame_ms\""));
     assert_eq!(paths("lines"), ["deep/er/lines.svg"]);
     assert!(of("lines")["run"]["gl"].is_null());
     assert_eq!(paths("turn"), ["turn/01.png", "turn/02.png", "turn/03.png"]);
     assert_eq!(paths("both"), ["both/left.png", "both/lines.png", "both/right.png", "both/sheet.png"]);
     let row = paths("row");
-    assert!(["row/report.html", "row/results.csv", "row/results.jsonl"].iter().all(|file| row.contains(&(*file).to_owned())), "{row:?}");
+    assert!(
+        ["row/report.html", "row/results.csv", "row/results.jsonl"]
+            .iter()
+            .all(|file| row.contains(&(*file).to_owned())),
+        "{row:?}"
+    );
     let page = std::fs::read_to_string(format!("{out}/row/report.html")).unwrap();
     assert!(page.contains("measure --output=") && !page.contains(".tinta-"), "the command that measures it again");
     let left = names(&out);
@@ -138,9 +152,13 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
 #[test]
 fn slices_of_eight_merge_into_what_one_run_gives_byte_for_byte() {
     let folder = Folder::new();
-    let mut jobs: Vec<String> = (0..11).map(|view| render(&format!("v{view}"), &format!(r#","view":"{view},10""#))).collect();
+    let mut jobs: Vec<String> =
+        (0..11).map(|view| render(&format!("v{view}"), &format!(r#","view":"{view},10""#))).collect();
     jobs.push(render("wrong", r#","tones":9"#));
-    jobs.push(r#"{"id":"both","command":"compare","model":"builtin:open-box","output":"both/","size":32,"frames":1}"#.to_owned());
+    jobs.push(
+        r#"{"id":"both","command":"compare","model":"builtin:open-box","output":"both/","size":32,"frames":1}"#
+            .to_owned(),
+    );
     let list = list(&folder, &jobs);
     let (one, eight) = (folder.path("one"), folder.path("eight"));
     assert_eq!(tinta(&["batch", &list, "-o", &one]).status.code(), Some(1));
@@ -179,9 +197,15 @@ fn lists_and_folders_that_are_wrong_are_refused_before_any_work() {
     refuse(b"", &["wrong.jsonl: it holds no job"]);
     refuse(format!("{a}\n{b}\nnonsense").as_bytes(), &["wrong.jsonl: line 3: this is no job"]);
     refuse(format!("{a}\n\n{a}").as_bytes(), &["line 3: the id a is that of line 1 too"]);
-    refuse(format!("{a}\n{}", a.replace("\"id\":\"a\"", "\"id\":\"c\"")).as_bytes(), &["line 2: output: a.png is written by line 1 too"]);
+    refuse(
+        format!("{a}\n{}", a.replace("\"id\":\"a\"", "\"id\":\"c\"")).as_bytes(),
+        &["line 2: output: a.png is written by line 1 too"],
+    );
     refuse(br#"{"id":"a","command":"view"}"#, &["line 1: command: view is none of render, compare, measure"]);
-    refuse(format!("{{\"id\":\"{}\",\"command\":\"render\"}}", "x".repeat(10_000)).as_bytes(), &["id: it has 10000 bytes"]);
+    refuse(
+        format!("{{\"id\":\"{}\",\"command\":\"render\"}}", "x".repeat(10_000)).as_bytes(),
+        &["id: it has 10000 bytes"],
+    );
     refuse(b"{\"id\":\"\\u001b[2J\",\"command\":\"render\"}", &["holds a control character"]);
     refuse(&[b"{\"id\":\"a\",\"x\":".as_slice(), &[b'['; 60_000]].concat(), &["line 1: this is no job"]);
     refuse(&[0, 255, 10, 7], &["line 1: "]);

@@ -14,11 +14,22 @@ use std::time::SystemTime;
 const JOBS: usize = 48;
 
 fn start(arguments: &[&str]) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_tinta")).args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .args(arguments)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
 }
 
 fn has_ended(child: &Child) -> bool {
-    std::fs::read_to_string(format!("/proc/{}/stat", child.id())).unwrap().rsplit(')').next().unwrap().trim_start().starts_with('Z')
+    std::fs::read_to_string(format!("/proc/{}/stat", child.id()))
+        .unwrap()
+        .rsplit(')')
+        .next()
+        .unwrap()
+        .trim_start()
+        .starts_with('Z')
 }
 
 /// Waits until so many lines are in a file, or the child has ended.
@@ -45,13 +56,16 @@ fn children(process: u32) -> Vec<u32> {
 fn written(folder: &str) -> HashMap<String, SystemTime> {
     let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap());
     let pictures = files.filter(|file| file.path().extension().is_some_and(|extension| extension == "png"));
-    pictures.map(|file| (file.file_name().into_string().unwrap(), file.metadata().unwrap().modified().unwrap())).collect()
+    pictures
+        .map(|file| (file.file_name().into_string().unwrap(), file.metadata().unwrap().modified().unwrap()))
+        .collect()
 }
 
 #[test]
 fn a_killed_run_goes_on_and_does_nothing_twice() {
     let folder = Folder::new();
-    let jobs: Vec<String> = (0..JOBS).map(|view| render(&format!("v{view}"), &format!(r#","view":"{view},10""#))).collect();
+    let jobs: Vec<String> =
+        (0..JOBS).map(|view| render(&format!("v{view}"), &format!(r#","view":"{view},10""#))).collect();
     let list = list(&folder, &jobs);
     let (out, journal) = (folder.path("out"), folder.path("out/batch-1-of-1.jsonl"));
     let mut before = HashMap::new();
@@ -80,25 +94,45 @@ fn a_killed_run_goes_on_and_does_nothing_twice() {
     let done = text.lines().count();
     let output = tinta(&["batch", &list, "-o", &out, "--resume", "--jobs", "2"]);
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    assert!(said(&output).contains(&format!("tinta: {} of {JOBS} jobs done, {} were done before, 0 failed", JOBS - done, done)), "{}", said(&output));
+    assert!(
+        said(&output).contains(&format!(
+            "tinta: {} of {JOBS} jobs done, {} were done before, 0 failed",
+            JOBS - done,
+            done
+        )),
+        "{}",
+        said(&output)
+    );
     let mut ids: Vec<String> = rows(&journal).iter().map(|row| row["id"].as_str().unwrap().to_owned()).collect();
     ids.sort();
     ids.dedup();
     assert_eq!((ids.len(), rows(&journal).len()), (JOBS, JOBS), "each job is written down once");
     let after = written(&out);
-    assert!(before.len() >= 12 && before.iter().all(|(name, time)| after[name] == *time), "{} pictures stayed", before.len());
+    assert!(
+        before.len() >= 12 && before.iter().all(|(name, time)| after[name] == *time),
+        "{} pictures stayed",
+        before.len()
+    );
     // A picture that is gone, one that is cut, a line that is changed: these three and no others.
     std::fs::remove_file(folder.path("out/v3.png")).unwrap();
     std::fs::write(folder.path("out/v4.png"), b"cut").unwrap();
     let changed: Vec<String> = jobs.iter().map(|job| job.replace(r#""5,10""#, r#""5,11""#)).collect();
     let changed = folder.file("changed.jsonl", changed.join("\n").as_bytes());
     let output = tinta(&["batch", &changed, "-o", &out, "--resume"]);
-    assert!(said(&output).contains(&format!("tinta: 3 of {JOBS} jobs done, {} were done before, 0 failed", JOBS - 3)), "{}", said(&output));
+    assert!(
+        said(&output).contains(&format!("tinta: 3 of {JOBS} jobs done, {} were done before, 0 failed", JOBS - 3)),
+        "{}",
+        said(&output)
+    );
     assert_eq!(rows(&journal).len(), JOBS + 3);
     let summary = tinta(&["batch", "--summary", &out]);
     assert_eq!(summary.status.code(), Some(0));
     let text = String::from_utf8(summary.stdout).unwrap();
-    assert!(text.starts_with(&format!("{JOBS} jobs: {JOBS} done, 0 failed, 0 missing\n")) && text.ends_with("1 entries of jobs that are not in the list any more\n"), "{text}");
+    assert!(
+        text.starts_with(&format!("{JOBS} jobs: {JOBS} done, 0 failed, 0 missing\n"))
+            && text.ends_with("1 entries of jobs that are not in the list any more\n"),
+        "{text}"
+    );
 }
 
 #[test]

@@ -70,7 +70,9 @@ fn every_option_named_in_the_documents_exists() {
         String::from_utf8(output.stdout).unwrap()
     };
     let known: String =
-        ["render", "again", "view", "compare", "edges", "textures", "figures", "measure", "info", "batch"].map(help).concat();
+        ["render", "again", "view", "compare", "edges", "textures", "figures", "measure", "info", "batch"]
+            .map(help)
+            .concat();
     for (document, text) in documents() {
         for line in text.lines().filter(|line| line.contains("tinta ")) {
             for option in line.split([' ', '`']).filter(|word| word.starts_with("--") && word.len() > 2) {

@@ -112,7 +112,8 @@ fn a_worker_of_a_batch_does_hundreds_of_jobs_in_the_memory_of_the_first() {
         .stdout(Stdio::piped())
         .spawn()
         .unwrap();
-    let (mut jobs, mut outcomes) = (worker.stdin.take().unwrap(), BufReader::new(worker.stdout.take().unwrap()).lines());
+    let (mut jobs, mut outcomes) =
+        (worker.stdin.take().unwrap(), BufReader::new(worker.stdout.take().unwrap()).lines());
     let mut id = 0;
     let mut work = |count: usize| {
         for _ in 0..count {

@@ -182,7 +182,8 @@ mod tests {
         let paths: Vec<&str> = found.iter().map(|file| file.path.as_str()).collect();
         assert_eq!(paths, ["f-02.png", "f-1.png", "steps/b", "steps/more/a"]);
         assert_eq!((found[1].bytes, found[1].sha256.len()), (7, 64));
-        let outcome = Outcome { status: Status::Done, error: None, remarks: Vec::new(), outputs: found, run: Run::default() };
+        let outcome =
+            Outcome { status: Status::Done, error: None, remarks: Vec::new(), outputs: found, run: Run::default() };
         let entry = Entry::new(&job, outcome);
         assert!(entry.is_done(&job, folder.path()));
         let text = serde_json::to_string(&entry).unwrap();

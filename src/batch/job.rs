@@ -213,7 +213,10 @@ mod tests {
         let line = r#"{"id": 7, "command": "render", "model": ["a.obj", "b.ply"], "output": "a.png", "weld": 1e-7,
             "seed": 18446744073709551615, "parallel": true, "tone-levels": [0.5, 1, "2"], "fov": -10.50}"#;
         let job = Job::parse(line.as_bytes()).unwrap();
-        assert_eq!((job.id.as_str(), job.command, job.models), ("7", JobCommand::Render, vec!["a.obj".to_owned(), "b.ply".to_owned()]));
+        assert_eq!(
+            (job.id.as_str(), job.command, job.models),
+            ("7", JobCommand::Render, vec!["a.obj".to_owned(), "b.ply".to_owned()])
+        );
         let text = |text: &str| JobValue::Text(text.to_owned());
         let expected = [
             ("output", text("a.png")),
@@ -263,7 +266,9 @@ mod tests {
             let said = refused(line);
             assert!(said.contains(words) && said.len() < 300, "{line}: {said}");
         }
-        assert!(refused(&format!(r#"{{"id": "{}", "command": "render"}}"#, "x".repeat(300))).contains("it has 300 bytes"));
+        assert!(
+            refused(&format!(r#"{{"id": "{}", "command": "render"}}"#, "x".repeat(300))).contains("it has 300 bytes")
+        );
         assert!(refused(&"[".repeat(10_000)).contains("this is no job"));
         assert!(refused(&" ".repeat(JOB_BYTES + 1)).contains("longer than"));
         assert!(Job::parse(b"{\"id\": \"\xff\"}").unwrap_err().contains("UTF-8"));

@@ -105,8 +105,7 @@ impl Entries {
     /// [`Error::Batch`] for a file that cannot be read.
     pub fn read(folder: &Path) -> Result<Self> {
         let names = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        let mut slices: Vec<Slice> =
-            names.filter_map(|file| Slice::of_file_name(file.file_name().to_str()?)).collect();
+        let mut slices: Vec<Slice> = names.filter_map(|file| Slice::of_file_name(file.file_name().to_str()?)).collect();
         slices.sort();
         let mut entries = Self { slices, ..Self::default() };
         for slice in entries.slices.clone() {

@@ -29,7 +29,8 @@ impl List {
     /// [`Error::Batch`] with the line that is no job, or that has the name or an output of another.
     pub fn read(path: &Path) -> Result<Self> {
         let name = path.display().to_string();
-        let bytes = files::read(path, BATCH_BYTES).map_err(|failure| refused(&name, None, failure.problem("a list of jobs")))?;
+        let bytes = files::read(path, BATCH_BYTES)
+            .map_err(|failure| refused(&name, None, failure.problem("a list of jobs")))?;
         Self::of_bytes(bytes, &name)
     }
 

@@ -55,10 +55,23 @@ mod tests {
     #[test]
     fn outputs_lie_in_the_folder_or_are_refused() {
         let folder = Path::new("out");
-        for (output, place) in [("a.png", "out/a.png"), ("./b/./a.png", "out/b/a.png"), ("b/", "out/b/"), ("a..b", "out/a..b")] {
+        for (output, place) in
+            [("a.png", "out/a.png"), ("./b/./a.png", "out/b/a.png"), ("b/", "out/b/"), ("a..b", "out/a..b")]
+        {
             assert_eq!(place_in(folder, output).unwrap().to_str(), Some(place));
         }
-        for output in ["", "-", ".", "..", "../a.png", "a/../../b.png", "a/..", "/tmp/a.png", "batch-list.jsonl", "batch-1-of-1.jsonl"] {
+        for output in [
+            "",
+            "-",
+            ".",
+            "..",
+            "../a.png",
+            "a/../../b.png",
+            "a/..",
+            "/tmp/a.png",
+            "batch-list.jsonl",
+            "batch-1-of-1.jsonl",
+        ] {
             assert!(place_in(folder, output).is_err(), "{output}");
         }
         assert!(place_in(folder, "batch.png").is_ok());

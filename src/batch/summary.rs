@@ -195,7 +195,10 @@ impl Summary {
         );
         if let Some(outcome) = outcome {
             let outputs = outputs.iter().filter(|file| holds_times(job.command, &file.path)).collect();
-            push_line(&mut self.times, &TimesRow { line: job.line, id: &job.id, run: &outcome.run, remarks: differ, outputs });
+            push_line(
+                &mut self.times,
+                &TimesRow { line: job.line, id: &job.id, run: &outcome.run, remarks: differ, outputs },
+            );
         }
     }
 

@@ -204,14 +204,21 @@ fn in_words(counts: &Counts, jobs: usize, before: usize) -> String {
 fn sum_up(folder: &Path, json: bool) -> Result<Verdict> {
     let summary = Summary::of_folder(folder)?;
     summary.write(folder)?;
-    if json { print_json(&summary)? } else { print(&table(&summary))? }
+    if json {
+        print_json(&summary)?
+    } else {
+        print(&table(&summary))?
+    }
     Ok(if summary.is_all_done() { Verdict::Good } else { Verdict::Different })
 }
 
 fn table(summary: &Summary) -> String {
     let Summary { jobs, done, failed, missing, outdated, damaged, .. } = summary;
     let mut text = format!("{jobs} jobs: {done} done, {failed} failed, {missing} missing\n");
-    text += &format!("{:<10}{:>8}{:>8}{:>8}{:>12}{:>12}{:>12}\n", "", "done", "failed", "missing", "seconds", "median ms", "longest ms");
+    text += &format!(
+        "{:<10}{:>8}{:>8}{:>8}{:>12}{:>12}{:>12}\n",
+        "", "done", "failed", "missing", "seconds", "median ms", "longest ms"
+    );
     for command in &summary.commands {
         let [sum, median, longest] = command.milliseconds;
         text += &format!(
@@ -233,7 +240,9 @@ fn table(summary: &Summary) -> String {
             text += &format!("{what}: {} more, in batch-summary.jsonl\n", named.len() - REMARKS);
         }
     }
-    for (count, what) in [(outdated, "of jobs that are not in the list any more"), (damaged, "that cannot be understood")] {
+    for (count, what) in
+        [(outdated, "of jobs that are not in the list any more"), (damaged, "that cannot be understood")]
+    {
         if *count > 0 {
             text += &format!("{count} entries {what}\n");
         }

@@ -1,9 +1,9 @@
 //! `tinta compare`: one scene in two styles, and their lines laid over each other.
 
 use super::models::load_meshes;
-use super::studio::Studio;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
 use super::preset::{Given, PresetArguments};
+use super::studio::Studio;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::compare::{Agreement, AgreementNumbers, BOTH_COLOR, InkMask, LEFT_COLOR, RIGHT_COLOR};

@@ -315,8 +315,12 @@ fn make_folder(folder: &Path) -> Result<()> {
 }
 
 fn report(arguments: &Arguments, given: &Given, rows: &[Row], pictures: Vec<ReportPicture>) -> Result<()> {
-    let info =
-        ReportInfo { command: tinta::shell::command_line(given.as_given.iter().cloned()), version: env!("CARGO_PKG_VERSION").to_owned(), notes: Vec::new(), pictures };
+    let info = ReportInfo {
+        command: tinta::shell::command_line(given.as_given.iter().cloned()),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        notes: Vec::new(),
+        pictures,
+    };
     tinta::report::write(&arguments.output, rows, &info)?;
     super::print(&format!("{}\n", arguments.output.join("report.html").display()))
 }

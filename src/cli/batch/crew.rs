@@ -19,12 +19,7 @@ const RASTER_THREADS: &str = "LP_NUM_THREADS";
 
 impl Worker {
     /// The worker that is there, or a new one in its place.
-    pub fn of<'w>(
-        place: &'w mut Option<Self>,
-        folder: &Path,
-        workers: usize,
-        cores: usize,
-    ) -> Result<&'w mut Self> {
+    pub fn of<'w>(place: &'w mut Option<Self>, folder: &Path, workers: usize, cores: usize) -> Result<&'w mut Self> {
         // One that has lost its process takes no more jobs.
         if place.as_ref().is_some_and(|worker| worker.jobs.is_none()) {
             *place = None;
@@ -37,7 +32,9 @@ impl Worker {
 
     fn start(folder: &Path, workers: usize, cores: usize) -> Result<Self> {
         let cannot = |error: std::io::Error| Error::CommandLine {
-            problem: format!("no worker could be started ({error}); check the limits on processes, or give fewer --jobs"),
+            problem: format!(
+                "no worker could be started ({error}); check the limits on processes, or give fewer --jobs"
+            ),
         };
         let mut command = Command::new(program().map_err(cannot)?);
         command.args(["batch", "--worker", "--output"]).arg(folder);
@@ -56,7 +53,10 @@ impl Worker {
 
     /// Has a job done. A worker that ends over it is the job's failure, and the last thing it does.
     pub fn carry_out(&mut self, job: &Job) -> Result<Outcome> {
-        let told = self.jobs.as_mut().map(|jobs| jobs.write_all(format!("{}\n", job.json).as_bytes()).and_then(|()| jobs.flush()));
+        let told = self
+            .jobs
+            .as_mut()
+            .map(|jobs| jobs.write_all(format!("{}\n", job.json).as_bytes()).and_then(|()| jobs.flush()));
         let mut line = Vec::new();
         if matches!(told, Some(Ok(()))) {
             // What cannot be read is as good as not there.
@@ -70,7 +70,9 @@ impl Worker {
         let ended = self.child.wait().map_or_else(|error| error.to_string(), in_words);
         Ok(Outcome::failed(
             "crash",
-            format!("its worker ended ({ended}), as drivers that crash and systems without memory end one; try it by itself"),
+            format!(
+                "its worker ended ({ended}), as drivers that crash and systems without memory end one; try it by itself"
+            ),
         ))
     }
 }

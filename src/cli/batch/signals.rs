@@ -29,7 +29,12 @@ pub fn leave_to_the_run() {
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
         let _ = signal_hook::flag::register(signal, Arc::default());
     }
-    // And with the run it ends, whatever ended that.
-    #[cfg(target_os = "linux")]
-    let _ = rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::KILL));
+}
+
+/// Ends a worker whose run is gone, in the middle of its job: what the driver would do at an orderly end is not safe beside a
+/// thread that draws.
+pub fn end_at_once() -> ! {
+    #[cfg(unix)]
+    let _ = signal_hook::low_level::raise(signal_hook::consts::SIGKILL);
+    std::process::exit(2)
 }

@@ -7,6 +7,9 @@ use super::whole::{self, Making};
 use super::{signals, words::words};
 use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::Receiver;
 use std::time::Instant;
 use tinta::batch::{Job, JobValue, Outcome, Run, Status, place_in, written};
 use tinta::recipe::Driver;
@@ -16,18 +19,41 @@ use tinta::{Error, Renderer, Result};
 /// Does what it is told until nobody tells any more.
 pub fn serve(folder: &Path) -> Result<()> {
     signals::leave_to_the_run();
-    let gone = |error: std::io::Error| Error::Output { path: "-".to_owned(), problem: format!("the run is gone ({error})") };
+    let gone =
+        |error: std::io::Error| Error::Output { path: "-".to_owned(), problem: format!("the run is gone ({error})") };
+    let is_busy = Arc::new(AtomicBool::new(false));
+    let lines = lines(&is_busy).map_err(gone)?;
     let mut studio = Studio::for_many(Renderer::new);
-    for line in std::io::stdin().lock().split(b'\n') {
-        let outcome = match Job::parse(&line.map_err(gone)?) {
+    for line in lines {
+        let outcome = match Job::parse(&line) {
             Ok(job) => carry_out(&job, folder, &mut studio),
             Err(problem) => Outcome::failed("command-line", problem),
         };
         let mut out = std::io::stdout().lock();
         let text = serde_json::to_string(&outcome).map_err(|error| gone(error.into()))?;
+        is_busy.store(false, Ordering::SeqCst);
         out.write_all(format!("{text}\n").as_bytes()).and_then(|()| out.flush()).map_err(gone)?;
     }
     Ok(())
+}
+
+/// What standard input tells, read on a thread of its own: a run that ends while a job is done takes its worker with it.
+fn lines(is_busy: &Arc<AtomicBool>) -> std::io::Result<Receiver<Vec<u8>>> {
+    let (sender, receiver) = std::sync::mpsc::channel();
+    let is_busy = is_busy.clone();
+    let read = move || {
+        for line in std::io::stdin().lock().split(b'\n') {
+            let Ok(line) = line else { break };
+            is_busy.store(true, Ordering::SeqCst);
+            if sender.send(line).is_err() {
+                return;
+            }
+        }
+        if is_busy.load(Ordering::SeqCst) {
+            signals::end_at_once();
+        }
+    };
+    std::thread::Builder::new().spawn(read).map(|_| receiver)
 }
 
 /// Does a job; a second time in new contexts where the first one's was lost.
@@ -61,7 +87,7 @@ pub fn carry_out(job: &Job, folder: &Path, studio: &mut Studio) -> Outcome {
         outcome.outputs = written(job, folder);
         outcome.run.gl = gl;
     }
-    let printed = (!heard.printed.is_empty()).then_some(heard.printed);
+    let printed = (!heard.printed.is_empty()).then(|| heard.printed.replace(&making, ""));
     outcome.run = Run { milliseconds: milliseconds_since(start), tries, printed, gl: outcome.run.gl };
     outcome
 }

@@ -10,9 +10,7 @@ use std::time::Instant;
 use tinta::mesh::{ModelFrame, load};
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::{
-    AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings, Style,
-};
+use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings, Style};
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "Animation, into FILE.gif, FILE.apng or numbered pictures such as frame-%04d.png")]
