@@ -4,9 +4,6 @@
 //! default style. Contestants take turns. One process a picture draws a share of them, as many at once as there are jobs
 //! beside it. Raw values go to `target/bench/batch.json`; docs/scale.md has the command and the numbers.
 
-mod report;
-
-use report::write_record;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -89,6 +86,14 @@ fn main() {
     let row = |(name, rates, busy): &(String, Vec<f64>, Vec<f64>)| json!({ "name": name, "a_second": rates, "processor_ms": busy });
     let rows: Vec<Value> = rates.iter().map(row).collect();
     write_record("batch", &json!({ "jobs": settings.jobs, "alone": settings.alone, "contestants": rows }));
+}
+
+/// Writes the record to `target/bench/NAME.json` and says where.
+fn write_record(name: &str, record: &Value) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("target/bench/{name}.json"));
+    std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
+    std::fs::write(&path, serde_json::to_string_pretty(record).expect("JSON")).expect("the record can be written");
+    println!("raw values: {}", path.display());
 }
 
 /// Around the ring of each mesh, a torus, and around its tube.

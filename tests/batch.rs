@@ -106,10 +106,10 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
     let of = |id: &str| entries.iter().find(|entry| entry["id"] == id).unwrap_or_else(|| panic!("{id}"));
     for (id, kind, words) in [
         ("no-option", "setting", "sice: there is no such option"),
-        ("bad-value", "command-line", "9"),
+        ("bad-value", "setting", "--tones 9: there are 1, 2 or 3 tones"),
         ("two-ways", "command-line", "cannot be used with"),
         ("no-text", "setting", "json: write true or false"),
-        ("help", "setting", "help: "),
+        ("help", "setting", "help: there is no such option"),
         ("no-model", "model", "no-such.obj: there is no such file"),
         ("nul", "model", "a\\u{0}b.obj"),
         ("none", "command-line", "MODEL"),
@@ -143,7 +143,7 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
         "{row:?}"
     );
     let page = std::fs::read_to_string(format!("{out}/row/report.html")).unwrap();
-    assert!(page.contains("measure --output=") && !page.contains(".tinta-"), "the command that measures it again");
+    assert!(page.contains("measure --frames=1 --output=") && !page.contains(".tinta-"), "the command that measures it again");
     let left = names(&out);
     assert!(left.iter().all(|name| !name.starts_with('.')), "nothing is left in the making: {left:?}");
     assert!(!Path::new("/tmp/tinta-root.png").exists() && !Path::new(&folder.path("out.png")).exists());
