@@ -1,6 +1,7 @@
 //! The commands, one file each. clap is known here and below, and nowhere else.
 
 mod again;
+mod batch;
 mod compare;
 mod completions;
 #[cfg(test)]
@@ -10,13 +11,16 @@ mod figures;
 mod info;
 mod inputs;
 mod man;
+mod library;
 mod measure;
 mod models;
 mod options;
 mod preset;
 mod progress;
 mod render;
+mod speech;
 mod stress;
+mod studio;
 mod textures;
 #[cfg(feature = "window")]
 mod view;
@@ -24,10 +28,12 @@ mod view;
 use clap::{Parser, Subcommand};
 use preset::Given;
 pub use preset::Stop;
+use speech::print;
+pub use speech::{plain, say};
 use std::ffi::OsString;
-use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
+use studio::Studio;
 use tinta::{Error, Result};
 
 /// Cartoon drawings of 3D models, drawn the way a paper of 2005 drew them.
@@ -48,11 +54,12 @@ Examples:
   tinta textures -o textures                     a charcoal drawing's grain, noise and paper
   tinta figures -o figures                       the three texts' figures, drawn and measured again
   tinta stress -o stress                         stiff and extreme cases, and what came of each
+  tinta batch jobs.jsonl -o pictures             many jobs, a line of JSON each
   tinta info                                     which OpenGL is there
   tinta completions bash                         a script with which bash completes all this; zsh and fish too
   tinta man -o man                               manual pages
 
-Exit codes: 0 done, 1 a check found a difference, 2 could not be done; the reason is one sentence on standard error.")]
+Exit codes: 0 done, 1 a check found a difference or a job of a batch failed, 2 could not be done; the reason is one sentence on standard error.")]
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -70,6 +77,7 @@ enum Command {
     Textures(textures::Arguments),
     Figures(figures::Arguments),
     Stress(stress::Arguments),
+    Batch(batch::Arguments),
     Info(info::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
@@ -80,7 +88,7 @@ enum Command {
 pub enum Verdict {
     /// Well.
     Good,
-    /// Two pictures that should be equal differ, or a case did not end as it must.
+    /// Two pictures that should be equal differ, a case did not end as it must, or a job of a batch failed.
     Different,
 }
 
@@ -101,14 +109,15 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
     match command {
         #[cfg(feature = "window")]
         Command::View(arguments) => view::run(&arguments, started),
-        Command::Render(arguments) => return render::run(&arguments, given),
+        Command::Render(arguments) => return render::run(&arguments, given, &mut Studio::for_one()),
         Command::Again(arguments) => return again::run(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments, given),
+        Command::Compare(arguments) => compare::run(&arguments, given, &mut Studio::for_one()),
         Command::Edges(arguments) => edges::run(&arguments),
-        Command::Measure(arguments) => measure::run(&arguments, given),
+        Command::Measure(arguments) => measure::run(&arguments, given, &mut Studio::for_one()),
         Command::Textures(arguments) => textures::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Stress(arguments) => return stress::run(&arguments),
+        Command::Batch(arguments) => return batch::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
@@ -135,33 +144,6 @@ fn in_one_sentence(error: &clap::Error) -> String {
     match sentence.char_indices().nth(LONGEST_SENTENCE) {
         None => sentence.to_owned(),
         Some((end, _)) => format!("{}…", &sentence[..end]),
-    }
-}
-
-/// Says a line to the person, on standard error; nobody listening is no error.
-pub fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{}", plain(line));
-}
-
-/// A line that is one: a file's name may hold anything, and must neither break the line nor turn it around nor command the
-/// terminal.
-pub fn plain(line: &str) -> String {
-    let is_unseen =
-        |c: char| matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    line.chars()
-        .flat_map(|c| if c.is_control() || is_unseen(c) { c.escape_default().collect() } else { vec![c] })
-        .collect()
-}
-
-/// Writes text to standard output; a reader that has heard enough (`| head`) is no error.
-fn print(text: &str) -> Result<()> {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Error::Output {
-            path: "-".to_owned(),
-            problem: format!("standard output cannot be written ({error}); check where it goes"),
-        }),
-        _ => Ok(()),
     }
 }
 

@@ -84,6 +84,16 @@ pub enum Error {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// A list of jobs, or what was written down of them, cannot be read.
+    #[error("{path}{}: {problem}", line.map(|line| format!(": line {line}")).unwrap_or_default())]
+    Batch {
+        /// The file as the user named it.
+        path: String,
+        /// The line at fault, 1-based; `None` for the file as a whole.
+        line: Option<u64>,
+        /// What is wrong and what to do.
+        problem: String,
+    },
     /// Nobody waits for the work any more.
     #[error("the work was given up because nobody waits for it any more; ask for it again")]
     Cancelled,
@@ -160,6 +170,7 @@ impl Error {
             Self::Preset { .. } => "preset",
             Self::Output { .. } => "output",
             Self::Rows { .. } => "rows",
+            Self::Batch { .. } => "batch",
             Self::Cancelled => "cancelled",
             Self::NoContext { .. } => "no-context",
             Self::NoWindow { .. } => "no-window",

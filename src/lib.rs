@@ -26,6 +26,7 @@
 //! ```
 
 pub mod animation;
+pub mod batch;
 pub mod camera;
 pub mod compare;
 pub mod edges;

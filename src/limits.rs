@@ -27,6 +27,15 @@ pub const PICTURE_FILE_BYTES: u64 = 640 << 20;
 /// Largest file of measured rows, bytes.
 pub const ROWS_BYTES: u64 = 1 << 30;
 
+/// Largest list of a batch's jobs, and largest file of what is written down of them, bytes.
+pub const BATCH_BYTES: u64 = 1 << 30;
+
+/// Longest line of such a list, bytes: some hundred times what all options need.
+pub const JOB_BYTES: usize = 64 << 10;
+
+/// Longest name of a job, bytes: a table can still show it.
+pub const JOB_ID_BYTES: usize = 200;
+
 /// Longest side of a picture, pixels: the largest texture that OpenGL drivers take.
 pub const PICTURE_SIDE_PX: u32 = 16_384;
 

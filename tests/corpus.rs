@@ -23,6 +23,7 @@ fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
         ("picture", readers::picture),
         ("ramp", readers::ramp),
         ("rows", readers::rows),
+        ("batch", readers::batch),
         ("preset", readers::preset),
         ("recipe", readers::recipe),
         ("command_line", words::command_line),

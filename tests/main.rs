@@ -2,6 +2,8 @@
 
 mod animation;
 mod assimp;
+mod batch;
+mod batch_killed;
 mod charcoal;
 mod charcoal_twin;
 mod cli;

@@ -71,6 +71,11 @@ pub fn of_gltf(bytes: &[u8]) -> usize {
     }
 }
 
+/// Most memory for a list of jobs: a line of 27 bytes may be one, with its name, content and hash in texts of their own.
+pub fn of_list(bytes: &[u8]) -> usize {
+    64 * bytes.len() + SLACK_BYTES
+}
+
 /// Most memory for a picture: its pixels at 12 bytes each (16 bits a channel in the file, 8 bits after it), as many as the
 /// file can hold and as are read.
 pub fn of_picture(bytes: &[u8]) -> usize {

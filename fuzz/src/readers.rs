@@ -4,6 +4,7 @@
 //! One function a reader, for the fuzz targets beside this file and for `tests/corpus.rs`, which runs every file of the
 //! corpus through the same function with an ordinary compiler.
 
+use tinta::batch::{Entries, Job, JobValue, List, Summary, place_in};
 use tinta::mesh::{LoadOptions, Loaded, VertexArrays, read_bytes};
 use tinta::{EdgeList, Picture, Preset, Recipe, Result, Scene, SceneSettings};
 
@@ -140,6 +141,31 @@ pub fn rows(bytes: &[u8]) {
         }),
         Err(error) => check_sentence(&error.to_string()),
     }
+}
+
+/// A list of jobs, and what is written down of them: a job's own text is the same job, and its outputs lie in the folder.
+pub fn batch(bytes: &[u8]) {
+    let folder = std::path::Path::new("out");
+    match List::of_bytes(bytes.to_vec(), "jobs.jsonl") {
+        Ok(list) => {
+            for job in &list.jobs {
+                let again = Job::parse(job.json.as_bytes()).expect("just written");
+                assert_eq!((&again.id, &again.sha256, &again.json), (&job.id, &job.sha256, &job.json));
+                for (_, value) in &job.options {
+                    let JobValue::Text(output) = value else { continue };
+                    if let Ok(place) = place_in(folder, output) {
+                        let is_parent = |part| part == std::path::Component::ParentDir;
+                        assert!(place.starts_with(folder) && !place.components().any(is_parent), "{}", place.display());
+                    }
+                }
+            }
+            let mut entries = Entries::default();
+            entries.add(bytes);
+            assert_eq!(Summary::new(&list, &entries).jobs, list.jobs.len());
+        }
+        Err(error) => check_sentence(&error.to_string()),
+    }
+    Entries::default().add(bytes);
 }
 
 /// A preset: written again it has the same options.

@@ -3,13 +3,14 @@
 use super::models::load_meshes;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
 use super::preset::{Given, PresetArguments};
+use super::studio::Studio;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::compare::{Agreement, AgreementNumbers, BOTH_COLOR, InkMask, LEFT_COLOR, RIGHT_COLOR};
 use tinta::record::{CameraRecord, ComparisonRecord, DrawingRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
 use tinta::sheet::{Caption, Panel, sheet};
-use tinta::{Backend, Error, Picture, Renderer, Result, Scene, Show, StyleName, Target};
+use tinta::{Backend, Error, Picture, Result, Scene, Show, StyleName, Target};
 
 /// Draw one scene in two styles side by side, and show which lines both drew
 #[derive(clap::Args)]
@@ -72,7 +73,7 @@ struct Drawing {
     record: DrawingRecord,
 }
 
-pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
+pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<()> {
     let inputs = given.inputs(&arguments.models);
     inputs.keep(&arguments.output)?;
     inputs.keep_in(Path::new(&arguments.output), NAMES)?;
@@ -108,10 +109,10 @@ pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
     let styles = [arguments.left, arguments.right].map(|name| arguments.styles.style(name));
     let [left_style, right_style] = styles;
     let styles = [left_style?, right_style?];
-    let meshes = load_meshes(&arguments.models, &arguments.model.options())?;
+    let meshes = load_meshes(&studio.library, &arguments.models, &arguments.model.options())?;
     let count = meshes.len();
     let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()))?;
-    let mut renderer = Renderer::new(arguments.backend)?;
+    let renderer = studio.renderer(arguments.backend)?;
     let mut draw = |style: &tinta::Style| -> Result<Drawing> {
         let start = Instant::now();
         let plan = style.plan(&scene, Show::Final)?;

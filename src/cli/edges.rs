@@ -1,5 +1,6 @@
 //! `tinta edges`: a model's edges by class, and how long it takes to find them.
 
+use super::library::Library;
 use super::models::load_meshes;
 use super::options::{CameraArguments, CreaseArguments, ModelArguments};
 use std::time::Instant;
@@ -37,7 +38,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let crease_angle = arguments.crease.crease_angle()?;
     let rule = arguments.crease.silhouette();
     let start = Instant::now();
-    let mut meshes = load_meshes(std::slice::from_ref(&arguments.model), &arguments.options.options())?;
+    let mut meshes =
+        load_meshes(&Library::for_one(), std::slice::from_ref(&arguments.model), &arguments.options.options())?;
     let load_ms = milliseconds_since(start);
     let settings = SceneSettings { camera: arguments.camera.settings(), ..SceneSettings::default() };
     let scene = Scene::new(meshes.clone(), &settings)?;

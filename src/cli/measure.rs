@@ -3,21 +3,21 @@
 mod errors;
 mod settings;
 
+use super::library::Library;
 use super::options::{CameraArguments, ModelArguments};
 use super::preset::{Given, PresetArguments};
 use super::progress::Progress;
+use super::studio::Studio;
 use errors::{error_page, is_shown, known_picture};
 pub use settings::StyleOptions;
 use settings::{of_words, settings};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tinta::measure::{MeasureSettings, Measured, Row, Setting, Subject, measure, steps};
-use tinta::mesh::load;
 use tinta::renderer::milliseconds_since;
 use tinta::report::{ReportInfo, ReportPicture, RowLog, read_rows};
-use tinta::{Backend, Error, Mesh, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
+use tinta::{Backend, Error, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
 
 /// Measure every style's error against its run time; a table, plots and a page come out
 #[derive(clap::Args)]
@@ -104,9 +104,9 @@ const SECONDS_A_SETTING: f64 = 0.35;
 /// Files that a measurement writes, the pictures of its plots and errors aside.
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
-pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
+pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<()> {
     if !arguments.merge.is_empty() {
-        return merge(arguments);
+        return merge(arguments, given);
     }
     given.inputs(&arguments.models).keep_in(&arguments.output, WRITTEN)?;
     let how = MeasureSettings {
@@ -130,9 +130,10 @@ pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
         Some(suite) => suite.iter().copied().chain(arguments.models.iter().map(String::as_str)).collect(),
         None => arguments.models.iter().map(String::as_str).collect(),
     };
-    let mut renderer = Renderer::new(arguments.backend)?;
-    let groups = groups(arguments, &models)?;
-    let expected = expected(&mut renderer, &groups, settings.len(), how.frames)?;
+    studio.renderer(arguments.backend)?;
+    let groups = groups(arguments, &models, &studio.library)?;
+    let renderer = studio.renderer(arguments.backend)?;
+    let expected = expected(renderer, &groups, settings.len(), how.frames)?;
     // Once nothing but the measuring can go wrong.
     make_folder(&arguments.output)?;
     let (mut log, mut rows) = match arguments.resume {
@@ -174,7 +175,7 @@ pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
         (0..skipped).for_each(|_| progress.step());
         // Settings take turns in groups, so that rows are on disk soon and an interruption costs little.
         for some in left.chunks(SETTINGS_IN_TURN) {
-            let (measured, left_out) = measure(&mut renderer, &subject, some, &how, || progress.step())?;
+            let (measured, left_out) = measure(renderer, &subject, some, &how, || progress.step())?;
             left_out.iter().for_each(|reason| super::say(&format!("tinta: {reason}")));
             for Measured { row, error_picture } in measured {
                 log.append(&row)?;
@@ -192,7 +193,7 @@ pub fn run(arguments: &Arguments, given: &Given) -> Result<()> {
             problem: "none of these settings can be drawn with these models; choose others".to_owned(),
         });
     }
-    report(arguments, &rows, pictures)
+    report(arguments, given, &rows, pictures)
 }
 
 /// Rows of one folder are measured by one yardstick.
@@ -266,18 +267,17 @@ struct Group {
     load_ms: f64,
 }
 
-fn groups(arguments: &Arguments, models: &[&str]) -> Result<Vec<Group>> {
+fn groups(arguments: &Arguments, models: &[&str], library: &Library) -> Result<Vec<Group>> {
     let mut groups = Vec::new();
     for model in models {
         let start = Instant::now();
-        let loaded = load(model, &arguments.model.options())?;
+        let loaded = library.read(model, &arguments.model.options())?;
         let load_ms = milliseconds_since(start);
         loaded.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
-        let mesh: Arc<Mesh> = Arc::new(loaded.mesh);
         for size in &arguments.size {
             let settings =
                 SceneSettings { size: *size, camera: arguments.camera.settings(), ..SceneSettings::default() };
-            let scene = Scene::new(vec![mesh.clone()], &settings)?;
+            let scene = Scene::new(vec![loaded.mesh.clone()], &settings)?;
             groups.push(Group { model: (*model).to_owned(), scene, load_ms });
         }
     }
@@ -314,24 +314,19 @@ fn make_folder(folder: &Path) -> Result<()> {
     })
 }
 
-fn report(arguments: &Arguments, rows: &[Row], pictures: Vec<ReportPicture>) -> Result<()> {
-    let info =
-        ReportInfo { command: command(), version: env!("CARGO_PKG_VERSION").to_owned(), notes: Vec::new(), pictures };
+fn report(arguments: &Arguments, given: &Given, rows: &[Row], pictures: Vec<ReportPicture>) -> Result<()> {
+    let info = ReportInfo {
+        command: tinta::shell::command_line(given.as_given.iter().cloned()),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        notes: Vec::new(),
+        pictures,
+    };
     tinta::report::write(&arguments.output, rows, &info)?;
     super::print(&format!("{}\n", arguments.output.join("report.html").display()))
 }
 
-fn command() -> String {
-    tinta::shell::command_line(words())
-}
-
-/// The command line's words after the program's name.
-fn words() -> impl Iterator<Item = String> {
-    std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned())
-}
-
 /// Puts the rows of several files together.
-fn merge(arguments: &Arguments) -> Result<()> {
+fn merge(arguments: &Arguments, given: &Given) -> Result<()> {
     let mut rows: Vec<Row> = Vec::new();
     // Where the row of a key was first seen.
     let mut places: HashMap<String, usize> = HashMap::new();
@@ -361,5 +356,5 @@ fn merge(arguments: &Arguments) -> Result<()> {
     make_folder(&arguments.output)?;
     let mut log = RowLog::create(&arguments.output)?;
     rows.iter().try_for_each(|row| log.append(row))?;
-    report(arguments, &rows, Vec::new())
+    report(arguments, given, &rows, Vec::new())
 }

@@ -45,8 +45,10 @@ const OF_ONE_RUN: [&str; 17] = [
 /// What a command line gives, its preset's options among it.
 #[derive(Default)]
 pub struct Given {
-    /// The words after the program's name.
+    /// The words after the program's name, a preset's among them.
     pub words: Vec<String>,
+    /// The words after the program's name as they were given.
+    pub as_given: Vec<String>,
     /// The options that make the picture.
     pub options: Options,
     /// Words for a style and its settings, which `measure` measures besides.
@@ -80,6 +82,8 @@ impl Given {
 pub fn parse(words: Vec<OsString>) -> std::result::Result<(Arguments, Given), Stop> {
     let mut whole = Arguments::command();
     let matches = whole.try_get_matches_from_mut(&words).map_err(refused)?;
+    let texts = |words: &[OsString]| words.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+    let as_given = texts(&words);
     let (mut given, words) = match Merge::of(&whole, &matches)? {
         None => (Given::default(), words),
         Some(merge) => merge.merged(&whole, &words)?,
@@ -90,7 +94,7 @@ pub fn parse(words: Vec<OsString>) -> std::result::Result<(Arguments, Given), St
     {
         given.options = kept_options(command, matches);
     }
-    given.words = words.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+    (given.words, given.as_given) = (texts(&words), as_given);
     Arguments::from_arg_matches(&matches).map(|arguments| (arguments, given)).map_err(refused)
 }
 
@@ -181,25 +185,8 @@ impl<'a> Merge<'a> {
         Ok((Given { setting, preset: Some(self.preset), used, ..Given::default() }, words))
     }
 
-    /// An option's words: what a switch is, the option itself knows.
     fn words(&self, arg: &Arg, key: &str, value: &OptionValue) -> Result<Vec<OsString>> {
-        let takes_value = arg.get_action().takes_values();
-        let may_stand_alone = !takes_value || arg.get_num_args().is_some_and(|count| count.min_values() == 0);
-        let name = arg.get_long().unwrap_or_default();
-        let is_on_off = arg.get_value_names().is_some_and(|names| names.iter().any(|name| name.as_str() == ON_OFF));
-        match value {
-            OptionValue::Text(value) if takes_value => Ok(vec![format!("--{name}={value}").into()]),
-            OptionValue::Text(_) => Err(self.preset.refuse(key, format!("{key}: write true or false, without quotes"))),
-            OptionValue::Switch(switch) if is_on_off => {
-                Ok(vec![format!("--{name}={}", if *switch { "on" } else { "off" }).into()])
-            }
-            OptionValue::Switch(true) if may_stand_alone => Ok(vec![format!("--{name}").into()]),
-            OptionValue::Switch(false) if may_stand_alone => Ok(Vec::new()),
-            OptionValue::Switch(_) => {
-                let values = arg.get_value_names().unwrap_or_default().join(" ");
-                Err(self.preset.refuse(key, format!("{key}: this takes a value ({values}), not true or false")))
-            }
-        }
+        words_of(arg, value).map_err(|problem| self.preset.refuse(key, format!("{key}: {problem}")))
     }
 
     /// Refuses values that an option refuses, and options that exclude each other, with the preset's line.
@@ -234,6 +221,27 @@ impl<'a> Merge<'a> {
             false => format!("{key}: there is no option --{key}; see tinta {} --help", self.name),
         };
         self.preset.refuse(key, problem)
+    }
+}
+
+/// An option's words: what a switch is, the option itself knows. The error says what is wrong with the value.
+pub fn words_of(arg: &Arg, value: &OptionValue) -> std::result::Result<Vec<OsString>, String> {
+    let takes_value = arg.get_action().takes_values();
+    let may_stand_alone = !takes_value || arg.get_num_args().is_some_and(|count| count.min_values() == 0);
+    let name = arg.get_long().unwrap_or_default();
+    let is_on_off = arg.get_value_names().is_some_and(|names| names.iter().any(|name| name.as_str() == ON_OFF));
+    match value {
+        OptionValue::Text(value) if takes_value => Ok(vec![format!("--{name}={value}").into()]),
+        OptionValue::Text(_) => Err("write true or false, without quotes".to_owned()),
+        OptionValue::Switch(switch) if is_on_off => {
+            Ok(vec![format!("--{name}={}", if *switch { "on" } else { "off" }).into()])
+        }
+        OptionValue::Switch(true) if may_stand_alone => Ok(vec![format!("--{name}").into()]),
+        OptionValue::Switch(false) if may_stand_alone => Ok(Vec::new()),
+        OptionValue::Switch(_) => {
+            let values = arg.get_value_names().unwrap_or_default().join(" ");
+            Err(format!("this takes a value ({values}), not true or false"))
+        }
     }
 }
 

@@ -11,9 +11,11 @@ mod round_trip;
 
 use super::Verdict;
 use super::inputs::Inputs;
+use super::library::Library;
 use super::models::load_with_files;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
 use super::preset::Given;
+use super::studio::Studio;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::mesh::BUILTINS;
@@ -115,22 +117,22 @@ const WARM_UP: usize = 2;
 const PASS_FRAMES: usize = 21;
 
 /// Draws what the arguments say, of which `given` has those that make the picture, by name.
-pub fn run(arguments: &Arguments, given: &Given) -> Result<Verdict> {
+pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<Verdict> {
     let inputs = given.inputs(&arguments.models);
     inputs.keep(&arguments.output)?;
     let preset = arguments.keep.preset_target(&arguments.output, &inputs)?;
-    let verdict = draw(arguments, &given.options)?;
+    let verdict = draw(arguments, &given.options, studio)?;
     preset.map_or(Ok(()), |target| keep::save_preset(&target, &given.options)).map(|()| verdict)
 }
 
-fn draw(arguments: &Arguments, options: &Options) -> Result<Verdict> {
+fn draw(arguments: &Arguments, options: &Options, studio: &mut Studio) -> Result<Verdict> {
     if let Some(format) = lines::format(arguments)? {
         arguments.prune.refuse()?;
-        return lines::run(arguments, options, format).map(|()| Verdict::Good);
+        return lines::run(arguments, options, format, &studio.library).map(|()| Verdict::Good);
     }
     arguments.lines.refuse("only style lines has this; leave it out, or write a .svg")?;
     if let Some(target) = arguments.animation.target(&arguments.output, arguments.scene.transparent)? {
-        return animate::run(arguments, &target);
+        return animate::run(arguments, &target, studio);
     }
     let target = Target::check(&arguments.output, arguments.scene.transparent)?;
     if target == Target::Stdout && (arguments.run.json || arguments.run.explain) {
@@ -141,23 +143,9 @@ fn draw(arguments: &Arguments, options: &Options) -> Result<Verdict> {
     }
     make_dump_folder(arguments)?;
     let style = arguments.styles.style(arguments.style_name())?;
-    // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
-    let settings = arguments.scene.settings(arguments.camera.settings());
-    let (renderer, loaded) = std::thread::scope(|scope| {
-        let load = || load_scene(arguments, &settings, &style);
-        // Where no second thread can be had, one after the other.
-        let Ok(loading) = std::thread::Builder::new().spawn_scoped(scope, load) else {
-            let loaded = load();
-            return (open_renderer(arguments, &settings, &style, || true), loaded);
-        };
-        let renderer = open_renderer(arguments, &settings, &style, || loading.is_finished());
-        match loading.join() {
-            Ok(loaded) => (renderer, loaded),
-            Err(panic) => std::panic::resume_unwind(panic),
-        }
-    });
+    let (ready, loaded) = ready(arguments, &style, studio);
     let Loaded { scene, files, published, load_ms, plan_ms } = loaded?;
-    let Opened { mut renderer, context_ms, warm_up_ms } = renderer?;
+    let Ready { renderer, context_ms, warm_up_ms } = ready?;
     let pruning = Instant::now();
     let Pruned { plan, omissions, kept } =
         arguments.prune.pruned(&published, &scene, renderer.context(), arguments.run.frames);
@@ -178,7 +166,7 @@ fn draw(arguments: &Arguments, options: &Options) -> Result<Verdict> {
         }
     }
     let verdict = match arguments.prune.verify {
-        true => prune::verify(arguments, &mut renderer, &scene, &published, &picture)?,
+        true => prune::verify(arguments, renderer, &scene, &published, &picture)?,
         false => Verdict::Good,
     };
     if !arguments.run.json && !arguments.run.explain {
@@ -190,7 +178,7 @@ fn draw(arguments: &Arguments, options: &Options) -> Result<Verdict> {
     if arguments.run.explain {
         let mut text = explanation(&plan, &passes, &times, frames);
         if let Some(pruning) = arguments.prune.pruning(renderer.context(), arguments.run.frames) {
-            text.push_str(&prune::explanation(&mut renderer, &scene, &published, &pruning, frames)?);
+            text.push_str(&prune::explanation(renderer, &scene, &published, &pruning, frames)?);
         }
         return super::print(&text).map(|()| verdict);
     }
@@ -225,10 +213,46 @@ fn draw(arguments: &Arguments, options: &Options) -> Result<Verdict> {
 }
 
 /// A renderer and how long it took to get ready.
-struct Opened {
-    renderer: Renderer,
+struct Ready<R> {
+    renderer: R,
     context_ms: f64,
     warm_up_ms: Option<f64>,
+}
+
+/// Reads the models and gets a renderer ready: the studio's, or one that is opened meanwhile.
+fn ready<'s>(
+    arguments: &Arguments,
+    style: &Style,
+    studio: &'s mut Studio,
+) -> (Result<Ready<&'s mut Renderer>>, Result<Loaded>) {
+    let settings = arguments.scene.settings(arguments.camera.settings());
+    let (backend, library) = (arguments.run.backend, &studio.library);
+    let load = || load_scene(arguments, &settings, style, library);
+    if studio.has(backend) {
+        let loaded = load();
+        let renderer = studio.renderer(backend);
+        return (renderer.map(|renderer| Ready { renderer, context_ms: 0.0, warm_up_ms: None }), loaded);
+    }
+    let open = || studio.open(backend);
+    // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
+    let (opened, loaded) = std::thread::scope(|scope| {
+        // Where no second thread can be had, one after the other.
+        let Ok(loading) = std::thread::Builder::new().spawn_scoped(scope, load) else {
+            let loaded = load();
+            return (open_renderer(arguments, &settings, style, open, || true), loaded);
+        };
+        let opened = open_renderer(arguments, &settings, style, open, || loading.is_finished());
+        match loading.join() {
+            Ok(loaded) => (opened, loaded),
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+    });
+    let ready = opened.map(|Ready { renderer, context_ms, warm_up_ms }| Ready {
+        renderer: studio.keep(backend, renderer),
+        context_ms,
+        warm_up_ms,
+    });
+    (ready, loaded)
 }
 
 /// Opens the context and, if the models are not there yet, warms it up.
@@ -236,10 +260,11 @@ fn open_renderer(
     arguments: &Arguments,
     settings: &SceneSettings,
     style: &Style,
+    open: impl Fn() -> Result<Renderer>,
     models_are_read: impl Fn() -> bool,
-) -> Result<Opened> {
+) -> Result<Ready<Renderer>> {
     let start = Instant::now();
-    let mut renderer = Renderer::new(arguments.run.backend)?;
+    let mut renderer = open()?;
     let context_ms = milliseconds_since(start);
     let warm_up_ms = if models_are_read() {
         None
@@ -249,7 +274,7 @@ fn open_renderer(
         renderer.warm_up(settings, style, arguments.styles.show, pruning.as_ref())?;
         Some(milliseconds_since(start))
     };
-    Ok(Opened { renderer, context_ms, warm_up_ms })
+    Ok(Ready { renderer, context_ms, warm_up_ms })
 }
 
 /// A scene ready to be drawn, what is to be done for it, and how long both took.
@@ -264,9 +289,9 @@ struct Loaded {
 }
 
 /// Reads the models, puts the scene together and plans it, which finds its edges where the style draws them.
-fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style) -> Result<Loaded> {
+fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style, library: &Library) -> Result<Loaded> {
     let start = Instant::now();
-    let (meshes, files) = load_with_files(&arguments.models, &arguments.model.options())?;
+    let (meshes, files) = load_with_files(library, &arguments.models, &arguments.model.options())?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, settings)?;
     // Known only now.

@@ -1,6 +1,8 @@
 //! `tinta render` with an animation for its output: a turn around the models, or an animated model's frames.
 
+use super::super::library::Library;
 use super::super::progress::Progress;
+use super::super::studio::Studio;
 use super::{Arguments, Loaded, Verdict, load_scene, model_records, prune};
 use serde_json::json;
 use std::sync::Arc;
@@ -8,9 +10,7 @@ use std::time::Instant;
 use tinta::mesh::{ModelFrame, load};
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::{
-    AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Renderer, Result, Scene, SceneSettings, Style,
-};
+use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings, Style};
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "Animation, into FILE.gif, FILE.apng or numbered pictures such as frame-%04d.png")]
@@ -51,14 +51,14 @@ impl AnimationArguments {
 }
 
 /// Draws the animation that the arguments describe; encoding goes on beside the drawing.
-pub fn run(arguments: &Arguments, target: &AnimationTarget) -> Result<Verdict> {
+pub fn run(arguments: &Arguments, target: &AnimationTarget, studio: &mut Studio) -> Result<Verdict> {
     let start = Instant::now();
     refuse_what_is_for_one_picture(arguments)?;
     let style = arguments.styles.style(arguments.style_name())?;
-    let (scenes, load_ms) = scenes(arguments, &style)?;
+    let (scenes, load_ms) = scenes(arguments, &style, &studio.library)?;
     let delay_ms = arguments.animation.delay_ms(scenes.len());
     let context = Instant::now();
-    let mut renderer = Renderer::new(arguments.run.backend)?;
+    let renderer = studio.renderer(arguments.run.backend)?;
     let context_ms = milliseconds_since(context);
 
     let progress = Progress::new("drawing", scenes.len() as u64);
@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments, target: &AnimationTarget) -> Result<Verdict> {
         let picture = renderer.draw(scene, &plan)?;
         frame_ms.push(milliseconds_since(frame));
         if arguments.prune.verify && verdict == Verdict::Good {
-            verdict = prune::verify(arguments, &mut renderer, scene, &published, &picture)?;
+            verdict = prune::verify(arguments, renderer, scene, &published, &picture)?;
         }
         writer.add(picture)?;
         progress.step();
@@ -119,7 +119,7 @@ fn refuse_what_is_for_one_picture(arguments: &Arguments) -> Result<()> {
 }
 
 /// A scene for each picture, and how long reading took, milliseconds.
-pub(super) fn scenes(arguments: &Arguments, style: &Style) -> Result<(Vec<Scene>, f64)> {
+pub(super) fn scenes(arguments: &Arguments, style: &Style, library: &Library) -> Result<(Vec<Scene>, f64)> {
     let settings = arguments.scene.settings(arguments.camera.settings());
     if let Some(movement) = &arguments.animation.animate {
         let start = Instant::now();
@@ -127,7 +127,7 @@ pub(super) fn scenes(arguments: &Arguments, style: &Style) -> Result<(Vec<Scene>
         let load_ms = milliseconds_since(start);
         return Ok((one_scene_a_frame(frames, &settings)?, load_ms));
     }
-    let Loaded { scene, load_ms, .. } = load_scene(arguments, &settings, style)?;
+    let Loaded { scene, load_ms, .. } = load_scene(arguments, &settings, style, library)?;
     let Some(views) = arguments.animation.turntable else { return Ok((vec![scene], load_ms)) };
     if views >= WORTH_PREPARING && matches!(style, Style::Inking(_)) {
         scene.prepare_for_many_views();

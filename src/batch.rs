@@ -1,0 +1,22 @@
+//! Many jobs, one list: what a job is, what is written down of each, and what all of that says together.
+//!
+//! A list of jobs comes in, a line of JSON each ([`List`]). A run, or one of N [`Slice`]s of it, appends an [`Entry`] to its
+//! own file for every job that has ended ([`Journal`]), whatever machine it runs on. All those files together give a
+//! [`Summary`], which is the same bytes however the list was sliced: what differs from run to run, times and drivers, stands
+//! in a file of its own. Nothing here draws; `src/cli/batch.rs` carries the jobs out. How it is used: docs/batch.md.
+
+mod entry;
+mod job;
+mod journal;
+mod list;
+mod place;
+mod slice;
+mod summary;
+
+pub use entry::{Entry, Failure, Outcome, Run, Status, Written, written};
+pub use job::{Job, JobCommand, JobValue, OUTPUTS};
+pub use journal::{Entries, Journal};
+pub use list::{LIST_FILE, List};
+pub use place::{is_own_file, place_in};
+pub use slice::Slice;
+pub use summary::{SUMMARY_FILE, Summary, TIMES_FILE};

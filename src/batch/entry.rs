@@ -1,0 +1,196 @@
+//! What is written down of a job that has ended.
+
+use super::job::{Job, JobCommand, JobValue, OUTPUTS};
+use super::place::place_in;
+use crate::recipe::{Driver, FileRecord};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// How a job ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// Its outputs are there, whole.
+    Done,
+    /// With an error, or with a check that found a difference.
+    Failed,
+}
+
+/// Why a job failed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Failure {
+    /// [`crate::Error::kind`], `check` for a check that found a difference, `crash` for a worker that ended.
+    pub kind: String,
+    /// The sentence that the command would have said; places in the batch's folder are named from there.
+    pub problem: String,
+}
+
+/// A file that a job wrote.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Written {
+    /// From the batch's folder, with `/` between names.
+    pub path: String,
+    /// Its length.
+    pub bytes: u64,
+    /// SHA-256 of its content, hexadecimal.
+    pub sha256: String,
+}
+
+/// What is different each time a job is done.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// From reading the line to the last file.
+    pub milliseconds: f64,
+    /// How often it was tried: a second time where the GL context was lost.
+    pub tries: u32,
+    /// Who drew; `None` where nothing was drawn.
+    pub gl: Option<Driver>,
+    /// What the command wrote to standard output: a record where the job has `json`.
+    pub printed: Option<String>,
+}
+
+/// What came of a job.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// How it ended.
+    pub status: Status,
+    /// Why it failed, if it did.
+    pub error: Option<Failure>,
+    /// What the command said on the way, a sentence each.
+    pub remarks: Vec<String>,
+    /// What it wrote, sorted by path.
+    pub outputs: Vec<Written>,
+    /// What is different each time.
+    pub run: Run,
+}
+
+impl Outcome {
+    /// Of a job that failed for this reason.
+    pub fn failed(kind: &str, problem: impl Into<String>) -> Self {
+        Self {
+            status: Status::Failed,
+            error: Some(Failure { kind: kind.to_owned(), problem: problem.into() }),
+            remarks: Vec::new(),
+            outputs: Vec::new(),
+            run: Run::default(),
+        }
+    }
+}
+
+/// A job and what came of it: a line of a slice's file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// The job's name.
+    pub id: String,
+    /// Its line in the list.
+    pub line: u64,
+    /// [`Job::sha256`]: a job that has been changed since is another.
+    pub job: String,
+    /// What was done.
+    pub command: JobCommand,
+    /// What came of it.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+impl Entry {
+    /// Of this job.
+    pub fn new(job: &Job, outcome: Outcome) -> Self {
+        Self { id: job.id.clone(), line: job.line, job: job.sha256.clone(), command: job.command, outcome }
+    }
+
+    /// Whether it says that this job is done, and what was written is there and as long as it was.
+    pub fn is_done(&self, job: &Job, folder: &Path) -> bool {
+        let is_there = |file: &Written| {
+            folder.join(&file.path).metadata().is_ok_and(|there| there.is_file() && there.len() == file.bytes)
+        };
+        self.job == job.sha256 && self.outcome.status == Status::Done && self.outcome.outputs.iter().all(is_there)
+    }
+}
+
+/// What lies where a job writes: its files, those in its folders, the pictures of a pattern such as `frame-%04d.png`.
+pub fn written(job: &Job, folder: &Path) -> Vec<Written> {
+    let mut files = Vec::new();
+    for (key, value) in &job.options {
+        let JobValue::Text(output) = value else { continue };
+        if !OUTPUTS.contains(&key.as_str()) {
+            continue;
+        }
+        let Ok(place) = place_in(folder, output) else { continue };
+        if place.is_dir() {
+            files_in(&place, &mut files);
+        } else if output.contains('%') {
+            files.extend(numbered(&place));
+        } else {
+            files.push(place);
+        }
+    }
+    files.sort();
+    files.dedup();
+    files.iter().filter_map(|file| record(file, folder)).collect()
+}
+
+fn record(file: &Path, folder: &Path) -> Option<Written> {
+    let FileRecord { bytes, sha256, .. } = FileRecord::of(file).ok()?;
+    let names: Vec<_> = file.strip_prefix(folder).ok()?.iter().map(|name| name.to_string_lossy()).collect();
+    Some(Written { path: names.join("/"), bytes, sha256 })
+}
+
+/// The files of a folder and of those in it; links are not followed.
+fn files_in(folder: &Path, files: &mut Vec<PathBuf>) {
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+            match entry.file_type() {
+                Ok(kind) if kind.is_dir() => folders.push(entry.path()),
+                Ok(kind) if kind.is_file() => files.push(entry.path()),
+                _ => {}
+            }
+        }
+    }
+}
+
+/// The files whose names are those of a pattern with a number in its place.
+fn numbered(pattern: &Path) -> Vec<PathBuf> {
+    let Some(name) = pattern.file_name().and_then(|name| name.to_str()) else { return Vec::new() };
+    let Some((start, rest)) = name.split_once('%') else { return Vec::new() };
+    let end = rest.split_once('d').map_or("", |(_, end)| end);
+    let is_number = |name: &str| {
+        let number = name.strip_prefix(start).and_then(|name| name.strip_suffix(end));
+        number.is_some_and(|number| !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()))
+    };
+    let folder = pattern.parent().unwrap_or(Path::new("."));
+    let names = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    names.filter(|file| file.file_name().to_str().is_some_and(is_number)).map(|file| file.path()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_folders_and_numbered_pictures_are_found_and_known_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::create_dir_all(at("steps/more")).unwrap();
+        for name in ["f-1.png", "f-02.png", "f-x.png", "steps/b", "steps/more/a", "other"] {
+            std::fs::write(at(name), name).unwrap();
+        }
+        let line = r#"{"id":"a","command":"render","output":"f-%02d.png","dump":"./steps"}"#;
+        let job = Job::parse(line.as_bytes()).unwrap();
+        let found = written(&job, folder.path());
+        let paths: Vec<&str> = found.iter().map(|file| file.path.as_str()).collect();
+        assert_eq!(paths, ["f-02.png", "f-1.png", "steps/b", "steps/more/a"]);
+        assert_eq!((found[1].bytes, found[1].sha256.len()), (7, 64));
+        let outcome =
+            Outcome { status: Status::Done, error: None, remarks: Vec::new(), outputs: found, run: Run::default() };
+        let entry = Entry::new(&job, outcome);
+        assert!(entry.is_done(&job, folder.path()));
+        let text = serde_json::to_string(&entry).unwrap();
+        assert_eq!(serde_json::from_str::<Entry>(&text).unwrap(), entry);
+        let changed = Job::parse(line.replace("02d", "03d").as_bytes()).unwrap();
+        assert!(!entry.is_done(&changed, folder.path()));
+        std::fs::write(at("steps/b"), "longer than it was").unwrap();
+        assert!(!entry.is_done(&job, folder.path()));
+    }
+}

@@ -1,0 +1,251 @@
+//! `tinta batch`: a list of jobs carried out on all cores, or a slice of it, and what came of all of them.
+//!
+//! The jobs are done by workers, processes of this program that take one job after another and keep their context, programs
+//! and models: a job that brings the driver down takes one worker with it and no other job. What a worker tells of a job is
+//! written down at once.
+
+mod crew;
+mod signals;
+#[cfg(test)]
+mod tests;
+mod whole;
+mod words;
+mod work;
+
+use super::progress::Progress;
+use super::{Verdict, plain, print, print_json, say};
+use crew::Worker;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use tinta::batch::{Entries, Entry, Job, Journal, List, Outcome, Slice, Status, Summary};
+use tinta::limits::REMARKS;
+use tinta::{Error, Result};
+
+/// Carry out a list of jobs, a line of JSON each, on all cores
+#[derive(clap::Args)]
+#[command(after_help = "\
+A job: {\"id\": \"cow-1\", \"command\": \"render\", \"model\": \"cow.obj\", \"output\": \"cow-1.png\", \"view\": \"90,15\"}
+where command is render, compare or measure, model a text or several in brackets, and every further key the long name of an \
+option of that command. Outputs lie in DIR; everything that is read is named as on the command line. docs/batch.md has the rest.")]
+pub struct Arguments {
+    /// List of jobs, a line of JSON each
+    #[arg(value_name = "LIST", required_unless_present_any = ["summary", "worker"])]
+    list: Option<PathBuf>,
+
+    /// Folder for what the jobs write and for the record of what came of each
+    #[arg(short, long, value_name = "DIR", required_unless_present = "summary")]
+    output: Option<PathBuf>,
+
+    /// Do every N-th job only, beginning with the K-th: N such runs, on as many machines, do them all [default: 1/1]
+    #[arg(long, value_name = "K/N", default_value = "1/1", hide_default_value = true)]
+    slice: Slice,
+
+    /// Go on in the same folder: what is done and still there is not done again, what failed is tried again [default: off]
+    #[arg(long)]
+    resume: bool,
+
+    /// Jobs at once, each in a process of its own [default: one a processor]
+    #[arg(long, value_name = "J", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    jobs: Option<u32>,
+
+    /// Put together what all slices have done in DIR, print it, write batch-summary.jsonl and batch-times.jsonl there
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["list", "output", "slice", "resume", "jobs"])]
+    summary: Option<PathBuf>,
+
+    /// With --summary: print one JSON record [default: off]
+    #[arg(long, requires = "summary")]
+    json: bool,
+
+    /// Take jobs from standard input: what tinta batch starts
+    #[arg(long, hide = true, conflicts_with_all = ["list", "summary"])]
+    worker: bool,
+}
+
+/// Carries the list out, or sums up what was carried out; exit code 1 where a job failed or is missing.
+pub fn run(arguments: &Arguments) -> Result<Verdict> {
+    if let Some(folder) = &arguments.summary {
+        return sum_up(folder, arguments.json);
+    }
+    let none = || Error::CommandLine { problem: "LIST and --output DIR are needed".to_owned() };
+    let folder = arguments.output.as_deref().ok_or_else(none)?;
+    if arguments.worker {
+        return work::serve(folder).map(|()| Verdict::Good);
+    }
+    let list = List::read(arguments.list.as_deref().ok_or_else(none)?)?;
+    super::make_folder(folder)?;
+    let (journal, entries) = begin(arguments, folder, &list)?;
+    let mine: Vec<&Job> =
+        list.jobs.iter().enumerate().filter(|(place, _)| arguments.slice.has(*place)).map(|(_, job)| job).collect();
+    let left: Vec<&Job> = mine.iter().copied().filter(|job| !entries.has_done(job, folder)).collect();
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let workers = arguments.jobs.map_or(cores, |jobs| jobs as usize).min(left.len());
+    let counts = carry_out(&left, folder, journal, workers, cores)?;
+    let before = mine.len() - left.len();
+    say(&in_words(&counts, mine.len(), before));
+    if counts.ended() < left.len() {
+        return Err(Error::Output {
+            path: folder.display().to_string(),
+            problem: format!(
+                "stopped by a signal with {} of {} jobs to do; go on by --resume",
+                left.len() - counts.ended(),
+                mine.len()
+            ),
+        });
+    }
+    Ok(if counts.failed == 0 { Verdict::Good } else { Verdict::Different })
+}
+
+/// Opens the slice's file, once it is known that this list and this folder belong together.
+fn begin(arguments: &Arguments, folder: &Path, list: &List) -> Result<(Journal, Entries)> {
+    let refuse = |problem: String| Err(Error::Output { path: folder.display().to_string(), problem });
+    let slice = arguments.slice;
+    let before = Entries::read(folder)?;
+    let has_begun = before.slices.iter().any(|other| *other == slice || other.count != slice.count);
+    if has_begun && !arguments.resume {
+        return refuse("a batch was begun here; go on with it by --resume, or name another folder".to_owned());
+    }
+    match List::kept(folder)? {
+        Some(kept) if kept.is_same(list) => {}
+        Some(_) if !(arguments.resume && slice == Slice::WHOLE) => {
+            return refuse(
+                "a batch of another list was begun here; name another folder, or give the changed list with --resume and \
+                 without --slice"
+                    .to_owned(),
+            );
+        }
+        _ => list.keep(folder)?,
+    }
+    let journal = Journal::open(folder, slice)?;
+    // Again, for nobody else writes into this slice's file from now on.
+    Ok((journal, Entries::read(folder)?))
+}
+
+/// How many jobs ended how.
+#[derive(Default)]
+struct Counts {
+    done: usize,
+    failed: usize,
+}
+
+impl Counts {
+    fn ended(&self) -> usize {
+        self.done + self.failed
+    }
+}
+
+/// What all workers' threads write to.
+struct Desk {
+    journal: Journal,
+    counts: Counts,
+    /// Why the run ends before its end.
+    stop: Option<Error>,
+}
+
+/// Does the jobs, so many at once; an error is one of the run itself, not of a job.
+fn carry_out(jobs: &[&Job], folder: &Path, journal: Journal, workers: usize, cores: usize) -> Result<Counts> {
+    let stopped = signals::stopped();
+    let progress = Progress::new("working", jobs.len() as u64);
+    let desk = Mutex::new(Desk { journal, counts: Counts::default(), stop: None });
+    let next = AtomicUsize::new(0);
+    let lock = || desk.lock().unwrap_or_else(PoisonError::into_inner);
+    let work = || {
+        let mut worker = None;
+        while !stopped.load(Ordering::Relaxed) && lock().stop.is_none() {
+            let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
+            let ended = Worker::of(&mut worker, folder, workers, cores).and_then(|worker| worker.carry_out(job));
+            let mut desk = lock();
+            let noted = ended.and_then(|outcome| {
+                note(&mut desk.counts, job, &outcome);
+                desk.journal.append(&Entry::new(job, outcome))
+            });
+            progress.step();
+            if let Err(error) = noted {
+                desk.stop.get_or_insert(error);
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        let others: Vec<_> =
+            (1..workers).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, work).ok()).collect();
+        work();
+        for other in others {
+            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
+    });
+    drop(progress);
+    let desk = desk.into_inner().unwrap_or_else(PoisonError::into_inner);
+    match desk.stop {
+        Some(error) => Err(error),
+        None => Ok(desk.counts),
+    }
+}
+
+/// Counts a job and says why it failed, for the first few that do.
+fn note(counts: &mut Counts, job: &Job, outcome: &Outcome) {
+    match outcome.status {
+        Status::Done => counts.done += 1,
+        Status::Failed => {
+            counts.failed += 1;
+            if counts.failed <= REMARKS {
+                let problem = outcome.error.as_ref().map_or("", |error| error.problem.as_str());
+                say(&format!("tinta: line {}, {}: {problem}", job.line, job.id));
+            }
+        }
+    }
+}
+
+fn in_words(counts: &Counts, jobs: usize, before: usize) -> String {
+    let before = if before > 0 { format!(", {before} were done before") } else { String::new() };
+    format!("tinta: {} of {jobs} jobs done{before}, {} failed", counts.done, counts.failed)
+}
+
+/// Puts together what all slices wrote down.
+fn sum_up(folder: &Path, json: bool) -> Result<Verdict> {
+    let summary = Summary::of_folder(folder)?;
+    summary.write(folder)?;
+    if json {
+        print_json(&summary)?
+    } else {
+        print(&table(&summary))?
+    }
+    Ok(if summary.is_all_done() { Verdict::Good } else { Verdict::Different })
+}
+
+fn table(summary: &Summary) -> String {
+    let Summary { jobs, done, failed, missing, outdated, damaged, .. } = summary;
+    let mut text = format!("{jobs} jobs: {done} done, {failed} failed, {missing} missing\n");
+    text += &format!(
+        "{:<10}{:>8}{:>8}{:>8}{:>12}{:>12}{:>12}\n",
+        "", "done", "failed", "missing", "seconds", "median ms", "longest ms"
+    );
+    for command in &summary.commands {
+        let [sum, median, longest] = command.milliseconds;
+        text += &format!(
+            "{:<10}{:>8}{:>8}{:>8}{:>12.1}{median:>12.1}{longest:>12.1}\n",
+            command.command.name(),
+            command.done,
+            command.failed,
+            command.missing,
+            sum * 1e-3
+        );
+    }
+    for (what, named) in [("failed", &summary.failures), ("missing", &summary.missing_jobs)] {
+        for job in named.iter().take(REMARKS) {
+            let colon = if job.problem.is_empty() { "" } else { ": " };
+            text += &plain(&format!("{what}: line {}, {}{colon}{}", job.line, job.id, job.problem));
+            text.push('\n');
+        }
+        if named.len() > REMARKS {
+            text += &format!("{what}: {} more, in batch-summary.jsonl\n", named.len() - REMARKS);
+        }
+    }
+    for (count, what) in
+        [(outdated, "of jobs that are not in the list any more"), (damaged, "that cannot be understood")]
+    {
+        if *count > 0 {
+            text += &format!("{count} entries {what}\n");
+        }
+    }
+    text
+}

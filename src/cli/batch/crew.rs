@@ -1,0 +1,99 @@
+//! A worker from outside: a process of this program that is told jobs and tells what came of them, a line of JSON each.
+
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use tinta::batch::{Job, Outcome};
+use tinta::{Error, Result};
+
+/// A worker, which ends with this.
+pub struct Worker {
+    child: Child,
+    /// Closed, it ends once its job has ended.
+    jobs: Option<ChildStdin>,
+    outcomes: BufReader<ChildStdout>,
+}
+
+/// Mesa's threads beside the one that draws, which it reads once when it starts.
+const RASTER_THREADS: &str = "LP_NUM_THREADS";
+
+impl Worker {
+    /// The worker that is there, or a new one in its place.
+    pub fn of<'w>(place: &'w mut Option<Self>, folder: &Path, workers: usize, cores: usize) -> Result<&'w mut Self> {
+        // One that has lost its process takes no more jobs.
+        if place.as_ref().is_some_and(|worker| worker.jobs.is_none()) {
+            *place = None;
+        }
+        match place {
+            Some(worker) => Ok(worker),
+            None => Ok(place.insert(Self::start(folder, workers, cores)?)),
+        }
+    }
+
+    fn start(folder: &Path, workers: usize, cores: usize) -> Result<Self> {
+        let cannot = |error: std::io::Error| Error::CommandLine {
+            problem: format!(
+                "no worker could be started ({error}); check the limits on processes, or give fewer --jobs"
+            ),
+        };
+        let mut command = Command::new(program().map_err(cannot)?);
+        command.args(["batch", "--worker", "--output"]).arg(folder);
+        // Threads that draw for one another only where there are processors left for them.
+        if std::env::var_os(RASTER_THREADS).is_none() {
+            let threads = if cores >= workers * 2 { cores / workers } else { 0 };
+            command.env(RASTER_THREADS, threads.to_string());
+        }
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().map_err(cannot)?;
+        let (jobs, outcomes) = (child.stdin.take(), child.stdout.take());
+        match outcomes {
+            Some(outcomes) => Ok(Self { child, jobs, outcomes: BufReader::new(outcomes) }),
+            None => Err(cannot(std::io::Error::other("it has no standard output"))),
+        }
+    }
+
+    /// Has a job done. A worker that ends over it is the job's failure, and the last thing it does.
+    pub fn carry_out(&mut self, job: &Job) -> Result<Outcome> {
+        let told = self
+            .jobs
+            .as_mut()
+            .map(|jobs| jobs.write_all(format!("{}\n", job.json).as_bytes()).and_then(|()| jobs.flush()));
+        let mut line = Vec::new();
+        if matches!(told, Some(Ok(()))) {
+            // What cannot be read is as good as not there.
+            let _ = self.outcomes.read_until(b'\n', &mut line);
+        }
+        if let Ok(outcome) = serde_json::from_slice(&line) {
+            return Ok(outcome);
+        }
+        self.jobs = None;
+        let _ = self.child.kill();
+        let ended = self.child.wait().map_or_else(|error| error.to_string(), in_words);
+        Ok(Outcome::failed(
+            "crash",
+            format!(
+                "its worker ended ({ended}), as drivers that crash and systems without memory end one; try it by itself"
+            ),
+        ))
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        self.jobs = None;
+        let _ = self.child.wait();
+    }
+}
+
+/// This program, also where its file was replaced since.
+fn program() -> std::io::Result<PathBuf> {
+    let same = Path::new("/proc/self/exe");
+    if cfg!(target_os = "linux") && same.exists() { Ok(same.to_owned()) } else { std::env::current_exe() }
+}
+
+fn in_words(status: ExitStatus) -> String {
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        return format!("signal {signal}");
+    }
+    status.code().map_or_else(|| "no exit code".to_owned(), |code| format!("exit code {code}"))
+}

@@ -1,0 +1,80 @@
+//! A worker's jobs in this process, with contexts that fail on purpose.
+
+use super::super::studio::Studio;
+use super::work::carry_out;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use tinta::batch::{Job, Outcome, Status};
+use tinta::gl::Fault;
+use tinta::{Backend, Renderer, Result};
+
+/// What jobs say is heard by the process: one test at a time.
+static ALONE: Mutex<()> = Mutex::new(());
+
+fn job(id: usize) -> Job {
+    let line = format!(
+        r#"{{"id":{id},"command":"render","model":"builtin:open-box","output":"{id}.png","size":32,"style":"{}"}}"#,
+        ["three-pass", "ink", "inking"][id % 3]
+    );
+    Job::parse(line.as_bytes()).unwrap()
+}
+
+/// Does jobs in a studio; their outcomes and their pictures' hashes.
+fn outcomes(open: fn(Backend) -> Result<Renderer>, jobs: usize) -> (Vec<Outcome>, usize) {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let folder = tempfile::tempdir().unwrap();
+    let mut studio = Studio::for_many(open);
+    let outcomes = (0..jobs).map(|id| carry_out(&job(id), folder.path(), &mut studio)).collect();
+    let objects = studio.live_objects();
+    (outcomes, objects)
+}
+
+fn hashes(outcomes: &[Outcome]) -> Vec<&str> {
+    outcomes.iter().flat_map(|outcome| &outcome.outputs).map(|file| file.sha256.as_str()).collect()
+}
+
+#[test]
+fn a_lost_context_is_made_anew_and_its_job_done_again() {
+    static OPENED: AtomicUsize = AtomicUsize::new(0);
+    fn open(backend: Backend) -> Result<Renderer> {
+        match OPENED.fetch_add(1, Ordering::Relaxed) {
+            0 => Renderer::with_fault(backend, Fault::ContextLost { after: 60 }),
+            1 => Renderer::with_fault(backend, Fault::ContextReset { after: 60 }),
+            _ => Renderer::new(backend),
+        }
+    }
+    let (sound, _) = outcomes(Renderer::new, 24);
+    let (faulty, _) = outcomes(open, 24);
+    assert!(faulty.iter().all(|outcome| outcome.status == Status::Done), "{faulty:?}");
+    let again: Vec<usize> = (0..24).filter(|job| faulty[*job].run.tries == 2).collect();
+    assert!(again.len() == 2 && again[0] > 0, "the contexts were lost in jobs {again:?}");
+    assert_eq!(OPENED.load(Ordering::Relaxed), 3);
+    assert_eq!(hashes(&faulty), hashes(&sound));
+    assert_eq!(hashes(&sound).len(), 24);
+}
+
+#[test]
+fn a_context_that_is_lost_every_time_fails_the_job_with_the_reason() {
+    let (outcomes, _) = outcomes(|backend| Renderer::with_fault(backend, Fault::ContextLost { after: 0 }), 2);
+    for outcome in outcomes {
+        assert_eq!((outcome.status, outcome.run.tries), (Status::Failed, 2));
+        let error = outcome.error.unwrap();
+        assert!(error.kind == "context-lost" && error.problem.contains("was lost"), "{error:?}");
+    }
+}
+
+#[test]
+fn hundreds_of_jobs_share_the_objects_of_one_context() {
+    static OPENED: AtomicUsize = AtomicUsize::new(0);
+    fn open(backend: Backend) -> Result<Renderer> {
+        OPENED.fetch_add(1, Ordering::Relaxed);
+        Renderer::new(backend)
+    }
+    let (few, after_few) = outcomes(open, 6);
+    let (many, after_many) = outcomes(open, 300);
+    assert_eq!(OPENED.load(Ordering::Relaxed), 2, "one context for each studio");
+    assert!(after_few > 0 && after_few == after_many, "{after_few} and {after_many} GL objects");
+    let (few, many) = (hashes(&few), hashes(&many));
+    assert_eq!((few.len(), many.len()), (6, 300));
+    assert!(few.iter().zip(&many).all(|(one, other)| one == other));
+}

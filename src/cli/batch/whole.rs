@@ -1,0 +1,75 @@
+//! A measurement's folder, which fills row by row: it has another name until it is whole, and is gone on with after a kill.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use tinta::batch::{Job, JobCommand, JobValue, place_in};
+use tinta::report::ROWS_FILE;
+use tinta::{Error, Result};
+
+/// A folder in the making.
+pub struct Making {
+    making: PathBuf,
+    place: PathBuf,
+    /// Rows of several files are put together quickly, and from the beginning.
+    is_merge: bool,
+}
+
+impl Making {
+    /// Of a measurement; of other jobs none. A folder that is no measurement's is refused.
+    pub fn of(job: &Job, folder: &Path) -> Result<Option<Self>> {
+        let output = job.options.iter().find(|(key, _)| key == "output");
+        let (JobCommand::Measure, Some((_, JobValue::Text(output)))) = (job.command, output) else { return Ok(None) };
+        let Ok(place) = place_in(folder, output.trim_end_matches('/')) else { return Ok(None) };
+        let name = place.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let is_empty = || std::fs::read_dir(&place).is_ok_and(|mut files| files.next().is_none());
+        if place.symlink_metadata().is_ok() && !place.join(ROWS_FILE).is_file() && !is_empty() {
+            return Err(Error::Output {
+                path: place.display().to_string(),
+                problem: "something that is no measurement lies here; name another folder".to_owned(),
+            });
+        }
+        let making = place.with_file_name(format!("{}{name}", prefix(job)));
+        let is_merge = job.options.iter().any(|(key, _)| key == "merge");
+        if is_merge && making.is_dir() {
+            std::fs::remove_dir_all(&making).map_err(|error| cannot(&making, &error))?;
+        }
+        Ok(Some(Self { making, place, is_merge }))
+    }
+
+    /// The job's words with the folder in the making, gone on with.
+    pub fn words(&self, words: Vec<OsString>) -> Vec<OsString> {
+        let is_output = |word: &OsString| word.to_string_lossy().starts_with("--output=");
+        let mut words: Vec<OsString> = words.into_iter().filter(|word| !is_output(word)).collect();
+        let mut output = OsString::from("--output=");
+        output.push(&self.making);
+        words.insert(2, output);
+        if !self.is_merge && !words.iter().any(|word| word == "--resume") {
+            words.insert(3, "--resume".into());
+        }
+        words
+    }
+
+    /// Gives the folder, whole, its name; an older measurement there is gone then.
+    pub fn put_in_place(&self) -> Result<()> {
+        let old = self.making.with_extension("old");
+        let _ = std::fs::remove_dir_all(&old);
+        if self.place.join(ROWS_FILE).is_file() {
+            std::fs::rename(&self.place, &old).map_err(|error| cannot(&self.place, &error))?;
+        }
+        std::fs::rename(&self.making, &self.place).map_err(|error| cannot(&self.place, &error))?;
+        let _ = std::fs::remove_dir_all(&old);
+        Ok(())
+    }
+}
+
+/// How the name of a job's folder begins while it is in the making: another one where the job has been changed.
+pub fn prefix(job: &Job) -> String {
+    format!(".tinta-{}-", job.sha256.get(..16).unwrap_or_default())
+}
+
+fn cannot(path: &Path, error: &std::io::Error) -> Error {
+    Error::Output {
+        path: path.display().to_string(),
+        problem: format!("the folder cannot be replaced ({error}); choose another"),
+    }
+}

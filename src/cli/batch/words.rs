@@ -1,0 +1,57 @@
+//! A job as the words of a command line, so that its options are read and checked where all options are.
+
+use super::super::Arguments;
+use super::super::preset::words_of;
+use clap::{Arg, ArgAction, Command, CommandFactory};
+use std::ffi::OsString;
+use std::path::Path;
+use tinta::batch::{Job, JobValue, OUTPUTS, place_in};
+use tinta::preset::OptionValue;
+use tinta::{Error, Result};
+
+/// The command line of a job whose outputs lie in `folder`.
+pub fn words(job: &Job, folder: &Path) -> Result<Vec<OsString>> {
+    let whole = Arguments::command();
+    let name = job.command.name();
+    let refuse = |key: &str, problem: String| Error::Setting { setting: key.to_owned(), problem };
+    let command = whole
+        .find_subcommand(name)
+        .ok_or_else(|| refuse("command", "there is no such command; see tinta --help".to_owned()))?;
+    let mut words: Vec<OsString> = ["tinta", name].map(OsString::from).to_vec();
+    for (key, value) in &job.options {
+        let arg = command.get_arguments().find(|arg| arg.get_long() == Some(key));
+        let arg = arg.ok_or_else(|| unknown(command, key))?;
+        for value in values(arg, key, value, folder)? {
+            words.extend(words_of(arg, &value).map_err(|problem| refuse(key, problem))?);
+        }
+    }
+    words.push("--".into());
+    words.extend(job.models.iter().map(OsString::from));
+    Ok(words)
+}
+
+fn unknown(command: &Command, key: &str) -> Error {
+    let name = command.get_name();
+    Error::Setting {
+        // Long ones are no options anyway.
+        setting: key.chars().take(40).collect(),
+        problem: format!("there is no such option; keys are long names of tinta {name} --help, and id, command, model"),
+    }
+}
+
+/// The values of an option: as many as are given where it may be repeated, otherwise one, with commas in it.
+fn values(arg: &Arg, key: &str, value: &JobValue, folder: &Path) -> Result<Vec<OptionValue>> {
+    let is_repeated = matches!(arg.get_action(), ArgAction::Append) && arg.get_value_delimiter().is_none();
+    if OUTPUTS.contains(&key) {
+        let refuse = |problem: String| Error::Setting { setting: key.to_owned(), problem };
+        let JobValue::Text(output) = value else { return Err(refuse("this is a text: the name of a file".to_owned())) };
+        let place = place_in(folder, output).map_err(|problem| refuse(format!("{output}: {problem}")))?;
+        return Ok(vec![OptionValue::text(place.to_string_lossy())]);
+    }
+    Ok(match value {
+        JobValue::Switch(switch) => vec![OptionValue::Switch(*switch)],
+        JobValue::Text(text) => vec![OptionValue::text(text)],
+        JobValue::Texts(texts) if is_repeated => texts.iter().map(OptionValue::text).collect(),
+        JobValue::Texts(texts) => vec![OptionValue::text(texts.join(","))],
+    })
+}

@@ -1,0 +1,137 @@
+//! A worker from inside: jobs from standard input, one after another, with one studio for all of them.
+
+use super::super::preset::{Given, parse};
+use super::super::studio::Studio;
+use super::super::{Command, Stop, Verdict, compare, measure, render, speech};
+use super::whole::{self, Making};
+use super::{signals, words::words};
+use std::io::{BufRead, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::Receiver;
+use std::time::Instant;
+use tinta::batch::{Job, JobValue, Outcome, Run, Status, place_in, written};
+use tinta::recipe::Driver;
+use tinta::renderer::milliseconds_since;
+use tinta::{Error, Renderer, Result};
+
+/// Does what it is told until nobody tells any more.
+pub fn serve(folder: &Path) -> Result<()> {
+    signals::leave_to_the_run();
+    let gone =
+        |error: std::io::Error| Error::Output { path: "-".to_owned(), problem: format!("the run is gone ({error})") };
+    let is_busy = Arc::new(AtomicBool::new(false));
+    let lines = lines(&is_busy).map_err(gone)?;
+    let mut studio = Studio::for_many(Renderer::new);
+    for line in lines {
+        let outcome = match Job::parse(&line) {
+            Ok(job) => carry_out(&job, folder, &mut studio),
+            Err(problem) => Outcome::failed("command-line", problem),
+        };
+        let mut out = std::io::stdout().lock();
+        let text = serde_json::to_string(&outcome).map_err(|error| gone(error.into()))?;
+        is_busy.store(false, Ordering::SeqCst);
+        out.write_all(format!("{text}\n").as_bytes()).and_then(|()| out.flush()).map_err(gone)?;
+    }
+    Ok(())
+}
+
+/// What standard input tells, read on a thread of its own: a run that ends while a job is done takes its worker with it.
+fn lines(is_busy: &Arc<AtomicBool>) -> std::io::Result<Receiver<Vec<u8>>> {
+    let (sender, receiver) = std::sync::mpsc::channel();
+    let is_busy = is_busy.clone();
+    let read = move || {
+        for line in std::io::stdin().lock().split(b'\n') {
+            let Ok(line) = line else { break };
+            is_busy.store(true, Ordering::SeqCst);
+            if sender.send(line).is_err() {
+                return;
+            }
+        }
+        if is_busy.load(Ordering::SeqCst) {
+            signals::end_at_once();
+        }
+    };
+    std::thread::Builder::new().spawn(read).map(|_| receiver)
+}
+
+/// Does a job; a second time in new contexts where the first one's was lost.
+pub fn carry_out(job: &Job, folder: &Path, studio: &mut Studio) -> Outcome {
+    let start = Instant::now();
+    let mut tries = 0;
+    let (result, heard) = loop {
+        tries += 1;
+        speech::listen();
+        let result = once(job, folder, studio);
+        let heard = speech::heard();
+        match result {
+            Err(Error::ContextLost { .. }) if tries == 1 => studio.close(),
+            result => break (result, heard),
+        }
+    };
+    // Named from the batch's folder, which is another one on another machine.
+    let prefix = format!("{}{}", folder.display().to_string().trim_end_matches('/'), std::path::MAIN_SEPARATOR);
+    let making = whole::prefix(job);
+    let short = |sentence: String| speech::plain(&sentence).replace(&prefix, "").replace(&making, "");
+    let mut outcome = match result {
+        Ok((Verdict::Good, _)) => Outcome { status: Status::Done, error: None, ..Outcome::failed("", "") },
+        Ok((Verdict::Different, _)) => Outcome::failed("check", "a check found a difference; its remarks say which"),
+        Err(ref error) => Outcome::failed(error.kind(), short(error.to_string())),
+    };
+    if matches!(result, Err(Error::ContextLost { .. })) {
+        studio.close();
+    }
+    outcome.remarks = heard.said.into_iter().map(short).collect();
+    if let Ok((_, gl)) = result {
+        outcome.outputs = written(job, folder);
+        outcome.run.gl = gl;
+    }
+    let printed = (!heard.printed.is_empty()).then(|| heard.printed.replace(&making, ""));
+    outcome.run = Run { milliseconds: milliseconds_since(start), tries, printed, gl: outcome.run.gl };
+    outcome
+}
+
+/// Does a job through the parser and the function that the command line has.
+fn once(job: &Job, folder: &Path, studio: &mut Studio) -> Result<(Verdict, Option<Driver>)> {
+    let as_given = words(job, folder)?;
+    make_folders(job, folder)?;
+    let making = Making::of(job, folder)?;
+    let words = making.as_ref().map_or_else(|| as_given.clone(), |making| making.words(as_given.clone()));
+    studio.take_used();
+    let (parsed, mut given) = parse(words).map_err(|stop| match stop {
+        Stop::Wrong(error) => error,
+        Stop::Help(_) => Error::CommandLine { problem: "a job asks for help instead of work".to_owned() },
+    })?;
+    given.as_given = as_given.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+    let verdict = command(parsed.command, &given, studio).map_err(|error| given.attributed(error))?;
+    making.map_or(Ok(()), |making| making.put_in_place())?;
+    let driver = studio.take_used().map(|renderer| Driver::new(renderer.context()));
+    Ok((verdict, driver))
+}
+
+fn command(command: Command, given: &Given, studio: &mut Studio) -> Result<Verdict> {
+    match command {
+        Command::Render(arguments) => render::run(&arguments, given, studio),
+        Command::Compare(arguments) => compare::run(&arguments, given, studio).map(|()| Verdict::Good),
+        Command::Measure(arguments) => measure::run(&arguments, given, studio).map(|()| Verdict::Good),
+        _ => Err(Error::CommandLine { problem: "a job is render, compare or measure".to_owned() }),
+    }
+}
+
+/// Makes the folders that outputs lie in.
+fn make_folders(job: &Job, folder: &Path) -> Result<()> {
+    for (key, value) in &job.options {
+        let JobValue::Text(output) = value else { continue };
+        if !tinta::batch::OUTPUTS.contains(&key.as_str()) {
+            continue;
+        }
+        let Ok(place) = place_in(folder, output) else { continue };
+        let parent: PathBuf = place.parent().unwrap_or(folder).to_path_buf();
+        std::fs::create_dir_all(&parent).map_err(|error| Error::Output {
+            path: parent.display().to_string(),
+            problem: format!("the folder cannot be made ({error}); choose another"),
+        })?;
+    }
+    Ok(())
+}

@@ -1,0 +1,144 @@
+//! The models last read, so that jobs that follow one another do not read the same one again.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::SystemTime;
+use tinta::mesh::load;
+use tinta::{LoadOptions, Mesh, Result};
+
+/// Reads models, and keeps them where there are many jobs.
+pub struct Library(Mutex<Models>);
+
+impl Library {
+    /// For one job: nothing is kept.
+    pub fn for_one() -> Self {
+        Self(Mutex::new(Models { keeps: false, kept: Vec::new() }))
+    }
+
+    /// For many jobs.
+    pub fn for_many() -> Self {
+        Self(Mutex::new(Models { keeps: true, kept: Vec::new() }))
+    }
+
+    /// Reads a model, or finds it among those last read.
+    pub fn read(&self, path: &str, options: &LoadOptions) -> Result<Arc<Model>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).read(path, options)
+    }
+}
+
+/// A model that was read, with what was read beside it and what is to be said of it.
+pub struct Model {
+    pub mesh: Arc<Mesh>,
+    pub files: Vec<PathBuf>,
+    pub remarks: Vec<String>,
+    path: String,
+    options: LoadOptions,
+    stamps: Vec<Stamp>,
+}
+
+/// When a file was last written and how long it was; `None` for what has neither, as built-in models.
+type Stamp = Option<(SystemTime, u64)>;
+
+fn stamp(path: &Path) -> Stamp {
+    let metadata = path.metadata().ok()?;
+    Some((metadata.modified().ok()?, metadata.len()))
+}
+
+/// The models last read.
+struct Models {
+    keeps: bool,
+    /// The latest last.
+    kept: Vec<Arc<Model>>,
+}
+
+impl Models {
+    /// Most triangles of the models kept together, some 100 MB; a larger one is kept until another is read.
+    const TRIANGLES: usize = 1_000_000;
+
+    /// Most models kept.
+    const COUNT: usize = 64;
+
+    fn read(&mut self, path: &str, options: &LoadOptions) -> Result<Arc<Model>> {
+        let is_it = |model: &Arc<Model>| model.path == path && model.options == *options && model.is_as_it_was();
+        if let Some(place) = self.kept.iter().position(is_it) {
+            let model = self.kept.remove(place);
+            self.kept.push(model.clone());
+            return Ok(model);
+        }
+        self.make_room();
+        let own = stamp(Path::new(path));
+        let loaded = load(path, options)?;
+        let stamps = std::iter::once(own).chain(loaded.files.iter().map(|file| stamp(file))).collect();
+        let model = Arc::new(Model {
+            mesh: Arc::new(loaded.mesh),
+            files: loaded.files,
+            remarks: loaded.remarks,
+            path: path.to_owned(),
+            options: options.clone(),
+            stamps,
+        });
+        if self.keeps {
+            self.kept.push(model.clone());
+        }
+        Ok(model)
+    }
+
+    /// Before another is read: lets the oldest go.
+    fn make_room(&mut self) {
+        self.kept.retain(|model| model.is_as_it_was());
+        let is_too_much = |kept: &[Arc<Model>]| {
+            kept.len() >= Self::COUNT
+                || kept.iter().map(|model| model.mesh.triangles.len()).sum::<usize>() > Self::TRIANGLES
+        };
+        while is_too_much(&self.kept) {
+            self.kept.remove(0);
+        }
+    }
+}
+
+impl Model {
+    /// Whether no file of it has been written since.
+    fn is_as_it_was(&self) -> bool {
+        let paths = std::iter::once(Path::new(&self.path)).chain(self.files.iter().map(PathBuf::as_path));
+        paths.zip(&self.stamps).all(|(path, then)| stamp(path) == *then)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+    #[test]
+    fn a_model_is_read_again_where_it_was_written_since_or_other_options_are_given() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.obj").to_str().unwrap().to_owned();
+        std::fs::write(&path, TRIANGLE).unwrap();
+        let library = Library::for_many();
+        let options = LoadOptions::default();
+        let read = || library.read(&path, &options).unwrap();
+        let first = read();
+        assert!(Arc::ptr_eq(&first.mesh, &read().mesh));
+        let flat = LoadOptions { normals: tinta::mesh::Normals::Flat, ..options.clone() };
+        assert!(!Arc::ptr_eq(&first.mesh, &library.read(&path, &flat).unwrap().mesh));
+        assert!(Arc::ptr_eq(&first.mesh, &read().mesh));
+        std::fs::write(&path, format!("{TRIANGLE}f 3 2 1\n")).unwrap();
+        assert_eq!(read().mesh.triangles.len(), 2);
+        let library = Library::for_one();
+        let read = || library.read(&path, &options).unwrap();
+        assert!(!Arc::ptr_eq(&read().mesh, &read().mesh));
+    }
+
+    #[test]
+    fn no_more_models_are_kept_than_there_is_room_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let library = Library::for_many();
+        for number in 0..100 {
+            let path = folder.path().join(format!("{number}.obj"));
+            std::fs::write(&path, TRIANGLE).unwrap();
+            library.read(path.to_str().unwrap(), &LoadOptions::default()).unwrap();
+        }
+        assert_eq!(library.0.lock().unwrap().kept.len(), Models::COUNT);
+    }
+}
