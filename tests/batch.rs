@@ -143,7 +143,10 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
         "{row:?}"
     );
     let page = std::fs::read_to_string(format!("{out}/row/report.html")).unwrap();
-    assert!(page.contains("measure --frames=1 --output=") && !page.contains(".tinta-"), "the command that measures it again");
+    assert!(
+        page.contains("measure --frames=1 --output=") && !page.contains(".tinta-"),
+        "the command that measures it again"
+    );
     let left = names(&out);
     assert!(left.iter().all(|name| !name.starts_with('.')), "nothing is left in the making: {left:?}");
     assert!(!Path::new("/tmp/tinta-root.png").exists() && !Path::new(&folder.path("out.png")).exists());

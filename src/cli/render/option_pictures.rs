@@ -121,7 +121,7 @@ fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
 /// One picture, or those of an animation.
 fn pictures(arguments: &Arguments, renderer: &mut Renderer) -> tinta::Result<Vec<Picture>> {
     let style = arguments.styles.style(arguments.style_name())?;
-    let (scenes, _) = animate::scenes(arguments, &style)?;
+    let (scenes, _) = animate::scenes(arguments, &style, &crate::cli::library::Library::for_one())?;
     scenes.iter().map(|scene| renderer.draw(scene, &style.plan(scene, arguments.styles.show)?)).collect()
 }
 
