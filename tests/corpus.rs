@@ -12,7 +12,7 @@ type Target = fn(&[u8]);
 
 #[test]
 fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
-    let targets: [(&str, Target); 13] = [
+    let targets: [(&str, Target); 14] = [
         ("obj", readers::obj),
         ("ply", readers::ply),
         ("stl", readers::stl),
