@@ -68,7 +68,7 @@ fn commands(document: &Path) -> Vec<Named> {
     all
 }
 
-/// The words as a shell splits them, without what it would do with them.
+/// The words as a shell splits them, up to where it does something of its own with them.
 fn words(command: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut quote = None;
@@ -81,6 +81,8 @@ fn words(command: &str) -> Vec<String> {
         }
     }
     words.retain(|word| !word.is_empty());
+    let end = words.iter().position(|word| [">", ">>", "<", "|", "&&", ";"].contains(&word.as_str()));
+    words.truncate(end.unwrap_or(words.len()));
     words
 }
 

@@ -63,10 +63,13 @@ fn plot(ui: &mut Ui, price: &Price) {
     let color = ui.visuals().text_color();
     let slowest = price.history.iter().map(|point| point.ms).fold(f64::MIN_POSITIVE, f64::max);
     let worst = price.history.iter().map(|point| point.error).fold(LEAST_RANGE, f64::max);
-    painter.text(area.left_top(), Align2::LEFT_BOTTOM, format!("error (1 - F1): {worst:.2}"), font.clone(), color);
-    painter.text(area.right_bottom(), Align2::RIGHT_TOP, format!("{slowest:.1} ms"), font.clone(), color);
+    let axis_labels = [
+        (area.left_top(), Align2::LEFT_BOTTOM, format!("error (1 - F1): {worst:.2}")),
+        (area.right_bottom(), Align2::RIGHT_TOP, format!("{slowest:.1} ms")),
+    ];
     let places: Vec<Pos2> = price.history.iter().map(|point| place(point, [slowest, worst], area)).collect();
     let mut taken: Vec<Rect> = places.iter().map(|place| Rect::from_center_size(*place, Vec2::splat(7.0))).collect();
+    taken.extend(axis_labels.map(|(place, align, text)| painter.text(place, align, text, font.clone(), color)));
     let last = places.len() - 1;
     for (index, (point, place)) in price.history.iter().zip(&places).enumerate() {
         let fill = if index == last { Color32::from_rgb(220, 90, 60) } else { Color32::from_rgb(90, 140, 200) };

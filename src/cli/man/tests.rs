@@ -16,7 +16,7 @@ fn every_command_has_a_page_and_every_long_option_is_on_it_with_its_help() {
     for command in whole.get_subcommands() {
         let file = format!("tinta-{}.1", command.get_name());
         let page = &pages.iter().find(|page| page.file == file).expect(&file).text;
-        for arg in command.get_arguments() {
+        for arg in command.get_arguments().filter(|arg| !arg.is_hide_set()) {
             let Some(long) = arg.get_long() else { continue };
             let name = format!("\\-\\-{}", long.replace('-', "\\-"));
             let rest = page.lines().skip_while(|line| !line.contains(&format!("\\fB{name}\\fR"))).nth(1);
