@@ -15,7 +15,7 @@ mod summary;
 
 pub use entry::{Entry, Failure, Outcome, Run, Status, Written, written};
 pub use job::{Job, JobCommand, JobValue, OUTPUTS};
-pub use journal::{Entries, Journal};
+pub use journal::{Entries, Journal, begun, done};
 pub use list::{LIST_FILE, List};
 pub use place::{is_own_file, place_in};
 pub use slice::Slice;

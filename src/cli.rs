@@ -90,6 +90,11 @@ pub enum Verdict {
     Good,
     /// Two pictures that should be equal differ, a case did not end as it must, or a job of a batch failed.
     Different,
+    /// A signal ended a batch before its last job.
+    Stopped {
+        /// Its number.
+        signal: u8,
+    },
 }
 
 /// Parses the command line and does what it says.

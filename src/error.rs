@@ -94,6 +94,12 @@ pub enum Error {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// Another run is at work on the same slice of a batch.
+    #[error("{path}: another run is at work on this; wait for its end, or take another --slice")]
+    Busy {
+        /// The slice's file.
+        path: String,
+    },
     /// Nobody waits for the work any more.
     #[error("the work was given up because nobody waits for it any more; ask for it again")]
     Cancelled,
@@ -171,6 +177,7 @@ impl Error {
             Self::Output { .. } => "output",
             Self::Rows { .. } => "rows",
             Self::Batch { .. } => "batch",
+            Self::Busy { .. } => "busy",
             Self::Cancelled => "cancelled",
             Self::NoContext { .. } => "no-context",
             Self::NoWindow { .. } => "no-window",

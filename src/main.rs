@@ -9,9 +9,12 @@ fn main() -> ExitCode {
     match cli::run() {
         Ok(cli::Verdict::Good) => ExitCode::SUCCESS,
         Ok(cli::Verdict::Different) => ExitCode::FAILURE,
+        // As a shell says it of a program that a signal has ended.
+        Ok(cli::Verdict::Stopped { signal }) => ExitCode::from(128 + signal),
         Err(error) => {
             cli::say(&format!("tinta: {error}"));
-            ExitCode::from(2)
+            // EX_TEMPFAIL of sysexits.h: the same will go later.
+            ExitCode::from(if matches!(error, tinta::Error::Busy { .. }) { 75 } else { 2 })
         }
     }
 }

@@ -97,21 +97,43 @@ impl Staged {
     ///
     /// [`Error::Output`] when the disk is full, the folder gone.
     pub(crate) fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
-        let written = Beside::open(&resolved(path)).and_then(|mut beside| {
-            let file = beside.file();
-            file.write_all(bytes)?;
-            if let Ok(metadata) = path.metadata() {
-                // A file that is replaced keeps its permissions. And what replaces it must have reached the disk: a power
-                // cut would otherwise leave neither. Of a new file nothing is lost, so nothing waits for it.
-                file.set_permissions(metadata.permissions())?;
-                file.sync_data()?;
-            }
-            Ok(beside)
-        });
-        match written {
-            Ok(beside) => Ok(Self { path: path.to_owned(), beside }),
-            Err(error) => Err(refused(path, &error)),
-        }
+        let mut staged = Self::begin(path)?;
+        staged.add(bytes)?;
+        staged.settle()?;
+        Ok(staged)
+    }
+
+    /// Nothing yet: [`Staged::add`] writes, and [`Staged::settle`] comes before [`Staged::put_in_place`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Staged::new`].
+    pub(crate) fn begin(path: &Path) -> Result<Self> {
+        let beside = Beside::open(&resolved(path)).map_err(|error| refused(path, &error))?;
+        Ok(Self { path: path.to_owned(), beside })
+    }
+
+    /// Writes further contents.
+    ///
+    /// # Errors
+    ///
+    /// As [`Staged::new`].
+    pub(crate) fn add(&mut self, bytes: &[u8]) -> Result<()> {
+        self.beside.file().write_all(bytes).map_err(|error| refused(&self.path, &error))
+    }
+
+    /// Has the contents on the disk, where they replace a file.
+    ///
+    /// # Errors
+    ///
+    /// As [`Staged::new`].
+    pub(crate) fn settle(&mut self) -> Result<()> {
+        let Ok(metadata) = self.path.metadata() else { return Ok(()) };
+        // A file that is replaced keeps its permissions. And what replaces it must have reached the disk: a power
+        // cut would otherwise leave neither. Of a new file nothing is lost, so nothing waits for it.
+        let file = self.beside.file();
+        let settled = file.set_permissions(metadata.permissions()).and_then(|()| file.sync_data());
+        settled.map_err(|error| refused(&self.path, &error))
     }
 
     /// Gives the contents their name: a link is followed, an old file replaced.

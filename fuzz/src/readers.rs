@@ -4,7 +4,7 @@
 //! One function a reader, for the fuzz targets beside this file and for `tests/corpus.rs`, which runs every file of the
 //! corpus through the same function with an ordinary compiler.
 
-use tinta::batch::{Entries, Job, JobValue, List, Summary, place_in};
+use tinta::batch::{Entries, Job, JobValue, List, Slice, Summary, place_in};
 use tinta::mesh::{LoadOptions, Loaded, VertexArrays, read_bytes};
 use tinta::{EdgeList, Picture, Preset, Recipe, Result, Scene, SceneSettings};
 
@@ -148,7 +148,7 @@ pub fn batch(bytes: &[u8]) {
     let folder = std::path::Path::new("out");
     match List::of_bytes(bytes.to_vec(), "jobs.jsonl") {
         Ok(list) => {
-            for job in &list.jobs {
+            for job in list.jobs(Slice::WHOLE) {
                 let again = Job::parse(job.json.as_bytes()).expect("just written");
                 assert_eq!((&again.id, &again.sha256, &again.json), (&job.id, &job.sha256, &job.json));
                 for (_, value) in &job.options {
@@ -160,12 +160,18 @@ pub fn batch(bytes: &[u8]) {
                 }
             }
             let mut entries = Entries::default();
-            entries.add(bytes);
-            assert_eq!(Summary::new(&list, &entries).jobs, list.jobs.len());
+            entries.add(bytes.to_vec());
+            let mut lines = 0;
+            let summary = Summary::new(&list, &entries, |_| {
+                lines += 1;
+                Ok(())
+            });
+            assert_eq!(summary.map(|summary| summary.jobs).ok(), Some(list.count));
+            assert_eq!(lines, list.count);
         }
         Err(error) => check_sentence(&error.to_string()),
     }
-    Entries::default().add(bytes);
+    Entries::default().add(bytes.to_vec());
 }
 
 /// A preset: written again it has the same options.

@@ -79,6 +79,7 @@ impl Outcome {
 
 /// A job and what came of it: a line of a slice's file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Line")]
 pub struct Entry {
     /// The job's name.
     pub id: String,
@@ -91,6 +92,27 @@ pub struct Entry {
     /// What came of it.
     #[serde(flatten)]
     pub outcome: Outcome,
+}
+
+/// An entry as it is read: all keys side by side, which is several times as fast as looking for those that are left over.
+#[derive(Deserialize)]
+struct Line {
+    id: String,
+    line: u64,
+    job: String,
+    command: JobCommand,
+    status: Status,
+    error: Option<Failure>,
+    remarks: Vec<String>,
+    outputs: Vec<Written>,
+    run: Run,
+}
+
+impl From<Line> for Entry {
+    fn from(read: Line) -> Self {
+        let Line { id, line, job, command, status, error, remarks, outputs, run } = read;
+        Self { id, line, job, command, outcome: Outcome { status, error, remarks, outputs, run } }
+    }
 }
 
 impl Entry {

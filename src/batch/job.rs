@@ -75,18 +75,37 @@ impl Job {
     ///
     /// What is wrong with it, a sentence without the file's name.
     pub fn parse(line: &[u8]) -> Result<Self, String> {
-        if line.len() > JOB_BYTES {
-            return Err(format!("the line is longer than {JOB_BYTES} bytes, so it is hardly a job; make it shorter"));
-        }
-        let text = std::str::from_utf8(line).map_err(|_| "it is not UTF-8 text; save the list as that".to_owned())?;
-        let keys: Keys = serde_json::from_str(text).map_err(|error| {
-            let said = error.to_string();
-            let said = said.split(" at line ").next().unwrap_or(&said);
-            format!("this is no job ({}); write an object of JSON, a line each", shown(said))
-        })?;
-        let mut keys = keys.0;
+        let keys = keys(line)?;
         let json = sorted(&keys);
         let sha256 = hexadecimal(&Sha256::digest(json.as_bytes()));
+        let Asked { id, command, models, options } = Asked::of_keys(keys)?;
+        Ok(Self { id, line: 0, command, models, options, sha256, json })
+    }
+}
+
+/// What a line asks for, without what it is known by: enough to check it.
+pub(super) struct Asked {
+    pub id: String,
+    command: JobCommand,
+    models: Vec<String>,
+    options: Vec<(String, JobValue)>,
+}
+
+impl Asked {
+    /// Reads a line and refuses what [`Job::parse`] does.
+    pub fn of_line(line: &[u8]) -> Result<Self, String> {
+        Self::of_keys(keys(line)?)
+    }
+
+    /// The options that name what the job writes, with those names.
+    pub fn outputs(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.options.iter().filter_map(|(key, value)| match value {
+            JobValue::Text(output) if OUTPUTS.contains(&key.as_str()) => Some((key.as_str(), output.as_str())),
+            _ => None,
+        })
+    }
+
+    fn of_keys(mut keys: Vec<(String, Value)>) -> Result<Self, String> {
         let mut take = |name: &str| {
             let place = keys.iter().position(|(key, _)| key == name)?;
             Some(keys.remove(place).1)
@@ -124,8 +143,22 @@ impl Job {
             Ok((key, value))
         });
         let options = options.collect::<Result<_, String>>()?;
-        Ok(Self { id, line: 0, command, models, options, sha256, json })
+        Ok(Self { id, command, models, options })
     }
+}
+
+/// A line's keys in their order.
+fn keys(line: &[u8]) -> Result<Vec<(String, Value)>, String> {
+    if line.len() > JOB_BYTES {
+        return Err(format!("the line is longer than {JOB_BYTES} bytes, so it is hardly a job; make it shorter"));
+    }
+    let text = std::str::from_utf8(line).map_err(|_| "it is not UTF-8 text; save the list as that".to_owned())?;
+    let keys: Keys = serde_json::from_str(text).map_err(|error| {
+        let said = error.to_string();
+        let said = said.split(" at line ").next().unwrap_or(&said);
+        format!("this is no job ({}); write an object of JSON, a line each", shown(said))
+    })?;
+    Ok(keys.0)
 }
 
 /// A name that a message, a terminal and a table can show.
@@ -170,14 +203,15 @@ impl<'de> Deserialize<'de> for Keys {
 
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Keys, A::Error> {
                 let mut keys: Vec<(String, Value)> = Vec::new();
-                let mut names = std::collections::HashSet::new();
-                while let Some((key, value)) = map.next_entry::<String, Value>()? {
-                    if !names.insert(key.clone()) {
-                        return Err(serde::de::Error::custom(format!("the key {} is there twice", shown(&key))));
-                    }
-                    keys.push((key, value));
+                while let Some(key) = map.next_entry::<String, Value>()? {
+                    keys.push(key);
                 }
-                Ok(Keys(keys))
+                let mut names: Vec<&str> = keys.iter().map(|(key, _)| key.as_str()).collect();
+                names.sort_unstable();
+                match names.windows(2).find(|pair| pair[0] == pair[1]) {
+                    Some(pair) => Err(serde::de::Error::custom(format!("the key {} is there twice", shown(pair[0])))),
+                    None => Ok(Keys(keys)),
+                }
             }
         }
         from.deserialize_map(Each)

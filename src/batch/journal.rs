@@ -5,14 +5,15 @@
 
 use super::entry::{Entry, Status};
 use super::job::Job;
-use super::list::List;
 use super::slice::Slice;
 use crate::error::{Error, Result};
 use crate::files;
 use crate::limits::BATCH_BYTES;
+use serde::Deserialize;
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
-use std::io::Write;
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// The open file of a slice.
@@ -27,7 +28,7 @@ impl Journal {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] where it cannot be written, or where another run has it open.
+    /// [`Error::Output`] where it cannot be written, [`Error::Busy`] where another run has it open.
     pub fn open(folder: &Path, slice: Slice) -> Result<Self> {
         let path = folder.join(slice.file_name());
         let refuse = |problem: String| Error::Output { path: path.display().to_string(), problem };
@@ -35,15 +36,11 @@ impl Journal {
             return Err(refuse("this is no ordinary file; name another folder".to_owned()));
         }
         let cannot = |error: std::io::Error| refuse(format!("it cannot be written ({error}); choose another folder"));
-        let file = OpenOptions::new().append(true).create(true).open(&path).map_err(cannot)?;
+        let mut file = OpenOptions::new().read(true).append(true).create(true).open(&path).map_err(cannot)?;
         if !is_alone(&file) {
-            return Err(refuse("another run is at work on this; wait for its end, or take another --slice".to_owned()));
+            return Err(Error::Busy { path: path.display().to_string() });
         }
-        let bytes = read(&path)?;
-        let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
-        if whole < bytes.len() {
-            file.set_len(whole as u64).map_err(cannot)?;
-        }
+        cut_torn(&mut file).map_err(cannot)?;
         Ok(Self { file, path })
     }
 
@@ -66,6 +63,25 @@ impl Journal {
     }
 }
 
+/// Cuts off what stands behind the last line's end, which is looked for from the file's end.
+fn cut_torn(file: &mut File) -> std::io::Result<()> {
+    let length = file.seek(SeekFrom::End(0))?;
+    let mut end = length;
+    let mut bytes = Vec::new();
+    while end > 0 {
+        let start = end.saturating_sub(1 << 16);
+        bytes.clear();
+        file.seek(SeekFrom::Start(start))?;
+        file.take(end - start).read_to_end(&mut bytes)?;
+        if let Some(last) = bytes.iter().rposition(|byte| *byte == b'\n') {
+            end = start + last as u64 + 1;
+            break;
+        }
+        end = start;
+    }
+    if end < length { file.set_len(end) } else { Ok(()) }
+}
+
 /// Whether this run alone has the file open. Where the system cannot tell, it is believed.
 #[cfg(target_os = "linux")]
 fn is_alone(file: &File) -> bool {
@@ -86,15 +102,72 @@ fn read(path: &Path) -> Result<Vec<u8>> {
     })
 }
 
-/// All that is written down in a batch's folder, by whatever slices.
+/// The slices that have begun in a batch's folder, whose files are not read for that.
+pub fn begun(folder: &Path) -> Vec<Slice> {
+    let names = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut slices: Vec<Slice> = names.filter_map(|file| Slice::of_file_name(file.file_name().to_str()?)).collect();
+    slices.sort();
+    slices
+}
+
+/// Which of a slice's jobs are done, what they wrote still being there.
+///
+/// Only files that can tell are read: the slice's own and those of another number of slices. The slices beside this one have
+/// none of its jobs.
+///
+/// # Errors
+///
+/// [`Error::Batch`] for a file that cannot be read.
+pub fn done(folder: &Path, slice: Slice, jobs: &[Job]) -> Result<Vec<bool>> {
+    /// As much of an entry as most of them need.
+    #[derive(Deserialize)]
+    struct Ended<'a> {
+        #[serde(borrow)]
+        job: Cow<'a, str>,
+        status: Status,
+    }
+    let places: HashMap<&str, usize> =
+        jobs.iter().enumerate().map(|(place, job)| (job.sha256.as_str(), place)).collect();
+    let mut done = vec![false; jobs.len()];
+    for other in begun(folder) {
+        if other.count == slice.count && other != slice {
+            continue;
+        }
+        for line in read(&folder.join(other.file_name()))?.split(|byte| *byte == b'\n') {
+            let Ok(Ended { job, status: Status::Done }) = serde_json::from_slice(line) else { continue };
+            let Some(place) = places.get(job.as_ref()).copied().filter(|place| !done[*place]) else { continue };
+            let entry = serde_json::from_slice::<Entry>(line);
+            done[place] = entry.is_ok_and(|entry| entry.is_done(&jobs[place], folder));
+        }
+    }
+    Ok(done)
+}
+
+/// All that is written down in a batch's folder, by whatever slices: its bytes, and where in them the entry of each job is.
 #[derive(Debug, Default)]
 pub struct Entries {
-    /// By the jobs' names, in the order of the slices' files and their lines.
-    by_id: HashMap<String, Vec<Entry>>,
-    /// The slices that have begun.
-    pub slices: Vec<Slice>,
+    files: Vec<Vec<u8>>,
+    found: HashMap<Key, Found>,
     /// Whole lines that cannot be understood.
     pub damaged: usize,
+}
+
+/// The first half of a job's SHA-256: no two of even a billion jobs share it by chance.
+type Key = u128;
+
+fn key(job: &str) -> Option<Key> {
+    Key::from_str_radix(job.get(..32)?, 16).ok()
+}
+
+/// Where the entry that counts of a job is, and how many there are.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    file: u32,
+    /// Files have at most [`BATCH_BYTES`], which 32 bits count.
+    start: u32,
+    length: u32,
+    status: Status,
+    count: u32,
 }
 
 impl Entries {
@@ -104,44 +177,56 @@ impl Entries {
     ///
     /// [`Error::Batch`] for a file that cannot be read.
     pub fn read(folder: &Path) -> Result<Self> {
-        let names = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        let mut slices: Vec<Slice> = names.filter_map(|file| Slice::of_file_name(file.file_name().to_str()?)).collect();
-        slices.sort();
-        let mut entries = Self { slices, ..Self::default() };
-        for slice in entries.slices.clone() {
-            entries.add(&read(&folder.join(slice.file_name()))?);
+        let mut entries = Self::default();
+        for slice in begun(folder) {
+            entries.add(read(&folder.join(slice.file_name()))?);
         }
         Ok(entries)
     }
 
     /// Adds a file's entries; a last line without its end is being written, or was when a run was killed.
-    pub fn add(&mut self, bytes: &[u8]) {
+    pub fn add(&mut self, bytes: Vec<u8>) {
+        let file = self.files.len() as u32;
+        let mut start = 0;
         for line in bytes.split_inclusive(|byte| *byte == b'\n') {
-            match serde_json::from_slice::<Entry>(line) {
-                Ok(entry) => self.by_id.entry(entry.id.clone()).or_default().push(entry),
-                Err(_) if line.ends_with(b"\n") && !line.trim_ascii().is_empty() => self.damaged += 1,
-                Err(_) => {}
+            let entry = serde_json::from_slice::<Entry>(line).ok();
+            match entry.and_then(|entry| Some((key(&entry.job)?, entry.outcome.status))) {
+                Some((job, status)) => {
+                    let here = Found { file, start, length: line.len() as u32, status, count: 1 };
+                    let before = self.found.get(&job).copied();
+                    self.found.insert(job, before.map_or(here, |before| before.then(here)));
+                }
+                None if line.ends_with(b"\n") && !line.trim_ascii().is_empty() => self.damaged += 1,
+                None => {}
             }
+            start += line.len() as u32;
         }
+        self.files.push(bytes);
     }
 
     /// What came of a job, as it is now: that it is done, or else what was written down last.
-    pub fn of(&self, job: &Job) -> Option<&Entry> {
-        let mut entries = self.by_id.get(&job.id)?.iter().filter(|entry| entry.job == job.sha256);
-        let last = entries.clone().next_back();
-        entries.rfind(|entry| entry.outcome.status == Status::Done).or(last)
+    pub fn of(&self, job: &Job) -> Option<Entry> {
+        let Found { file, start, length, .. } = *self.found.get(&key(&job.sha256)?)?;
+        let line = self.files.get(file as usize)?.get(start as usize..)?.get(..length as usize)?;
+        serde_json::from_slice(line).ok()
     }
 
-    /// Whether a job is done and what it wrote is still there.
-    pub fn has_done(&self, job: &Job, folder: &Path) -> bool {
-        self.by_id.get(&job.id).is_some_and(|entries| entries.iter().any(|entry| entry.is_done(job, folder)))
+    /// How many entries there are of a job as it is now.
+    pub fn count_of(&self, job: &Job) -> usize {
+        key(&job.sha256).and_then(|key| self.found.get(&key)).map_or(0, |found| found.count as usize)
     }
 
-    /// How many entries are of no job of this list: of one that was changed or taken out.
-    pub fn outdated(&self, list: &List) -> usize {
-        let jobs: HashMap<&str, &str> = list.jobs.iter().map(|job| (job.id.as_str(), job.sha256.as_str())).collect();
-        let is_outdated = |entry: &&Entry| jobs.get(entry.id.as_str()) != Some(&entry.job.as_str());
-        self.by_id.values().flatten().filter(is_outdated).count()
+    /// How many entries there are in all.
+    pub fn count(&self) -> usize {
+        self.found.values().map(|found| found.count as usize).sum()
+    }
+}
+
+impl Found {
+    /// The one that counts of this and one that was written down later.
+    fn then(self, later: Self) -> Self {
+        let counts = if later.status == Status::Done || self.status == Status::Failed { later } else { self };
+        Self { count: self.count + 1, ..counts }
     }
 }
 
@@ -165,11 +250,20 @@ mod tests {
         for torn in 1..whole.len() {
             std::fs::write(&path, [&whole[..], &whole[..torn]].concat()).unwrap();
             let read = Entries::read(folder.path()).unwrap();
-            assert_eq!((read.damaged, read.by_id["a"].len()), (0, if torn + 1 == whole.len() { 2 } else { 1 }));
+            assert_eq!((read.damaged, read.count()), (0, if torn + 1 == whole.len() { 2 } else { 1 }));
         }
         drop(journal);
-        let mut journal = Journal::open(folder.path(), Slice::WHOLE).unwrap();
+        let journal = Journal::open(folder.path(), Slice::WHOLE).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), whole);
+        drop(journal);
+        // Also one that is longer than what is read at once, and one that is the only line.
+        for (text, kept) in [([&whole[..], &[b'x'; 200_000]].concat(), whole.len()), (vec![b'x'; 100_000], 0)] {
+            std::fs::write(&path, &text).unwrap();
+            Journal::open(folder.path(), Slice::WHOLE).unwrap();
+            assert_eq!(std::fs::read(&path).unwrap(), text[..kept]);
+        }
+        std::fs::write(&path, &whole).unwrap();
+        let mut journal = Journal::open(folder.path(), Slice::WHOLE).unwrap();
         journal.append(&entry("b")).unwrap();
         let read = Entries::read(folder.path()).unwrap();
         assert!(read.of(&job("a")).is_some() && read.of(&job("b")).is_some() && read.of(&job("c")).is_none());
@@ -180,8 +274,8 @@ mod tests {
     fn two_runs_of_one_slice_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let journal = Journal::open(folder.path(), Slice::WHOLE).unwrap();
-        let said = Journal::open(folder.path(), Slice::WHOLE).unwrap_err().to_string();
-        assert!(said.contains("another run is at work"), "{said}");
+        let busy = Journal::open(folder.path(), Slice::WHOLE).unwrap_err();
+        assert!(matches!(busy, Error::Busy { .. }) && busy.to_string().contains("another run is at work"), "{busy}");
         Journal::open(folder.path(), Slice { count: 2, number: 1 }).unwrap();
         drop(journal);
         Journal::open(folder.path(), Slice::WHOLE).unwrap();
@@ -194,9 +288,40 @@ mod tests {
         let mut done = failed.clone();
         done.outcome.status = Status::Done;
         for entry in [&failed, &done, &failed] {
-            entries.add(format!("{}\nnonsense\n", serde_json::to_string(entry).unwrap()).as_bytes());
+            entries.add(format!("{}\nnonsense\n", serde_json::to_string(entry).unwrap()).into_bytes());
         }
-        assert_eq!(entries.of(&job("a")), Some(&done));
-        assert_eq!(entries.damaged, 3);
+        assert_eq!(entries.of(&job("a")), Some(done));
+        assert_eq!((entries.damaged, entries.count_of(&job("a")), entries.count_of(&job("b"))), (3, 3, 0));
+    }
+
+    #[test]
+    fn a_slice_reads_what_may_hold_its_jobs_and_a_summary_reads_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let of = |number, count| Slice { count, number };
+        let write = |slice: Slice, id: &str, status| {
+            let outcome = Outcome { status, error: None, ..Outcome::failed("", "") };
+            let line = serde_json::to_string(&Entry::new(&job(id), outcome)).unwrap();
+            std::fs::write(folder.path().join(slice.file_name()), format!("{line}\n")).unwrap();
+        };
+        write(of(1, 3), "own", Status::Done);
+        write(of(2, 2), "from another count", Status::Done);
+        write(of(1, 2), "failed", Status::Failed);
+        // This says of one of the slice's jobs what only a slice that does it can: it is not looked at.
+        write(of(2, 3), "beside", Status::Done);
+        let jobs = ["own", "from another count", "failed", "beside"].map(job);
+        assert_eq!(done(folder.path(), of(1, 3), &jobs).unwrap(), [true, true, false, false]);
+        assert_eq!(done(folder.path(), of(1, 2), &jobs).unwrap(), [true, false, false, true]);
+        // Nor does it matter that it cannot be read, but to those who must.
+        std::fs::create_dir(folder.path().join(of(3, 3).file_name())).unwrap();
+        assert_eq!(done(folder.path(), of(1, 3), &jobs).unwrap(), [true, true, false, false]);
+        let said = [
+            done(folder.path(), of(1, 2), &jobs).unwrap_err().to_string(),
+            Entries::read(folder.path()).unwrap_err().to_string(),
+        ];
+        assert!(said.iter().all(|said| said.contains("batch-3-of-3.jsonl: this is a directory")), "{said:?}");
+        std::fs::remove_dir(folder.path().join(of(3, 3).file_name())).unwrap();
+        std::fs::write(folder.path().join(of(3, 3).file_name()), "nonsense\n".repeat(5)).unwrap();
+        let read = Entries::read(folder.path()).unwrap();
+        assert_eq!((read.count(), read.damaged), (4, 5));
     }
 }

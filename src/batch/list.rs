@@ -1,22 +1,26 @@
 //! The list of a batch's jobs, a line each; blank lines are passed over.
 
-use super::job::{Job, JobValue, OUTPUTS};
+use super::job::{Asked, Job};
 use super::place::same_place;
+use super::slice::Slice;
 use crate::error::{Error, Result};
 use crate::files::{self, shown};
 use crate::limits::BATCH_BYTES;
 use crate::output::write_whole;
-use std::collections::HashMap;
+use sha2::{Digest, Sha256};
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// The list as a batch keeps it in its folder.
 pub const LIST_FILE: &str = "batch-list.jsonl";
 
-/// Jobs in the order of their list, none of the same name, no two with the same output.
+/// Jobs in the order of their list, none of the same name, no two with the same output. All lines are checked, but jobs are
+/// made of them only when they are asked for: of a list of a million a run does a thousand.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct List {
-    /// The jobs.
-    pub jobs: Vec<Job>,
+    /// How many jobs there are.
+    pub count: usize,
     /// The file's bytes.
     bytes: Vec<u8>,
 }
@@ -40,41 +44,37 @@ impl List {
     ///
     /// As [`List::read`].
     pub fn of_bytes(bytes: Vec<u8>, name: &str) -> Result<Self> {
-        let mut jobs: Vec<Job> = Vec::new();
-        // Name or output, and the line it stands in.
-        let (mut names, mut outputs) = (HashMap::<String, u64>::new(), HashMap::<String, u64>::new());
-        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-        for (line, text) in (1..).zip(text.split(|byte| *byte == b'\n')) {
-            let text = text.trim_ascii();
-            if text.is_empty() {
-                continue;
+        let mut list = Self { count: 0, bytes };
+        let (mut ids, mut outputs) = (Seen::default(), Seen::default());
+        for (line, text) in list.lines() {
+            let asked = Asked::of_line(text).map_err(|problem| refused(name, Some(line), problem))?;
+            ids.add(&asked.id, line);
+            for place in asked.outputs().filter_map(|(_, output)| same_place(output)) {
+                outputs.add(&place, line);
             }
-            let job = Job::parse(text).map_err(|problem| refused(name, Some(line), problem))?;
-            if let Some(other) = names.insert(job.id.clone(), line) {
-                let problem = format!("the id {} is that of line {other} too; give it another", shown(&job.id));
-                return Err(refused(name, Some(line), problem));
-            }
-            for (option, output) in outputs_of(&job) {
-                let Some(place) = same_place(output) else { continue };
-                if let Some(other) = outputs.insert(place, line) {
-                    let problem = format!("{option}: {} is written by line {other} too; name another", shown(output));
-                    return Err(refused(name, Some(line), problem));
-                }
-            }
-            jobs.push(Job { line, ..job });
         }
-        match jobs.is_empty() {
-            true => Err(refused(name, None, "it holds no job; write one a line".to_owned())),
-            false => Ok(Self { jobs, bytes }),
+        list.count = ids.0.len();
+        match (ids.first_twice(), outputs.first_twice()) {
+            (Some(id), output) if output.is_none_or(|output| id.line <= output.line) => Err(list.refuse_id(name, id)),
+            (_, Some(output)) => Err(list.refuse_output(name, output)),
+            _ if list.count == 0 => Err(refused(name, None, "it holds no job; write one a line".to_owned())),
+            _ => Ok(list),
         }
+    }
+
+    /// The jobs of a slice, in their order.
+    pub fn jobs(&self, slice: Slice) -> impl Iterator<Item = Job> {
+        let lines = self.lines().enumerate().filter(move |(place, _)| slice.has(*place));
+        // Every line has been checked.
+        lines.filter_map(|(_, (line, text))| Job::parse(text).ok().map(|job| Job { line, ..job }))
     }
 
     /// Whether both ask for the same, in the same order.
     pub fn is_same(&self, other: &Self) -> bool {
-        let content = |list: &Self| -> Vec<(u64, String)> {
-            list.jobs.iter().map(|job| (job.line, job.sha256.clone())).collect()
-        };
-        content(self) == content(other)
+        fn content(list: &List) -> impl Iterator<Item = (u64, String)> {
+            list.jobs(Slice::WHOLE).map(|job| (job.line, job.sha256))
+        }
+        self.count == other.count && (self.bytes == other.bytes || content(self).eq(content(other)))
     }
 
     /// Keeps the list in the batch's folder, so that it is known later what belongs to it.
@@ -98,13 +98,104 @@ impl List {
             Err(_) => Ok(None),
         }
     }
+
+    /// Whether the list that a batch's folder keeps asks for the same; `None` where it keeps none.
+    ///
+    /// # Errors
+    ///
+    /// As [`List::kept`].
+    pub fn is_kept(&self, folder: &Path) -> Result<Option<bool>> {
+        // Nearly always the very same file, which need not be understood again.
+        if has_bytes(&folder.join(LIST_FILE), &self.bytes) {
+            return Ok(Some(true));
+        }
+        Ok(Self::kept(folder)?.map(|kept| kept.is_same(self)))
+    }
+
+    /// The lines that are not blank, with their numbers.
+    fn lines(&self) -> impl Iterator<Item = (u64, &[u8])> {
+        let text = self.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&self.bytes);
+        let lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
+        (1..).zip(lines).filter(|(_, text)| !text.is_empty())
+    }
+
+    /// What a line asks for that has been checked.
+    fn asked(&self, line: u32) -> Option<Asked> {
+        let (_, text) = self.lines().find(|(number, _)| *number == u64::from(line))?;
+        Asked::of_line(text).ok()
+    }
+
+    fn refuse_id(&self, name: &str, Twice { line, before, .. }: Twice) -> Error {
+        let id = self.asked(line).map_or_else(String::new, |asked| asked.id);
+        let problem = format!("the id {} is that of line {before} too; give it another", shown(&id));
+        refused(name, Some(line.into()), problem)
+    }
+
+    fn refuse_output(&self, name: &str, Twice { line, before, key }: Twice) -> Error {
+        let asked = self.asked(line);
+        let is_it = |(_, output): &(&str, &str)| same_place(output).is_some_and(|place| Seen::key(&place) == key);
+        // The last one, where both stand in this line.
+        let (option, output) = asked.iter().flat_map(Asked::outputs).filter(is_it).last().unwrap_or(("output", ""));
+        let problem = format!("{option}: {} is written by line {before} too; name another", shown(output));
+        refused(name, Some(line.into()), problem)
+    }
 }
 
-fn outputs_of(job: &Job) -> impl Iterator<Item = (&str, &str)> {
-    job.options.iter().filter_map(|(key, value)| match value {
-        JobValue::Text(output) if OUTPUTS.contains(&key.as_str()) => Some((key.as_str(), output.as_str())),
-        _ => None,
-    })
+/// Half of a SHA-256: no two of even a billion names share it by chance.
+type Key = [u8; 16];
+
+/// Names, or places of outputs, and the lines they stand in: 20 bytes each, however long they are.
+#[derive(Default)]
+struct Seen(Vec<(Key, u32)>);
+
+/// What is there twice.
+#[derive(Clone, Copy)]
+struct Twice {
+    line: u32,
+    before: u32,
+    key: Key,
+}
+
+impl Seen {
+    fn key(name: &str) -> Key {
+        let mut key = Key::default();
+        key.copy_from_slice(&Sha256::digest(name.as_bytes())[..16]);
+        key
+    }
+
+    /// A list has at most [`BATCH_BYTES`] lines, which 32 bits count.
+    fn add(&mut self, name: &str, line: u64) {
+        self.0.push((Self::key(name), u32::try_from(line).unwrap_or(u32::MAX)));
+    }
+
+    /// The first line with a name that stands in one before it, or in the same.
+    fn first_twice(mut self) -> Option<Twice> {
+        self.0.sort_unstable();
+        let twice = self.0.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        let first = twice.min_by_key(|pair| pair[1].1)?;
+        Some(Twice { line: first[1].1, before: first[0].1, key: first[1].0 })
+    }
+}
+
+/// Whether a file has just these bytes; of one that cannot be read nothing is said here.
+fn has_bytes(path: &Path, bytes: &[u8]) -> bool {
+    // A pipe would be waited for.
+    if !path.metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() == bytes.len() as u64) {
+        return false;
+    }
+    let Ok(mut file) = File::open(path) else { return false };
+    let (mut chunk, mut rest) = (vec![0; 1 << 16], bytes);
+    loop {
+        match file.read(&mut chunk) {
+            Ok(0) => return rest.is_empty(),
+            Ok(count) => match rest.strip_prefix(&chunk[..count]) {
+                Some(after) => rest = after,
+                None => return false,
+            },
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+            Err(_) => return false,
+        }
+    }
 }
 
 fn refused(name: &str, line: Option<u64>, problem: String) -> Error {
@@ -127,8 +218,8 @@ mod tests {
     fn a_mark_at_the_beginning_windows_lines_and_a_million_blank_ones_are_passed_over() {
         let text = format!("\u{feff}{}\r\n\r\n{}{}", job("a", "a.png"), "\n".repeat(1_000_000), job("b", "b.png"));
         let read = list(&text).unwrap();
-        let places: Vec<(&str, u64)> = read.jobs.iter().map(|job| (job.id.as_str(), job.line)).collect();
-        assert_eq!(places, [("a", 1), ("b", 1_000_003)]);
+        let places: Vec<(String, u64)> = read.jobs(Slice::WHOLE).map(|job| (job.id, job.line)).collect();
+        assert_eq!(places, [("a".to_owned(), 1), ("b".to_owned(), 1_000_003)]);
     }
 
     #[test]
@@ -138,6 +229,14 @@ mod tests {
         assert_eq!(twice, "jobs.jsonl: line 3: the id a is that of line 1 too; give it another");
         let twice = said(&format!("{}\n{}\n", job("a", "x/a.png"), job("b", "./x//a.png")));
         assert_eq!(twice, "jobs.jsonl: line 2: output: ./x//a.png is written by line 1 too; name another");
+        // The first such line of the list, whatever stands twice in it.
+        let lines = [job("a", "a.png"), job("b", "b.png"), job("c", "./a.png"), job("b", "d.png"), job("a", "e.png")];
+        let twice = said(&lines.join("\n"));
+        assert_eq!(twice, "jobs.jsonl: line 3: output: ./a.png is written by line 1 too; name another");
+        let twice = said(&[&lines[..2], &lines[3..]].concat().join("\n"));
+        assert_eq!(twice, "jobs.jsonl: line 3: the id b is that of line 2 too; give it another");
+        let twice = said(r#"{"id": "a", "command": "render", "output": "a", "dump": "./a"}"#);
+        assert_eq!(twice, "jobs.jsonl: line 1: dump: ./a is written by line 1 too; name another");
         assert_eq!(said("\n \r\n"), "jobs.jsonl: it holds no job; write one a line");
         let bad = said(&format!("{}\nnonsense\n", job("a", "a.png")));
         assert!(bad.starts_with("jobs.jsonl: line 2: this is no job ("), "{bad}");
@@ -151,5 +250,20 @@ mod tests {
         one.keep(folder.path()).unwrap();
         assert!(List::kept(folder.path()).unwrap().unwrap().is_same(&one));
         assert!(!list(&job("a", "b.png")).unwrap().is_same(&one));
+        assert_eq!(one.is_kept(folder.path()).unwrap(), Some(true));
+        // Blanks do not count, other outputs do, and as long as it is.
+        assert_eq!(list(&job("a", "a.png")).unwrap().is_kept(folder.path()).unwrap(), Some(true));
+        assert_eq!(list(&format!("{}\n", job("a", "b.png"))).unwrap().is_kept(folder.path()).unwrap(), Some(false));
+        assert_eq!(one.is_kept(&folder.path().join("other")).unwrap(), None);
+    }
+
+    #[test]
+    fn a_slice_has_its_own_jobs_with_the_lists_lines() {
+        let lines: Vec<String> = (0..10).map(|number| job(&number.to_string(), &format!("{number}.png"))).collect();
+        let read = list(&lines.join("\n\n")).unwrap();
+        let places: Vec<(String, u64)> =
+            read.jobs(Slice { count: 4, number: 3 }).map(|job| (job.id, job.line)).collect();
+        assert_eq!(places, [("2".to_owned(), 5), ("6".to_owned(), 13)]);
+        assert_eq!(read.count, 10);
     }
 }

@@ -4,10 +4,11 @@
 //! the slices of many machines merge into the bytes that one machine would have given. What differs, times, drivers and
 //! whatever holds a time, stands in `batch-times.jsonl`, also a line a job.
 
-use super::entry::{Entry, Failure, Run, Status, Written};
+use super::entry::{Failure, Outcome, Run, Status, Written};
 use super::job::{Job, JobCommand};
 use super::journal::Entries;
 use super::list::{LIST_FILE, List};
+use super::slice::Slice;
 use crate::error::{Error, Result};
 use crate::output::Staged;
 use crate::renderer::median;
@@ -19,6 +20,9 @@ pub const SUMMARY_FILE: &str = "batch-summary.jsonl";
 
 /// What is different every time, a line a job.
 pub const TIMES_FILE: &str = "batch-times.jsonl";
+
+/// So much is written at once.
+const WRITTEN_BYTES: usize = 1 << 20;
 
 /// What came of a batch.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -41,10 +45,6 @@ pub struct Summary {
     pub failures: Vec<Named>,
     /// Those that have not ended, in the list's order.
     pub missing_jobs: Vec<Named>,
-    #[serde(skip)]
-    rows: String,
-    #[serde(skip)]
-    times: String,
 }
 
 /// A command's jobs.
@@ -108,110 +108,86 @@ struct TimesRow<'a> {
 }
 
 impl Summary {
-    /// Reads a batch's folder, even while runs are at work in it.
+    /// Reads a batch's folder, even while runs are at work in it, and writes both files there, both or none.
     ///
     /// # Errors
     ///
-    /// [`Error::Batch`] where there is no batch, or what there is cannot be read.
-    pub fn of_folder(folder: &Path) -> Result<Self> {
+    /// [`Error::Batch`] where there is no batch, or what there is cannot be read; [`Error::Output`] when the files cannot be
+    /// written.
+    pub fn put_together(folder: &Path) -> Result<Self> {
         let list = List::kept(folder)?.ok_or_else(|| Error::Batch {
             path: folder.join(LIST_FILE).display().to_string(),
             line: None,
             problem: "there is no such file; name the folder of a batch".to_owned(),
         })?;
-        Ok(Self::new(&list, &Entries::read(folder)?))
+        let entries = Entries::read(folder)?;
+        let mut files = [Staged::begin(&folder.join(SUMMARY_FILE))?, Staged::begin(&folder.join(TIMES_FILE))?];
+        let mut texts = [String::new(), String::new()];
+        let summary = Self::new(&list, &entries, |lines| {
+            for ((text, line), file) in texts.iter_mut().zip(lines).zip(&mut files) {
+                text.push_str(&line);
+                if text.len() >= WRITTEN_BYTES {
+                    file.add(text.as_bytes())?;
+                    text.clear();
+                }
+            }
+            Ok(())
+        })?;
+        for (file, text) in files.iter_mut().zip(&texts) {
+            file.add(text.as_bytes())?;
+            file.settle()?;
+        }
+        files.into_iter().try_for_each(Staged::put_in_place)?;
+        Ok(summary)
     }
 
-    /// Of a list and what was written down.
-    pub fn new(list: &List, entries: &Entries) -> Self {
+    /// Of a list and what was written down. `take` is given each job's line of the summary and of the times, which is empty
+    /// for a job that has not ended.
+    ///
+    /// # Errors
+    ///
+    /// Those of `take`.
+    pub fn new(list: &List, entries: &Entries, mut take: impl FnMut([String; 2]) -> Result<()>) -> Result<Self> {
         let mut summary = Self {
-            jobs: list.jobs.len(),
+            jobs: list.count,
             done: 0,
             failed: 0,
             missing: 0,
-            outdated: entries.outdated(list),
+            outdated: 0,
             damaged: entries.damaged,
             commands: Vec::new(),
             failures: Vec::new(),
             missing_jobs: Vec::new(),
-            rows: String::new(),
-            times: String::new(),
         };
-        for (_, command) in JobCommand::ALL {
-            let jobs: Vec<Option<&Entry>> =
-                list.jobs.iter().filter(|job| job.command == command).map(|job| entries.of(job)).collect();
-            if !jobs.is_empty() {
-                summary.commands.push(CommandSummary::of(command, &jobs));
+        let mut commands = JobCommand::ALL.map(|(_, command)| Tally { command, ..Tally::default() });
+        let mut current = 0;
+        for job in list.jobs(Slice::WHOLE) {
+            let outcome = entries.of(&job).map(|entry| entry.outcome);
+            current += entries.count_of(&job);
+            if let Some(tally) = commands.iter_mut().find(|tally| tally.command == job.command) {
+                tally.add(outcome.as_ref());
             }
+            take(lines(&job, outcome.as_ref()))?;
+            summary.name(job, outcome);
         }
+        summary.outdated = entries.count() - current;
+        summary.commands = commands.into_iter().filter_map(Tally::sum).collect();
         let count = |of: fn(&CommandSummary) -> usize| summary.commands.iter().map(of).sum();
         (summary.done, summary.failed, summary.missing) =
             (count(|of| of.done), count(|of| of.failed), count(|of| of.missing));
-        for job in &list.jobs {
-            summary.add(job, entries.of(job));
-        }
-        summary
+        Ok(summary)
     }
 
-    fn add(&mut self, job: &Job, entry: Option<&Entry>) {
-        let problem = entry.and_then(|entry| entry.outcome.error.as_ref()).map(|error| error.problem.clone());
-        let named = |problem| Named { line: job.line, id: job.id.clone(), problem };
-        match entry.map(|entry| entry.outcome.status) {
+    /// Keeps the name of a job that is not done.
+    fn name(&mut self, job: Job, outcome: Option<Outcome>) {
+        let named = |problem| Named { line: job.line, id: job.id, problem };
+        match outcome {
             None => self.missing_jobs.push(named(String::new())),
-            Some(Status::Failed) => self.failures.push(named(problem.unwrap_or_default())),
-            Some(Status::Done) => {}
+            Some(Outcome { status: Status::Failed, error, .. }) => {
+                self.failures.push(named(error.map_or_else(String::new, |error| error.problem)));
+            }
+            Some(_) => {}
         }
-        let outcome = entry.map(|entry| &entry.outcome);
-        let outputs = outcome.map_or(&[][..], |outcome| &outcome.outputs);
-        let remarks = outcome.map_or(&[][..], |outcome| &outcome.remarks);
-        // A measurement says at first how long it will take.
-        let (same, differ) = if job.command == JobCommand::Measure { (&[][..], remarks) } else { (remarks, &[][..]) };
-        push_line(
-            &mut self.rows,
-            &Row {
-                line: job.line,
-                id: &job.id,
-                job: &job.sha256,
-                command: job.command,
-                status: match outcome.map(|outcome| outcome.status) {
-                    None => "missing",
-                    Some(Status::Done) => "done",
-                    Some(Status::Failed) => "failed",
-                },
-                error: outcome.and_then(|outcome| outcome.error.as_ref()),
-                remarks: same,
-                outputs: outputs
-                    .iter()
-                    .map(|file| {
-                        let is_same = !holds_times(job.command, &file.path);
-                        Output {
-                            path: &file.path,
-                            bytes: is_same.then_some(file.bytes),
-                            sha256: is_same.then_some(file.sha256.as_str()),
-                        }
-                    })
-                    .collect(),
-            },
-        );
-        if let Some(outcome) = outcome {
-            let outputs = outputs.iter().filter(|file| holds_times(job.command, &file.path)).collect();
-            push_line(
-                &mut self.times,
-                &TimesRow { line: job.line, id: &job.id, run: &outcome.run, remarks: differ, outputs },
-            );
-        }
-    }
-
-    /// Writes both files into the batch's folder, both or none.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Output`] when they cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<()> {
-        let summary = Staged::new(&folder.join(SUMMARY_FILE), self.rows.as_bytes())?;
-        let times = Staged::new(&folder.join(TIMES_FILE), self.times.as_bytes())?;
-        summary.put_in_place()?;
-        times.put_in_place()
     }
 
     /// Whether every job is done.
@@ -220,20 +196,79 @@ impl Summary {
     }
 }
 
-impl CommandSummary {
-    fn of(command: JobCommand, jobs: &[Option<&Entry>]) -> Self {
-        let ended = || jobs.iter().flatten().map(|entry| &entry.outcome);
-        let done = ended().filter(|outcome| outcome.status == Status::Done).count();
-        let times: Vec<f64> = ended().map(|outcome| outcome.run.milliseconds).collect();
+/// A command's jobs while they are counted.
+#[derive(Debug)]
+struct Tally {
+    command: JobCommand,
+    jobs: usize,
+    done: usize,
+    milliseconds: Vec<f64>,
+}
+
+impl Default for Tally {
+    fn default() -> Self {
+        Self { command: JobCommand::Render, jobs: 0, done: 0, milliseconds: Vec::new() }
+    }
+}
+
+impl Tally {
+    fn add(&mut self, outcome: Option<&Outcome>) {
+        self.jobs += 1;
+        if let Some(outcome) = outcome {
+            self.done += usize::from(outcome.status == Status::Done);
+            self.milliseconds.push(outcome.run.milliseconds);
+        }
+    }
+
+    /// `None` for a command that no job is.
+    fn sum(self) -> Option<CommandSummary> {
+        let Self { command, jobs, done, milliseconds: times } = self;
         let (sum, longest) = times.iter().fold((0.0, 0.0), |(sum, most), time: &f64| (sum + time, time.max(most)));
-        Self {
+        (jobs > 0).then(|| CommandSummary {
             command,
             done,
             failed: times.len() - done,
-            missing: jobs.len() - times.len(),
+            missing: jobs - times.len(),
             milliseconds: [sum, median(times).unwrap_or_default(), longest],
-        }
+        })
     }
+}
+
+/// A job's lines of the summary and of the times.
+fn lines(job: &Job, outcome: Option<&Outcome>) -> [String; 2] {
+    let outputs = outcome.map_or(&[][..], |outcome| &outcome.outputs);
+    let remarks = outcome.map_or(&[][..], |outcome| &outcome.remarks);
+    // A measurement says at first how long it will take.
+    let (same, differ) = if job.command == JobCommand::Measure { (&[][..], remarks) } else { (remarks, &[][..]) };
+    let row = Row {
+        line: job.line,
+        id: &job.id,
+        job: &job.sha256,
+        command: job.command,
+        status: match outcome.map(|outcome| outcome.status) {
+            None => "missing",
+            Some(Status::Done) => "done",
+            Some(Status::Failed) => "failed",
+        },
+        error: outcome.and_then(|outcome| outcome.error.as_ref()),
+        remarks: same,
+        outputs: outputs
+            .iter()
+            .map(|file| {
+                let is_same = !holds_times(job.command, &file.path);
+                Output {
+                    path: &file.path,
+                    bytes: is_same.then_some(file.bytes),
+                    sha256: is_same.then_some(file.sha256.as_str()),
+                }
+            })
+            .collect(),
+    };
+    let times = outcome.map_or_else(String::new, |outcome| {
+        let outputs = outputs.iter().filter(|file| holds_times(job.command, &file.path)).collect();
+        line_of(&TimesRow { line: job.line, id: &job.id, run: &outcome.run, remarks: differ, outputs })
+    });
+    [line_of(&row), times]
 }
 
 /// Whether a file of a command holds times: a measurement's rows and pages, a comparison's sheet.
@@ -246,15 +281,16 @@ fn holds_times(command: JobCommand, path: &str) -> bool {
     }
 }
 
-fn push_line(text: &mut String, row: &impl Serialize) {
+fn line_of(row: &impl Serialize) -> String {
     // Of text and finite numbers, which JSON has.
-    text.push_str(&serde_json::to_string(row).unwrap_or_default());
+    let mut text = serde_json::to_string(row).unwrap_or_default();
     text.push('\n');
+    text
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::entry::Outcome;
+    use super::super::entry::Entry;
     use super::*;
 
     #[test]
@@ -262,6 +298,7 @@ mod tests {
         let line = |id: usize| format!("{{\"id\":\"{id}\",\"command\":\"render\",\"output\":\"{id}.png\"}}\n");
         let text: String = (0..20).map(line).collect();
         let list = List::of_bytes(text.into_bytes(), "jobs.jsonl").unwrap();
+        let jobs: Vec<Job> = list.jobs(Slice::WHOLE).collect();
         let entry = |place: usize, milliseconds: f64| {
             let mut outcome = Outcome::failed("model", format!("no model {place}"));
             if !place.is_multiple_of(7) {
@@ -269,15 +306,24 @@ mod tests {
                 outcome.outputs.push(Written { path: format!("{place}.png"), bytes: 3, sha256: "00".to_owned() });
             }
             outcome.run.milliseconds = milliseconds;
-            serde_json::to_string(&Entry::new(&list.jobs[place], outcome)).unwrap() + "\n"
+            serde_json::to_string(&Entry::new(&jobs[place], outcome)).unwrap() + "\n"
         };
         let (mut one, mut other) = (Entries::default(), Entries::default());
-        (0..19).for_each(|place| one.add(entry(place, 1.0).as_bytes()));
-        (0..19).rev().for_each(|place| other.add(entry(place, place as f64).as_bytes()));
-        let (one, other) = (Summary::new(&list, &one), Summary::new(&list, &other));
-        assert_eq!(one.rows, other.rows);
-        assert_ne!(one.times, other.times);
-        assert_eq!((one.done, one.failed, one.missing, one.rows.lines().count()), (16, 3, 1, 20));
+        (0..19).for_each(|place| one.add(entry(place, 1.0).into_bytes()));
+        (0..19).rev().for_each(|place| other.add(entry(place, place as f64).into_bytes()));
+        let summary = |entries: &Entries| {
+            let mut texts = [String::new(), String::new()];
+            let summary = Summary::new(&list, entries, |lines| {
+                texts.iter_mut().zip(lines).for_each(|(text, line)| text.push_str(&line));
+                Ok(())
+            });
+            (summary.unwrap(), texts)
+        };
+        let ((one, [rows, times]), (other, [other_rows, other_times])) = (summary(&one), summary(&other));
+        assert_eq!(rows, other_rows);
+        assert_ne!(times, other_times);
+        assert_eq!((rows.lines().count(), times.lines().count()), (20, 19));
+        assert_eq!((one.done, one.failed, one.missing, one.outdated), (16, 3, 1, 0));
         assert_eq!(one.failures[1], Named { line: 8, id: "7".to_owned(), problem: "no model 7".to_owned() });
         assert_eq!(one.missing_jobs[0].id, "19");
         assert_eq!(other.commands[0].milliseconds, [171.0, 9.0, 18.0]);

@@ -15,10 +15,11 @@ mod work;
 use super::progress::Progress;
 use super::{Verdict, plain, print, print_json, say};
 use crew::Worker;
+use signals::Stop;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use tinta::batch::{Entries, Entry, Job, Journal, List, Outcome, Slice, Status, Summary};
+use tinta::batch::{Entry, Job, Journal, List, Outcome, Slice, Status, Summary, begun, done};
 use tinta::limits::REMARKS;
 use tinta::{Error, Result};
 
@@ -27,7 +28,10 @@ use tinta::{Error, Result};
 #[command(after_help = "\
 A job: {\"id\": \"cow-1\", \"command\": \"render\", \"model\": \"cow.obj\", \"output\": \"cow-1.png\", \"view\": \"90,15\"}
 where command is render, compare or measure, model a text or several in brackets, and every further key the long name of an \
-option of that command. Outputs lie in DIR; everything that is read is named as on the command line. docs/batch.md has the rest.")]
+option of that command. Outputs lie in DIR; everything that is read is named as on the command line. docs/batch.md has the rest.
+
+Exit codes: 0 all done, 1 a job failed, 2 could not be done, 75 another run is at work on the same slice, 130 and 143 stopped by \
+Ctrl-C and by SIGTERM with jobs to do.")]
 pub struct Arguments {
     /// List of jobs, a line of JSON each
     #[arg(value_name = "LIST", required_unless_present_any = ["summary", "worker"])]
@@ -62,7 +66,8 @@ pub struct Arguments {
     worker: bool,
 }
 
-/// Carries the list out, or sums up what was carried out; exit code 1 where a job failed or is missing.
+/// Carries the list out, or sums up what was carried out; exit code 1 where a job failed or is missing, 128 and the signal's
+/// number where a signal ended it with jobs to do.
 pub fn run(arguments: &Arguments) -> Result<Verdict> {
     if let Some(folder) = &arguments.summary {
         return sum_up(folder, arguments.json);
@@ -74,40 +79,44 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
     }
     let list = List::read(arguments.list.as_deref().ok_or_else(none)?)?;
     super::make_folder(folder)?;
-    let (journal, entries) = begin(arguments, folder, &list)?;
-    let mine: Vec<&Job> =
-        list.jobs.iter().enumerate().filter(|(place, _)| arguments.slice.has(*place)).map(|(_, job)| job).collect();
-    let left: Vec<&Job> = mine.iter().copied().filter(|job| !entries.has_done(job, folder)).collect();
+    let Begun { journal, jobs, left } = begin(arguments, folder, list)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let workers = arguments.jobs.map_or(cores, |jobs| jobs as usize).min(left.len());
-    let counts = carry_out(&left, folder, journal, workers, cores)?;
-    let before = mine.len() - left.len();
-    say(&in_words(&counts, mine.len(), before));
+    let stop = Stop::on_signals();
+    let counts = carry_out(&left, folder, journal, workers, cores, &stop)?;
+    say(&in_words(&counts, jobs, jobs - left.len()));
     if counts.ended() < left.len() {
-        return Err(Error::Output {
-            path: folder.display().to_string(),
-            problem: format!(
-                "stopped by a signal with {} of {} jobs to do; go on by --resume",
-                left.len() - counts.ended(),
-                mine.len()
-            ),
-        });
+        let to_do = left.len() - counts.ended();
+        say(&format!(
+            "tinta: {}: stopped by a signal with {to_do} of {jobs} jobs to do; go on by --resume",
+            folder.display()
+        ));
+        return Ok(Verdict::Stopped { signal: stop.signal() });
     }
     Ok(if counts.failed == 0 { Verdict::Good } else { Verdict::Different })
 }
 
-/// Opens the slice's file, once it is known that this list and this folder belong together.
-fn begin(arguments: &Arguments, folder: &Path, list: &List) -> Result<(Journal, Entries)> {
+/// What a run has before it.
+struct Begun {
+    journal: Journal,
+    /// How many jobs the slice has.
+    jobs: usize,
+    /// Those of them that are not done.
+    left: Vec<Job>,
+}
+
+/// Opens the slice's file, once it is known that this list and this folder belong together. Of the list only the jobs that
+/// are left stay in memory.
+fn begin(arguments: &Arguments, folder: &Path, list: List) -> Result<Begun> {
     let refuse = |problem: String| Err(Error::Output { path: folder.display().to_string(), problem });
     let slice = arguments.slice;
-    let before = Entries::read(folder)?;
-    let has_begun = before.slices.iter().any(|other| *other == slice || other.count != slice.count);
+    let has_begun = begun(folder).iter().any(|other| *other == slice || other.count != slice.count);
     if has_begun && !arguments.resume {
         return refuse("a batch was begun here; go on with it by --resume, or name another folder".to_owned());
     }
-    match List::kept(folder)? {
-        Some(kept) if kept.is_same(list) => {}
-        Some(_) if !(arguments.resume && slice == Slice::WHOLE) => {
+    match list.is_kept(folder)? {
+        Some(true) => {}
+        Some(false) if !(arguments.resume && slice == Slice::WHOLE) => {
             return refuse(
                 "a batch of another list was begun here; name another folder, or give the changed list with --resume and \
                  without --slice"
@@ -117,8 +126,13 @@ fn begin(arguments: &Arguments, folder: &Path, list: &List) -> Result<(Journal, 
         _ => list.keep(folder)?,
     }
     let journal = Journal::open(folder, slice)?;
-    // Again, for nobody else writes into this slice's file from now on.
-    Ok((journal, Entries::read(folder)?))
+    let jobs: Vec<Job> = list.jobs(slice).collect();
+    drop(list);
+    // Now, for nobody else writes into this slice's file any more.
+    let done = done(folder, slice, &jobs)?;
+    let count = jobs.len();
+    let left = jobs.into_iter().zip(done).filter(|(_, done)| !done).map(|(job, _)| job).collect();
+    Ok(Begun { journal, jobs: count, left })
 }
 
 /// How many jobs ended how.
@@ -143,15 +157,21 @@ struct Desk {
 }
 
 /// Does the jobs, so many at once; an error is one of the run itself, not of a job.
-fn carry_out(jobs: &[&Job], folder: &Path, journal: Journal, workers: usize, cores: usize) -> Result<Counts> {
-    let stopped = signals::stopped();
+fn carry_out(
+    jobs: &[Job],
+    folder: &Path,
+    journal: Journal,
+    workers: usize,
+    cores: usize,
+    stop: &Stop,
+) -> Result<Counts> {
     let progress = Progress::new("working", jobs.len() as u64);
     let desk = Mutex::new(Desk { journal, counts: Counts::default(), stop: None });
     let next = AtomicUsize::new(0);
     let lock = || desk.lock().unwrap_or_else(PoisonError::into_inner);
     let work = || {
         let mut worker = None;
-        while !stopped.load(Ordering::Relaxed) && lock().stop.is_none() {
+        while !stop.is_asked() && lock().stop.is_none() {
             let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
             let ended = Worker::of(&mut worker, folder, workers, cores).and_then(|worker| worker.carry_out(job));
             let mut desk = lock();
@@ -202,8 +222,7 @@ fn in_words(counts: &Counts, jobs: usize, before: usize) -> String {
 
 /// Puts together what all slices wrote down.
 fn sum_up(folder: &Path, json: bool) -> Result<Verdict> {
-    let summary = Summary::of_folder(folder)?;
-    summary.write(folder)?;
+    let summary = Summary::put_together(folder)?;
     if json {
         print_json(&summary)?
     } else {

@@ -1,26 +1,45 @@
 //! A run that is asked to stop ends the jobs it has begun and writes them down; asked again, it stops at once.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Set once the run is asked to stop, by Ctrl-C or by a scheduler.
-#[cfg(unix)]
-pub fn stopped() -> Arc<AtomicBool> {
-    use signal_hook::consts::{SIGINT, SIGTERM};
-    use signal_hook::flag::{register, register_conditional_shutdown};
-    let stopped = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        // In this order: the first signal finds the flag unset. Where a handler cannot be had, a signal ends the run as ever.
-        let _ = register_conditional_shutdown(signal, 128 + signal, stopped.clone());
-        let _ = register(signal, stopped.clone());
-    }
-    stopped
+/// Whether the run is asked to stop, by Ctrl-C or by a scheduler.
+pub struct Stop {
+    is_asked: Arc<AtomicBool>,
+    signal: Arc<AtomicUsize>,
 }
 
-/// Elsewhere a run ends at once, and what is written down stays.
-#[cfg(not(unix))]
-pub fn stopped() -> Arc<AtomicBool> {
-    Arc::default()
+impl Stop {
+    /// From now on.
+    #[cfg(unix)]
+    pub fn on_signals() -> Self {
+        use signal_hook::consts::{SIGINT, SIGTERM};
+        use signal_hook::flag::{register, register_conditional_shutdown, register_usize};
+        let stop = Self { is_asked: Arc::default(), signal: Arc::default() };
+        for signal in [SIGINT, SIGTERM] {
+            // In this order: the first signal finds the flag unset. Where a handler cannot be had, a signal ends the run as ever.
+            let _ = register_conditional_shutdown(signal, 128 + signal, stop.is_asked.clone());
+            let _ = register_usize(signal, stop.signal.clone(), signal.unsigned_abs() as usize);
+            let _ = register(signal, stop.is_asked.clone());
+        }
+        stop
+    }
+
+    /// Elsewhere a run ends at once, and what is written down stays.
+    #[cfg(not(unix))]
+    pub fn on_signals() -> Self {
+        Self { is_asked: Arc::default(), signal: Arc::default() }
+    }
+
+    /// Whether it is.
+    pub fn is_asked(&self) -> bool {
+        self.is_asked.load(Ordering::Relaxed)
+    }
+
+    /// The signal's number.
+    pub fn signal(&self) -> u8 {
+        u8::try_from(self.signal.load(Ordering::Relaxed)).unwrap_or_default()
+    }
 }
 
 /// In a worker: terminals and schedulers send their signals to it too, but its run says when it has done enough.

@@ -76,7 +76,9 @@ pub fn carry_out(job: &Job, folder: &Path, studio: &mut Studio) -> Outcome {
     let short = |sentence: String| speech::plain(&sentence).replace(&prefix, "").replace(&making, "");
     let mut outcome = match result {
         Ok((Verdict::Good, _)) => Outcome { status: Status::Done, error: None, ..Outcome::failed("", "") },
-        Ok((Verdict::Different, _)) => Outcome::failed("check", "a check found a difference; its remarks say which"),
+        Ok((Verdict::Different | Verdict::Stopped { .. }, _)) => {
+            Outcome::failed("check", "a check found a difference; its remarks say which")
+        }
         Err(ref error) => Outcome::failed(error.kind(), short(error.to_string())),
     };
     if matches!(result, Err(Error::ContextLost { .. })) {
