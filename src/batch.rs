@@ -4,6 +4,20 @@
 //! own file for every job that has ended ([`Journal`]), whatever machine it runs on. All those files together give a
 //! [`Summary`], which is the same bytes however the list was sliced: what differs from run to run, times and drivers, stands
 //! in a file of its own. Nothing here draws; `src/cli/batch.rs` carries the jobs out. How it is used: docs/batch.md.
+//!
+//! ```
+//! use tinta::batch::{List, Slice};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let file = tempfile::NamedTempFile::new()?;
+//! # let path = file.path();
+//! let job = r#"{"id": "ant", "command": "render", "model": "builtin:ant", "output": "ant.png"}"#;
+//! std::fs::write(path, job)?;
+//! let ids: Vec<String> = List::read(path)?.jobs(Slice::WHOLE).map(|job| job.id).collect();
+//! assert_eq!(ids, ["ant"]);
+//! # Ok(())
+//! # }
+//! ```
 
 mod entry;
 mod job;

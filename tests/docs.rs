@@ -166,9 +166,22 @@ fn commands(text: &str) -> Vec<(usize, String)> {
 }
 
 /// Subcommands of cargo that come with it, and those that scripts and documents say how to install.
-const CARGO: [&str; 14] = [
-    "add", "bench", "build", "check", "clippy", "deny", "doc", "fmt", "fuzz", "install", "package", "publish", "run",
+const CARGO: [&str; 15] = [
+    "add",
+    "bench",
+    "build",
+    "check",
+    "clippy",
+    "deny",
+    "doc",
+    "fmt",
+    "fuzz",
+    "install",
+    "package",
+    "publish",
+    "run",
     "test",
+    "uninstall",
 ];
 
 /// What is wrong with a cargo command; `None` for nothing.

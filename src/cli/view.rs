@@ -2,7 +2,7 @@
 
 use super::options::{ModelArguments, StyleArguments};
 use super::preset::PresetArguments;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::window::{
     Buffer, Layout, Orbit, Replay, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
@@ -88,6 +88,12 @@ pub fn run(arguments: &Arguments, started: Instant) -> Result<()> {
                 problem: "there is no such folder; name one".to_owned(),
             });
         }
+    }
+    // What is broken in a file is said in the window; a name that is nothing at all need not open one.
+    let is_missing = |model: &&String| !model.starts_with("builtin:") && !Path::new(model).exists();
+    if let Some(path) = arguments.models.iter().find(is_missing) {
+        let problem = "there is no such file; check the name".to_owned();
+        return Err(Error::Model { path: path.clone(), line: None, problem });
     }
     let replay = arguments.replay.as_deref().map(Replay::read).transpose()?;
     let viewer = ViewerOptions {

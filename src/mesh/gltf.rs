@@ -150,7 +150,11 @@ impl LeftOut {
             counted(self.primitives, "primitive of points or lines", "primitives of points or lines"),
             self.has_colors.then(|| "colours at vertices".to_owned()),
             counted(self.see_through, "material's transparency", "materials' transparency"),
-            counted(self.unread_pictures, "picture in a format not read", "pictures in formats not read"),
+            counted(
+                self.unread_pictures,
+                "picture in a format or at an address not read",
+                "pictures in formats or at addresses not read",
+            ),
             counted(self.animations, "animation (it is drawn as it rests)", "animations (it is drawn as it rests)"),
             counted(self.scenes, "other scene", "other scenes"),
             counted(self.cameras, "camera", "cameras"),

@@ -265,10 +265,22 @@ fn play(player: &mut Player, shown: &mut Shown, times: &mut Times, started: Inst
         shown.frame(false)?;
         times.free_frame_ms.push(milliseconds_since(start));
         player.is_free = !shown.viewer.is_at_rest();
+        if let Some(problem) = shown.viewer.problem.clone().filter(|_| !player.is_free) {
+            return Err(Error::setting(format!("--replay, frame {}", player.frame - 1), problem));
+        }
         return Ok(!player.is_free && player.frame > player.replay.last_frame());
     }
     let lines: Vec<_> = player.replay.lines(player.frame).cloned().collect();
-    lines.iter().filter_map(|line| line.event.clone()).for_each(|event| shown.event(event));
+    let frame = player.frame;
+    let refuse = |problem: String| Error::setting(format!("--replay, frame {frame}"), problem);
+    for event in lines.iter().filter_map(|line| line.event.clone()) {
+        let saves = event.saves();
+        shown.event(event);
+        // What saving says comes later.
+        if let Some(problem) = shown.viewer.state.message.clone().filter(|_| !saves) {
+            return Err(refuse(problem));
+        }
+    }
     player.is_free = lines.iter().any(|line| line.free);
     if lines.iter().any(|line| line.drag) {
         drag(player, shown, times)?;
@@ -286,8 +298,8 @@ fn play(player: &mut Player, shown: &mut Shown, times: &mut Times, started: Inst
     }
     let is_wanted = lines.iter().any(|line| line.window.is_some());
     if is_wanted {
-        // egui places a sheet that is new where it belongs only once it knows its size.
-        shown.frame(false)?;
+        // egui places a sheet that is new where it belongs only once it knows its size, and that of the texts in it.
+        (0..2).try_for_each(|_| shown.frame(false).map(drop))?;
     }
     let (window, _) = shown.frame(is_wanted)?;
     times.frame_ms.push(milliseconds_since(start));
@@ -301,6 +313,9 @@ fn play(player: &mut Player, shown: &mut Shown, times: &mut Times, started: Inst
         if let (Some(name), Some(picture)) = (&line.screenshot, shown.viewer.shown()) {
             write_rgba_png(&picture, Path::new(name))?;
         }
+    }
+    if let Some(problem) = shown.viewer.problem.clone().filter(|_| !player.is_free) {
+        return Err(refuse(problem));
     }
     player.frame += 1;
     Ok(!player.is_free && player.frame > player.replay.last_frame())

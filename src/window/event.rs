@@ -88,6 +88,13 @@ pub enum ViewerEvent {
     OpenPreset(String),
 }
 
+impl ViewerEvent {
+    /// Whether it writes a file.
+    pub(super) fn saves(&self) -> bool {
+        matches!(self, Self::SavePicture | Self::SaveLines | Self::SaveTurn | Self::SavePreset)
+    }
+}
+
 /// What the state cannot do by itself.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Effect {

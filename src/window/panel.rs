@@ -68,7 +68,10 @@ fn preset_file(ui: &mut Ui, events: &mut Vec<ViewerEvent>) {
         let mut path: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         ui.label("from a file");
         let wanted = egui::vec2(ui.available_width() - 60.0, ui.spacing().interact_size.y);
-        let field = ui.add_sized(wanted, egui::TextEdit::singleline(&mut path).hint_text(RichText::new("preset.toml").color(Color32::GRAY)));
+        let field = ui.add_sized(
+            wanted,
+            egui::TextEdit::singleline(&mut path).hint_text(RichText::new("preset.toml").color(Color32::GRAY)),
+        );
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         if (ui.small_button("open").clicked() || is_entered) && !path.trim().is_empty() {
             events.push(ViewerEvent::OpenPreset(path.trim().to_owned()));

@@ -6,7 +6,7 @@ use tinta::{Background, CameraSettings, Color, SceneSettings, Size};
 #[command(next_help_heading = "Scene")]
 pub struct SceneArguments {
     /// Size in pixels, or one number for a square [default: 512x512]
-    #[arg(long, value_name = "WxH", default_value = "512x512", hide_default_value = true)]
+    #[arg(long, value_name = "WxH", default_value = "512x512", hide_default_value = true, allow_hyphen_values = true)]
     pub size: Size,
 
     /// Colour behind the scene: a CSS name, #rrggbb or rgb(r,g,b) [default: white]
@@ -22,7 +22,7 @@ pub struct SceneArguments {
     color: Option<Color>,
 
     /// Repeat the models on a square grid, up to 10000 times [default: 1]
-    #[arg(long, value_name = "N", default_value = "1", hide_default_value = true)]
+    #[arg(long, value_name = "N", default_value = "1", hide_default_value = true, allow_hyphen_values = true)]
     pub copies: u32,
 }
 

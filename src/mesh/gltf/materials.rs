@@ -52,7 +52,7 @@ pub struct Materials {
     pub list: Vec<Material>,
     /// For each of them the texture coordinates of its picture.
     pub coordinates: Vec<Coordinates>,
-    /// Pictures that only an extension knows.
+    /// Pictures that only an extension knows, or that are neither files nor in the file.
     pub unread_pictures: usize,
 }
 
@@ -127,7 +127,7 @@ struct Images<'a> {
 }
 
 impl Images<'_> {
-    /// The picture of a texture; `None` where only an extension has it.
+    /// The picture of a texture; `None` where only an extension has it, or it lies on the net.
     fn of(&mut self, texture: &Info) -> Result<Option<Image>, String> {
         let index = texture.index;
         let texture =
@@ -154,9 +154,11 @@ impl Images<'_> {
                     self.room.checked_sub(bytes.len()).ok_or("its pictures share their bytes; export it again")?;
                 embedded(bytes.to_vec())
             }
-            (Some(uri), None) => match uri::parse(uri)? {
-                Uri::Data(bytes) => embedded(bytes),
-                Uri::File(name) => Image::File(name.into()),
+            (Some(uri), None) => match uri::parse(uri) {
+                Ok(Uri::Data(bytes)) => embedded(bytes),
+                Ok(Uri::File(name)) => Image::File(name.into()),
+                // A model without its picture is still one.
+                Err(_) => return Ok(None),
             },
             (None, None) => {
                 return Err(format!("its picture {number} is neither in it nor beside it; export it again"));
