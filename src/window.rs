@@ -11,7 +11,7 @@
 //! | `viewer.rs` | the state with the threads that work for it |
 //! | `draw.rs`, `drawers.rs`, `load.rs`, `watch.rs`, `price.rs`, `save.rs`, `report.rs` | the threads and what they tell |
 //! | `ui.rs`, `panel.rs`, `plot.rs`, `keys.rs` | widgets: they read the state and make events |
-//! | `app.rs`, `replay.rs` | the window itself, and recordings played in it |
+//! | `app.rs`, `replay.rs`, `player.rs` | the window itself, and recordings played in it |
 //!
 //! ```
 //! use tinta::window::{Orbit, Side, ViewerEvent, ViewerState};
@@ -34,6 +34,7 @@ mod keys;
 mod load;
 mod orbit;
 mod panel;
+mod player;
 mod plot;
 mod price;
 mod replay;
@@ -44,13 +45,14 @@ mod ui;
 mod viewer;
 mod watch;
 
-pub use app::{PlayedRecord, WindowOptions, open};
+pub use app::{WindowOptions, open};
 pub use buffer::{Buffer, buffers};
 pub use compose::composed;
 pub use draw::{Drawer, Drawing, Job};
 pub use event::{Effect, Layout, Save, Side, ViewerEvent};
 pub use load::Stage;
 pub use orbit::Orbit;
+pub use player::PlayedRecord;
 pub use price::{Point, Price, Priced};
 pub use replay::Replay;
 pub use state::{Content, Pane, ViewerState};

@@ -75,7 +75,7 @@ fn a_killed_run_goes_on_and_does_nothing_twice() {
         let known = std::fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
         let mut child = start(&[&["batch", &list, "-o", &out, "--jobs", "2"], resume].concat());
         // It takes signals by then.
-        wait_for_lines(&child, &journal, known + 2);
+        wait_for_lines(&child, &journal, known + 4);
         signal(name, child.id());
         let status = child.wait().unwrap();
         // What was written down before is not written again.

@@ -3,18 +3,15 @@
 //! Frames are painted when there is something new to see and at no other time.
 
 use super::event::{Effect, ViewerEvent};
+use super::player::{PlayedRecord, Player};
 use super::replay::Replay;
 use super::ui::{self, Textures};
 use super::viewer::{Viewer, ViewerOptions};
 use crate::error::{Error, Result};
 use crate::gl::context::window::{Shapes, WindowGl};
-use crate::picture::{Picture, Target, write_rgba_png};
-use crate::record::Summary;
-use crate::renderer::milliseconds_since;
+use crate::picture::Picture;
 use crate::scene::Size;
 use egui::{FontData, FontDefinitions, FontFamily, ViewportId};
-use serde::Serialize;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
@@ -34,21 +31,6 @@ pub struct WindowOptions {
     pub replay: Option<Replay>,
     /// When the program began, for the time to the first picture.
     pub started: Instant,
-}
-
-/// What a recording took.
-#[derive(Debug, Clone, Serialize)]
-pub struct PlayedRecord {
-    /// From the program's start to the first picture on the screen.
-    pub first_picture_ms: f64,
-    /// Each frame, from its events to its being shown; in frames that wait for their pictures with that.
-    pub frame_ms: Summary,
-    /// Frames that went on while something was being read or drawn.
-    pub free_frame_ms: Summary,
-    /// In drags, from one new picture on the screen to the next.
-    pub drag_frame_ms: Summary,
-    /// Pixels of the window to a point.
-    pub scale: f64,
 }
 
 /// Brightness of texts on the dark panels: egui's own is faint.
@@ -73,20 +55,12 @@ pub fn open(options: WindowOptions) -> Result<Option<PlayedRecord>> {
         let _ = proxy.send_event(News);
     };
     let viewer = Viewer::start(options.viewer.clone(), wake)?;
-    let player = options.replay.map(|replay| Player { replay, frame: 0, is_free: false, dragged: None });
-    let mut app = App {
-        viewer: Some(viewer),
-        shown: None,
-        size: options.size,
-        player,
-        started: options.started,
-        times: Times::default(),
-        result: Ok(()),
-    };
+    let player = options.replay.map(|replay| Player::new(replay, options.started));
+    let mut app = App { viewer: Some(viewer), shown: None, size: options.size, player, result: Ok(()) };
     event_loop.run_app(&mut app).map_err(no_window)?;
-    let App { player, times, result, .. } = app;
+    let App { player, result, .. } = app;
     result?;
-    Ok(player.map(|_| times.record()))
+    Ok(player.map(Player::record))
 }
 
 /// winit's message without the place in its source.
@@ -95,59 +69,26 @@ fn reason(message: &str) -> String {
     after_place.map_or(message, |(_, reason)| reason).trim_end_matches('.').to_owned()
 }
 
-/// A recording being played.
-struct Player {
-    replay: Replay,
-    frame: u64,
-    /// Whether frames go on without waiting for what they started.
-    is_free: bool,
-    /// In a drag: the number of the picture shown last, and when that was.
-    dragged: Option<(u64, Instant)>,
-}
-
-/// What frames took.
-#[derive(Default)]
-struct Times {
-    first_picture_ms: Option<f64>,
-    frame_ms: Vec<f64>,
-    free_frame_ms: Vec<f64>,
-    drag_frame_ms: Vec<f64>,
-    scale: f64,
-}
-
-impl Times {
-    fn record(self) -> PlayedRecord {
-        PlayedRecord {
-            first_picture_ms: self.first_picture_ms.unwrap_or_default(),
-            frame_ms: Summary::new(self.frame_ms),
-            free_frame_ms: Summary::new(self.free_frame_ms),
-            drag_frame_ms: Summary::new(self.drag_frame_ms),
-            scale: self.scale,
-        }
-    }
-}
-
 struct App {
     /// Until the window is there.
     viewer: Option<Viewer>,
     shown: Option<Shown>,
     size: Size,
     player: Option<Player>,
-    started: Instant,
-    times: Times,
     result: Result<()>,
 }
 
 /// What there is once there is a window.
-struct Shown {
-    viewer: Viewer,
+pub(super) struct Shown {
+    pub viewer: Viewer,
     textures: Textures,
     egui: egui_winit::State,
     // Before the window it paints into.
     gl: WindowGl,
     window: Window,
     title: String,
-    follows_window: bool,
+    /// Whether the drawing area is as large as the window leaves it.
+    pub follows_window: bool,
 }
 
 impl Shown {
@@ -191,7 +132,7 @@ impl Shown {
 
     /// Paints a frame and lets happen what was done in it. What the window then shows is returned if asked for, and how long
     /// nothing need be painted.
-    fn frame(&mut self, is_wanted: bool) -> Result<(Option<Picture>, Duration)> {
+    pub fn frame(&mut self, is_wanted: bool) -> Result<(Option<Picture>, Duration)> {
         let input = self.egui.take_egui_input(&self.window);
         let context = self.egui.egui_ctx().clone();
         let mut events = Vec::new();
@@ -219,7 +160,12 @@ impl Shown {
         Ok((picture, if has_events { Duration::ZERO } else { delay }))
     }
 
-    fn event(&mut self, event: ViewerEvent) {
+    /// Pixels of the window to a point.
+    pub fn scale(&self) -> f64 {
+        self.window.scale_factor()
+    }
+
+    pub fn event(&mut self, event: ViewerEvent) {
         if let Some(Effect::FullScreen(is_full)) = self.viewer.event(event) {
             self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
         }
@@ -237,7 +183,7 @@ impl App {
     fn redraw(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
         let Some(shown) = &mut self.shown else { return Ok(()) };
         if let Some(player) = &mut self.player {
-            let is_over = play(player, shown, &mut self.times, self.started)?;
+            let is_over = player.play(shown)?;
             if is_over {
                 event_loop.exit();
             } else {
@@ -257,93 +203,10 @@ impl App {
     }
 }
 
-/// Plays the next frame of a recording; whether it was the last.
-fn play(player: &mut Player, shown: &mut Shown, times: &mut Times, started: Instant) -> Result<bool> {
-    let start = Instant::now();
-    if player.is_free {
-        shown.viewer.take_reports()?;
-        shown.frame(false)?;
-        times.free_frame_ms.push(milliseconds_since(start));
-        player.is_free = !shown.viewer.is_at_rest();
-        if let Some(problem) = shown.viewer.problem.clone().filter(|_| !player.is_free) {
-            return Err(Error::setting(format!("--replay, frame {}", player.frame - 1), problem));
-        }
-        return Ok(!player.is_free && player.frame > player.replay.last_frame());
-    }
-    let lines: Vec<_> = player.replay.lines(player.frame).cloned().collect();
-    let frame = player.frame;
-    let refuse = |problem: String| Error::setting(format!("--replay, frame {frame}"), problem);
-    for event in lines.iter().filter_map(|line| line.event.clone()) {
-        let saves = event.saves();
-        shown.event(event);
-        // What saving says comes later.
-        if let Some(problem) = shown.viewer.state.message.clone().filter(|_| !saves) {
-            return Err(refuse(problem));
-        }
-    }
-    player.is_free = lines.iter().any(|line| line.free);
-    if lines.iter().any(|line| line.drag) {
-        drag(player, shown, times)?;
-        player.frame += 1;
-        return Ok(player.frame > player.replay.last_frame());
-    }
-    player.dragged = None;
-    if !player.is_free {
-        shown.viewer.rest()?;
-        if shown.follows_window {
-            // The panes take the window's size in the first of the frames that show a change of it.
-            shown.frame(false)?;
-            shown.viewer.rest()?;
-        }
-    }
-    let is_wanted = lines.iter().any(|line| line.window.is_some());
-    if is_wanted {
-        // egui places a sheet that is new where it belongs only once it knows its size, and that of the texts in it.
-        (0..2).try_for_each(|_| shown.frame(false).map(drop))?;
-    }
-    let (window, _) = shown.frame(is_wanted)?;
-    times.frame_ms.push(milliseconds_since(start));
-    if times.first_picture_ms.is_none() && shown.viewer.shown().is_some() {
-        times.first_picture_ms = Some(milliseconds_since(started));
-    }
-    for line in lines {
-        if let (Some(name), Some(picture)) = (&line.window, &window) {
-            Target::check(name, false)?.write(picture)?;
-        }
-        if let (Some(name), Some(picture)) = (&line.screenshot, shown.viewer.shown()) {
-            write_rgba_png(&picture, Path::new(name))?;
-        }
-    }
-    if let Some(problem) = shown.viewer.problem.clone().filter(|_| !player.is_free) {
-        return Err(refuse(problem));
-    }
-    player.frame += 1;
-    Ok(!player.is_free && player.frame > player.replay.last_frame())
-}
-
-/// A frame of a drag: waits until its picture is begun, and shows the newest one.
-fn drag(player: &mut Player, shown: &mut Shown, times: &mut Times) -> Result<()> {
-    let viewer = &mut shown.viewer;
-    let (number, since) = *player.dragged.get_or_insert_with(|| (viewer.picture_number, Instant::now()));
-    viewer.take_reports()?;
-    viewer.ask();
-    while !viewer.is_asked() {
-        viewer.wait()?;
-        viewer.ask();
-    }
-    let newest = viewer.picture_number;
-    if newest != number {
-        shown.frame(false)?;
-        times.drag_frame_ms.push(milliseconds_since(since));
-        player.dragged = Some((newest, Instant::now()));
-    }
-    Ok(())
-}
-
 impl ApplicationHandler<News> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         let Some(viewer) = self.viewer.take() else { return };
-        let follows_window = self.player.as_ref().is_none_or(|player| !player.replay.has_sizes());
+        let follows_window = self.player.as_ref().is_none_or(|player| !player.has_sizes());
         match Shown::open(event_loop, viewer, self.size, follows_window) {
             Ok(shown) => {
                 shown.window.request_redraw();
@@ -355,9 +218,7 @@ impl ApplicationHandler<News> for App {
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
         // While there is still a display.
-        if let Some(shown) = self.shown.take() {
-            self.times.scale = shown.window.scale_factor();
-        }
+        self.shown = None;
     }
 
     fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {

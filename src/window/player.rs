@@ -1,0 +1,174 @@
+//! Recordings played in a window, frame by frame, and what that took.
+
+use super::app::Shown;
+use super::replay::Replay;
+use crate::error::{Error, Result};
+use crate::picture::{Target, write_rgba_png};
+use crate::record::Summary;
+use crate::renderer::milliseconds_since;
+use serde::Serialize;
+use std::path::Path;
+use std::time::Instant;
+
+/// What a recording took.
+#[derive(Debug, Clone, Serialize)]
+pub struct PlayedRecord {
+    /// From the program's start to the first picture on the screen.
+    pub first_picture_ms: f64,
+    /// Each frame, from its events to its being shown; in frames that wait for their pictures with that.
+    pub frame_ms: Summary,
+    /// Frames that went on while something was being read or drawn.
+    pub free_frame_ms: Summary,
+    /// In drags, from one new picture on the screen to the next.
+    pub drag_frame_ms: Summary,
+    /// Pixels of the window to a point.
+    pub scale: f64,
+}
+
+/// A recording being played.
+pub struct Player {
+    replay: Replay,
+    frame: u64,
+    /// Whether frames go on without waiting for what they started.
+    is_free: bool,
+    /// In a drag: the number of the picture shown last, and when that was.
+    dragged: Option<(u64, Instant)>,
+    /// When the program began.
+    started: Instant,
+    times: Times,
+}
+
+/// What frames took.
+#[derive(Default)]
+struct Times {
+    first_picture_ms: Option<f64>,
+    frame_ms: Vec<f64>,
+    free_frame_ms: Vec<f64>,
+    drag_frame_ms: Vec<f64>,
+    scale: f64,
+}
+
+impl Player {
+    /// Before its first frame.
+    pub fn new(replay: Replay, started: Instant) -> Self {
+        Self { replay, frame: 0, is_free: false, dragged: None, started, times: Times::default() }
+    }
+
+    /// Whether it says how large the drawing area is.
+    pub fn has_sizes(&self) -> bool {
+        self.replay.has_sizes()
+    }
+
+    /// What it took.
+    pub fn record(self) -> PlayedRecord {
+        let Times { first_picture_ms, frame_ms, free_frame_ms, drag_frame_ms, scale } = self.times;
+        PlayedRecord {
+            first_picture_ms: first_picture_ms.unwrap_or_default(),
+            frame_ms: Summary::new(frame_ms),
+            free_frame_ms: Summary::new(free_frame_ms),
+            drag_frame_ms: Summary::new(drag_frame_ms),
+            scale,
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        !self.is_free && self.frame > self.replay.last_frame()
+    }
+
+    fn refused(frame: u64, problem: String) -> Error {
+        Error::setting(format!("--replay, frame {frame}"), problem)
+    }
+
+    /// Plays the next frame; whether it was the last.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for an event that cannot be and for what cannot be drawn, and what keeps pictures from being written.
+    pub fn play(&mut self, shown: &mut Shown) -> Result<bool> {
+        self.times.scale = shown.scale();
+        if self.is_free {
+            self.play_free(shown)?;
+            return Ok(self.is_over());
+        }
+        let start = Instant::now();
+        let lines: Vec<_> = self.replay.lines(self.frame).cloned().collect();
+        for event in lines.iter().filter_map(|line| line.event.clone()) {
+            let saves = event.saves();
+            shown.event(event);
+            // What saving says comes later.
+            if let Some(problem) = shown.viewer.state.message.clone().filter(|_| !saves) {
+                return Err(Self::refused(self.frame, problem));
+            }
+        }
+        if lines.iter().any(|line| line.drag) {
+            self.drag(shown)?;
+            self.frame += 1;
+            return Ok(self.is_over());
+        }
+        self.is_free = lines.iter().any(|line| line.free);
+        self.dragged = None;
+        if !self.is_free {
+            shown.viewer.rest()?;
+            if shown.follows_window {
+                // The panes take the window's size in the first of the frames that show a change of it.
+                shown.frame(false)?;
+                shown.viewer.rest()?;
+            }
+        }
+        let is_wanted = lines.iter().any(|line| line.window.is_some());
+        if is_wanted {
+            // egui places a sheet that is new where it belongs only once it knows its size, and that of the texts in it.
+            (0..2).try_for_each(|_| shown.frame(false).map(drop))?;
+        }
+        let (window, _) = shown.frame(is_wanted)?;
+        self.times.frame_ms.push(milliseconds_since(start));
+        if self.times.first_picture_ms.is_none() && shown.viewer.shown().is_some() {
+            self.times.first_picture_ms = Some(milliseconds_since(self.started));
+        }
+        for line in lines {
+            if let (Some(name), Some(picture)) = (&line.window, &window) {
+                Target::check(name, false)?.write(picture)?;
+            }
+            if let (Some(name), Some(picture)) = (&line.screenshot, shown.viewer.shown()) {
+                write_rgba_png(&picture, Path::new(name))?;
+            }
+        }
+        if let Some(problem) = shown.viewer.problem.clone().filter(|_| !self.is_free) {
+            return Err(Self::refused(self.frame, problem));
+        }
+        self.frame += 1;
+        Ok(self.is_over())
+    }
+
+    /// A frame that goes on with what the one before it has started.
+    fn play_free(&mut self, shown: &mut Shown) -> Result<()> {
+        let start = Instant::now();
+        shown.viewer.take_reports()?;
+        shown.frame(false)?;
+        self.times.free_frame_ms.push(milliseconds_since(start));
+        self.is_free = !shown.viewer.is_at_rest();
+        match shown.viewer.problem.clone().filter(|_| !self.is_free) {
+            Some(problem) => Err(Self::refused(self.frame - 1, problem)),
+            None => Ok(()),
+        }
+    }
+
+    /// A frame of a drag: waits until its picture is begun, and shows the newest one.
+    fn drag(&mut self, shown: &mut Shown) -> Result<()> {
+        let viewer = &mut shown.viewer;
+        let (number, since) = *self.dragged.get_or_insert_with(|| (viewer.picture_number, Instant::now()));
+        viewer.take_reports()?;
+        viewer.ask();
+        while !viewer.is_asked() {
+            viewer.wait()?;
+            viewer.ask();
+        }
+        let newest = viewer.picture_number;
+        if newest != number {
+            shown.frame(false)?;
+            self.times.drag_frame_ms.push(milliseconds_since(since));
+            self.dragged = Some((newest, Instant::now()));
+        }
+        Ok(())
+    }
+}
