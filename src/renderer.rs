@@ -31,7 +31,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Draws scenes. Keeps meshes, shaders and textures between pictures; belongs to the thread that made it.
+/// Draws scenes. Keeps meshes, shaders and textures between pictures; belongs to the thread that made it. Those of other
+/// threads that draw with the same software driver wait while it draws, because Mesa does not bear them at work at once.
 ///
 /// After an error it holds nothing and can go on with the next picture, unless its context is lost: then every further call
 /// says so again ([`Error::ContextLost`]), and a new renderer has to be made.

@@ -1,34 +1,33 @@
 //! Ways to an OpenGL 2.1 context without a window, tried in order, each attempt remembered.
 
 mod egl;
+mod info;
 mod osmesa;
+#[cfg(test)]
+mod tests;
+mod turns;
 #[cfg(feature = "window")]
 pub(crate) mod window;
 
 use super::Gl;
 use super::faults::{self, Fault, Faults};
-use super::legacy::{self, Legacy};
 use crate::error::{Error, Result};
 use crate::names::find;
 use crate::scene::Size;
-use glow::HasContext;
+use info::load_functions;
+pub use info::{ContextInfo, is_software};
 use serde::Serialize;
-use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, c_void};
+use std::mem::ManuallyDrop;
 use std::rc::Rc;
 use std::str::FromStr;
+use turns::{Turn, Turns};
 
 /// The OpenGL that contexts are asked for.
 const VERSION: (u8, u8) = (2, 1);
 
 /// One that no driver has, for [`Fault::ContextRefused`].
 const NO_VERSION: (u8, u8) = (9, 9);
-
-/// Fewest bits of the depth buffer: with fewer, surfaces of a fitted scene show through each other.
-const DEPTH_BITS: i32 = 24;
-
-/// Sub-pixel bits that OpenGL 2.1 promises.
-const LEAST_SUBPIXEL_BITS: i32 = 4;
 
 /// Which way to take.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -56,74 +55,6 @@ impl FromStr for Backend {
     }
 }
 
-/// Whether this GL_RENDERER draws on the processor.
-pub fn is_software(renderer: &str) -> bool {
-    let renderer = renderer.to_lowercase();
-    ["llvmpipe", "softpipe", "swrast", "swiftshader", "software", "gdi generic"].iter().any(|n| renderer.contains(n))
-}
-
-/// What a context says about itself.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ContextInfo {
-    /// `egl` or `osmesa`.
-    pub backend: &'static str,
-    /// The library, and the device where there is a choice.
-    pub device: String,
-    /// GL_VENDOR
-    pub vendor: String,
-    /// GL_RENDERER
-    pub renderer: String,
-    /// GL_VERSION
-    pub version: String,
-    /// GL_SHADING_LANGUAGE_VERSION
-    pub glsl_version: String,
-    /// Bits of the framebuffer's alpha, which holds the map's depth.
-    pub alpha_bits: i32,
-    /// Bits of the depth buffer.
-    pub depth_bits: i32,
-    /// Narrowest and widest line without smoothing, pixels.
-    pub aliased_line_width: [f32; 2],
-    /// Narrowest and widest smoothed line, pixels.
-    pub smooth_line_width: [f32; 2],
-    /// Smallest and largest point without smoothing, pixels.
-    pub aliased_point_size: [f32; 2],
-    /// Smallest and largest smoothed point, pixels.
-    pub smooth_point_size: [f32; 2],
-    /// Largest width and height of a texture, pixels.
-    pub largest_texture: u32,
-    /// How many textures a fragment shader can read; OpenGL 2.1 promises 2.
-    pub texture_units: u32,
-    /// Largest picture, pixels: the smallest of viewport, texture and surface limits.
-    pub largest_picture: Size,
-    /// Whether passes can draw into textures (ARB_framebuffer_object).
-    pub framebuffer_objects: bool,
-    /// Into how many of them at once (ARB_draw_buffers).
-    pub draw_buffers: u32,
-    /// Whether passes can draw into floating-point textures.
-    pub float_targets: bool,
-    /// Bits to which a vertex is placed within a pixel; OpenGL promises 4.
-    pub subpixel_bits: u32,
-    /// Whether passes can be timed on the device.
-    pub timer_queries: bool,
-}
-
-impl ContextInfo {
-    /// Whether it draws on the processor: then work done here before drawing takes from drawing's own time.
-    pub fn is_software(&self) -> bool {
-        is_software(&self.renderer)
-    }
-
-    /// Whether GL draws lines, and points to join them, this wide; what is narrower or wider it draws at the nearest width it
-    /// can.
-    pub fn draws_edges(&self, width_px: f32, is_smooth: bool) -> bool {
-        let ranges = match is_smooth {
-            false => [self.aliased_line_width, self.aliased_point_size],
-            true => [self.smooth_line_width, self.smooth_point_size],
-        };
-        ranges.iter().all(|[narrowest, widest]| (*narrowest..=*widest).contains(&width_px))
-    }
-}
-
 /// One way that was tried.
 #[derive(Debug, Clone, Serialize)]
 pub struct Attempt {
@@ -146,9 +77,11 @@ pub enum Outcome {
 
 /// A context with its loaded functions; current on this thread only between [`Context::enter`] and its guard's end.
 pub(crate) struct Context {
-    platform: Platform,
+    platform: ManuallyDrop<Platform>,
     gl: Rc<Gl>,
     faults: Option<Rc<Faults>>,
+    /// Of the contexts it takes turns with; `None` for those of hardware, which may all be at work at once.
+    turns: Option<&'static Turns>,
 }
 
 /// Why a context cannot be made current.
@@ -200,12 +133,19 @@ impl Candidate {
     fn open(self, fault: Option<Fault>) -> std::result::Result<Context, String> {
         let device = self.name();
         let version = if fault == Some(Fault::ContextRefused) { NO_VERSION } else { VERSION };
-        let (platform, backend) = match self {
-            Self::Egl(found) => (Platform::Egl(egl::EglContext::open(&found, version)?), "egl"),
-            Self::OsMesa => (Platform::OsMesa(osmesa::OsMesaContext::open(version)?), "osmesa"),
+        let (backend, turns) = match &self {
+            Self::Egl(_) => ("egl", &turns::OF_EGL),
+            Self::OsMesa => ("osmesa", &turns::OF_OSMESA),
+            Self::Missing { reason, .. } => return Err(reason.clone()),
+        };
+        // Whether the context is software's is known only when it is there.
+        let _turn = turns.take();
+        let platform = match self {
+            Self::Egl(found) => Platform::Egl(egl::EglContext::open(&found, version)?),
+            Self::OsMesa => Platform::OsMesa(osmesa::OsMesaContext::open(version)?),
             Self::Missing { reason, .. } => return Err(reason),
         };
-        Context::load(platform, backend, device, fault)
+        Context::load(platform, backend, device, fault, turns)
     }
 }
 
@@ -248,13 +188,21 @@ impl Context {
         backend: &'static str,
         device: String,
         fault: Option<Fault>,
+        turns: &'static Turns,
     ) -> std::result::Result<Self, String> {
         let faults = fault.map(|fault| Rc::new(Faults::new(fault)));
         platform.make_current().map_err(|failed| failed.reason)?;
-        let current = Current::new(&platform, faults.as_ref());
+        let current = Current::new(&platform, faults.as_ref(), None);
         let loaded = load_functions(&platform, faults.as_deref(), backend, device);
         drop(current);
-        Ok(Self { platform, gl: Rc::new(loaded?), faults })
+        let gl = loaded?;
+        let turns = gl.info.is_software().then_some(turns);
+        Ok(Self { platform: ManuallyDrop::new(platform), gl: Rc::new(gl), faults, turns })
+    }
+
+    /// Waits until no other context of the same screen is at work.
+    fn turn(&self) -> Option<Turn> {
+        self.turns.map(Turns::take)
     }
 
     pub fn info(&self) -> &ContextInfo {
@@ -277,16 +225,18 @@ impl Context {
                 renderer: self.info().renderer.clone(),
             });
         }
-        let resized = match &mut self.platform {
+        let _turn = self.turn();
+        let resized = match &mut *self.platform {
             Platform::Egl(context) => context.resize(size),
             Platform::OsMesa(context) => context.resize(size),
         };
         resized.map_err(|reason| Error::gl(format!("making a surface of {size} pixels"), reason))
     }
 
-    /// Makes the context current until the guard is dropped. Contexts of both platforms share one dispatch table inside
-    /// Mesa, so none is left current when another may be entered.
+    /// Makes the context current until the guard is dropped, after waiting for its turn: a thread has one such guard at most.
+    /// Contexts of both platforms share one dispatch table inside Mesa, so none is left current when another may be entered.
     pub fn enter(&self) -> Result<Current<'_>> {
+        let turn = self.turn();
         self.platform.make_current().map_err(|NotCurrent { is_lost, reason }| {
             let during = "making the context current";
             match is_lost {
@@ -294,19 +244,29 @@ impl Context {
                 false => Error::gl(during, reason),
             }
         })?;
-        Ok(Current::new(&self.platform, self.faults.as_ref()))
+        Ok(Current::new(&self.platform, self.faults.as_ref(), turn))
+    }
+}
+
+impl Drop for Context {
+    fn drop(&mut self) {
+        let _turn = self.turn();
+        // SAFETY: it is dropped here alone, and nothing uses it afterwards.
+        unsafe { ManuallyDrop::drop(&mut self.platform) };
     }
 }
 
 /// While it lives its context is current.
 pub(crate) struct Current<'a> {
     platform: &'a Platform,
+    /// Ends after the context has been released, below.
+    _turn: Option<Turn>,
 }
 
 impl<'a> Current<'a> {
-    fn new(platform: &'a Platform, faults: Option<&Rc<Faults>>) -> Self {
+    fn new(platform: &'a Platform, faults: Option<&Rc<Faults>>, turn: Option<Turn>) -> Self {
         faults::set_current(faults);
-        Self { platform }
+        Self { platform, _turn: turn }
     }
 }
 
@@ -345,101 +305,4 @@ impl Platform {
             Self::OsMesa(context) => context.largest_surface(),
         }
     }
-}
-
-/// The two numbers a GL_VERSION begins with.
-fn version_numbers(version: &str) -> Option<(u32, u32)> {
-    let mut numbers = version.split(['.', ' ']).map(|number| number.parse().ok());
-    Some((numbers.next()??, numbers.next()??))
-}
-
-/// Loads GL for the current context and asks it about itself; an error is why it cannot serve.
-fn load_functions(
-    platform: &Platform,
-    faults: Option<&Faults>,
-    backend: &'static str,
-    device: String,
-) -> std::result::Result<Gl, String> {
-    let load = |name: &CStr| {
-        let address = platform.proc_address(name);
-        faults.map_or(address, |faults| faults.load(name, address))
-    };
-    // SAFETY: the platform's context is current, and its loader returns GL functions of that context.
-    let mut legacy = unsafe { Legacy::load(load) }?;
-    // Before anything else is asked: glow takes for granted that a context knows its version.
-    // SAFETY: the context is current.
-    let version = unsafe { legacy.string(glow::VERSION) }.ok_or("it does not know its own version")?;
-    match version_numbers(&version) {
-        Some((major, minor)) if (major, minor) >= (2, 1) => {}
-        Some(_) => return Err(format!("it is OpenGL {version}, older than 2.1")),
-        None => return Err(format!("it calls itself {version:?}, which is no version of OpenGL")),
-    }
-    // SAFETY: as above.
-    let glow = unsafe { glow::Context::from_loader_function_cstr(load) };
-    let has = |name: &str| glow.supported_extensions().contains(name);
-    if has("GL_ARB_robustness") || has("GL_KHR_robustness") {
-        // SAFETY: as above; the context has the extension.
-        unsafe { legacy.load_robustness(load) };
-    }
-    let text = |name: u32| {
-        // SAFETY: the context is current; `name` is one of the string names of GL 2.1.
-        unsafe { legacy.string(name) }.unwrap_or_default()
-    };
-    let integer = |name: u32| {
-        // SAFETY: the context is current; `name` is a parameter of one integer.
-        unsafe { glow.get_parameter_i32(name) }
-    };
-    let range = |name: u32| {
-        let mut range = [0.0; 2];
-        // SAFETY: the context is current; `name` is a parameter of two numbers.
-        unsafe { glow.get_parameter_f32_slice(name, &mut range) };
-        range
-    };
-    let mut viewport = [0; 2];
-    // SAFETY: the context is current; the parameter has two integers.
-    unsafe { glow.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport) };
-    let texture = integer(glow::MAX_TEXTURE_SIZE);
-    let surface = platform.largest_surface();
-    let limit = |viewport: i32, surface: u32| (viewport.min(texture).max(0) as u32).min(surface);
-    let version = glow.version();
-    let version = (version.major, version.minor);
-    let timer_queries = version >= (3, 3) || has("GL_ARB_timer_query") || has("GL_EXT_timer_query");
-    let framebuffer_objects = version >= (3, 0) || has("GL_ARB_framebuffer_object");
-    let float_targets = framebuffer_objects && (version >= (3, 0) || has("GL_ARB_texture_float"));
-    let info = ContextInfo {
-        backend,
-        device,
-        vendor: text(glow::VENDOR),
-        renderer: text(glow::RENDERER),
-        version: text(glow::VERSION),
-        glsl_version: text(glow::SHADING_LANGUAGE_VERSION),
-        alpha_bits: integer(legacy::ALPHA_BITS),
-        depth_bits: integer(legacy::DEPTH_BITS),
-        aliased_line_width: range(legacy::ALIASED_LINE_WIDTH_RANGE),
-        smooth_line_width: range(legacy::SMOOTH_LINE_WIDTH_RANGE),
-        aliased_point_size: range(legacy::ALIASED_POINT_SIZE_RANGE),
-        smooth_point_size: range(legacy::SMOOTH_POINT_SIZE_RANGE),
-        largest_texture: texture.max(0) as u32,
-        texture_units: integer(glow::MAX_TEXTURE_IMAGE_UNITS).max(0) as u32,
-        largest_picture: Size { width: limit(viewport[0], surface.width), height: limit(viewport[1], surface.height) },
-        framebuffer_objects,
-        draw_buffers: integer(glow::MAX_DRAW_BUFFERS).max(0) as u32,
-        float_targets,
-        subpixel_bits: integer(glow::SUBPIXEL_BITS).max(LEAST_SUBPIXEL_BITS) as u32,
-        timer_queries,
-    };
-    let (live_objects, lost) = (Cell::new(0), Cell::new(None));
-    let gl = Gl { glow, legacy, info, live_objects, replaced_shaders: RefCell::default(), lost };
-    // A core profile answers the questions about alpha and lines with an error: it lacks what the papers use.
-    gl.check("asking the context about itself").map_err(|error| match error {
-        Error::ContextLost { what, .. } => format!("the context was lost at once ({what})"),
-        _ => "it is not a compatibility context".to_owned(),
-    })?;
-    if gl.info.alpha_bits < 8 || gl.info.depth_bits < DEPTH_BITS {
-        return Err(format!(
-            "its framebuffer has {} alpha and {} depth bits, fewer than 8 and {DEPTH_BITS}",
-            gl.info.alpha_bits, gl.info.depth_bits
-        ));
-    }
-    Ok(gl)
 }

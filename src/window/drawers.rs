@@ -1,7 +1,8 @@
 //! The threads that draw, and what each is at.
 //!
 //! One draws, until the picture changes faster than it can: then, where drawing is the processor's work, a second one takes
-//! every other picture. Mesa's software drivers compute vertices on one core, so that a second core would wait for them.
+//! every other picture. Mesa's software drivers compute vertices on one core, so that a second core would wait for them. Two
+//! contexts of one such driver take turns (see `gl`), so the second is OSMesa's where the first is EGL's.
 
 use super::draw::{self, Job, Order};
 use super::report::Reporter;
@@ -14,9 +15,14 @@ use std::thread::JoinHandle;
 /// Most threads that draw.
 const MOST: usize = 2;
 
+/// How the second one draws.
+const SECOND: Backend = Backend::OsMesa;
+
 /// The threads.
 pub struct Drawers {
     backend: Backend,
+    /// What the first thread's context says about itself.
+    first: Option<ContextInfo>,
     reporter: Reporter,
     threads: Vec<Thread>,
     /// Shaders that were replaced, for a thread that starts later.
@@ -43,13 +49,15 @@ impl Drawers {
     ///
     /// When there is no thread to be had.
     pub fn start(backend: Backend, reporter: Reporter) -> std::io::Result<Self> {
-        let mut drawers = Self { backend, reporter, threads: Vec::new(), shaders: None, may_grow: false, count: 0 };
+        let mut drawers =
+            Self { backend, first: None, reporter, threads: Vec::new(), shaders: None, may_grow: false, count: 0 };
         drawers.add()?;
         Ok(drawers)
     }
 
     fn add(&mut self) -> std::io::Result<()> {
-        let (orders, handle) = draw::start(self.backend, self.threads.len(), self.reporter.clone())?;
+        let backend = if self.threads.is_empty() { self.backend } else { SECOND };
+        let (orders, handle) = draw::start(backend, self.threads.len(), self.reporter.clone())?;
         if let Some(shaders) = &self.shaders {
             // One that has ended will be found to have when it is to draw.
             let _ = orders.send(Order::Shaders(shaders.clone()));
@@ -58,10 +66,15 @@ impl Drawers {
         Ok(())
     }
 
-    /// Takes what a thread's context says: whether a second thread is worth having.
+    /// Takes what a thread's context says: whether a second thread is worth having, and whether the second one that came draws
+    /// what the first does.
     pub fn opened(&mut self, thread: usize, context: &ContextInfo) {
         if thread == 0 {
-            self.may_grow = context.is_software() && cores() > 1;
+            let has_another = self.backend == Backend::Auto && context.backend == "egl";
+            self.may_grow = context.is_software() && has_another && cores() > 1;
+            self.first = Some(context.clone());
+        } else if self.first.as_ref().is_none_or(|first| !is_same_driver(first, context)) {
+            self.lost(thread);
         }
     }
 
@@ -127,6 +140,11 @@ impl Drawers {
 /// A thread has ended that should not have.
 #[derive(Debug)]
 pub struct Ended;
+
+/// Whether two contexts are those of the same driver, whose pictures are the same.
+fn is_same_driver(a: &ContextInfo, b: &ContextInfo) -> bool {
+    (&a.renderer, &a.version) == (&b.renderer, &b.version)
+}
 
 impl Thread {
     fn send(&self, order: Order) -> Result<(), Ended> {
