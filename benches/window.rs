@@ -24,10 +24,11 @@ const DRAG_FRAMES: usize = 150;
 const WARM_UP: usize = 30;
 
 /// What is turned: a name, and options.
-const DRAGS: [(&str, &[&str]); 5] = [
+const DRAGS: [(&str, &[&str]); 6] = [
     ("three-pass", &[]),
     ("three-pass --cull back", &["--cull", "back"]),
     ("mrt", &["--style", "mrt"]),
+    ("mrt --cull back", &["--style", "mrt", "--cull", "back"]),
     ("inking", &["--style", "inking"]),
     ("charcoal", &["--style", "charcoal"]),
 ];

@@ -20,6 +20,8 @@ mod external;
 mod faults;
 mod figures;
 mod gltf;
+mod gltf_files;
+mod gltf_refused;
 mod goldens;
 mod hiding;
 mod hostile;

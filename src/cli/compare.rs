@@ -1,7 +1,7 @@
 //! `tinta compare`: one scene in two styles, and their lines laid over each other.
 
 use super::models::load_meshes;
-use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
+use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments, ignored};
 use super::preset::{Given, PresetArguments};
 use super::studio::Studio;
 use std::path::{Path, PathBuf};
@@ -158,6 +158,7 @@ pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<
     ];
     let whole = sheet(&panels, &captions(&record, names, &arguments.models));
     output.write(&whole, panels)?;
+    ignored::remark(&given.as_given, &names).iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     if arguments.json { super::print_json(&record) } else { Ok(()) }
 }
 

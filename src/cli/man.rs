@@ -68,6 +68,12 @@ const EXIT_CODES: [(&str, &str); 3] = [
     ("2", "It could not be done; the reason is one sentence on standard error."),
 ];
 
+/// Further ones of `tinta batch`.
+const EXIT_CODES_OF_BATCH: [(&str, &str); 2] = [
+    ("75", "Another run is at work on the same slice; try again later."),
+    ("130 and 143", "Stopped by Ctrl-C or SIGTERM with jobs left to do."),
+];
+
 fn pages() -> Vec<Page> {
     let mut whole = super::Arguments::command().disable_help_subcommand(true);
     whole.build();
@@ -127,6 +133,9 @@ fn page(command: &Command, examples: &[String], commands: &[String]) -> String {
         as_it_stands(&mut rest, examples.iter().flat_map(|example| example.lines()));
     }
     listed(&mut rest, "EXIT STATUS", &EXIT_CODES);
+    if command.get_name() == "batch" {
+        EXIT_CODES_OF_BATCH.iter().for_each(|code| row(&mut rest, *code));
+    }
     if !WITHOUT_OPENGL.contains(&command.get_name()) {
         listed(&mut rest, "ENVIRONMENT", &ENVIRONMENT);
         if command.get_name() == "view" || !commands.is_empty() {

@@ -1,6 +1,7 @@
 //! Options that more than one command takes, in groups: camera, styles, models.
 
 mod charcoal;
+pub mod ignored;
 mod scene;
 mod style;
 

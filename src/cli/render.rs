@@ -13,7 +13,7 @@ use super::Verdict;
 use super::inputs::Inputs;
 use super::library::Library;
 use super::models::load_with_files;
-use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments};
+use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments, ignored};
 use super::preset::Given;
 use super::studio::Studio;
 use std::path::{Path, PathBuf};
@@ -122,6 +122,10 @@ pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<
     inputs.keep(&arguments.output)?;
     let preset = arguments.keep.preset_target(&arguments.output, &inputs)?;
     let verdict = draw(arguments, &given.options, studio)?;
+    // Said of what was drawn: a refusal is one sentence, and no other before it.
+    let is_lines = lines::format(arguments)?.is_some();
+    let style = if is_lines { "lines" } else { arguments.style_name().name() };
+    ignored::remark(&given.as_given, &[style]).iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     preset.map_or(Ok(()), |target| keep::save_preset(&target, &given.options)).map(|()| verdict)
 }
 

@@ -1,12 +1,13 @@
 //! Settings to options and back: every option of the command line that makes a picture, for every style.
 
+use super::super::options::ignored::is_ignored;
 use super::{Arguments, lines};
 use clap::{CommandFactory, Parser};
 use std::collections::BTreeSet;
 use std::path::Path;
 use tinta::preset::{OptionValue, Options, Preset, SHIPPED, of_lines, of_load, of_scene, of_show, of_style};
 use tinta::recipe::option_words;
-use tinta::{Picture, Size, Style, StyleName, SvgSettings, Target};
+use tinta::{LineSettings, Picture, Size, Style, StyleName, SvgSettings, Target};
 
 #[derive(Parser)]
 struct Line {
@@ -143,12 +144,8 @@ fn lines_written(arguments: &Arguments) -> Options {
 }
 
 fn assert_same_lines(arguments: &Arguments, again: &Arguments) {
-    let settings = |one: &Arguments| {
-        let drawn = lines::svg_settings(one, None);
-        (one.styles.line_settings().unwrap(), SvgSettings { title: String::new(), ..drawn })
-    };
-    let (lines, drawn) = settings(again);
-    let (expected_lines, expected) = settings(arguments);
+    let (lines, drawn) = lines_of(again);
+    let (expected_lines, expected) = lines_of(arguments);
     assert_eq!((lines, &drawn.background), (expected_lines, &SvgSettings::default().background));
     assert_eq!(SvgSettings { background: expected.background, ..drawn }, expected);
 }
@@ -209,6 +206,38 @@ fn every_option_of_a_picture_survives_being_written_and_read() {
         assert_eq!(options[name], OptionValue::Switch(true));
         assert_same_lines(&arguments, &parsed(&words(&options)));
     }
+}
+
+#[test]
+fn an_option_is_said_to_have_no_effect_exactly_where_it_changes_nothing() {
+    let file = picture_file();
+    let default_lines = lines_of(&parsed(&[]));
+    let mut ignored = 0;
+    for (name, value) in SAMPLES {
+        let arguments = parsed(&sample_words(name, value, file.path()));
+        // A style that refuses the option speaks for itself.
+        let changes = |style| arguments.styles.style(style).map_or(true, |changed| changed != Style::named(style));
+        if !is_ignored(name, &[]) {
+            assert!(!StyleName::ALL.iter().any(|(_, style)| changes(*style)), "--{name} belongs into the list");
+            continue;
+        }
+        for (style_name, style) in StyleName::ALL {
+            assert_eq!(is_ignored(name, &[style_name]), !changes(style), "--{name} in {style_name}");
+            ignored += usize::from(!changes(style));
+        }
+        // Exact is what lines have anyway, and they refuse the other rule.
+        if name != "silhouette" {
+            let is_changed = lines_of(&arguments) != default_lines;
+            assert_eq!(is_ignored(name, &["lines"]), !is_changed, "--{name} in lines");
+        }
+    }
+    assert!(ignored > 200, "{ignored}");
+}
+
+/// All that the style lines takes from the options of styles.
+fn lines_of(arguments: &Arguments) -> (LineSettings, SvgSettings) {
+    let drawn = lines::svg_settings(arguments, None);
+    (arguments.styles.line_settings().unwrap(), SvgSettings { title: String::new(), ..drawn })
 }
 
 #[test]

@@ -1,0 +1,165 @@
+//! glTF files that are refused, or read only when asked to, each with a sentence that says what to do.
+
+use crate::cli::{Folder, tinta};
+use crate::gltf_files::*;
+use crate::hostile::{one_line, refused};
+use serde_json::{Value, json};
+use tinta::mesh::read_bytes;
+use tinta::{LoadOptions, load};
+
+#[test]
+fn data_and_pictures_outside_the_models_folder_are_followed_only_when_asked_to() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("model")).unwrap();
+    let mut file = box_file();
+    file.push("images", json!({"uri": "../skin.png"}));
+    file.push("textures", json!({"source": 0}));
+    file.push("materials", json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}));
+    file.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    folder.file("box.bin", &file.data);
+    folder.file("skin.png", &picture());
+    let absolute = folder.path("box.bin");
+    for uri in ["../box.bin", "..%2Fbox.bin", &absolute] {
+        let model = folder.file("model/box.gltf", &file.with_buffer(Some(uri)));
+        refused(&tinta(&["edges", &model]), &["box.gltf: the data file", "outside its folder", "--allow-external"]);
+        let output = tinta(&["edges", &model, "--allow-external"]);
+        assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()), "{uri}");
+    }
+    let loaded = load(&folder.file("model/box.glb", &file.binary()), &LoadOptions::default()).unwrap();
+    assert!(!loaded.mesh.materials[0].has_texture());
+    one_line(&format!("{}\n", loaded.remarks.join(" ")), &["the picture ../skin.png lies outside", "--allow-external"]);
+    for (uri, sentence) in [
+        ("https://example.org/box.bin", "it names https://example.org/box.bin, and only files are read"),
+        ("file:///etc/passwd", "only files are read"),
+        ("no-such.bin", "its data file no-such.bin is not there"),
+        ("data:;base64,!!!!", "broken base64"),
+    ] {
+        refused(&tinta(&["edges", &folder.file("model/box.gltf", &file.with_buffer(Some(uri)))]), &[sentence]);
+    }
+    // Out of memory no file is read at all.
+    let bytes = file.with_buffer(Some(&absolute));
+    let message = read_bytes(&bytes, "m.gltf", b"", &LoadOptions { allow_external: true, ..LoadOptions::default() });
+    assert!(message.unwrap_err().to_string().contains("which is not read from here; export it as GLB"));
+}
+
+#[test]
+fn extensions_that_are_needed_and_not_read_are_named_with_what_to_do() {
+    let folder = Folder::new();
+    for (extension, remedy) in [
+        ("KHR_draco_mesh_compression", "gltf-transform copy"),
+        ("EXT_meshopt_compression", "gltf-transform copy"),
+        ("KHR_texture_basisu", "gltf-transform ktxdecompress"),
+        ("XX_of_mine", "export it without"),
+    ] {
+        let mut file = box_file();
+        file.json["extensionsRequired"] = json!(["KHR_materials_unlit", extension]);
+        let model = folder.file("box.glb", &file.binary());
+        refused(&tinta(&["edges", &model]), &["box.glb: it needs the extension", extension, remedy]);
+    }
+    let mut file = box_file();
+    file.json["extensionsUsed"] = json!(["KHR_materials_unlit", "XX_of_mine"]);
+    file.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}));
+    file.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(0);
+    let said = file.load().unwrap().remarks;
+    assert_eq!(said, ["file.gltf: not drawn: colours at vertices, 1 camera, the extension XX_of_mine"]);
+}
+
+#[test]
+fn files_that_lie_about_themselves_are_refused_in_a_sentence() {
+    let change = |pointer: &str, value: Value, sentence: &str| {
+        let mut file = box_file();
+        file.push("scenes", json!({"nodes": [0]}));
+        file.push("skins", json!({"joints": [0]}));
+        file.json["nodes"][0]["skin"] = json!(0);
+        file.push("materials", json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}));
+        file.push("textures", json!({"source": 0}));
+        file.push("images", json!({"uri": "a.png"}));
+        let (parent, key) = pointer.rsplit_once('/').unwrap();
+        file.json.pointer_mut(parent).unwrap()[key] = value;
+        let message = file.problem();
+        assert!(message.starts_with("file.gltf: ") && message.contains(sentence), "{pointer}: {message}");
+        assert!(message.len() < 300 && !message.contains('\n'), "{message}");
+    };
+    let huge = json!(u64::MAX);
+    change("/asset/version", json!("1.0"), "glTF 1.0; only glTF 2 is read");
+    change("/meshes/0/primitives/0/mode", json!(99), "primitives that glTF does not have");
+    change("/meshes/0/primitives/0/material", json!(7), "materials that are not in it");
+    change("/meshes/0/primitives/0/indices", json!(99), "its accessor 99 is not in it");
+    change("/meshes/0/primitives/0/attributes", json!({"NORMAL": 1}), "triangles without positions");
+    change("/meshes/0/primitives/0/attributes/NORMAL", json!(3), "numbers an element where 3 are needed");
+    change("/accessors/0/count", huge.clone(), "take more than 20 times");
+    change("/accessors/0/count", json!(25), "its accessor 0 reaches beyond its buffer view");
+    change("/accessors/1/count", json!(23), "has 23 elements where 24 are needed");
+    change("/accessors/0/byteOffset", huge.clone(), "its accessor 0 reaches beyond");
+    change("/accessors/0/componentType", json!(1), "numbers of a kind that glTF does not have");
+    change("/accessors/0/type", json!("VEC9"), "numbers of a kind that glTF does not have");
+    change("/accessors/3/count", huge.clone(), "take more than 20 times");
+    change("/bufferViews/0/byteLength", huge.clone(), "its buffer view 0 reaches beyond");
+    change("/bufferViews/0/byteOffset", huge.clone(), "its buffer view 0 reaches beyond");
+    change("/bufferViews/0/byteStride", json!(0), "its accessor 0 reaches beyond");
+    change("/bufferViews/0/byteStride", json!(11), "its accessor 0 reaches beyond");
+    change("/bufferViews/0/byteStride", huge, "its accessor 0 reaches beyond");
+    change("/bufferViews/0/buffer", json!(9), "its buffer 9 is not in it");
+    change("/nodes/0/mesh", json!(9), "its mesh 9 is not in it");
+    change("/nodes/0/children", json!([0]), "go round in a circle");
+    change("/nodes/0/children", json!([9]), "its node 9 is not in it");
+    change("/nodes", json!([{"children": [2]}, {"children": [2]}, {"mesh": 0}]), "its node 2 lies below two others");
+    change("/nodes", json!([{"mesh": 0}, {"children": [2]}, {"children": [1]}]), "go round in a circle");
+    change("/nodes/0/skin", json!(9), "its skin 9 is not in it");
+    change("/skins/0/joints", json!([9]), "not in it");
+    change("/scene", json!(9), "its scene 9 is not in it");
+    change("/scenes/0/nodes", json!([9]), "its node 9 is not in it");
+    change("/textures/0/source", json!(9), "its picture 9 is not in it");
+    change("/images", json!([{}]), "its picture 0 is neither in it nor beside it");
+    change("/materials/0/pbrMetallicRoughness/baseColorTexture/index", json!(9), "its texture 9 is not in it");
+    change("/meshes", json!("none"), "its JSON is not glTF's");
+    change("/nodes", json!([]), "its node 0 is not in it");
+}
+
+#[test]
+fn glb_that_is_cut_off_anywhere_or_lies_about_its_length_is_refused() {
+    let whole = box_file().binary();
+    let message = |bytes: &[u8]| {
+        let read = read_bytes(bytes, "cut.glb", b"", &LoadOptions::default());
+        read.map(|loaded| loaded.mesh.triangles.len()).unwrap_err().to_string()
+    };
+    for length in (4..whole.len()).step_by(13) {
+        let message = message(&whole[..length]);
+        assert!(message.starts_with("cut.glb: its header") && !message.contains('\n'), "{length}: {message}");
+    }
+    let with = |place: usize, number: u32| {
+        let mut bytes = whole.clone();
+        bytes[place..place + 4].copy_from_slice(&number.to_le_bytes());
+        message(&bytes)
+    };
+    assert!(with(4, 1).contains("GLB of version 1"));
+    for length in [0, 11, u32::MAX] {
+        assert!(with(8, length).contains(&format!("its header promises {length} bytes")), "{length}");
+    }
+    assert!(with(12, u32::MAX).contains("chunks is cut off"));
+    assert!(with(16, 7).contains("no chunk of JSON"));
+}
+
+#[test]
+fn nodes_that_repeat_a_mesh_beyond_reason_and_trees_beyond_depth_are_refused_at_once() {
+    // Each of 30,000 nodes shows a box: 360,000 triangles out of 400 KB are drawn, 100 times as many are not.
+    let mut file = File::new();
+    let mesh = add_box(&mut file);
+    file.json["nodes"] = Value::Array(vec![json!({"mesh": mesh}); 30_000]);
+    let primitives = file.json["meshes"][0]["primitives"].as_array_mut().unwrap();
+    *primitives = vec![primitives[0].clone(); 100];
+    let message = file.problem();
+    assert!(message.contains("its nodes draw 720000 vertices and 36000000 triangles"), "{message}");
+
+    let mut file = File::new();
+    let mesh = add_box(&mut file);
+    let mut nodes: Vec<Value> = (1..5000).map(|child| json!({"children": [child]})).collect();
+    nodes.push(json!({"mesh": mesh}));
+    file.json["nodes"] = Value::Array(nodes);
+    assert!(file.problem().contains("more than 4096 levels deep"));
+
+    // Two bytes an object: refused before they are read.
+    let many = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{}{{}}]}}", "{},".repeat(200_000));
+    let message = read_bytes(many.as_bytes(), "many.gltf", b"", &LoadOptions::default()).unwrap_err().to_string();
+    assert!(message.contains("holds 200003 objects"), "{message}");
+}
