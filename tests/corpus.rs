@@ -50,3 +50,45 @@ fn the_corpus_is_small() {
     let bytes: u64 = files.map(|file| file.unwrap().metadata().unwrap().len()).sum();
     assert!((10_000..600_000).contains(&bytes), "{bytes} bytes");
 }
+
+#[test]
+fn the_fuzz_targets_name_every_crate_that_the_program_uses() {
+    let dependencies = |file: &str| -> Vec<String> {
+        let text = std::fs::read_to_string(root().join(file)).unwrap();
+        let sections = text.split("\n[").filter(|section| section.lines().next().unwrap().ends_with("dependencies]"));
+        let lines = sections.filter(|section| !section.starts_with("dev-")).flat_map(|section| section.lines().skip(1));
+        lines.filter_map(|line| line.split_once(" = ")).map(|(name, _)| name.to_owned()).collect()
+    };
+    let fuzz = dependencies("fuzz/Cargo.toml");
+    let mut folders = vec![root().join("src/cli")];
+    let mut text = std::fs::read_to_string(root().join("src/cli.rs")).unwrap();
+    while let Some(folder) = folders.pop() {
+        for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            match path.is_dir() {
+                true => folders.push(path),
+                // Tests are not built into the targets, neither those in files of their own nor those at a file's end.
+                false
+                    if ["tests.rs", "documents.rs", "option_pictures.rs", "round_trip.rs"]
+                        .iter()
+                        .any(|name| path.ends_with(name)) => {}
+                false => {
+                    let source = std::fs::read_to_string(path).unwrap();
+                    text.push_str(source.split("#[cfg(test)]\nmod tests {").next().unwrap());
+                }
+            }
+        }
+    }
+    let used = |name: &String| {
+        let name = name.replace('-', "_");
+        text.lines().any(|line| {
+            let line = line.trim_start().strip_prefix("pub ").unwrap_or(line.trim_start());
+            line.starts_with(&format!("use {name}::"))
+                || (!line.starts_with("//") && line.contains(&format!(" {name}::")))
+        })
+    };
+    let wanted: Vec<String> = dependencies("Cargo.toml").into_iter().filter(used).collect();
+    assert!(wanted.len() >= 8, "{wanted:?}");
+    for name in wanted {
+        assert!(fuzz.contains(&name), "fuzz/Cargo.toml does not name {name}, which src/cli/ uses");
+    }
+}
