@@ -2,8 +2,9 @@
 //!
 //! Mesa's llvmpipe has one screen for all contexts of a device, and one for all of OSMesa. Before it reads or replaces a
 //! texture it looks through what every context of that screen has yet to draw, without a lock and while their threads free it
-//! (`lp_scene_is_resource_referenced`; seen in 22.3): two at work at once end in a segmentation fault, in four of seven runs
-//! of 20 s that did nothing else. EGL's screen and OSMesa's do not know of each other.
+//! (`lp_scene_is_resource_referenced`; seen in 22.3): two of EGL's at work at once ended in a segmentation fault in four of
+//! seven runs of 20 to 30 s that did nothing else; two of OSMesa's, in three runs, in none. EGL's
+//! screen and OSMesa's do not know of each other.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
