@@ -149,7 +149,7 @@ fn lines_a_million_units_away_are_the_same_as_far_as_numbers_reach() {
 }
 
 /// The mesh with its positions and faces in another order, each face beginning at another corner.
-fn shuffled(mesh: &Mesh, random: &mut Random) -> Mesh {
+pub fn shuffled(mesh: &Mesh, random: &mut Random) -> Mesh {
     let mut order = |count: usize| {
         let mut order: Vec<usize> = (0..count).collect();
         (1..count).rev().for_each(|last| order.swap(last, (random.number() * (last + 1) as f64) as usize));

@@ -22,8 +22,10 @@ pub(super) struct Faces {
     pub numbers: Vec<u32>,
     /// Places of those that reach through the near plane, ascending.
     pub cut_by_near: Vec<u32>,
-    /// Numbers of those that are seen edge-on, ascending.
+    /// Numbers of those that are seen edge-on, or may be, ascending.
     pub edge_on: Vec<u32>,
+    /// Of these, those whose direction is no matter of rounding.
+    pub edge_on_for_sure: Vec<u32>,
     /// By their boxes of pixels and keys.
     pub tree: BoxTree,
     /// For each place the position that it shares with very many faces, or [`NO_FAMILY`]; empty where there is none. The boxes
@@ -40,6 +42,8 @@ pub(super) struct Probe {
     pub view: DVec3,
     pub px: DVec2,
     pub key: f64,
+    /// A unit vector across the line's image, parallel to the picture, in the eye's space.
+    pub aside: DVec3,
     /// The line's length, file units.
     pub line_length: f64,
     /// The distance below which positions of the line's object count as one, file units.
@@ -111,7 +115,8 @@ impl Faces {
         if !hubs.is_empty() {
             tree.set_families(&hubs);
         }
-        Self { positions, triangles, cut_by_near, edge_on: sorted.edge_on, tree, hubs, numbers, welds }
+        let Sorted { edge_on, edge_on_for_sure, .. } = sorted;
+        Self { positions, triangles, cut_by_near, edge_on, edge_on_for_sure, tree, hubs, numbers, welds }
     }
 
     /// The distance below which positions of the object with this one count as one, file units.
@@ -129,26 +134,35 @@ impl Faces {
         self.triangles[face as usize].map(|corner| self.positions[corner as usize])
     }
 
-    /// Whether any face hides a point.
-    pub fn hide(&self, space: &Space, probe: &Probe) -> bool {
+    /// Whether a line is seen at a point: on one side of it at least, no face hides what is beside it at its own depth.
+    pub fn leave_open(&self, space: &Space, probe: &Probe) -> bool {
         let tie_px = space.tie_px(-probe.view.z);
         let column = Box3::new((probe.px - tie_px).extend(f64::NEG_INFINITY), (probe.px + tie_px).extend(probe.key));
         let tie = tie_px / space.px_per_unit(-probe.view.z);
-        self.tree.any(&column, |face| self.hides(space, face, probe, tie))
+        let mut is_hidden = [false; 2];
+        !self.tree.any(&column, |face| {
+            let hidden = self.hides(space, face, probe, tie);
+            is_hidden = [is_hidden[0] || hidden[0], is_hidden[1] || hidden[1]];
+            is_hidden == [true; 2]
+        })
     }
 
-    /// Whether a face is between a point and the eye: the point lies clearly behind its plane, its image in the face's or,
-    /// within `tie` file units, on its rim, and where the ray passes the face is not nearer than the near plane.
-    fn hides(&self, space: &Space, face: u32, probe: &Probe, tie: f64) -> bool {
+    /// On which sides of a line at a point a face is between it and the eye: the point lies clearly behind the face's plane,
+    /// its image, moved to that side by as little as one likes, in the face's, and where the ray passes the face is not nearer
+    /// than the near plane. The image lies on the face's rim if it is within `tie` file units of it: then the side decides.
+    fn hides(&self, space: &Space, face: u32, probe: &Probe, tie: f64) -> [bool; 2] {
+        /// Sine of the angle below which a side of the face runs straight across the line, where moving aside stays on it.
+        const ACROSS: f64 = 1e-9;
+        const NEITHER: [bool; 2] = [false; 2];
         let numbers = self.triangles[face as usize];
         let own_ends = match probe.own {
-            Own::Faces(own) if own.contains(&face) => return false,
+            Own::Faces(own) if own.contains(&face) => return NEITHER,
             Own::Faces(_) => [u32::MAX; 2],
             Own::Edge(ends) => ends,
         };
         let is_own = numbers.map(|number| own_ends.contains(&number));
         if is_own.iter().filter(|is_own| **is_own).count() == 2 {
-            return false;
+            return NEITHER;
         }
         let [a, b, c] = self.corners(face);
         let (ab, ac, bc) = (b - a, c - a, c - b);
@@ -163,21 +177,30 @@ impl Faces {
         };
         // Behind the plane, and farther from it than what counts as touching.
         if above.abs() <= contact || (above > 0.0) == (towards_eye > 0.0) || towards_eye == 0.0 {
-            return false;
+            return NEITHER;
         }
         let corners = [(a, is_own[0]), (b, is_own[1]), (c, is_own[2])];
-        let is_inside = (0..3).all(|side| {
+        let mut is_inside = [true; 2];
+        for side in 0..3 {
             let ((from, from_is_own), (to, to_is_own)) = (corners[side], corners[(side + 1) % 3]);
             let (turn, length) = space.turn(from, to, probe.view);
             // Counter-clockwise, seen from the front.
-            let inward = if towards_eye > 0.0 { turn } else { -turn };
+            let sign = if towards_eye > 0.0 { 1.0 } else { -1.0 };
             // A side that meets the line's end may run beside it at any distance: there only rounding is forgiven.
-            let forgiven = if from_is_own || to_is_own { 4.0 * space.noise } else { tie };
-            inward >= 0.0 || -inward <= forgiven * length
-        });
-        is_inside
-            && (self.cut_by_near.binary_search(&face).is_err()
-                || self.hit_depth(space, [a, normal], probe) >= space.near)
+            let forgiven = if from_is_own || to_is_own { 4.0 * space.noise } else { tie } * length;
+            if sign * turn < -forgiven {
+                return NEITHER;
+            }
+            if sign * turn <= forgiven {
+                let inward = sign * space.turn_aside(from, to, probe.aside);
+                is_inside = [is_inside[0] && inward >= -ACROSS * length, is_inside[1] && -inward >= -ACROSS * length];
+            }
+        }
+        let is_beyond_near = || {
+            self.cut_by_near.binary_search(&face).is_err()
+                || self.hit_depth(space, [a, normal], probe) >= space.near
+        };
+        if is_inside != NEITHER && is_beyond_near() { is_inside } else { NEITHER }
     }
 
     /// The depth at which the ray from the eye to a point passes a plane through a point with a normal.
@@ -199,6 +222,7 @@ struct Sorted {
     numbers: Vec<u32>,
     cut_by_near: Vec<u32>,
     edge_on: Vec<u32>,
+    edge_on_for_sure: Vec<u32>,
 }
 
 impl Sorted {
@@ -207,6 +231,7 @@ impl Sorted {
         self.numbers.extend(other.numbers);
         self.cut_by_near.extend(other.cut_by_near);
         self.edge_on.extend(other.edge_on);
+        self.edge_on_for_sure.extend(other.edge_on_for_sure);
     }
 
     fn add(&mut self, number: u32, space: &Space, corners: [DVec3; 3], images: impl Fn() -> [(DVec2, f64); 3]) {
@@ -214,8 +239,14 @@ impl Sorted {
         let normal = (b - a).cross(c - a);
         let to_eye = space.to_eye(a);
         let height = normal.dot(to_eye);
-        if height * height <= EDGE_ON * EDGE_ON * normal.length_squared() * to_eye.length_squared() {
+        let (area, distance) = (normal.length_squared(), to_eye.length_squared());
+        let square = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
+        let noise = 4.0 * space.noise;
+        if height * height <= (EDGE_ON * EDGE_ON * area + noise * noise * square) * distance {
             self.edge_on.push(number);
+            if height * height <= EDGE_ON * EDGE_ON * area * distance && area > (CONTACT * square).powi(2) {
+                self.edge_on_for_sure.push(number);
+            }
         }
         let depths = corners.map(|corner| -corner.z);
         let (nearest, farthest) = (depths[0].min(depths[1]).min(depths[2]), depths[0].max(depths[1]).max(depths[2]));

@@ -72,11 +72,13 @@ pub(super) fn edge_features(
         let list = edges.list();
         let classes = edges.classes(settings.crease_angle, asked(settings));
         let silhouette = edges.silhouette(scene.eye(part.object, SilhouetteRule::Exact), SilhouetteRule::Exact);
-        let edge_on = edges_of_edge_on_faces(faces, list, first_face..first_face + part.mesh.triangles.len() as u32);
+        let numbers = first_face..first_face + part.mesh.triangles.len() as u32;
+        let edge_on = edges_of_edge_on_faces(faces, list, numbers.clone());
         for edge in merged(merged(classes.marked.iter().copied(), silhouette.iter().copied()), edge_on.iter().copied())
         {
             let mut of_edge = classes.of_edges[edge as usize];
-            if silhouette.binary_search(&edge).is_ok() {
+            let is_beside_edge_on = || edge_on.binary_search(&edge).is_ok() && ends_edge_on(faces, list, edge, &numbers);
+            if silhouette.binary_search(&edge).is_ok() || is_beside_edge_on() {
                 of_edge = of_edge.or(ClassSet::of(&[Class::Silhouette]));
             }
             let class = of_edge.and(settings.classes).first();
@@ -156,6 +158,13 @@ fn edges_of_edge_on_faces(faces: &Faces, list: &EdgeList, numbers: std::ops::Ran
     } else {
         Vec::new()
     }
+}
+
+/// Whether of an edge's two faces one is seen edge-on and the other is not: to an eye just beside this one the first shows its
+/// front or its back, whatever the last digit says of it here, and to one of both the edge is silhouette.
+fn ends_edge_on(faces: &Faces, list: &EdgeList, edge: u32, numbers: &std::ops::Range<u32>) -> bool {
+    let is_edge_on = |face: u32| faces.edge_on_for_sure.binary_search(&(face + numbers.start)).is_ok();
+    matches!(list.faces(edge), &[first, second] if is_edge_on(first) != is_edge_on(second))
 }
 
 /// The angle between an edge's two faces, of one orientation, degrees.

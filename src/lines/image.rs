@@ -2,6 +2,7 @@
 
 use super::boxes::{Box3, BoxTree};
 use super::space::Space;
+use crate::tolerances::TOUCH;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -11,6 +12,8 @@ pub(super) struct Image {
     pub a: DVec2,
     pub b: DVec2,
     pub keys: [f64; 2],
+    /// How far it may be off by the rounding of the world's own numbers, pixels.
+    pub noise_px: f64,
 }
 
 /// Keys of boxes whose depth does not matter: it is compared where lines cross.
@@ -43,11 +46,41 @@ impl Image {
             _ => ends[0] + (ends[1] - ends[0]) * share,
         };
         let ((a, first), (b, second)) = (space.project(point(range[0])), space.project(point(range[1])));
-        Some(Self { a, b, keys: [first, second] })
+        let nearest = range.map(|share| -point(share).z).into_iter().fold(f64::INFINITY, f64::min);
+        Some(Self { a, b, keys: [first, second], noise_px: space.noise * space.px_per_unit(nearest) })
     }
 
     pub fn length(&self) -> f64 {
         self.a.distance(self.b)
+    }
+
+    /// The distance below which a place lies on the line, pixels.
+    pub fn touch_px(&self, space: &Space) -> f64 {
+        TOUCH * space.size.max_element() + self.noise_px
+    }
+
+    /// From where to where on this line another lies on it, if it does: everywhere between it is nearer than `touch_px`.
+    pub fn overlap(&self, other: &Self, touch_px: f64) -> Option<[f64; 2]> {
+        let (first, last) = (self.place_of(other.a), self.place_of(other.b));
+        let range = [first.min(last).max(0.0), first.max(last).min(1.0)];
+        let length = (range[1] - range[0]) * self.length();
+        // Also of lines that only meet at their ends.
+        if length <= touch_px || length.is_nan() {
+            return None;
+        }
+        let is_on_it = |place: f64| {
+            let px = self.at(place);
+            other.at(other.place_of(px).clamp(0.0, 1.0)).distance(px) <= touch_px
+        };
+        (is_on_it(range[0]) && is_on_it(range[1])).then_some(range)
+    }
+
+    /// Where both have the same key on this line, if there is one such place: where two lines that lie on one another in the
+    /// picture change places in depth.
+    pub fn same_key(&self, other: &Self) -> Option<f64> {
+        let difference = |place: f64| self.key(place) - other.key(other.place_of(self.at(place)));
+        let (start, end) = (difference(0.0), difference(1.0));
+        ((start < 0.0) != (end < 0.0)).then(|| start / (start - end))
     }
 
     /// The directions, in radians between 0 and pi, that a line may have which touches this one at two places: from where to

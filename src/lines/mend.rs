@@ -130,32 +130,29 @@ fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Mesh> {
     Some(with_faces(mesh, faces))
 }
 
-/// Splits a face at the vertices on its sides.
+/// Splits a face at the vertices on its sides: into a fan around the corner opposite to its first side with any, and at that
+/// side's two ends into fans around the vertices next to them.
 fn split(corners: [u32; 3], on_sides: &BTreeMap<[u32; 2], Vec<u32>>, add: &mut impl FnMut([u32; 3])) {
     // From corner to corner with what is between them.
-    let sides: [Vec<u32>; 3] = std::array::from_fn(|side| {
+    let between = |side: usize| {
         let (from, to) = (corners[side], corners[(side + 1) % 3]);
         let mut between = on_sides.get(&[from.min(to), from.max(to)]).cloned().unwrap_or_default();
         if from > to {
             between.reverse();
         }
         between
-    });
-    split_sides(corners, sides, add);
+    };
+    let sides: [Vec<u32>; 3] = std::array::from_fn(between);
+    let Some(first) = sides.iter().position(|side| !side.is_empty()) else { return add(corners) };
+    let [a, b, c] = [0, 1, 2].map(|step| corners[(first + step) % 3]);
+    let [on_ab, on_bc, on_ca] = [0, 1, 2].map(|step| sides[(first + step) % 3].as_slice());
+    let (nearest_a, nearest_b) = (on_ab[0], on_ab[on_ab.len() - 1]);
+    fan(nearest_a, &[&[c], on_ca, &[a]].concat(), add);
+    fan(c, on_ab, add);
+    fan(nearest_b, &[&[b], on_bc, &[c]].concat(), add);
 }
 
-fn split_sides(corners: [u32; 3], mut sides: [Vec<u32>; 3], add: &mut impl FnMut([u32; 3])) {
-    let [a, b, c] = corners;
-    // Cut off at the first side's first vertex; turned until the first side has one.
-    if !sides[0].is_empty() {
-        let vertex = sides[0].remove(0);
-        let [rest, second, third] = sides;
-        split_sides([a, vertex, c], [Vec::new(), Vec::new(), third], add);
-        split_sides([vertex, b, c], [rest, second, Vec::new()], add);
-    } else if sides.iter().any(|side| !side.is_empty()) {
-        sides.rotate_left(1);
-        split_sides([b, c, a], sides, add);
-    } else {
-        add(corners);
-    }
+/// A triangle around an apex for each two neighbours on a way.
+fn fan(apex: u32, way: &[u32], add: &mut impl FnMut([u32; 3])) {
+    way.windows(2).for_each(|pair| add([apex, pair[0], pair[1]]));
 }

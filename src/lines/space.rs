@@ -150,6 +150,14 @@ impl Space {
         }
     }
 
+    /// How much [`Space::turn`] grows where the point moves by a vector parallel to the picture.
+    pub fn turn_aside(&self, from: DVec3, to: DVec3, aside: DVec3) -> f64 {
+        match self.lens {
+            Lens::Perspective { .. } => aside.dot(to.cross(from)),
+            Lens::Parallel { .. } => (to - from).truncate().perp_dot(aside.truncate()),
+        }
+    }
+
     /// Whether lines of sight meet in the eye.
     pub fn is_perspective(&self) -> bool {
         matches!(self.lens, Lens::Perspective { .. })

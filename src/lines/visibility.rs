@@ -8,7 +8,7 @@ use super::intersections::Piercing;
 use super::space::Space;
 use super::{LineSegment, Progress};
 use crate::threads::{cores, in_chunks};
-use crate::tolerances::{CONTACT, SHORTEST_LINE, TOUCH};
+use crate::tolerances::{CONTACT, SHORTEST_LINE};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
@@ -25,7 +25,6 @@ pub(super) struct Lines<'a> {
     rims: LineTree,
     /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
     beside: LineTree,
-    touch_px: f64,
     shortest_px: f64,
 }
 
@@ -37,19 +36,19 @@ impl<'a> Lines<'a> {
     pub fn new(space: &'a Space, faces: &'a Faces, features: &'a [Feature], piercings: &[Piercing]) -> Self {
         let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
         let side = space.size.max_element();
-        let touch_px = TOUCH * side;
         let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
         for (index, (feature, image)) in features.iter().zip(&images).enumerate() {
             let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
                 continue;
             };
+            let (touch_px, margin) = (image.touch_px(space), image.noise_px);
             for part in image.parts(range, side / PARTS_OF_PICTURE) {
                 if feature.occludes {
-                    rims.add(image.part_box(part, 0.0, FLAT), index);
+                    rims.add(image.part_box(part, margin, FLAT), index);
                 }
                 if feature.class.is_some() {
                     for directions in image.directions(touch_px) {
-                        beside.add(image.part_box(part, 0.0, directions), index);
+                        beside.add(image.part_box(part, margin, directions), index);
                     }
                 }
             }
@@ -66,7 +65,6 @@ impl<'a> Lines<'a> {
             piercings: pierced,
             rims: rims.tree(),
             beside: beside.tree(),
-            touch_px,
             shortest_px: SHORTEST_LINE * side,
         }
     }
@@ -131,64 +129,96 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Whether a line is seen at a place; `None` where it lies on another line that stands for both.
+    /// Whether a line is seen at a place; `None` where it lies in space on another line that stands for both.
     fn state(&self, index: usize, image: &Image, place: f64) -> Option<bool> {
-        let feature = &self.features[index];
         let (px, key) = (image.at(place), image.key(place));
         let view = self.space.point(px, key);
-        let line_length = feature.ends[0].distance(feature.ends[1]);
-        if self.is_repeated(index, image, px, -view.z) {
-            return None;
-        }
-        let probe = Probe { view, px, key, line_length, weld: feature.weld, own: feature.own };
-        Some(!self.faces.hide(self.space, &probe))
+        let is_nearest = self.is_nearest(index, image, px, -view.z)?;
+        let feature = &self.features[index];
+        let along = (image.b - image.a).normalize();
+        let probe = Probe {
+            view,
+            px,
+            key,
+            // Down in the picture is up in the eye's space.
+            aside: DVec3::new(along.y, along.x, 0.0),
+            line_length: feature.ends[0].distance(feature.ends[1]),
+            weld: feature.weld,
+            own: feature.own,
+        };
+        Some(is_nearest && self.faces.leave_open(self.space, &probe))
     }
 
-    /// Whether another line of an earlier class, or of the same and an earlier number, runs through the same place in space.
-    fn is_repeated(&self, index: usize, image: &Image, px: DVec2, depth: f64) -> bool {
-        let feature = &self.features[index];
-        let length = feature.ends[0].distance(feature.ends[1]);
-        let [low, high] = image.directions(self.touch_px)[0];
-        let here = Box3::new((px - self.touch_px).extend(low), (px + self.touch_px).extend(high));
+    /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
+    /// lies in space on another of an earlier class, or of the same and a lower number.
+    fn is_nearest(&self, index: usize, image: &Image, px: DVec2, depth: f64) -> Option<bool> {
+        let touch_px = image.touch_px(self.space);
+        let [low, high] = image.directions(touch_px)[0];
+        let here = Box3::new((px - touch_px).extend(low), (px + touch_px).extend(high));
+        let place = image.place_of(px);
+        let mut others: Vec<(f64, usize)> = Vec::new();
         self.beside.any(&here, |other_index| {
-            let other = &self.features[other_index];
-            let comes_first = (other.class, other_index) < (feature.class, index);
-            if !comes_first || (feature.own.meets(other.own) && !run_the_same_way(feature.ends, other.ends)) {
-                return false;
+            let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
+            let lies_on_it = image
+                .overlap(&other, touch_px.max(other.touch_px(self.space)))
+                .is_some_and(|range| (range[0]..=range[1]).contains(&place));
+            if lies_on_it {
+                let key = other.key(other.place_of(px).clamp(0.0, 1.0));
+                others.push((self.space.depth_of_key(key), other_index));
             }
-            let Some(image) = self.images[other_index] else { return false };
-            let place = image.place_of(px).clamp(0.0, 1.0);
-            let other_depth = self.space.depth_of_key(image.key(place));
-            let contact = CONTACT * length.min(other.ends[0].distance(other.ends[1]))
-                + feature.weld.min(other.weld)
-                + 4.0 * self.space.noise;
-            image.at(place).distance(px) <= self.touch_px && (other_depth - depth).abs() <= contact
-        })
+            false
+        });
+        if others.is_empty() {
+            return Some(true);
+        }
+        others.push((depth, index));
+        others.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        others.dedup();
+        // From the nearest on, those that touch the first of a group are in its place.
+        let mut start = 0;
+        loop {
+            let (first_depth, first) = others[start];
+            let is_of_group = |(depth, other): &(f64, usize)| depth - first_depth <= self.contact(first, *other);
+            let end = start + others[start..].iter().take_while(|other| is_of_group(other)).count();
+            let group = &others[start..end];
+            if group.iter().any(|(_, other)| *other == index) {
+                let stands_for_all = group.iter().map(|(_, other)| (self.features[*other].class, *other)).min();
+                return (stands_for_all.map(|(_, other)| other) == Some(index)).then_some(start == 0);
+            }
+            start = end;
+        }
+    }
+
+    /// The distance below which two lines touch, file units.
+    fn contact(&self, first: usize, second: usize) -> f64 {
+        let [first, second] = [first, second].map(|index| &self.features[index]);
+        let length = |feature: &Feature| feature.ends[0].distance(feature.ends[1]);
+        CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise
     }
 
     /// Adds the places along a line where what is seen of it may change.
     fn add_cuts(&self, index: usize, image: &Image, inside: [f64; 2], cuts: &mut Vec<f64>) {
         let feature = &self.features[index];
+        let touch_px = image.touch_px(self.space);
         for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
             let others = [
                 (&self.rims, FLAT, true),
                 // Lines that lie on this one have its direction.
-                (&self.beside, image.directions(self.touch_px)[0], false),
+                (&self.beside, image.directions(touch_px)[0], false),
             ];
-            for (tree, third, cross) in others {
-                tree.any(&image.part_box(part, self.touch_px, third), |other_index| {
-                    if other_index != index
-                        && !feature.own.meets(self.features[other_index].own)
-                        && let Some(other) = self.images[other_index]
-                    {
-                        self.add_crossings(image, &other, cross, cuts);
+            for (tree, third, occludes) in others {
+                tree.any(&image.part_box(part, touch_px, third), |other_index| {
+                    if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
+                        let touch_px = touch_px.max(other.touch_px(self.space));
+                        let meets = feature.own.meets(self.features[other_index].own);
+                        self.add_crossings(image, &other, touch_px, occludes && !meets, cuts);
                     }
                     false
                 });
             }
             if let Own::Faces(own) = feature.own {
                 let keys = part.map(|place| image.key(place));
-                self.faces.tree.any(&image.part_box(part, self.touch_px, keys), |face| {
+                self.faces.tree.any(&image.part_box(part, touch_px, keys), |face| {
                     if !own.contains(&face) {
                         cuts.extend(
                             self.piercing(feature.ends, face).map(|point| image.place_of(self.space.project(point).0)),
@@ -205,25 +235,25 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Adds where a nearer line's image crosses or touches this one's, and where one that lies on it ends.
-    fn add_crossings(&self, image: &Image, other: &Image, occludes: bool, cuts: &mut Vec<f64>) {
+    /// Adds where a line's image that lies on this one begins and ends and where both are equally near, and where a nearer one
+    /// at which a surface ends crosses or touches it.
+    fn add_crossings(&self, image: &Image, other: &Image, touch_px: f64, occludes: bool, cuts: &mut Vec<f64>) {
         let along = image.b - image.a;
         let length = along.length();
         let (c, d) = (along.perp_dot(other.a - image.a) / length, along.perp_dot(other.b - image.a) / length);
-        let touch = self.touch_px;
-        if (c > touch && d > touch) || (c < -touch && d < -touch) {
+        if (c > touch_px && d > touch_px) || (c < -touch_px && d < -touch_px) {
             return;
         }
-        if c.abs() <= touch && d.abs() <= touch {
-            cuts.extend([image.place_of(other.a), image.place_of(other.b)]);
-            return;
+        if let Some(range) = image.overlap(other, touch_px) {
+            cuts.extend(range);
+            cuts.extend(image.same_key(other));
         }
-        if !occludes {
+        if !occludes || c == d {
             return;
         }
         let on_other = (c / (c - d)).clamp(0.0, 1.0);
         let place = image.place_of(other.at(on_other));
-        if place * length < -touch || (place - 1.0) * length > touch {
+        if place * length < -touch_px || (place - 1.0) * length > touch_px {
             return;
         }
         let (key, other_key) = (image.key(place), other.key(on_other));
@@ -247,21 +277,6 @@ impl<'a> Lines<'a> {
         let is_left = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) >= scale;
         (is_left(a, b) && is_left(b, c) && is_left(c, a)).then_some(point)
     }
-}
-
-/// Whether two lines with a common end go the same way from there.
-fn run_the_same_way([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> bool {
-    let (first, second) = if a == c {
-        (b - a, d - c)
-    } else if a == d {
-        (b - a, c - d)
-    } else if b == c {
-        (a - b, d - c)
-    } else {
-        (a - b, c - d)
-    };
-    let lengths = first.length() * second.length();
-    first.dot(second) > 0.0 && first.cross(second).length() <= CONTACT * lengths
 }
 
 impl Own {
