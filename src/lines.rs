@@ -1,10 +1,12 @@
 //! Exact visible lines: which parts of a model's edges are seen, computed in f64 without GL.
 //!
 //! In: a [`Scene`] and the classes of edges wanted. Out: [`VisibleLines`], every piece of every line inside the picture,
-//! marked visible or hidden: the reference that ink is measured against, and what the SVG is drawn from. The visibility
-//! of an edge can change only where its image crosses that of a nearer edge at which a surface ends or turns away
-//! (boundary, non-manifold, silhouette), or where the edge passes through a face (Appel 1967). All these places are found,
-//! the edge is cut there, and each piece is decided by one ray.
+//! marked visible or hidden: the reference that ink is measured against, and what the SVG is drawn from. A point of a line is
+//! seen if on one of its two sides in the picture no face hides what is just beside it, and no other wanted line lies on it
+//! nearer to the eye. Along an edge that can change only where its image crosses that of a nearer edge at which a surface ends
+//! or turns away (boundary, non-manifold, silhouette), where the edge passes through a face (Appel 1967), and where the image
+//! of another edge lies on its own: where that one begins or ends, and where both are equally near. The edge is cut at all these
+//! places, and each piece is decided by one ray.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -40,14 +42,14 @@ pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
 pub use svg::{ClassWidths, Hidden, PaperSize, SvgSettings, svg, svg_of_paths};
 
-use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, MeshEdges};
+use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::renderer::milliseconds_since;
 use crate::scene::{Scene, Size};
 use crate::threads::both;
 use faces::Faces;
-use features::{Edges, Part};
+use features::{Edges, MendedEdges, Part};
 use glam::DVec2;
 use serde::Serialize;
 use space::Space;
@@ -201,7 +203,7 @@ impl VisibleLines {
         );
         let is_mended = parts.iter().any(|part| matches!(part.edges, Edges::Mended(_)));
         let faces = if is_mended {
-            let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.mesh.clone())).collect();
+            let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.shape().clone())).collect();
             Faces::new(&space, &meshes)
         } else {
             faces
@@ -232,15 +234,16 @@ impl VisibleLines {
 
 /// The scene's objects with their edges, mended where that is needed; objects of one mesh share them.
 fn parts(scene: &Scene) -> Vec<Part<'_>> {
-    let mut known: HashMap<*const Mesh, Option<Arc<MeshEdges>>> = HashMap::new();
+    let mut known: HashMap<*const Mesh, Option<Arc<MendedEdges>>> = HashMap::new();
     let mut parts = Vec::with_capacity(scene.objects.len());
     for object in &scene.objects {
         let (mesh, edges) = (&object.mesh, scene.edges(object));
-        let mend = || mend::mended(mesh, edges.list()).map(|mesh| Arc::new(MeshEdges::new(Arc::new(mesh))));
-        parts.push(match known.entry(Arc::as_ptr(mesh)).or_insert_with(mend) {
-            None => Part { object, mesh: mesh.clone(), edges: Edges::OfScene(edges) },
-            Some(edges) => Part { object, mesh: edges.mesh().clone(), edges: Edges::Mended(edges.clone()) },
-        });
+        let mend = || mend::mended(mesh, edges.list()).map(|mended| Arc::new(MendedEdges::new(mended)));
+        let edges = match known.entry(Arc::as_ptr(mesh)).or_insert_with(mend) {
+            None => Edges::OfScene(edges),
+            Some(edges) => Edges::Mended(edges.clone()),
+        };
+        parts.push(Part { object, edges });
     }
     parts
 }

@@ -63,12 +63,13 @@ pub const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;
 /// another meet as well as six printed digits let them.
 pub const CONTACT: f64 = 1e-5;
 
-/// Distance of a point from the image of a line, as a share of the picture's larger side, below which it lies on it: a line
-/// exactly behind the rim of something nearer is hidden, whatever the last digit says.
+/// Distance of a point from the image of a line, as a share of the picture's larger side, below which it lies on it: what is
+/// exactly behind the rim of something nearer is hidden on that thing's side only, whatever the last digit says.
 pub const TIE: f64 = 2e-11;
 
-/// Distance between two lines, as a share of the picture's larger side, below which they touch: one is then cut where the
-/// other ends, and where both lie on one another only one is kept. A cut too many costs a ray, one too few an error.
+/// Distance between the images of two lines, as a share of the picture's larger side, below which they lie on one another: both
+/// are cut where one ends or they are equally near, and only the nearest is seen. A cut too many costs a ray, one too few an
+/// error.
 pub const TOUCH: f64 = 1e-7;
 
 /// Length, as a share of the picture's larger side, below which a line or a piece of one is a point: an edge seen end-on.
@@ -78,7 +79,7 @@ pub const SHORTEST_LINE: f64 = 1e-7;
 pub const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
 
 /// Sine of the angle between a face and the view below which the face is seen edge-on: all its sides are then places where
-/// a surface may end. One too many costs a ray.
+/// a surface may end, and those it shares with a face that is not edge-on are silhouette. One too many costs a ray.
 pub const EDGE_ON: f64 = 1e-9;
 
 /// How far a drawn line may pass by a point it leaves out, pixels: one step of the numbers in an SVG, which have three decimals.

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use tinta::camera::Projection;
 use tinta::edges::Class;
 use tinta::lines::{LineSegment, VisibleLines};
-use tinta::tolerances::CONTACT;
+use tinta::tolerances::{CONTACT, TOUCH};
 use tinta::{LoadOptions, Scene, load};
 
 /// Distance below which two lines are one in the picture, pixels.
@@ -26,6 +26,8 @@ struct Brute<'a> {
     /// Object and position numbers of each corner.
     numbers: Vec<(u32, [u32; 3])>,
     edges: BTreeMap<EdgeKey, Vec<usize>>,
+    /// The ends of the pieces that are said to be seen.
+    seen: Vec<[DVec2; 2]>,
 }
 
 /// Where two triangles pass through one another.
@@ -47,7 +49,7 @@ struct Agreement {
 }
 
 impl<'a> Brute<'a> {
-    fn new(scene: &'a Scene) -> Self {
+    fn new(scene: &'a Scene, found: &VisibleLines) -> Self {
         let (mut corners, mut numbers) = (Vec::new(), Vec::new());
         let mut edges: BTreeMap<EdgeKey, Vec<usize>> = BTreeMap::new();
         for (number, object) in scene.objects.iter().enumerate() {
@@ -62,7 +64,8 @@ impl<'a> Brute<'a> {
         }
         let camera = &scene.camera;
         let clip_from_world = camera.clip_from_view(scene.size.aspect()) * camera.view_from_world();
-        Self { scene, clip_from_world, corners, numbers, edges }
+        let seen = found.segments.iter().filter(|segment| segment.is_visible).map(|segment| segment.ends_px).collect();
+        Self { scene, clip_from_world, corners, numbers, edges, seen }
     }
 
     fn is_parallel(&self) -> bool {
@@ -276,6 +279,15 @@ impl<'a> Brute<'a> {
         agreement
     }
 
+    /// Whether a piece that is seen runs through a pixel, as well as two lines on one another can be told apart.
+    fn is_drawn_over(&self, px: DVec2) -> bool {
+        let touch_px = 2.0 * TOUCH * f64::from(self.scene.size.width);
+        self.seen.iter().any(|[a, b]| {
+            let share = ((px - *a).dot(*b - *a) / a.distance_squared(*b)).clamp(0.0, 1.0);
+            a.lerp(*b, share).distance(px) <= touch_px
+        })
+    }
+
     /// Looks at points along a piece.
     fn look(
         &self,
@@ -288,8 +300,11 @@ impl<'a> Brute<'a> {
         let [from, to] = piece.ends_px;
         let length_px = from.distance(to);
         let is_wrong = |place_px: f64| {
-            let point = self.point_at(ends, from + (to - from) * (place_px / length_px));
+            let at = from + (to - from) * (place_px / length_px);
+            let point = self.point_at(ends, at);
             self.is_blocked(point, ends[0].distance(ends[1]), &is_own) == Some(piece.is_visible)
+                // By the rule for lines on one another the nearest one is drawn.
+                && (piece.is_visible || !self.is_drawn_over(at))
         };
         let count = (length_px * 0.7).clamp(6.0, 100.0).ceil();
         let mut places: Vec<f64> =
@@ -332,7 +347,8 @@ fn check(kind: u32, seed: u64) -> Agreement {
         random.number();
     });
     let scene = random_scene(kind, &mut random);
-    let agreement = Brute::new(&scene).compare(&lines(&scene), &mut random);
+    let found = lines(&scene);
+    let agreement = Brute::new(&scene, &found).compare(&found, &mut random);
     assert!(
         agreement.longest_wrong_px <= 0.05 && agreement.wrong_px <= 1e-3 * agreement.length_px,
         "kind {kind}, seed {seed}: {agreement:?}"
@@ -390,9 +406,10 @@ fn what_is_seen_of_the_ant_and_the_gear_is_what_rays_see() {
     {
         let mesh = load(&format!("builtin:{name}"), &LoadOptions::default()).unwrap().mesh;
         let scene = scene_of(vec![mesh], crate::lines_support::view(view, parallel));
-        let (brute, mesh) = (Brute::new(&scene), &scene.objects[0].mesh);
+        let found = lines(&scene);
+        let (brute, mesh) = (Brute::new(&scene, &found), &scene.objects[0].mesh);
         let mut agreement = Agreement::default();
-        for piece in &lines(&scene).segments {
+        for piece in &found.segments {
             let Some(edge) = piece.edge else { continue };
             let number = |vertex: u32| mesh.file_vertices.iter().position(|known| *known == vertex).unwrap();
             let numbers = edge.map(|vertex| number(vertex) as u32);

@@ -108,8 +108,8 @@ fn lattice(random: &mut Random) -> Scene {
 
 fn parallelogram(random: &mut Random) -> Vec<(f64, f64)> {
     loop {
-        let [y, z, a, b, c, d] = [(0, 8), (0, 8), (-8, 8), (-8, 8), (-2, 2), (-2, 2)]
-            .map(|(low, high)| f64::from(random.whole(low, high)));
+        let [y, z, a, b, c, d] =
+            [(0, 8), (0, 8), (-8, 8), (-8, 8), (-2, 2), (-2, 2)].map(|(low, high)| f64::from(random.whole(low, high)));
         if a * d - b * c != 0.0 {
             return vec![(y, z), (y + a, z + b), (y + a + c, z + b + d), (y + c, z + d)];
         }
@@ -209,7 +209,8 @@ fn stairs(random: &mut Random) -> Scene {
     }
     let mut triangles = Vec::new();
     let mut quad = |[a, b, c, d]: [u32; 4]| {
-        let is_face = [a, b, c, d].iter().all(|corner| [a, b, c, d].iter().filter(|other| *other == corner).count() == 1);
+        let is_face =
+            [a, b, c, d].iter().all(|corner| [a, b, c, d].iter().filter(|other| *other == corner).count() == 1);
         if is_face {
             triangles.extend([[a, b, c], [a, c, d]]);
         }

@@ -1,5 +1,7 @@
 //! The exact lines, written as SVG and drawn by an independent rasteriser, against the same edges drawn by GL.
 
+use crate::lines_families::FAMILIES;
+use crate::shapes::Random;
 use crate::support::{BACKENDS, failure_folder, public_models, renderer, skip};
 use crate::svg::rendered;
 use std::sync::Arc;
@@ -8,7 +10,8 @@ use tinta::edges::{Class, ClassSet, SilhouetteRule};
 use tinta::lines::svg;
 use tinta::styles::{Inking, PaintMode};
 use tinta::{
-    LineSettings, LoadOptions, Picture, Renderer, Scene, SceneSettings, Size, Style, SvgSettings, VisibleLines, load,
+    LineSettings, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Size, Style, SvgSettings, VisibleLines,
+    load,
 };
 
 /// Share of either drawing's ink that the other has within 2 pixels.
@@ -49,22 +52,53 @@ fn the_svg_of_public_models_has_the_ink_that_gl_draws() {
     assert!(failures.is_empty(), "below {SHARE}; see {}: {failures:#?}", failure_folder().display());
 }
 
+#[test]
+fn no_outline_that_gl_draws_of_flat_faces_along_an_axis_is_missing() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let mut failures = Vec::new();
+    for (name, make) in
+        FAMILIES.iter().filter(|(name, _)| ["regular prisms", "bars in one plane", "stairs"].contains(name))
+    {
+        for seed in 1..=12 {
+            let scene = with_normals(&make(&mut Random::seeded(seed)));
+            let [_, of_gl] = shares_of(&mut renderer, &scene, &format!("{name} {seed}"));
+            if of_gl < SHARE {
+                failures.push(format!("{name}, seed {seed}: the lines have {of_gl:.4} of GL's ink"));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "below {SHARE}; see {}: {failures:#?}", failure_folder().display());
+}
+
+/// The same scene of meshes that GL can shade.
+fn with_normals(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    let options = LoadOptions::default();
+    let shaded = |mesh: &Mesh| Mesh::of_triangles("made", mesh.positions.clone(), &mesh.triangles, &options).unwrap();
+    let meshes: Vec<Arc<Mesh>> = scene.objects.iter().map(|object| Arc::new(shaded(&object.mesh))).collect();
+    scene.objects = Scene::new(meshes, &SceneSettings::default()).unwrap().objects;
+    scene
+}
+
 /// The share of the SVG's ink that GL draws too, and of GL's that the SVG has.
 fn shares(renderer: &mut Renderer, path: &str) -> [f64; 2] {
     let mesh = Arc::new(load(path, &LoadOptions::default()).unwrap().mesh);
     let scene = Scene::new(vec![mesh], &SceneSettings::default()).unwrap();
+    shares_of(renderer, &scene, path.rsplit('/').next().unwrap())
+}
+
+fn shares_of(renderer: &mut Renderer, scene: &Scene, name: &str) -> [f64; 2] {
     let inking =
         Inking { classes: CLASSES, silhouette: SilhouetteRule::Exact, paint: PaintMode::None, ..Inking::default() };
-    let of_gl = renderer.render(&scene, &Style::Inking(inking)).unwrap();
+    let of_gl = renderer.render(scene, &Style::Inking(inking)).unwrap();
     let settings = LineSettings { classes: CLASSES, ..LineSettings::default() };
-    let lines = VisibleLines::of(&scene, &settings).unwrap();
+    let lines = VisibleLines::of(scene, &settings).unwrap();
     let pixels = rendered(&svg(&lines, &SvgSettings::default()).unwrap());
     let size = Size { width: pixels.width(), height: pixels.height() };
     let of_svg = Picture { size, pixels: pixels.data().to_vec() };
     let masks = [InkMask::of(&of_svg), InkMask::of(&of_gl)];
-    assert!(masks.iter().all(|mask| mask.count() > 500), "{path}: there is nothing to compare");
+    assert!(masks.iter().all(|mask| mask.count() > 500), "{name}: there is nothing to compare");
     let numbers = Agreement::of(&masks[0], &masks[1], TOLERANCE_PX).unwrap().numbers;
-    let name = path.rsplit('/').next().unwrap();
     for (picture, what) in [(&of_svg, "svg"), (&of_gl, "gl")] {
         tinta::Target::check(failure_folder().join(format!("{name}-{what}.png")).to_str().unwrap(), false)
             .unwrap()

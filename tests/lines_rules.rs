@@ -1,11 +1,12 @@
 //! The written rules: contact, edges seen end-on, ties, T-junctions, duplicates, cracks, the near plane.
 
+use crate::lines_families::{extruded, prism};
 use crate::lines_support::{assert_near, length, lines, lines_with, of_class, only, px_between, scene_of, total, view};
 use crate::shapes::{cuboid, joined, mesh};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 use tinta::edges::{Class, ClassSet};
-use tinta::lines::{LineSettings, VisibleLines};
+use tinta::lines::{LineSegment, LineSettings, VisibleLines};
 use tinta::{CameraSettings, Mesh, Scene, SceneSettings};
 
 const NEAR: f64 = 1e-6;
@@ -279,5 +280,93 @@ fn what_is_nearer_than_the_near_plane_hides_nothing_and_what_it_cuts_hides_behin
         for (found, expected) in found.iter().zip(expected) {
             assert_near(*found, expected, 1e-9, &format!("near {near} far {far}"));
         }
+    }
+}
+
+#[test]
+fn a_prism_seen_along_two_of_its_sides_keeps_both_ends_of_its_outline() {
+    for (sides, name) in [(6, "front"), (6, "back"), (4, "top"), (8, "front"), (12, "top"), (60, "front"), (60, "top")]
+    {
+        for start in [0.0, std::f64::consts::TAU / 12.0] {
+            let scene = scene_of(vec![prism(sides, 1.0, -1.0, 1.0, start)], view(name, true));
+            let found = lines(&scene);
+            let height = px_between(&scene, DVec3::ZERO, DVec3::X * 2.0);
+            let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
+            for end in found.segments.iter().filter(|segment| segment.is_visible).flat_map(|segment| segment.ends_px) {
+                (low, high) = (low.min(end.y), high.max(end.y));
+            }
+            // Along x, whose lines are horizontal from here: the uppermost and the lowest are whole.
+            for limit in [low, high] {
+                let on_it = |segment: &&LineSegment| {
+                    segment.is_visible && segment.ends_px.iter().all(|end| (end.y - limit).abs() < NEAR)
+                };
+                let sum: f64 = found.segments.iter().filter(on_it).map(length).sum();
+                assert_near(sum, height, NEAR, &format!("{sides} sides from the {name}, start {start}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn lines_that_lie_on_one_another_in_the_picture_and_cross_in_depth_are_cut_there() {
+    let first = extruded(&[(0.0, 1.0), (1.0, 0.0), (9.0, 8.0), (8.0, 9.0)], 0.0, 1.0);
+    let second = extruded(&[(1.0, 9.0), (0.0, 8.0), (8.0, 0.0), (9.0, 1.0)], 0.0, 1.0);
+    for meshes in [vec![first.clone(), second.clone()], vec![second, first]] {
+        let scene = scene_of(meshes, view("front", true));
+        let found = lines(&scene);
+        let unit = px_between(&scene, DVec3::ZERO, DVec3::Y);
+        let upright =
+            |segment: &&LineSegment| segment.is_visible && (segment.ends_px[0].x - segment.ends_px[1].x).abs() < NEAR;
+        let sum: f64 = found.segments.iter().filter(upright).map(length).sum();
+        assert_near(sum, 18.0 * unit, NEAR, "both outlines, once");
+    }
+}
+
+#[test]
+fn boxes_flush_at_a_corner_are_drawn_alike_in_whatever_order() {
+    let (low, high) = (cuboid(DVec3::ZERO, vec3(4.0, 2.0, 2.0)), cuboid(DVec3::ZERO, vec3(3.0, 2.0, 4.0)));
+    let seen = |meshes: Vec<Mesh>| {
+        let scene = scene_of(meshes, view("140,20", false));
+        total(&lines(&scene), true)
+    };
+    let expected = seen(vec![low.clone(), high.clone()]);
+    let orders =
+        [vec![high.clone(), low.clone()], vec![joined(&[low.clone(), high.clone()])], vec![joined(&[high, low])]];
+    for (order, meshes) in orders.into_iter().enumerate() {
+        assert_near(seen(meshes), expected, NEAR, &format!("order {order}"));
+    }
+}
+
+#[test]
+fn a_rail_of_any_number_of_vertices_on_one_open_edge_has_no_line_across() {
+    for count in [10u32, 1000, 10_000, 100_000] {
+        // A triangle below the edge, a strip of as many squares above it, which leans towards the eye.
+        let mut positions = vec![DVec3::ZERO, DVec3::X, vec3(0.5, -1.0, 0.0)];
+        let mut triangles = vec![[0, 2, 1]];
+        for step in 0..=count {
+            let x = f64::from(step) / f64::from(count);
+            positions.extend([vec3(x, 0.0, 0.0), vec3(x, 0.1, 0.05)]);
+        }
+        // Its ends are the edge's own.
+        let number = |vertex: u32| match vertex {
+            3 => 0,
+            last if last == 3 + 2 * count => 1,
+            other => other,
+        };
+        for step in 0..count {
+            let first = 3 + 2 * step;
+            triangles.extend([[first, first + 2, first + 1], [first + 1, first + 2, first + 3]].map(|t| t.map(number)));
+        }
+        let scene = scene_of(vec![mesh(positions, triangles)], view("front", false));
+        let found = lines(&scene);
+        let outline = [
+            (vec3(0.0, 0.0, 0.0), vec3(0.5, -1.0, 0.0)),
+            (vec3(0.5, -1.0, 0.0), vec3(1.0, 0.0, 0.0)),
+            (vec3(1.0, 0.0, 0.0), vec3(1.0, 0.1, 0.05)),
+            (vec3(1.0, 0.1, 0.05), vec3(0.0, 0.1, 0.05)),
+            (vec3(0.0, 0.1, 0.05), vec3(0.0, 0.0, 0.0)),
+        ];
+        let expected: f64 = outline.iter().map(|(a, b)| px_between(&scene, *a, *b)).sum();
+        assert_near(total(&found, true) + total(&found, false), expected, 1e-4, &format!("{count} squares"));
     }
 }

@@ -182,7 +182,8 @@ impl<'a> Sides<'a> {
                 continue;
             }
             // How far inside the face the ray passes, in pixels; seen edge-on it passes it nowhere.
-            let px_per_unit = px(self.scene, hit + camera.backward().any_orthonormal_vector()).distance(px(self.scene, hit));
+            let px_per_unit =
+                px(self.scene, hit + camera.backward().any_orthonormal_vector()).distance(px(self.scene, hit));
             let inside = [(p, q), (q, r), (r, p)]
                 .map(|(from, to)| {
                     let inward = normal.cross(to - from).normalize();
@@ -195,8 +196,8 @@ impl<'a> Sides<'a> {
                 continue;
             }
             let longest = p.distance(q).max(q.distance(r)).max(r.distance(p));
-            let touch =
-                CONTACT * longest.min(length) + self.welds[self.object_of[face] as usize].min(self.welds[object as usize]);
+            let touch = CONTACT * longest.min(length)
+                + self.welds[self.object_of[face] as usize].min(self.welds[object as usize]);
             let distances = [a, b].map(|end| normal.dot(end - p).abs());
             if distances.iter().all(|distance| *distance < 0.4 * touch) {
                 continue;
@@ -244,7 +245,8 @@ impl<'a> Sides<'a> {
                     continue;
                 }
                 let image = px(scene, point);
-                let step = px(scene, point + (ends[1] - ends[0]) * 1e-3) - px(scene, point - (ends[1] - ends[0]) * 1e-3);
+                let step =
+                    px(scene, point + (ends[1] - ends[0]) * 1e-3) - px(scene, point - (ends[1] - ends[0]) * 1e-3);
                 let is_inside = image.cmpgt(DVec2::splat(0.1)).all() && image.cmplt(size - 0.1).all();
                 if !is_inside || step.length() * 500.0 < 0.1 || !step.is_finite() {
                     continue;
@@ -454,7 +456,10 @@ fn explicit(scene: &Scene) -> CameraSettings {
 
 #[test]
 fn what_any_side_of_a_line_shows_is_drawn_once_and_nothing_else() {
-    let failed: Vec<_> =
-        FAMILIES.iter().filter(|family| std::panic::catch_unwind(|| check_family(family)).is_err()).map(|(name, _)| name).collect();
+    let failed: Vec<_> = FAMILIES
+        .iter()
+        .filter(|family| std::panic::catch_unwind(|| check_family(family)).is_err())
+        .map(|(name, _)| name)
+        .collect();
     assert!(failed.is_empty(), "{failed:?}");
 }

@@ -197,8 +197,7 @@ impl Faces {
             }
         }
         let is_beyond_near = || {
-            self.cut_by_near.binary_search(&face).is_err()
-                || self.hit_depth(space, [a, normal], probe) >= space.near
+            self.cut_by_near.binary_search(&face).is_err() || self.hit_depth(space, [a, normal], probe) >= space.near
         };
         if is_inside != NEITHER && is_beyond_near() { is_inside } else { NEITHER }
     }

@@ -3,11 +3,13 @@
 use super::LineSettings;
 use super::faces::{Faces, Own, near_crossing};
 use super::intersections::Intersection;
+use super::mend::Mended;
 use super::space::Space;
 use crate::edges::{Class, ClassCounts, ClassSet, EdgeList, Incidence, MeshEdges, SilhouetteRule};
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::{Object, Scene};
 use glam::DVec3;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A line in the eye's space.
@@ -27,25 +29,61 @@ pub(super) struct Feature {
     pub angle_degrees: Option<f64>,
 }
 
-/// An object with the mesh its lines are found on.
+/// An object with its edges.
 pub(super) struct Part<'a> {
     pub object: &'a Object,
-    pub mesh: Arc<Mesh>,
     pub edges: Edges<'a>,
 }
 
 /// The edges of the scene's own mesh, or of a mended one.
 pub(super) enum Edges<'a> {
     OfScene(&'a MeshEdges),
-    Mended(Arc<MeshEdges>),
+    Mended(Arc<MendedEdges>),
+}
+
+/// The edges of a mended mesh with the faces that hide.
+pub(super) struct MendedEdges {
+    edges: MeshEdges,
+    shape: Arc<Mesh>,
+    whole_faces: Vec<u32>,
+}
+
+impl MendedEdges {
+    pub fn new(mended: Mended) -> Self {
+        Self { edges: MeshEdges::new(mended.split), shape: mended.shape, whole_faces: mended.whole_faces }
+    }
 }
 
 impl Edges<'_> {
     pub fn get(&self) -> &MeshEdges {
         match self {
             Self::OfScene(edges) => edges,
-            Self::Mended(edges) => edges,
+            Self::Mended(mended) => &mended.edges,
         }
+    }
+}
+
+impl Part<'_> {
+    /// The faces that hide.
+    pub fn shape(&self) -> &Arc<Mesh> {
+        match &self.edges {
+            Edges::OfScene(edges) => edges.mesh(),
+            Edges::Mended(mended) => &mended.shape,
+        }
+    }
+
+    /// Of a face of the edge list the number of the one in the shape that it is a part of.
+    fn whole_face(&self, face: u32) -> u32 {
+        match &self.edges {
+            Edges::OfScene(_) => face,
+            Edges::Mended(mended) => mended.whole_faces[face as usize],
+        }
+    }
+
+    /// Whether an edge runs through the inside of a face that was split.
+    fn is_within_a_face(&self, edge: u32) -> bool {
+        matches!(self.edges, Edges::Mended(_))
+            && matches!(self.edges.get().list().faces(edge), &[first, second] if self.whole_face(first) == self.whole_face(second))
     }
 }
 
@@ -72,12 +110,18 @@ pub(super) fn edge_features(
         let list = edges.list();
         let classes = edges.classes(settings.crease_angle, asked(settings));
         let silhouette = edges.silhouette(scene.eye(part.object, SilhouetteRule::Exact), SilhouetteRule::Exact);
-        let numbers = first_face..first_face + part.mesh.triangles.len() as u32;
-        let edge_on = edges_of_edge_on_faces(faces, list, numbers.clone());
+        let (mesh, first_number) = (edges.mesh(), first_face);
+        let number_of = |face: u32| first_number + part.whole_face(face);
+        first_face += part.shape().triangles.len() as u32;
+        let edge_on = edges_of_edge_on_faces(faces, list, first_number..first_face, number_of);
         for edge in merged(merged(classes.marked.iter().copied(), silhouette.iter().copied()), edge_on.iter().copied())
         {
             let mut of_edge = classes.of_edges[edge as usize];
-            let is_beside_edge_on = || edge_on.binary_search(&edge).is_ok() && ends_edge_on(faces, list, edge, &numbers);
+            if part.is_within_a_face(edge) {
+                continue;
+            }
+            let is_beside_edge_on =
+                || edge_on.binary_search(&edge).is_ok() && ends_edge_on(faces, list, edge, number_of);
             if silhouette.binary_search(&edge).is_ok() || is_beside_edge_on() {
                 of_edge = of_edge.or(ClassSet::of(&[Class::Silhouette]));
             }
@@ -97,12 +141,11 @@ pub(super) fn edge_features(
                 own: Own::Edge(ends.map(|position| position + first_position)),
                 ends: ends.map(|position| faces.positions[(position + first_position) as usize]),
                 weld: faces.weld(first_position),
-                edge: Some(ends.map(|position| part.mesh.file_vertices[position as usize])),
-                angle_degrees: angle(&part.mesh, list, edge),
+                edge: Some(ends.map(|position| mesh.file_vertices[position as usize])),
+                angle_degrees: angle(mesh, list, edge),
             });
         }
-        first_position += part.mesh.positions.len() as u32;
-        first_face += part.mesh.triangles.len() as u32;
+        first_position += mesh.positions.len() as u32;
     }
     (features, counts)
 }
@@ -111,7 +154,7 @@ pub(super) fn edge_features(
 pub(super) fn intersection_features(faces: &Faces, parts: &[Part<'_>], intersections: &[Intersection]) -> Vec<Feature> {
     let starts: Vec<u32> = parts
         .iter()
-        .scan(0, |next, part| Some(std::mem::replace(next, *next + part.mesh.triangles.len() as u32)))
+        .scan(0, |next, part| Some(std::mem::replace(next, *next + part.shape().triangles.len() as u32)))
         .collect();
     let feature = |intersection: &Intersection| {
         let [first, second] = intersection.faces.map(|face| triangle_normal(faces.corners(face)));
@@ -151,8 +194,13 @@ pub(super) fn near_plane_features(space: &Space, faces: &Faces) -> Vec<Feature> 
 
 /// Edges of the faces that are seen edge-on: there a surface that faces the eye may go over into one that does not, without
 /// any single edge between the two.
-fn edges_of_edge_on_faces(faces: &Faces, list: &EdgeList, numbers: std::ops::Range<u32>) -> Vec<u32> {
-    let is_edge_on = |face: &u32| faces.edge_on.binary_search(&(face + numbers.start)).is_ok();
+fn edges_of_edge_on_faces(
+    faces: &Faces,
+    list: &EdgeList,
+    numbers: Range<u32>,
+    number_of: impl Fn(u32) -> u32,
+) -> Vec<u32> {
+    let is_edge_on = |face: &u32| faces.edge_on.binary_search(&number_of(*face)).is_ok();
     if faces.edge_on.iter().any(|number| numbers.contains(number)) {
         (0..list.len() as u32).filter(|edge| list.faces(*edge).iter().any(is_edge_on)).collect()
     } else {
@@ -162,8 +210,8 @@ fn edges_of_edge_on_faces(faces: &Faces, list: &EdgeList, numbers: std::ops::Ran
 
 /// Whether of an edge's two faces one is seen edge-on and the other is not: to an eye just beside this one the first shows its
 /// front or its back, whatever the last digit says of it here, and to one of both the edge is silhouette.
-fn ends_edge_on(faces: &Faces, list: &EdgeList, edge: u32, numbers: &std::ops::Range<u32>) -> bool {
-    let is_edge_on = |face: u32| faces.edge_on_for_sure.binary_search(&(face + numbers.start)).is_ok();
+fn ends_edge_on(faces: &Faces, list: &EdgeList, edge: u32, number_of: impl Fn(u32) -> u32) -> bool {
+    let is_edge_on = |face: u32| faces.edge_on_for_sure.binary_search(&number_of(face)).is_ok();
     matches!(list.faces(edge), &[first, second] if is_edge_on(first) != is_edge_on(second))
 }
 

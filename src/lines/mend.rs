@@ -3,7 +3,8 @@
 //! - Of faces with the same three corners, as a surface modelled from both sides has them, only the first is kept: the
 //!   others would make every edge one of four faces.
 //! - Where a vertex of one open rim lies on an edge of another (a T-junction), the face behind that edge is split there, so
-//!   that the two rims become one inner edge and no line is drawn across a surface that looks whole.
+//!   that the two rims become one inner edge and no line is drawn across a surface that looks whole. What hides is the face as
+//!   it was: a thousand slivers of it would hide the same, and be in one another's way.
 //!
 //! Cracks wider than `--weld` stay openings.
 
@@ -13,16 +14,33 @@ use crate::mesh::{Mesh, NONE};
 use crate::tolerances::{CONTACT, WELD};
 use glam::DVec3;
 use std::collections::{BTreeMap, HashSet};
+use std::sync::Arc;
+
+/// What was mended of a mesh.
+pub(super) struct Mended {
+    /// The faces that hide: without repeated ones.
+    pub shape: Arc<Mesh>,
+    /// The mesh that edges are found on: faces with vertices on their sides are split there.
+    pub split: Arc<Mesh>,
+    /// Of each of its faces the one of the shape that it is a part of.
+    pub whole_faces: Vec<u32>,
+}
 
 /// The mended mesh, if there was anything to mend.
-pub(super) fn mended(mesh: &Mesh, edges: &EdgeList) -> Option<Mesh> {
+pub(super) fn mended(mesh: &Arc<Mesh>, edges: &EdgeList) -> Option<Mended> {
     let repeated = repeated_faces(mesh, edges);
-    let without = (!repeated.is_empty()).then(|| keep_faces(mesh, |face| !repeated.contains(&face)));
+    let without = (!repeated.is_empty()).then(|| Arc::new(keep_faces(mesh, |face| !repeated.contains(&face))));
     let split = match &without {
         None => split_at_junctions(mesh, edges),
         Some(mesh) => split_at_junctions(mesh, &EdgeList::new(mesh)),
     };
-    split.or(without)
+    let is_mended = without.is_some() || split.is_some();
+    let shape = without.unwrap_or_else(|| mesh.clone());
+    let (split, whole_faces) = match split {
+        Some((split, whole_faces)) => (Arc::new(split), whole_faces),
+        None => (shape.clone(), (0..shape.triangles.len() as u32).collect()),
+    };
+    is_mended.then_some(Mended { shape, split, whole_faces })
 }
 
 /// Faces that have the same corners as one of a lower number.
@@ -70,8 +88,9 @@ fn with_faces(mesh: &Mesh, faces: Vec<(usize, [u32; 3])>) -> Mesh {
     }
 }
 
-/// The mesh with every face split where a vertex of an open rim lies on its own; `None` if there is none.
-fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Mesh> {
+/// The mesh with every face split where a vertex of an open rim lies on its own, and of each face the one it was part of;
+/// `None` if there is none.
+fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<(Mesh, Vec<u32>)> {
     let rims: Vec<u32> =
         (0..edges.len() as u32).filter(|edge| edges.incidence()[*edge as usize] == Incidence::Boundary).collect();
     if rims.is_empty() {
@@ -81,6 +100,7 @@ fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Mesh> {
     let position = |index: u32| mesh.positions[index as usize];
     let (low, high) = mesh.bounds();
     let radius = (high - low).length() * 0.5;
+    let weld = WELD * 2.0 * radius;
     let scaled = |point: DVec3| (point - (low + high) * 0.5) / radius;
     let boxes = rims.iter().map(|rim| {
         let [a, b] = ends(*rim).map(|end| scaled(position(end)));
@@ -101,7 +121,10 @@ fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Mesh> {
             let (start, along) = (position(a), position(b) - position(a));
             let place = (point - start).dot(along) / along.length_squared();
             let distance = (start + along * place).distance(point);
-            let is_on_it = distance <= CONTACT * along.length() && place > CONTACT && place < 1.0 - CONTACT;
+            let length = along.length();
+            // What is nearer to an end is the end: welding has seen to that.
+            let from_end = place.min(1.0 - place) * length;
+            let is_on_it = distance <= CONTACT * length && from_end > weld;
             let corners = mesh.triangles[edges.faces(rim)[0] as usize];
             if is_on_it && !corners.contains(&vertex) {
                 junctions.entry(rim).or_default().push((place, vertex));
@@ -127,7 +150,8 @@ fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Mesh> {
             faces.push((face, *corners));
         }
     }
-    Some(with_faces(mesh, faces))
+    let whole_faces = faces.iter().map(|(face, _)| *face as u32).collect();
+    Some((with_faces(mesh, faces), whole_faces))
 }
 
 /// Splits a face at the vertices on its sides: into a fan around the corner opposite to its first side with any, and at that

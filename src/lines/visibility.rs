@@ -1,4 +1,7 @@
 //! Which parts of the lines are seen: cuts wherever that can change, then one ray for each piece.
+//!
+//! Three questions use one rule, [`Image::overlap`]: which lines lie on one another in the picture. They are cut where one of
+//! them ends and where both are equally near; the nearest is drawn; of equally near ones, one.
 
 use super::boxes::Box3;
 use super::faces::{Faces, Own, Probe};
