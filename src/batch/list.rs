@@ -1,13 +1,12 @@
 //! The list of a batch's jobs, a line each; blank lines are passed over.
 
+use super::claims::{Claim, Key, Lines, Shared, key, problem};
 use super::job::{Asked, Job};
-use super::place::same_place;
 use super::slice::Slice;
 use crate::error::{Error, Result};
 use crate::files::{self, shown};
 use crate::limits::BATCH_BYTES;
 use crate::output::write_whole;
-use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -15,7 +14,7 @@ use std::path::Path;
 /// The list as a batch keeps it in its folder.
 pub const LIST_FILE: &str = "batch-list.jsonl";
 
-/// Jobs in the order of their list, none of the same name, no two with the same output. All lines are checked, but jobs are
+/// Jobs in the order of their list, none of the same name, no two that write the same file. All lines are checked, but jobs are
 /// made of them only when they are asked for: of a list of a million a run does a thousand.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct List {
@@ -45,18 +44,24 @@ impl List {
     /// As [`List::read`].
     pub fn of_bytes(bytes: Vec<u8>, name: &str) -> Result<Self> {
         let mut list = Self { count: 0, bytes };
-        let (mut ids, mut outputs) = (Seen::default(), Seen::default());
+        let (mut ids, mut outputs, mut shared) = (Seen::default(), Seen::default(), Shared::default());
         for (line, text) in list.lines() {
             let asked = Asked::of_line(text).map_err(|problem| refused(name, Some(line), problem))?;
             ids.add(&asked.id, line);
-            for place in asked.outputs().filter_map(|(_, output)| same_place(output)) {
-                outputs.add(&place, line);
+            for claim in Claim::all(&asked) {
+                outputs.add(claim.place(), line);
+                shared.note(&claim, in_32_bits(line));
             }
         }
         list.count = ids.0.len();
-        match (ids.first_twice(), outputs.first_twice()) {
-            (Some(id), output) if output.is_none_or(|output| id.line <= output.line) => Err(list.refuse_id(name, id)),
-            (_, Some(output)) => Err(list.refuse_output(name, output)),
+        let id = ids.first_twice();
+        let suspects = outputs.first_twice().into_iter().chain(list.suspects(shared));
+        let output = suspects.filter_map(|lines| Some((lines, list.clash(lines)?))).min_by_key(|((line, _), _)| *line);
+        match (id, output) {
+            (Some(id), output) if output.as_ref().is_none_or(|((line, _), _)| id.0 <= *line) => {
+                Err(list.refuse_id(name, id))
+            }
+            (_, Some(((line, _), problem))) => Err(refused(name, Some(line.into()), problem)),
             _ if list.count == 0 => Err(refused(name, None, "it holds no job; write one a line".to_owned())),
             _ => Ok(list),
         }
@@ -125,55 +130,56 @@ impl List {
         Asked::of_line(text).ok()
     }
 
-    fn refuse_id(&self, name: &str, Twice { line, before, .. }: Twice) -> Error {
+    fn refuse_id(&self, name: &str, (line, before): Lines) -> Error {
         let id = self.asked(line).map_or_else(String::new, |asked| asked.id);
         let problem = format!("the id {} is that of line {before} too; give it another", shown(&id));
         refused(name, Some(line.into()), problem)
     }
 
-    fn refuse_output(&self, name: &str, Twice { line, before, key }: Twice) -> Error {
-        let asked = self.asked(line);
-        let is_it = |(_, output): &(&str, &str)| same_place(output).is_some_and(|place| Seen::key(&place) == key);
-        // The last one, where both stand in this line.
-        let (option, output) = asked.iter().flat_map(Asked::outputs).filter(is_it).last().unwrap_or(("output", ""));
-        let problem = format!("{option}: {} is written by line {before} too; name another", shown(output));
-        refused(name, Some(line.into()), problem)
+    /// Lines that may write the same by a number or in a folder, the first few of them.
+    fn suspects(&self, mut shared: Shared) -> Vec<Lines> {
+        if shared.is_empty() {
+            return Vec::new();
+        }
+        shared.sort();
+        for (line, text) in self.lines() {
+            // Every line has been checked.
+            let Ok(asked) = Asked::of_line(text) else { continue };
+            Claim::all(&asked).for_each(|claim| shared.compare(&claim, in_32_bits(line)));
+        }
+        let mut suspects = shared.suspects();
+        suspects.truncate(SUSPECTS);
+        suspects
+    }
+
+    /// What is wrong with the later of two lines, if both write the same.
+    fn clash(&self, (line, before): Lines) -> Option<String> {
+        problem(&self.asked(line)?, &self.asked(before)?, before)
     }
 }
 
-/// Half of a SHA-256: no two of even a billion names share it by chance.
-type Key = [u8; 16];
+/// So many lines that may write the same are looked at by name; one is enough but where hashes are the same by chance.
+const SUSPECTS: usize = 8;
+
+/// A list has at most [`BATCH_BYTES`] lines, which 32 bits count.
+fn in_32_bits(line: u64) -> u32 {
+    u32::try_from(line).unwrap_or(u32::MAX)
+}
 
 /// Names, or places of outputs, and the lines they stand in: 20 bytes each, however long they are.
 #[derive(Default)]
 struct Seen(Vec<(Key, u32)>);
 
-/// What is there twice.
-#[derive(Clone, Copy)]
-struct Twice {
-    line: u32,
-    before: u32,
-    key: Key,
-}
-
 impl Seen {
-    fn key(name: &str) -> Key {
-        let mut key = Key::default();
-        key.copy_from_slice(&Sha256::digest(name.as_bytes())[..16]);
-        key
-    }
-
-    /// A list has at most [`BATCH_BYTES`] lines, which 32 bits count.
     fn add(&mut self, name: &str, line: u64) {
-        self.0.push((Self::key(name), u32::try_from(line).unwrap_or(u32::MAX)));
+        self.0.push((key(name), in_32_bits(line)));
     }
 
-    /// The first line with a name that stands in one before it, or in the same.
-    fn first_twice(mut self) -> Option<Twice> {
+    /// The first line with a name that stands in one before it, or in the same; then that one.
+    fn first_twice(mut self) -> Option<Lines> {
         self.0.sort_unstable();
         let twice = self.0.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-        let first = twice.min_by_key(|pair| pair[1].1)?;
-        Some(Twice { line: first[1].1, before: first[0].1, key: first[1].0 })
+        twice.map(|pair| (pair[1].1, pair[0].1)).min_by_key(|(line, _)| *line)
     }
 }
 

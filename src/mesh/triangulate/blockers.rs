@@ -78,7 +78,8 @@ impl<'a> Blockers<'a> {
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let sides = [(a, b), (b, c), (c, a)];
         let is_in = |point: DVec2| {
-            let is_left = |(from, to)| if touching { turn(from, to, point) >= 0.0 } else { turn(from, to, point) > 0.0 };
+            let is_left =
+                |(from, to)| if touching { turn(from, to, point) >= 0.0 } else { turn(from, to, point) > 0.0 };
             point.cmpge(low).all()
                 && point.cmple(high).all()
                 && point != a
