@@ -248,6 +248,72 @@ mod tests {
         assert!(bad.starts_with("jobs.jsonl: line 2: this is no job ("), "{bad}");
     }
 
+    /// A render, a turntable or a measurement, and all that it writes: files, or a folder with a slash at the end.
+    fn claimant(
+        number: usize,
+        (kind, before, width, after, count): (u8, &str, &str, &str, u32),
+    ) -> (String, Vec<String>) {
+        let digits = |number: u32| if width == "%d" { number.to_string() } else { format!("{number:02}") };
+        let line = |command: &str, output: &str| {
+            format!(r#"{{"id": "{number}", "command": "{command}", "output": "{output}", "turntable": {count}}}"#)
+        };
+        match kind {
+            0 => {
+                let name = format!("{before}{}{after}", digits(count * 3));
+                (line("render", &name), vec![name])
+            }
+            1 => {
+                let names = (1..=count).map(|number| format!("{before}{}{after}", digits(number))).collect();
+                (line("render", &format!("{before}{width}{after}")), names)
+            }
+            _ => (line("measure", &format!("{before}y")), vec![format!("{before}y/")]),
+        }
+    }
+
+    proptest::proptest! {
+        #![proptest_config(proptest::test_runner::Config { cases: 5_000, failure_persistence: None, ..Default::default() })]
+
+        #[test]
+        fn a_list_is_refused_just_where_the_names_of_two_jobs_meet(claims in proptest::collection::vec((
+            0u8..3,
+            proptest::sample::select(&["", "1", "a", "a1", "y/", "y/y/2"][..]),
+            proptest::sample::select(&["%d", "%02d"][..]),
+            proptest::sample::select(&[".png", "0.png", "1b2.png"][..]),
+            1u32..40,
+        ), 1..5)) {
+            let jobs: Vec<(String, Vec<String>)> =
+                claims.into_iter().enumerate().map(|(number, claim)| claimant(number, claim)).collect();
+            let meet = |one: &String, other: &String| {
+                one == other || one.ends_with('/') && other.starts_with(one) || other.ends_with('/') && one.starts_with(other)
+            };
+            let mut pairs = jobs.iter().enumerate().flat_map(|(place, job)| jobs[..place].iter().map(move |other| (job, other)));
+            let expected = pairs.any(|(one, other)| one.1.iter().any(|name| other.1.iter().any(|other| meet(name, other))));
+            let lines: Vec<&str> = jobs.iter().map(|(line, _)| line.as_str()).collect();
+            let read = list(&lines.join("\n"));
+            proptest::prop_assert_eq!(read.is_err(), expected, "{:?}: {:?}", lines, read.err().map(|error| error.to_string()));
+        }
+    }
+
+    #[test]
+    fn a_long_list_of_turntables_pictures_and_folders_is_checked_without_comparing_all_of_them() {
+        let line = |number: usize| match number % 4 {
+            0 => format!(r#"{{"id": {number}, "command": "render", "output": "t{number}-%02d.png", "turntable": 36}}"#),
+            1 => format!(
+                r#"{{"id": {number}, "command": "render", "output": "shared/{number}%03d.png", "turntable": 36}}"#
+            ),
+            2 => format!(r#"{{"id": {number}, "command": "measure", "output": "m/{number}"}}"#),
+            _ => format!(r#"{{"id": {number}, "command": "render", "output": "p/{number}/2026-11-22.png"}}"#),
+        };
+        let mut lines: Vec<String> = (0..100_000).map(line).collect();
+        assert_eq!(list(&lines.join("\n")).unwrap().count, 100_000);
+        lines.push(r#"{"id": "last", "command": "render", "output": "shared/50001036.png"}"#.to_owned());
+        assert_eq!(
+            list(&lines.join("\n")).unwrap_err().to_string(),
+            "jobs.jsonl: line 100001: output: shared/50001036.png is written by line 50002 too, as one of \
+             shared/50001%03d.png; name another"
+        );
+    }
+
     #[test]
     fn a_kept_list_is_the_list() {
         let folder = tempfile::tempdir().unwrap();
