@@ -41,13 +41,13 @@ impl<'a> Blockers<'a> {
         let leaves = (points.len() / LEAF_CORNERS).next_power_of_two();
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
         let mut nodes = vec![Node { low: DVec2::ZERO, high: DVec2::ZERO, count: 0 }; 2 * leaves];
-        for node in 1..2 * leaves {
+        for (node, place) in nodes.iter_mut().enumerate().skip(1) {
             let range = range(node, points.len());
             let corners = &mut order[range.clone()];
             let at = |corner: &u32| points[*corner as usize];
             let low = corners.iter().map(at).fold(DVec2::INFINITY, DVec2::min);
             let high = corners.iter().map(at).fold(DVec2::NEG_INFINITY, DVec2::max);
-            nodes[node] = Node { low, high, count: 0 };
+            *place = Node { low, high, count: 0 };
             let middle = self::range(2 * node, points.len()).end - range.start;
             if node < leaves && middle < corners.len() {
                 let axis = usize::from((high - low).x < (high - low).y);
@@ -125,5 +125,6 @@ impl<'a> Blockers<'a> {
 fn range(node: usize, count: usize) -> Range<usize> {
     let level = node.ilog2();
     let number = node - (1 << level);
-    count * number >> level..count * (number + 1) >> level
+    let place = |number: usize| (count * number) >> level;
+    place(number)..place(number + 1)
 }
