@@ -321,6 +321,9 @@ fn hundreds_of_missing_files_are_counted_and_a_few_said() {
     assert!(remarks[8].ends_with("492 more material files are not there or not followed"), "{remarks:?}");
 }
 
+/// Where each corner of a polygon lies.
+type Outline<'a> = &'a dyn Fn(u32) -> (f64, f64);
+
 #[test]
 fn combs_and_stars_of_many_corners_are_drawn_whole() {
     let folder = Folder::new();
@@ -333,7 +336,7 @@ fn combs_and_stars_of_many_corners_are_drawn_whole() {
                 (f64::from(i) / f64::from(count) * std::f64::consts::TAU, 1.0 - 0.5 * f64::from(i % 2));
             (turn.cos() * radius, turn.sin() * radius)
         };
-        let shapes: [(&str, &dyn Fn(u32) -> (f64, f64)); 2] = [("comb", &comb), ("star", &star)];
+        let shapes: [(&str, Outline<'_>); 2] = [("comb", &comb), ("star", &star)];
         for (name, point) in shapes {
             let mut text: String = (0..count).map(point).map(|(x, y)| format!("v {x} {y} 0\n")).collect();
             text += "f";
