@@ -19,6 +19,7 @@
 //! # }
 //! ```
 
+mod claims;
 mod entry;
 mod job;
 mod journal;

@@ -19,6 +19,7 @@ mod preset;
 mod progress;
 mod render;
 mod speech;
+mod standard_output;
 mod stress;
 mod studio;
 mod textures;
@@ -102,7 +103,7 @@ pub fn run() -> Result<Verdict> {
     let started = Instant::now();
     let (arguments, given) = match parse(std::env::args_os()) {
         Ok(parsed) => parsed,
-        Err(Stop::Help(help)) => help.exit(),
+        Err(Stop::Help(help)) => return speech::print_help(&help).map(|()| Verdict::Good),
         Err(Stop::Wrong(error)) => return Err(error),
     };
     carry_out(arguments.command, &given, started).map_err(|error| given.attributed(error))
@@ -154,13 +155,13 @@ fn in_one_sentence(error: &clap::Error) -> String {
 
 /// Makes the folder that `-o` names, if it is not there.
 fn make_folder(folder: &Path) -> Result<()> {
-    std::fs::create_dir_all(folder).map_err(|error| Error::Output {
-        path: format!("-o {}", folder.display()),
-        problem: if folder.is_file() {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let problem = if folder.is_file() {
             "this is a file; name a folder".to_owned()
         } else {
             format!("the folder cannot be made ({error}); choose another")
-        },
+        };
+        Error::output(format!("-o {}", folder.display()), &error, problem)
     })
 }
 

@@ -74,6 +74,14 @@ pub enum Error {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// The output file cannot be written because the disk, or the user's share of it, is full.
+    #[error("{path}: {problem}")]
+    DiskFull {
+        /// The file as the user named it.
+        path: String,
+        /// What is wrong and what to do.
+        problem: String,
+    },
     /// Measured rows cannot be read.
     #[error("{path}{}: {problem}", line.map(|line| format!(": line {line}")).unwrap_or_default())]
     Rows {
@@ -175,6 +183,7 @@ impl Error {
             Self::CommandLine { .. } => "command-line",
             Self::Preset { .. } => "preset",
             Self::Output { .. } => "output",
+            Self::DiskFull { .. } => "disk-full",
             Self::Rows { .. } => "rows",
             Self::Batch { .. } => "batch",
             Self::Busy { .. } => "busy",
@@ -185,6 +194,16 @@ impl Error {
             Self::Shader { .. } => "shader",
             Self::Gl { .. } => "gl",
             Self::ContextLost { .. } => "context-lost",
+        }
+    }
+
+    /// Of an output that cannot be written for this cause: [`Error::DiskFull`] where that is it, [`Error::Output`] otherwise.
+    pub fn output(path: impl Into<String>, cause: &std::io::Error, problem: impl Into<String>) -> Self {
+        use std::io::ErrorKind::{QuotaExceeded, StorageFull};
+        let (path, problem) = (path.into(), problem.into());
+        match cause.kind() {
+            StorageFull | QuotaExceeded => Self::DiskFull { path, problem },
+            _ => Self::Output { path, problem },
         }
     }
 

@@ -53,8 +53,8 @@ pub const PIXELS_A_BYTE: u64 = 8 * 1032;
 /// Most triangles of a model: their corners are counted in 32 bits.
 pub const TRIANGLES: usize = 1 << 30;
 
-/// Most corners of a polygon that is not convex: cutting it may take the square of their number. Longer ones are left out and
-/// counted as triangles without area.
+/// Most corners of a polygon that is not convex: cutting it may take up to the square of their number, a third of a second for
+/// the slowest known of this many. Longer ones are left out and counted as triangles without area.
 pub const CONCAVE_CORNERS: usize = 32_768;
 
 /// Most corners of a polygon that crosses itself: cutting it may take their cube. Longer ones are left out likewise.

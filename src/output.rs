@@ -53,7 +53,7 @@ impl TextTarget {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] when the disk is full, the folder gone, the pipe closed.
+    /// [`Error::DiskFull`]; [`Error::Output`] when the folder is gone, the pipe closed.
     pub fn write(&self, text: &str) -> Result<()> {
         match self {
             Self::Stdout => write_standard_output(text.as_bytes()),
@@ -81,7 +81,7 @@ pub(crate) fn check_file(file: &Path) -> Result<()> {
     if file.symlink_metadata().is_ok() && !file.is_file() {
         return Err(refuse("this is no ordinary file; name another, or - for standard output".to_owned()));
     }
-    Beside::open(&resolved(file)).map(drop).map_err(|error| refuse(cannot_write(file, &error)))
+    Beside::open(&resolved(file)).map(drop).map_err(|error| refused(file, &error))
 }
 
 /// A file's new contents, whole on the disk, under no name yet or under one that goes away with this.
@@ -95,7 +95,7 @@ impl Staged {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] when the disk is full, the folder gone.
+    /// [`Error::DiskFull`]; [`Error::Output`] when the folder is gone.
     pub(crate) fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
         let mut staged = Self::begin(path)?;
         staged.add(bytes)?;
@@ -152,7 +152,7 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
 }
 
 fn refused(path: &Path, error: &std::io::Error) -> Error {
-    Error::Output { path: path.display().to_string(), problem: cannot_write(path, error) }
+    Error::output(path.display().to_string(), error, cannot_write(path, error))
 }
 
 /// The file a link at `path` points to, so that the link stays.

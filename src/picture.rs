@@ -217,7 +217,7 @@ impl Target {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] when the disk is full, the folder gone, the pipe closed.
+    /// [`Error::DiskFull`]; [`Error::Output`] when the folder is gone, the pipe closed.
     pub fn write(&self, picture: &Picture) -> Result<()> {
         self.write_with(picture, None)
     }

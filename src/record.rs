@@ -13,7 +13,7 @@ pub use lines::{LineCounts, LinesRecord, LinesStyle, lines_json};
 
 use crate::camera::Projection;
 use crate::compare::AgreementNumbers;
-use crate::edges::{ClassCounts, SilhouetteRule};
+use crate::edges::{ClassCounts, ClassSet, SilhouetteRule};
 use crate::gl::ContextInfo;
 use crate::mesh::{Defects, LoadOptions, Mesh};
 use crate::plan::prune::{Kept, Omission};
@@ -123,7 +123,9 @@ pub struct EdgeRecord {
     pub load: LoadOptions,
     /// Edges, each once.
     pub edges: usize,
-    /// How many are of each class; an edge of several counts in each.
+    /// How many are of each class; an edge of several counts in each. Where faces pass through one another is not looked for,
+    /// and has no key.
+    #[serde(serialize_with = "without_intersections")]
     pub classes: ClassCounts,
     /// Inner edges whose faces are wound against each other.
     pub reversed_edges: usize,
@@ -244,4 +246,10 @@ impl Summary {
             all,
         }
     }
+}
+
+/// The counts of those classes that a mesh's edges can be of.
+fn without_intersections<S: serde::Serializer>(counts: &ClassCounts, serializer: S) -> Result<S::Ok, S::Error> {
+    let mut counts = *counts;
+    serializer.collect_map(ClassSet::EDGES.classes().map(|class| (class.name(), *counts.of(class))))
 }

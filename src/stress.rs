@@ -28,6 +28,6 @@ mod variants;
 
 pub use cases::{Case, Check, Content, Drawing, Expected, Group, Study, Work, cases};
 pub use jitter::{Flips, Popped};
-pub use run::{Row, StressSettings, Summary, run};
+pub use run::{MissingBackend, Row, StressSettings, Summary, run};
 pub use shapes::Shape;
 pub use variants::Variant;

@@ -9,9 +9,10 @@ fn edges_are_counted_by_class_and_timed_as_often_as_asked() {
     let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(record["edges"], 17);
     let classes = &record["classes"];
-    for (class, count) in [("boundary", 4), ("crease", 8), ("silhouette", 4), ("non_manifold", 0)] {
+    for (class, count) in [("boundary", 4), ("crease", 8), ("silhouette", 4), ("non-manifold", 0)] {
         assert_eq!(classes[class], count, "{class}");
     }
+    assert_eq!(classes.get("intersection"), None, "they are not looked for");
     for times in ["build_ms", "classify_ms", "planes_ms", "silhouette_ms", "hierarchy_ms", "silhouette_by_hierarchy_ms"]
     {
         assert_eq!(record[times]["all"].as_array().map(Vec::len), Some(3), "{times}");
@@ -23,6 +24,26 @@ fn edges_are_counted_by_class_and_timed_as_often_as_asked() {
     refused_in_one_line(&["edges", "builtin:open-box", "--crease-angle", "200"], &["--crease-angle 200"]);
     refused_in_one_line(&["edges", "no-such.obj"], &["no-such.obj"]);
     refused_in_one_line(&["edges", "builtin:ant", "--frames", "0"], &["--frames"]);
+}
+
+#[test]
+fn a_record_of_lines_counts_every_class_by_the_name_that_the_lines_and_the_options_have() {
+    let folder = Folder::new();
+    // Three pages around one edge, which pass through nothing.
+    let book = folder.file("book.obj", b"v 0 0 0\nv 0 1 0\nv 1 0 0\nv -1 0 1\nv -1 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
+    let (svg, json) = (folder.path("book.svg"), folder.path("book.json"));
+    let record = |arguments: &[&str]| -> serde_json::Value {
+        let output = tinta(arguments);
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {output:?}"))
+    };
+    let drawn = record(&["render", &book, "-o", &svg, "--json"]);
+    assert_eq!((&drawn["edges"]["intersection"], &drawn["edges"]["non-manifold"]), (&0.into(), &1.into()), "{drawn}");
+    let classes = drawn["style"]["classes"].as_array().unwrap();
+    assert!(classes.contains(&"non-manifold".into()), "{classes:?}");
+    tinta(&["render", &book, "-o", &json]);
+    let lines: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(json).unwrap()).unwrap();
+    assert!(lines["segments"].as_array().unwrap().iter().any(|line| line["class"] == "non-manifold"));
+    assert_eq!(record(&["edges", &book, "--json"])["classes"]["non-manifold"], 1);
 }
 
 #[test]

@@ -320,3 +320,34 @@ fn hundreds_of_missing_files_are_counted_and_a_few_said() {
     assert_eq!(remarks.len(), 9, "{remarks:?}");
     assert!(remarks[8].ends_with("492 more material files are not there or not followed"), "{remarks:?}");
 }
+
+/// Where each corner of a polygon lies.
+type Outline<'a> = &'a dyn Fn(u32) -> (f64, f64);
+
+#[test]
+fn combs_and_stars_of_many_corners_are_drawn_whole() {
+    let folder = Folder::new();
+    for count in [1028, 8000, 32_768] {
+        let comb = |i: u32| {
+            (f64::from(i) / f64::from(count), f64::from(i % 4 == 1 || i % 4 == 2) - f64::from(i == 0 || i == count - 1))
+        };
+        let star = |i: u32| {
+            let (turn, radius) =
+                (f64::from(i) / f64::from(count) * std::f64::consts::TAU, 1.0 - 0.5 * f64::from(i % 2));
+            (turn.cos() * radius, turn.sin() * radius)
+        };
+        let shapes: [(&str, Outline<'_>); 2] = [("comb", &comb), ("star", &star)];
+        for (name, point) in shapes {
+            let mut text: String = (0..count).map(point).map(|(x, y)| format!("v {x} {y} 0\n")).collect();
+            text += "f";
+            (1..=count).for_each(|corner| text += &format!(" {corner}"));
+            let mesh =
+                load(&folder.file(&format!("{name}.obj"), text.as_bytes()), &LoadOptions::default()).unwrap().mesh;
+            assert_eq!(
+                (mesh.triangles.len(), mesh.defects.degenerate_triangles),
+                (count as usize - 2, 0),
+                "{name} of {count}"
+            );
+        }
+    }
+}

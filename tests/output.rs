@@ -123,7 +123,7 @@ fn standard_output_that_takes_nothing_is_an_error() {
 
 /// Runs a script in which `$T` is the program and `$D` a folder, where it may mount file systems of its own; `None` where the
 /// system does not let us.
-fn where_mounts_are_ours(script: &str, folder: &str) -> Option<String> {
+pub fn where_mounts_are_ours(script: &str, folder: &str) -> Option<String> {
     let own = ["--user", "--map-root-user", "--mount", "sh", "-ec"];
     let may = Command::new("unshare").args(own).arg("mount -t tmpfs none /tmp").output();
     if !may.is_ok_and(|output| output.status.success()) {

@@ -219,3 +219,18 @@ fn a_recipe_that_means_harm_writes_nothing() {
         assert!(!Path::new(path).exists(), "{path}");
     }
 }
+
+#[test]
+fn a_recipe_for_a_much_larger_picture_than_the_one_that_has_it_is_refused_before_it_is_drawn() {
+    let folder = Folder::new();
+    let [picture, out] = ["small.png", "out.png"].map(|name| folder.path(name));
+    made(&["render", "builtin:ant", "-o", &picture, "--size", "64x48"]);
+    with_recipe(&picture, |recipe| {
+        recipe.options.insert("size".to_owned(), OptionValue::Text("16384x16384".to_owned()));
+    });
+    refused_in_one_line(
+        &["again", &picture, "-o", &out],
+        &["small.png: it is 64x48 pixels large and its recipe is for 16384x16384; it is not drawn"],
+    );
+    assert!(!Path::new(&out).exists());
+}

@@ -170,3 +170,26 @@ fn a_backend_that_is_not_there_is_an_error_and_no_failed_case() {
     assert!(alone.cases.iter().all(|row| row.passed && row.backend == "egl"));
     assert!(root().join("docs/stability.md").is_file());
 }
+
+#[test]
+fn cases_are_tried_without_a_backend_that_is_not_there_and_that_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let output = Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .args(["stress", "--only", "tone thresholds that", "-o"])
+        .arg(&out)
+        .env("__EGL_VENDOR_LIBRARY_DIRS", folder.path())
+        .env_remove("__EGL_VENDOR_LIBRARY_FILENAMES")
+        .current_dir(root())
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("tinta: egl is missing (EGL: no devices") && said.contains("no two backends"), "{said}");
+    let json = std::fs::read_to_string(out.join("stress.json")).unwrap();
+    let record: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(record["missing"][0]["backend"], "egl");
+    let rows = record["cases"].as_array().unwrap();
+    assert!(!rows.is_empty() && rows.iter().all(|row| row["backend"] == "osmesa" && row["passed"] == true), "{json}");
+    assert!(std::fs::read_to_string(out.join("stress.md")).unwrap().contains("Without egl, which could not be had"));
+}

@@ -35,6 +35,17 @@ impl NumberedName {
     pub fn with(&self, number: u32) -> String {
         format!("{}{number:0digits$}{}", self.before, self.after, digits = self.digits)
     }
+
+    /// The number in a name that is one of these.
+    pub fn number_in(&self, name: &str) -> Option<u32> {
+        let number = name.strip_prefix(&self.before)?.strip_suffix(&self.after)?.parse().ok()?;
+        (self.with(number) == name).then_some(number)
+    }
+
+    /// What stands before the number, how many digits it has at least, and what stands after it.
+    pub fn parts(&self) -> (&str, usize, &str) {
+        (&self.before, self.digits, &self.after)
+    }
 }
 
 #[cfg(test)]
@@ -48,6 +59,15 @@ mod tests {
         assert_eq!(name("a/%d.tga", 120), "a/120.tga");
         assert_eq!(name("50%/x%02d_100%.png", 123), "50%/x123_100%.png");
         assert_eq!(name("10%_%03d.png", 4), "10%_004.png");
+    }
+
+    #[test]
+    fn numbers_are_found_in_their_names_and_in_no_others() {
+        let number = |name: &str| NumberedName::parse("a/f%03d.png").unwrap().number_in(name);
+        assert_eq!([number("a/f007.png"), number("a/f1234.png")], [Some(7), Some(1234)]);
+        for name in ["a/f07.png", "a/f0007.png", "a/f+07.png", "a/f.png", "b/f007.png", "a/f007.tga"] {
+            assert_eq!(number(name), None, "{name}");
+        }
     }
 
     #[test]

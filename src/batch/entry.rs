@@ -1,6 +1,7 @@
 //! What is written down of a job that has ended.
 
-use super::job::{Job, JobCommand, JobValue, OUTPUTS};
+use super::claims::Claim;
+use super::job::{Asked, Job, JobCommand};
 use super::place::place_in;
 use crate::recipe::{Driver, FileRecord};
 use serde::{Deserialize, Serialize};
@@ -133,16 +134,13 @@ impl Entry {
 /// What lies where a job writes: its files, those in its folders, the pictures of a pattern such as `frame-%04d.png`.
 pub fn written(job: &Job, folder: &Path) -> Vec<Written> {
     let mut files = Vec::new();
-    for (key, value) in &job.options {
-        let JobValue::Text(output) = value else { continue };
-        if !OUTPUTS.contains(&key.as_str()) {
-            continue;
-        }
-        let Ok(place) = place_in(folder, output) else { continue };
+    for claim in Claim::all(&Asked::of_job(job)) {
+        let Ok(place) = place_in(folder, &claim.output) else { continue };
         if place.is_dir() {
             files_in(&place, &mut files);
-        } else if output.contains('%') {
-            files.extend(numbered(&place));
+        } else if claim.output.contains('%') {
+            files.extend(numbered(&claim, &place, folder));
+            files.push(place);
         } else {
             files.push(place);
         }
@@ -173,17 +171,13 @@ fn files_in(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// The files whose names are those of a pattern with a number in its place.
-fn numbered(pattern: &Path) -> Vec<PathBuf> {
-    let Some(name) = pattern.file_name().and_then(|name| name.to_str()) else { return Vec::new() };
-    let Some((start, rest)) = name.split_once('%') else { return Vec::new() };
-    let end = rest.split_once('d').map_or("", |(_, end)| end);
-    let is_number = |name: &str| {
-        let number = name.strip_prefix(start).and_then(|name| name.strip_suffix(end));
-        number.is_some_and(|number| !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()))
+fn numbered(claim: &Claim, pattern: &Path, folder: &Path) -> Vec<PathBuf> {
+    let names = std::fs::read_dir(pattern.parent().unwrap_or(folder)).into_iter().flatten().flatten();
+    let is_one = |file: &PathBuf| {
+        let name = file.strip_prefix(folder).ok().and_then(Path::to_str);
+        name.is_some_and(|name| claim.has_numbered(&name.replace(std::path::MAIN_SEPARATOR, "/")))
     };
-    let folder = pattern.parent().unwrap_or(Path::new("."));
-    let names = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    names.filter(|file| file.file_name().to_str().is_some_and(is_number)).map(|file| file.path()).collect()
+    names.map(|file| file.path()).filter(is_one).collect()
 }
 
 #[cfg(test)]
@@ -195,15 +189,15 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         std::fs::create_dir_all(at("steps/more")).unwrap();
-        for name in ["f-1.png", "f-02.png", "f-x.png", "steps/b", "steps/more/a", "other"] {
+        for name in ["f-01.png", "f-02.png", "f-2.png", "f-04.png", "f-x.png", "steps/b", "steps/more/a", "other"] {
             std::fs::write(at(name), name).unwrap();
         }
-        let line = r#"{"id":"a","command":"render","output":"f-%02d.png","dump":"./steps"}"#;
+        let line = r#"{"id":"a","command":"render","output":"f-%02d.png","turntable":3,"dump":"./steps"}"#;
         let job = Job::parse(line.as_bytes()).unwrap();
         let found = written(&job, folder.path());
         let paths: Vec<&str> = found.iter().map(|file| file.path.as_str()).collect();
-        assert_eq!(paths, ["f-02.png", "f-1.png", "steps/b", "steps/more/a"]);
-        assert_eq!((found[1].bytes, found[1].sha256.len()), (7, 64));
+        assert_eq!(paths, ["f-01.png", "f-02.png", "steps/b", "steps/more/a"]);
+        assert_eq!((found[1].bytes, found[1].sha256.len()), (8, 64));
         let outcome =
             Outcome { status: Status::Done, error: None, remarks: Vec::new(), outputs: found, run: Run::default() };
         let entry = Entry::new(&job, outcome);

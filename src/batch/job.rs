@@ -86,12 +86,18 @@ impl Job {
 /// What a line asks for, without what it is known by: enough to check it.
 pub(super) struct Asked {
     pub id: String,
-    command: JobCommand,
+    pub command: JobCommand,
     models: Vec<String>,
     options: Vec<(String, JobValue)>,
 }
 
 impl Asked {
+    /// What a job asks for.
+    pub fn of_job(job: &Job) -> Self {
+        let Job { id, command, options, .. } = job.clone();
+        Self { id, command, models: Vec::new(), options }
+    }
+
     /// Reads a line and refuses what [`Job::parse`] does.
     pub fn of_line(line: &[u8]) -> Result<Self, String> {
         Self::of_keys(keys(line)?)
@@ -101,6 +107,14 @@ impl Asked {
     pub fn outputs(&self) -> impl Iterator<Item = (&str, &str)> {
         self.options.iter().filter_map(|(key, value)| match value {
             JobValue::Text(output) if OUTPUTS.contains(&key.as_str()) => Some((key.as_str(), output.as_str())),
+            _ => None,
+        })
+    }
+
+    /// The text that an option is given.
+    pub fn text(&self, option: &str) -> Option<&str> {
+        self.options.iter().find_map(|(key, value)| match value {
+            JobValue::Text(text) if key == option => Some(text.as_str()),
             _ => None,
         })
     }

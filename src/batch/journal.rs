@@ -48,7 +48,7 @@ impl Journal {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] when the disk is full: then nothing half is left.
+    /// [`Error::DiskFull`], or [`Error::Output`] where it cannot be written for another cause: then nothing half is left.
     pub fn append(&mut self, entry: &Entry) -> Result<()> {
         let refuse = |problem: String| Error::Output { path: self.path.display().to_string(), problem };
         let mut line = serde_json::to_string(entry).map_err(|error| refuse(format!("{error}; please report this")))?;
@@ -58,7 +58,8 @@ impl Journal {
             if let Ok(length) = length {
                 let _ = self.file.set_len(length);
             }
-            refuse(format!("it cannot be written ({error}); free some space and go on by --resume"))
+            let problem = format!("it cannot be written ({error}); free some space and go on by --resume");
+            Error::output(self.path.display().to_string(), &error, problem)
         })
     }
 }

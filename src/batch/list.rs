@@ -1,13 +1,12 @@
 //! The list of a batch's jobs, a line each; blank lines are passed over.
 
+use super::claims::{Claim, Key, Lines, Shared, key, problem};
 use super::job::{Asked, Job};
-use super::place::same_place;
 use super::slice::Slice;
 use crate::error::{Error, Result};
 use crate::files::{self, shown};
 use crate::limits::BATCH_BYTES;
 use crate::output::write_whole;
-use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -15,7 +14,7 @@ use std::path::Path;
 /// The list as a batch keeps it in its folder.
 pub const LIST_FILE: &str = "batch-list.jsonl";
 
-/// Jobs in the order of their list, none of the same name, no two with the same output. All lines are checked, but jobs are
+/// Jobs in the order of their list, none of the same name, no two that write the same file. All lines are checked, but jobs are
 /// made of them only when they are asked for: of a list of a million a run does a thousand.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct List {
@@ -45,18 +44,24 @@ impl List {
     /// As [`List::read`].
     pub fn of_bytes(bytes: Vec<u8>, name: &str) -> Result<Self> {
         let mut list = Self { count: 0, bytes };
-        let (mut ids, mut outputs) = (Seen::default(), Seen::default());
+        let (mut ids, mut outputs, mut shared) = (Seen::default(), Seen::default(), Shared::default());
         for (line, text) in list.lines() {
             let asked = Asked::of_line(text).map_err(|problem| refused(name, Some(line), problem))?;
             ids.add(&asked.id, line);
-            for place in asked.outputs().filter_map(|(_, output)| same_place(output)) {
-                outputs.add(&place, line);
+            for claim in Claim::all(&asked) {
+                outputs.add(claim.place(), line);
+                shared.note(&claim, in_32_bits(line));
             }
         }
         list.count = ids.0.len();
-        match (ids.first_twice(), outputs.first_twice()) {
-            (Some(id), output) if output.is_none_or(|output| id.line <= output.line) => Err(list.refuse_id(name, id)),
-            (_, Some(output)) => Err(list.refuse_output(name, output)),
+        let id = ids.first_twice();
+        let suspects = outputs.first_twice().into_iter().chain(list.suspects(shared));
+        let output = suspects.filter_map(|lines| Some((lines, list.clash(lines)?))).min_by_key(|((line, _), _)| *line);
+        match (id, output) {
+            (Some(id), output) if output.as_ref().is_none_or(|((line, _), _)| id.0 <= *line) => {
+                Err(list.refuse_id(name, id))
+            }
+            (_, Some(((line, _), problem))) => Err(refused(name, Some(line.into()), problem)),
             _ if list.count == 0 => Err(refused(name, None, "it holds no job; write one a line".to_owned())),
             _ => Ok(list),
         }
@@ -125,55 +130,56 @@ impl List {
         Asked::of_line(text).ok()
     }
 
-    fn refuse_id(&self, name: &str, Twice { line, before, .. }: Twice) -> Error {
+    fn refuse_id(&self, name: &str, (line, before): Lines) -> Error {
         let id = self.asked(line).map_or_else(String::new, |asked| asked.id);
         let problem = format!("the id {} is that of line {before} too; give it another", shown(&id));
         refused(name, Some(line.into()), problem)
     }
 
-    fn refuse_output(&self, name: &str, Twice { line, before, key }: Twice) -> Error {
-        let asked = self.asked(line);
-        let is_it = |(_, output): &(&str, &str)| same_place(output).is_some_and(|place| Seen::key(&place) == key);
-        // The last one, where both stand in this line.
-        let (option, output) = asked.iter().flat_map(Asked::outputs).filter(is_it).last().unwrap_or(("output", ""));
-        let problem = format!("{option}: {} is written by line {before} too; name another", shown(output));
-        refused(name, Some(line.into()), problem)
+    /// Lines that may write the same by a number or in a folder, the first few of them.
+    fn suspects(&self, mut shared: Shared) -> Vec<Lines> {
+        if shared.is_empty() {
+            return Vec::new();
+        }
+        shared.sort();
+        for (line, text) in self.lines() {
+            // Every line has been checked.
+            let Ok(asked) = Asked::of_line(text) else { continue };
+            Claim::all(&asked).for_each(|claim| shared.compare(&claim, in_32_bits(line)));
+        }
+        let mut suspects = shared.suspects();
+        suspects.truncate(SUSPECTS);
+        suspects
+    }
+
+    /// What is wrong with the later of two lines, if both write the same.
+    fn clash(&self, (line, before): Lines) -> Option<String> {
+        problem(&self.asked(line)?, &self.asked(before)?, before)
     }
 }
 
-/// Half of a SHA-256: no two of even a billion names share it by chance.
-type Key = [u8; 16];
+/// So many lines that may write the same are looked at by name; one is enough but where hashes are the same by chance.
+const SUSPECTS: usize = 8;
+
+/// A list has at most [`BATCH_BYTES`] lines, which 32 bits count.
+fn in_32_bits(line: u64) -> u32 {
+    u32::try_from(line).unwrap_or(u32::MAX)
+}
 
 /// Names, or places of outputs, and the lines they stand in: 20 bytes each, however long they are.
 #[derive(Default)]
 struct Seen(Vec<(Key, u32)>);
 
-/// What is there twice.
-#[derive(Clone, Copy)]
-struct Twice {
-    line: u32,
-    before: u32,
-    key: Key,
-}
-
 impl Seen {
-    fn key(name: &str) -> Key {
-        let mut key = Key::default();
-        key.copy_from_slice(&Sha256::digest(name.as_bytes())[..16]);
-        key
-    }
-
-    /// A list has at most [`BATCH_BYTES`] lines, which 32 bits count.
     fn add(&mut self, name: &str, line: u64) {
-        self.0.push((Self::key(name), u32::try_from(line).unwrap_or(u32::MAX)));
+        self.0.push((key(name), in_32_bits(line)));
     }
 
-    /// The first line with a name that stands in one before it, or in the same.
-    fn first_twice(mut self) -> Option<Twice> {
+    /// The first line with a name that stands in one before it, or in the same; then that one.
+    fn first_twice(mut self) -> Option<Lines> {
         self.0.sort_unstable();
         let twice = self.0.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-        let first = twice.min_by_key(|pair| pair[1].1)?;
-        Some(Twice { line: first[1].1, before: first[0].1, key: first[1].0 })
+        twice.map(|pair| (pair[1].1, pair[0].1)).min_by_key(|(line, _)| *line)
     }
 }
 
@@ -240,6 +246,72 @@ mod tests {
         assert_eq!(said("\n \r\n"), "jobs.jsonl: it holds no job; write one a line");
         let bad = said(&format!("{}\nnonsense\n", job("a", "a.png")));
         assert!(bad.starts_with("jobs.jsonl: line 2: this is no job ("), "{bad}");
+    }
+
+    /// A render, a turntable or a measurement, and all that it writes: files, or a folder with a slash at the end.
+    fn claimant(
+        number: usize,
+        (kind, before, width, after, count): (u8, &str, &str, &str, u32),
+    ) -> (String, Vec<String>) {
+        let digits = |number: u32| if width == "%d" { number.to_string() } else { format!("{number:02}") };
+        let line = |command: &str, output: &str| {
+            format!(r#"{{"id": "{number}", "command": "{command}", "output": "{output}", "turntable": {count}}}"#)
+        };
+        match kind {
+            0 => {
+                let name = format!("{before}{}{after}", digits(count * 3));
+                (line("render", &name), vec![name])
+            }
+            1 => {
+                let names = (1..=count).map(|number| format!("{before}{}{after}", digits(number))).collect();
+                (line("render", &format!("{before}{width}{after}")), names)
+            }
+            _ => (line("measure", &format!("{before}y")), vec![format!("{before}y/")]),
+        }
+    }
+
+    proptest::proptest! {
+        #![proptest_config(proptest::test_runner::Config { cases: 5_000, failure_persistence: None, ..Default::default() })]
+
+        #[test]
+        fn a_list_is_refused_just_where_the_names_of_two_jobs_meet(claims in proptest::collection::vec((
+            0u8..3,
+            proptest::sample::select(&["", "1", "a", "a1", "y/", "y/y/2"][..]),
+            proptest::sample::select(&["%d", "%02d"][..]),
+            proptest::sample::select(&[".png", "0.png", "1b2.png"][..]),
+            1u32..40,
+        ), 1..5)) {
+            let jobs: Vec<(String, Vec<String>)> =
+                claims.into_iter().enumerate().map(|(number, claim)| claimant(number, claim)).collect();
+            let meet = |one: &String, other: &String| {
+                one == other || one.ends_with('/') && other.starts_with(one) || other.ends_with('/') && one.starts_with(other)
+            };
+            let mut pairs = jobs.iter().enumerate().flat_map(|(place, job)| jobs[..place].iter().map(move |other| (job, other)));
+            let expected = pairs.any(|(one, other)| one.1.iter().any(|name| other.1.iter().any(|other| meet(name, other))));
+            let lines: Vec<&str> = jobs.iter().map(|(line, _)| line.as_str()).collect();
+            let read = list(&lines.join("\n"));
+            proptest::prop_assert_eq!(read.is_err(), expected, "{:?}: {:?}", lines, read.err().map(|error| error.to_string()));
+        }
+    }
+
+    #[test]
+    fn a_long_list_of_turntables_pictures_and_folders_is_checked_without_comparing_all_of_them() {
+        let line = |number: usize| match number % 4 {
+            0 => format!(r#"{{"id": {number}, "command": "render", "output": "t{number}-%02d.png", "turntable": 36}}"#),
+            1 => format!(
+                r#"{{"id": {number}, "command": "render", "output": "shared/{number}%03d.png", "turntable": 36}}"#
+            ),
+            2 => format!(r#"{{"id": {number}, "command": "measure", "output": "m/{number}"}}"#),
+            _ => format!(r#"{{"id": {number}, "command": "render", "output": "p/{number}/2026-11-22.png"}}"#),
+        };
+        let mut lines: Vec<String> = (0..100_000).map(line).collect();
+        assert_eq!(list(&lines.join("\n")).unwrap().count, 100_000);
+        lines.push(r#"{"id": "last", "command": "render", "output": "shared/50001036.png"}"#.to_owned());
+        assert_eq!(
+            list(&lines.join("\n")).unwrap_err().to_string(),
+            "jobs.jsonl: line 100001: output: shared/50001036.png is written by line 50002 too, as one of \
+             shared/50001%03d.png; name another"
+        );
     }
 
     #[test]

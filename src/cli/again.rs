@@ -5,9 +5,10 @@ use super::studio::Studio;
 use super::{Command, Stop, Verdict, render, say};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use tinta::limits::PICTURE_BYTES;
 use tinta::preset::OptionValue;
 use tinta::recipe::option_words;
-use tinta::{Backend, Error, Picture, Recipe, Result};
+use tinta::{Backend, Error, Picture, Recipe, Result, Size};
 
 /// Make a picture anew by the recipe it carries, and compare both
 #[derive(clap::Args)]
@@ -157,12 +158,32 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     };
     let backend = recipe.gl.as_ref().and_then(|gl| gl.backend.parse().ok()).unwrap_or_default();
     let render = render.with_backend(backend);
+    check_size(arguments, render.size())?;
     match render::run(&render, &given, &mut Studio::for_one()) {
         // Another way to OpenGL is better than none; that it is another is said.
         Err(Error::NoContext { .. }) if backend != Backend::Auto => {
             render::run(&render.with_backend(Backend::Auto), &given, &mut Studio::for_one()).map(drop)
         }
         result => result.map(drop),
+    }
+}
+
+/// Refuses a recipe for a large picture that the picture itself is not: what comes of it might not be read again, and is drawn
+/// for a long time.
+fn check_size(arguments: &Arguments, size: Size) -> Result<()> {
+    if is_svg(&arguments.output) || size.pixel_count() as u64 * 4 <= PICTURE_BYTES {
+        return Ok(());
+    }
+    let picture = Picture::read(&arguments.picture)?;
+    match picture.size == size {
+        true => Ok(()),
+        false => Err(Error::Picture {
+            path: arguments.picture.display().to_string(),
+            problem: format!(
+                "it is {} pixels large and its recipe is for {size}; it is not drawn, take the picture that tinta wrote",
+                picture.size
+            ),
+        }),
     }
 }
 

@@ -19,7 +19,7 @@ use signals::Stop;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use tinta::batch::{Entry, Job, Journal, List, Outcome, Slice, Status, Summary, begun, done};
+use tinta::batch::{Entry, Failure, Job, Journal, List, Outcome, Slice, Status, Summary, begun, done};
 use tinta::limits::REMARKS;
 use tinta::{Error, Result};
 
@@ -175,7 +175,7 @@ fn carry_out(
             let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
             let ended = Worker::of(&mut worker, folder, workers, cores).and_then(|worker| worker.carry_out(job));
             let mut desk = lock();
-            let noted = ended.and_then(|outcome| {
+            let noted = ended.and_then(|outcome| stop_on_full_disk(job, folder, outcome)).and_then(|outcome| {
                 note(&mut desk.counts, job, &outcome);
                 desk.journal.append(&Entry::new(job, outcome))
             });
@@ -200,6 +200,21 @@ fn carry_out(
         None => Ok(desk.counts),
     }
 }
+
+/// A full disk is the run's error, not the job's: every further one would fail too. The job is not written down, so that it
+/// is done when the run goes on.
+fn stop_on_full_disk(job: &Job, folder: &Path, outcome: Outcome) -> Result<Outcome> {
+    match outcome.error {
+        Some(Failure { ref kind, ref problem }) if *kind == DISK_FULL => Err(Error::DiskFull {
+            path: format!("{}: line {}, {}", folder.display(), job.line, job.id),
+            problem: format!("{}; go on by --resume", problem.trim_end_matches(" and go on by --resume")),
+        }),
+        _ => Ok(outcome),
+    }
+}
+
+/// [`Error::kind`] of [`Error::DiskFull`].
+const DISK_FULL: &str = "disk-full";
 
 /// Counts a job and says why it failed, for the first few that do.
 fn note(counts: &mut Counts, job: &Job, outcome: &Outcome) {

@@ -74,6 +74,7 @@ struct Drawing {
 }
 
 pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<()> {
+    super::speech::check_output(&arguments.output)?;
     let inputs = given.inputs(&arguments.models);
     inputs.keep(&arguments.output)?;
     inputs.keep_in(Path::new(&arguments.output), NAMES)?;
@@ -205,9 +206,8 @@ impl Output {
         if !is_folder {
             return Target::check(path, false).map(Self::File);
         }
-        std::fs::create_dir_all(path).map_err(|error| Error::Output {
-            path: path.to_owned(),
-            problem: format!("the folder cannot be made ({error}); choose another"),
+        std::fs::create_dir_all(path).map_err(|error| {
+            Error::output(path, &error, format!("the folder cannot be made ({error}); choose another"))
         })?;
         let file = |name: &str| {
             let file: PathBuf = Path::new(path).join(name);

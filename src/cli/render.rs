@@ -25,7 +25,7 @@ use tinta::plan::prune::Pruned;
 use tinta::preset::Options;
 use tinta::record::{CameraRecord, ModelRecord, Record, Summary};
 use tinta::renderer::{PassTime, milliseconds_since};
-use tinta::{Backend, Error, Renderer, Result, Scene, SceneSettings, Style, StyleName, Target};
+use tinta::{Backend, Error, Renderer, Result, Scene, SceneSettings, Size, Style, StyleName, Target};
 
 /// Draw models into a picture file
 #[derive(clap::Args)]
@@ -77,6 +77,11 @@ impl Arguments {
         Self { run: RunArguments { backend, ..self.run }, ..self }
     }
 
+    /// How large the picture is to be.
+    pub fn size(&self) -> Size {
+        self.scene.settings(self.camera.settings()).size
+    }
+
     /// The style of a picture.
     fn style_name(&self) -> StyleName {
         match self.style {
@@ -118,6 +123,7 @@ const PASS_FRAMES: usize = 21;
 
 /// Draws what the arguments say, of which `given` has those that make the picture, by name.
 pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<Verdict> {
+    super::speech::check_output(&arguments.output)?;
     let inputs = given.inputs(&arguments.models);
     inputs.keep(&arguments.output)?;
     let preset = arguments.keep.preset_target(&arguments.output, &inputs)?;
@@ -328,13 +334,13 @@ fn make_dump_folder(arguments: &Arguments) -> Result<()> {
             problem: "a step's picture in the --dump folder may take its place; give it another name".to_owned(),
         });
     }
-    std::fs::create_dir_all(folder).map_err(|error| Error::Output {
-        path: format!("--dump {}", folder.display()),
-        problem: if folder.is_file() {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let problem = if folder.is_file() {
             "this is a file; name a folder".to_owned()
         } else {
             format!("the folder cannot be made ({error}); choose another")
-        },
+        };
+        Error::output(format!("--dump {}", folder.display()), &error, problem)
     })
 }
 

@@ -1,5 +1,6 @@
 //! What the program says: results to standard output, talk to standard error, or both to whoever asked for a job to be done.
 
+use super::standard_output;
 use std::io::Write;
 use std::sync::{Mutex, PoisonError};
 use tinta::{Error, Result};
@@ -56,12 +57,43 @@ pub fn print(text: &str) -> Result<()> {
         heard.printed.push_str(text);
         return Ok(());
     }
+    check_output(STANDARD_OUTPUT)?;
     let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Error::Output {
-            path: "-".to_owned(),
-            problem: format!("standard output cannot be written ({error}); check where it goes"),
+    printed(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
+}
+
+/// Prints the help or the version that was asked for; where none was, but the command line is empty, it is an error and ends
+/// the program.
+pub fn print_help(help: &clap::Error) -> Result<()> {
+    if help.use_stderr() {
+        help.exit();
+    }
+    check_output(STANDARD_OUTPUT)?;
+    // Which knows whether a terminal shows colours.
+    printed(help.print().and_then(|()| std::io::stdout().flush()))
+}
+
+/// How an output names standard output.
+const STANDARD_OUTPUT: &str = "-";
+
+/// Refuses standard output that was closed when the program began.
+pub fn check_output(output: &str) -> Result<()> {
+    match output == STANDARD_OUTPUT && standard_output::was_closed() {
+        true => Err(Error::Output {
+            path: STANDARD_OUTPUT.to_owned(),
+            problem: "standard output is closed; name a file, or leave it open".to_owned(),
         }),
+        false => Ok(()),
+    }
+}
+
+fn printed(result: std::io::Result<()>) -> Result<()> {
+    match result {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Error::output(
+            STANDARD_OUTPUT,
+            &error,
+            format!("standard output cannot be written ({error}); check where it goes"),
+        )),
         _ => Ok(()),
     }
 }

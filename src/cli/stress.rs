@@ -10,7 +10,8 @@ use tinta::{Result, TextTarget};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Files: stress.json, every case in every style by every backend with its verdict and figures, and stress.md, the same as a
-table. Exit code 0 when every case ends as it must, 1 otherwise. docs/stability.md says what the figures mean.")]
+table. A backend that is not there, EGL or OSMesa, is left out, which is said and stands in both files; without either \
+nothing is tried. Exit code 0 when every case ends as it must, 1 otherwise. docs/stability.md says what the figures mean.")]
 pub struct Arguments {
     /// Folder to write into; made if it is not there
     #[arg(short, long, value_name = "DIR")]
@@ -48,6 +49,12 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
     let progress = Progress::new("attacking", 0);
     let summary = stress(&settings, |done, count| progress.set(done as u64, count as u64))?;
     drop(progress);
+    for missing in &summary.missing {
+        super::say(&format!(
+            "tinta: {} is missing ({}): the cases are tried without it, and no two backends are compared",
+            missing.backend, missing.reason
+        ));
+    }
     let record = super::json_text(&summary)?;
     json.write(&record)?;
     table.write(&summary.table())?;

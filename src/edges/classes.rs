@@ -12,7 +12,7 @@ use std::str::FromStr;
 
 /// Why an edge is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(rename_all = "kebab-case")]
 #[repr(u8)]
 pub enum Class {
     /// It has one face.
@@ -173,6 +173,7 @@ pub struct ClassCounts {
     /// One face.
     pub boundary: usize,
     /// Three faces or more.
+    #[serde(rename = "non-manifold")]
     pub non_manifold: usize,
     /// One face seen from the front, one from the back.
     pub silhouette: usize,
@@ -185,14 +186,7 @@ pub struct ClassCounts {
     /// Between different vertex normals.
     pub normal: usize,
     /// Where faces pass through one another; not counted among edges.
-    #[serde(skip_serializing_if = "is_zero")]
     pub intersection: usize,
-}
-
-/// Whether there is nothing to say.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
-fn is_zero(count: &usize) -> bool {
-    *count == 0
 }
 
 impl ClassCounts {

@@ -71,7 +71,7 @@ impl RowLog {
     ///
     /// # Errors
     ///
-    /// [`Error::Rows`] for a row with a number that is not finite, [`Error::Output`] when the disk is full.
+    /// [`Error::Rows`] for a row with a number that is not finite, [`Error::DiskFull`].
     pub fn append(&mut self, row: &Row) -> Result<()> {
         let problem = |problem: String| Error::Rows { path: self.path.display().to_string(), line: None, problem };
         let mut line = serde_json::to_string(row).map_err(|error| problem(error.to_string()))?;
@@ -167,12 +167,14 @@ fn without_place(error: &serde_json::Error) -> String {
 fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
     let problem = match error.kind() {
         ErrorKind::NotFound | ErrorKind::NotADirectory => "its folder is not there; make it first".to_owned(),
-        ErrorKind::StorageFull => "the disk is full; free some space and go on by --resume".to_owned(),
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "the disk is full; free some space and go on by --resume".to_owned()
+        }
         ErrorKind::FileTooLarge => {
             "it would be larger than files may be here (see ulimit -f); raise the limit and go on by --resume"
                 .to_owned()
         }
         _ => format!("it cannot be written ({error})"),
     };
-    Error::Output { path: path.display().to_string(), problem }
+    Error::output(path.display().to_string(), error, problem)
 }

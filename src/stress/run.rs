@@ -22,7 +22,7 @@ pub struct StressSettings {
     pub mixes: usize,
     /// Only cases whose name or group has this in it; default all.
     pub only: Option<String>,
-    /// The backends, each of which must draw the same. Default EGL and OSMesa.
+    /// The backends, each of which must draw the same; one that is not there is left out. Default EGL and OSMesa.
     pub backends: Vec<Backend>,
 }
 
@@ -90,10 +90,21 @@ pub struct Summary {
     pub version: &'static str,
     /// GL_RENDERER of each backend that took part.
     pub renderers: Vec<String>,
+    /// The backends that could not be had: nothing is known of them.
+    pub missing: Vec<MissingBackend>,
     /// How many cases there were.
     pub case_count: usize,
     /// The rows.
     pub cases: Vec<Row>,
+}
+
+/// A backend that could not be had.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct MissingBackend {
+    /// `egl` or `osmesa`.
+    pub backend: &'static str,
+    /// What was tried and why it failed.
+    pub reason: String,
 }
 
 impl Summary {
@@ -203,7 +214,7 @@ fn never_checked(case: &Case, rows: &[Row]) -> Option<Row> {
 ///
 /// # Errors
 ///
-/// [`Error::NoContext`] when a backend cannot be had, [`Error::Setting`] when no case has such a name, [`Error::Output`] when
+/// [`Error::NoContext`] when no backend can be had, [`Error::Setting`] when no case has such a name, [`Error::Output`] when
 /// there is no place for the files that cases need.
 pub fn run(settings: &StressSettings, mut progress: impl FnMut(usize, usize)) -> Result<Summary> {
     let chosen = settings.cases()?;
@@ -213,17 +224,15 @@ pub fn run(settings: &StressSettings, mut progress: impl FnMut(usize, usize)) ->
     })?;
     let folder = folder.path();
     // Before any work: a backend that is not there would fail every case.
-    let opened = open(&settings.backends)?;
-    let renderers = opened.iter().map(|(_, renderer)| renderer.context().renderer.clone()).collect();
-    drop(opened);
+    let Found { backends, renderers, missing } = find(&settings.backends)?;
     let (next, count) = (AtomicUsize::new(0), chosen.len());
     let mut rows: Vec<(usize, Vec<Row>)> = Vec::with_capacity(count);
     std::thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         for _ in 0..cores().min(count) {
-            let (sender, next, chosen) = (sender.clone(), &next, &chosen);
+            let (sender, next, chosen, backends) = (sender.clone(), &next, &chosen, &backends);
             scope.spawn(move || {
-                let mut worker = Worker { backends: &settings.backends, renderers: Vec::new(), folder };
+                let mut worker = Worker { backends, renderers: Vec::new(), folder };
                 while let Some((index, case)) = take(next, chosen) {
                     if sender.send((index, worker.carry_out(case))).is_err() {
                         return;
@@ -240,7 +249,7 @@ pub fn run(settings: &StressSettings, mut progress: impl FnMut(usize, usize)) ->
     });
     rows.sort_by_key(|(index, _)| *index);
     let cases = rows.into_iter().flat_map(|(_, rows)| rows).collect();
-    Ok(Summary { version: env!("CARGO_PKG_VERSION"), renderers, case_count: count, cases })
+    Ok(Summary { version: env!("CARGO_PKG_VERSION"), renderers, missing, case_count: count, cases })
 }
 
 fn take<'a>(next: &AtomicUsize, cases: &'a [Case]) -> Option<(usize, &'a Case)> {
@@ -248,9 +257,38 @@ fn take<'a>(next: &AtomicUsize, cases: &'a [Case]) -> Option<(usize, &'a Case)> 
     cases.get(index).map(|case| (index, case))
 }
 
+/// What there is of the backends asked for.
+struct Found {
+    backends: Vec<Backend>,
+    renderers: Vec<String>,
+    missing: Vec<MissingBackend>,
+}
+
+/// Tries each backend; that none is there is an error.
+fn find(asked: &[Backend]) -> Result<Found> {
+    let (mut found, mut missing, mut all_attempts) = (Vec::new(), Vec::new(), Vec::new());
+    for backend in asked {
+        match Renderer::new(*backend) {
+            Ok(renderer) => found.push((*backend, renderer)),
+            Err(Error::NoContext { attempts }) => {
+                missing.push(MissingBackend { backend: name(*backend), reason: attempts.join("; ") });
+                all_attempts.extend(attempts);
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    if found.is_empty() {
+        return Err(Error::NoContext { attempts: all_attempts });
+    }
+    let renderers = found.iter().map(|(_, renderer)| renderer.context().renderer.clone()).collect();
+    Ok(Found { backends: found.into_iter().map(|(backend, _)| backend).collect(), renderers, missing })
+}
+
+fn name(backend: Backend) -> &'static str {
+    Backend::ALL.iter().find(|(_, known)| *known == backend).map_or("auto", |(name, _)| name)
+}
+
 fn open(backends: &[Backend]) -> Result<Vec<(&'static str, Renderer)>> {
-    let name =
-        |backend: Backend| Backend::ALL.iter().find(|(_, known)| *known == backend).map_or("auto", |(name, _)| name);
     backends.iter().map(|backend| Ok((name(*backend), Renderer::new(*backend)?))).collect()
 }
 

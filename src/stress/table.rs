@@ -1,6 +1,6 @@
 //! The rows as a Markdown table.
 
-use super::run::{Row, Summary};
+use super::run::{MissingBackend, Row, Summary};
 use std::fmt::Write;
 
 impl Summary {
@@ -8,12 +8,13 @@ impl Summary {
     pub fn table(&self) -> String {
         let failed = self.failures().count();
         let mut text = format!(
-            "# Stiff and extreme cases\n\ntinta {}, {}: {} cases, {} rows, {failed} not as they must be.\n\n\
+            "# Stiff and extreme cases\n\ntinta {}, {}: {} cases, {} rows, {failed} not as they must be.\n\n{}\
              | case | style | backend | verdict | as expected | figures |\n|---|---|---|---|---|---|\n",
             self.version,
             self.renderers.join(" and "),
             self.case_count,
-            self.cases.len()
+            self.cases.len(),
+            missing(&self.missing)
         );
         for row in &self.cases {
             let passed = if row.passed { "yes" } else { "**no**" };
@@ -30,6 +31,14 @@ impl Summary {
         }
         text
     }
+}
+
+/// A sentence for each backend that could not be had.
+fn missing(missing: &[MissingBackend]) -> String {
+    let sentence = |of: &MissingBackend| {
+        format!("Without {}, which could not be had ({}): no two backends were compared.\n\n", of.backend, of.reason)
+    };
+    missing.iter().map(sentence).collect()
 }
 
 /// The figures in a line, and what is remarked.

@@ -68,8 +68,6 @@ pub fn prefix(job: &Job) -> String {
 }
 
 fn cannot(path: &Path, error: &std::io::Error) -> Error {
-    Error::Output {
-        path: path.display().to_string(),
-        problem: format!("the folder cannot be replaced ({error}); choose another"),
-    }
+    let problem = format!("the folder cannot be replaced ({error}); choose another");
+    Error::output(path.display().to_string(), error, problem)
 }

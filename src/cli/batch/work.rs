@@ -130,9 +130,9 @@ fn make_folders(job: &Job, folder: &Path) -> Result<()> {
         }
         let Ok(place) = place_in(folder, output) else { continue };
         let parent: PathBuf = place.parent().unwrap_or(folder).to_path_buf();
-        std::fs::create_dir_all(&parent).map_err(|error| Error::Output {
-            path: parent.display().to_string(),
-            problem: format!("the folder cannot be made ({error}); choose another"),
+        std::fs::create_dir_all(&parent).map_err(|error| {
+            let problem = format!("the folder cannot be made ({error}); choose another");
+            Error::output(parent.display().to_string(), &error, problem)
         })?;
     }
     Ok(())
