@@ -1,6 +1,7 @@
 //! What a style wants GL to do, as plain data: passes of steps, each with all the state it needs.
 //!
-//! A style makes it from a scene, `gl` carries it out, and anybody can print, compare or check it without a GPU.
+//! A style makes it from a scene, `gl` carries it out, and anybody can print, compare or check it without a GPU. What a style
+//! knows of its shaders it states beside each draw ([`Facts`]), for those who leave out what a scene does not need ([`prune`]).
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -14,15 +15,19 @@
 //! let passes: Vec<&str> = plan.passes.iter().map(|pass| pass.name).collect();
 //! assert_eq!(passes, ["map", "tones", "border"]);
 //! // A plan prints as what it does, step by step.
-//! assert!(plan.to_string().contains("evangelista/border.frag"));
+//! assert!(plan.to_string().contains("copy the framebuffer into the texture BorderMap"));
+//! // What a style states of its draws is printed by `{:#}`.
+//! assert!(format!("{plan:#}").contains("reads no further than 2 px"));
 //! # Ok(())
 //! # }
 //! ```
 
 mod display;
+mod facts;
 pub mod prune;
 mod target;
 
+pub use facts::{Facts, Shorter, WhereEven};
 pub use target::{Attachment, Attachments, Drawn, Format, Target};
 
 use crate::mesh::Part;
@@ -109,6 +114,8 @@ pub struct Draw {
     pub scissor: Option<Rectangle>,
     /// Which faces of [`Geometry::Objects`] are drawn, an entry for each of the scene's objects; `None` for all.
     pub faces: Option<Arc<Vec<Faces>>>,
+    /// What may be assumed of its shaders.
+    pub facts: Facts,
 }
 
 /// Which faces of an object are drawn.
@@ -132,7 +139,7 @@ pub struct FaceList {
 }
 
 impl Draw {
-    /// A draw that tests and writes depth and does nothing else besides.
+    /// A draw that tests and writes depth and does nothing else besides, of whose shaders nothing is assumed.
     pub fn new(geometry: Geometry, program: Option<Program>) -> Self {
         Self {
             geometry,
@@ -145,6 +152,7 @@ impl Draw {
             polygon_offset: None,
             scissor: None,
             faces: None,
+            facts: Facts::default(),
         }
     }
 }

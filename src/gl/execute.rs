@@ -8,6 +8,7 @@ use super::objects::{Buffer, Program, Shader, TimerQuery};
 use super::targets::{Targets, clear_each};
 use super::textures::Textures;
 use crate::error::{Error, Result};
+use crate::glsl;
 use crate::plan::{self, Depth, Draw, Geometry, LineDrawing, Plan, Step, Target};
 use crate::scene::{Rectangle, Scene, Size};
 use crate::tolerances::BACKGROUND_DISTANCE;
@@ -372,6 +373,15 @@ impl Resources {
     pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> HashMap<String, String> {
         self.programs.clear();
         self.gl.replaced_shaders.replace(shaders)
+    }
+
+    /// The built-in shaders in whose place there is another text, in order of their paths.
+    pub fn replaced_shaders(&self) -> Vec<String> {
+        let replaced = self.gl.replaced_shaders.borrow();
+        let is_other = |(path, text): &(&String, &String)| glsl::source(path).is_some_and(|built_in| built_in != *text);
+        let mut paths: Vec<String> = replaced.iter().filter(is_other).map(|(path, _)| path.clone()).collect();
+        paths.sort();
+        paths
     }
 
     /// Compiles a shader by itself and lets go of it.

@@ -95,6 +95,26 @@ impl Plan {
     }
 }
 
+impl Target {
+    /// The texture that holds the picture of a pass into it, the first of its textures; `None` for the framebuffer.
+    pub fn picture(self) -> Option<Drawn> {
+        match self {
+            Self::Framebuffer => None,
+            Self::Textures(attachments) => attachments.colors.first().map(|color| color.name),
+        }
+    }
+}
+
+impl Target {
+    /// How many colours a pass into it draws at once.
+    pub(super) fn color_count(self) -> usize {
+        match self {
+            Self::Framebuffer => 1,
+            Self::Textures(attachments) => attachments.colors.len(),
+        }
+    }
+}
+
 impl fmt::Display for Target {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self::Textures(attachments) = self else { return Ok(()) };

@@ -50,6 +50,14 @@ impl MapEncoding {
         }
     }
 
+    /// What the background square leaves in a pixel of the map: its normal in eye space, and the depth of the far plane.
+    pub(super) fn background(self) -> [f32; 4] {
+        match self {
+            Self::Paper | Self::Float16 | Self::Float => [0.0, 0.0, 1.0, 1.0],
+            Self::Biased | Self::DepthTexture => [0.5, 0.5, 1.0, 1.0],
+        }
+    }
+
     /// What it is written into.
     pub(super) fn target(self, map_target: MapTarget) -> Target {
         match self {

@@ -7,7 +7,7 @@
 use super::{Border, Cartoon, MapEncoding, MapTarget, Show, Supersample, Tones};
 use crate::error::Result;
 use crate::plan::{
-    Attachment, Attachments, Draw, Drawn, Format, Geometry, Paint, Pass, Plan, Program, Step, Target, Texture,
+    Attachment, Attachments, Draw, Drawn, Facts, Format, Geometry, Paint, Pass, Plan, Program, Step, Target, Texture,
 };
 use crate::scene::Scene;
 use serde::Serialize;
@@ -40,9 +40,6 @@ impl Default for Mrt {
         }
     }
 }
-
-/// What the square leaves in the map: the normal (0, 0, 1), farthest depth.
-const SQUARE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
 
 const TONES: Attachment = Attachment { name: Drawn::Tones, format: Format::Unorm8 };
 const MAP: Attachment = Attachment { name: Drawn::Map, format: Format::Unorm8 };
@@ -102,9 +99,11 @@ impl Mrt {
             uniforms: if published { Vec::new() } else { self.tones.uniforms(false) },
             textures: if published { Vec::new() } else { self.tones.textures() },
             cull_back_faces: self.cull_back_faces,
+            facts: Facts { shorter: self.tones.shorter(&program), ..Facts::plain() },
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
-        let map = if self.background_square { SQUARE } else { MapEncoding::Paper.empty() };
+        let encoding = MapEncoding::Paper;
+        let map = if self.background_square { encoding.background() } else { encoding.empty() };
         let colors = vec![scene.background.clear_color(), map];
         let steps = vec![Step::ClearEach { colors }, Step::Draw(objects)];
         Pass { target: Target::Textures(&TONES_AND_MAP), ..Pass::new("tones-and-map", steps) }

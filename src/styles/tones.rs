@@ -2,7 +2,8 @@
 
 use crate::error::{Error, Result};
 use crate::names::find;
-use crate::plan::{Texture, ToneTable, Uniform, Value};
+use crate::plan::{Program, Shorter, Texture, ToneTable, Uniform, Value};
+use crate::tolerances::UNREACHED_LIGHT;
 use serde::Serialize;
 use std::str::FromStr;
 
@@ -59,6 +60,9 @@ impl Default for Tones {
 /// A threshold no light reaches: light values end at 1.
 const NEVER: f32 = 2.0;
 
+/// The part that compares both kinds of light with their thresholds.
+const STEPS: &str = "evangelista/tone-steps.frag";
+
 /// Texels of the tone table: thresholds are exact to 1/1023.
 const TABLE_SIZE: usize = 1024;
 
@@ -104,9 +108,26 @@ impl Tones {
     /// The fragment shader that finds the tones.
     pub(super) fn shader(&self) -> &'static str {
         match self.lookup {
-            ToneLookup::Steps => "evangelista/tone-steps.frag",
+            ToneLookup::Steps => STEPS,
             ToneLookup::Texture => "evangelista/tone-texture.frag",
         }
+    }
+
+    /// A program that compares with thresholds, without the light that reaches none: the driver then leaves that light out
+    /// of both shaders.
+    pub(super) fn shorter(&self, program: &Program) -> Option<Shorter> {
+        let [diffuse, specular] = self.thresholds();
+        if specular < UNREACHED_LIGHT || !program.has_shader(STEPS) {
+            return None;
+        }
+        let (part, without) = match diffuse < UNREACHED_LIGHT {
+            true => ("improved/tone-diffuse.frag", "highlights"),
+            false => ("improved/tone-one.frag", "diffuse light and highlights"),
+        };
+        let mut program = program.clone();
+        program.fragments.iter_mut().filter(|fragment| **fragment == STEPS).for_each(|fragment| *fragment = part);
+        let because = format!("light ends at 1, and the thresholds are {diffuse} and {specular}");
+        Some(Shorter { program, without, because })
     }
 
     /// Its uniforms; on the `background` every tone is 1, so that the square has the colour it was given.
