@@ -22,13 +22,15 @@
 //! # }
 //! ```
 
+mod check;
 mod display;
 mod facts;
 pub mod prune;
 mod target;
 
+pub use check::Flaw;
 pub use facts::{Facts, Shorter, WhereEven};
-pub use target::{Attachment, Attachments, Drawn, Format, Target};
+pub use target::{Attachment, Attachments, Choice, Drawn, Format, Target};
 
 use crate::mesh::Part;
 use crate::names::find;

@@ -172,7 +172,7 @@ impl Renderer {
     ///
     /// # Errors
     ///
-    /// [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
+    /// [`Error::Plan`] before anything is drawn, [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
     pub fn draw(&mut self, scene: &Scene, plan: &Plan) -> Result<Picture> {
         self.with_context(scene, plan, |frame| {
             frame.all_steps()?;
@@ -355,6 +355,7 @@ impl Renderer {
         work: impl FnOnce(&mut Frame<'_>) -> Result<T>,
     ) -> Result<T> {
         self.resources.refuse_if_lost("drawing")?;
+        plan.check(scene).map_err(|flaw| Error::Plan { flaw })?;
         let surface = scene.size.times(plan.supersample);
         if self.surface != Some(surface) {
             self.resize(surface, plan.supersample)?;

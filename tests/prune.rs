@@ -12,7 +12,7 @@ use tinta::{
 };
 
 /// As if many pictures were to come, so that every rule is worth its time.
-fn every_rule() -> Pruning {
+pub fn every_rule() -> Pruning {
     Pruning { pictures: u32::MAX, subpixel_bits: 8, ..Pruning::default() }
 }
 

@@ -151,8 +151,7 @@ fn draw(arguments: &Arguments, options: &Options, studio: &mut Studio) -> Result
     let Loaded { scene, files, published, load_ms, plan_ms } = loaded?;
     let Ready { renderer, context_ms, warm_up_ms } = ready?;
     let pruning = Instant::now();
-    let Pruned { plan, omissions, kept } =
-        arguments.prune.pruned(&published, &scene, renderer, arguments.run.frames);
+    let Pruned { plan, omissions, kept } = arguments.prune.pruned(&published, &scene, renderer, arguments.run.frames);
     let plan_ms = plan_ms + milliseconds_since(pruning);
     let remarks = renderer.remarks(&plan);
     remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));

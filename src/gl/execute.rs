@@ -190,7 +190,9 @@ impl Resources {
                 plan::Texture::Picture(number) => self.textures.picture(*number),
                 plan::Texture::Material => self.textures.white(),
             };
-            texture.ok_or_else(|| Error::gl("drawing", "a plan reads a texture before it is made"))?.bind(unit as u32);
+            texture
+                .ok_or_else(|| Error::gl("drawing", "a plan was carried out without being checked"))?
+                .bind(unit as u32);
         }
         let is_fixed = draw.program.as_ref().is_none_or(|program| program.fragments.is_empty());
         for unit in 0..legacy::FIXED_UNITS {

@@ -1,6 +1,8 @@
 //! Plans as text, for `--explain` and for tests.
 
-use super::{Depth, Draw, EdgeRun, Faces, Facts, Geometry, LineDrawing, Mark, Paint, Plan, Program, Step, Texture, Value};
+use super::{
+    Depth, Draw, EdgeRun, Faces, Facts, Geometry, LineDrawing, Mark, Paint, Plan, Program, Step, Texture, Value,
+};
 use crate::scene::Rectangle;
 use std::fmt;
 
@@ -89,7 +91,7 @@ impl fmt::Display for Draw {
         }
         for (sampler, texture) in &self.textures {
             match texture {
-                Texture::Drawn(name) => write!(out, ", {sampler} = {name:?}")?,
+                Texture::Drawn(name) => write!(out, ", {sampler} = {name}")?,
                 _ => write!(out, ", {sampler} = {texture:?}")?,
             }
         }

@@ -114,7 +114,9 @@ impl fmt::Display for Facts {
                 WhereEven::Unchanged => "nothing where that is even".to_owned(),
                 WhereEven::Color(even) => format!("{} where that is even", color(even)),
             }),
-            self.shorter.as_ref().map(|Shorter { program, without, .. }| format!("the same as {program} without {without}")),
+            self.shorter
+                .as_ref()
+                .map(|Shorter { program, without, .. }| format!("the same as {program} without {without}")),
         ];
         out.write_str(&facts.into_iter().flatten().collect::<Vec<_>>().join(", "))
     }

@@ -10,9 +10,7 @@ use super::{MapTarget, Show, Supersample, Tones, lens, supersample};
 use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
 use crate::names::find;
-use crate::plan::{
-    Depth, Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Target, Uniform, Value, WhereEven,
-};
+use crate::plan::{Depth, Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Target, Uniform, Value, WhereEven};
 use crate::scene::{Background, Scene, Size};
 use serde::Serialize;
 use std::str::FromStr;

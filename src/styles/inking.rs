@@ -9,7 +9,8 @@ use crate::edges::{Class, ClassSet, CreaseAngle, Side, SilhouetteRule, side_of_f
 use crate::error::{Error, Result};
 use crate::names::find;
 use crate::plan::{
-    Depth, Draw, EdgeRun, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture,
+    Depth, Draw, EdgeRun, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
+    Texture,
 };
 use crate::scene::{Background, Color, Scene};
 use serde::Serialize;
