@@ -45,8 +45,8 @@ use std::sync::Arc;
 pub struct Plan {
     /// In order; each pass is timed by its name.
     pub passes: Vec<Pass>,
-    /// The table of tones that [`Texture::ToneTable`] stands for, if a step reads it.
-    pub tone_table: Option<ToneTable>,
+    /// The tables that [`Texture::Table`] numbers.
+    pub tables: Vec<PlanTable>,
     /// The pictures that [`Texture::Picture`] numbers.
     pub pictures: Vec<PlanPicture>,
     /// How many times as wide and high as the picture it is drawn, from 1. Above 1 the plan itself ends by drawing
@@ -286,8 +286,8 @@ pub enum Texture {
     Drawn(Drawn),
     /// The depth buffer as the last [`Step::CopyDepth`] left it, window z in red; NEAREST, CLAMP_TO_EDGE.
     DepthMap,
-    /// The plan's [`ToneTable`], one-dimensional; NEAREST, CLAMP_TO_EDGE.
-    ToneTable,
+    /// The plan's table of this number, one-dimensional; NEAREST, CLAMP_TO_EDGE.
+    Table(usize),
     /// The plan's picture of this number.
     Picture(usize),
     /// The texture of each material, by the model's own texture coordinates, LINEAR, GL_REPEAT; white where it has none.
@@ -327,10 +327,12 @@ pub enum Depth {
     Ignore,
 }
 
-/// Tones as a one-dimensional texture: (tone of a diffuse value, tone of a specular value or 0) a texel.
+/// Two functions of one number as a one-dimensional texture.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ToneTable {
-    /// Values in 1/255, for the light values 0 to 1 at the texels' centres.
+pub struct PlanTable {
+    /// What it is, for those who read the plan.
+    pub name: &'static str,
+    /// Luminance and alpha, in 1/255, for the numbers 0 to 1 at the texels' centres.
     pub texels: Vec<[u8; 2]>,
 }
 
@@ -346,9 +348,9 @@ pub enum Output {
 }
 
 impl Plan {
-    /// A plan of these passes that reads neither tones nor pictures, drawn at its own size.
+    /// A plan of these passes that reads neither tables nor pictures, drawn at its own size.
     pub fn new(passes: Vec<Pass>) -> Self {
-        Self { passes, tone_table: None, pictures: Vec::new(), supersample: 1, output: Output::Rgba }
+        Self { passes, tables: Vec::new(), pictures: Vec::new(), supersample: 1, output: Output::Rgba }
     }
 
     /// All steps with the name of their pass.

@@ -360,8 +360,8 @@ picture: the framebuffer
         let mut cartoon = Cartoon::default();
         cartoon.tones.lookup = ToneLookup::Texture;
         let style = Style::ThreePass(cartoon);
-        assert!(plan(&style, Show::Final).tone_table.is_some());
-        assert!(plan(&style, Show::Borders).tone_table.is_none());
+        assert_eq!(plan(&style, Show::Final).tables.len(), 1);
+        assert!(plan(&style, Show::Borders).tables.is_empty());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What plans state of their draws: the pruner goes by that alone, of anybody's shaders, and by nothing once one is replaced.
 
-use crate::prune::every_rule;
+use crate::prune::{beside, every_rule};
 use crate::support::{BACKENDS, ball, renderer, root, scene};
 use std::collections::{HashMap, HashSet};
 use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
@@ -43,6 +43,9 @@ fn a_border_shader_replaced_by_one_that_inks_all_of_the_picture_inks_all_of_it()
         let full = renderer.draw(&scene, &plan).unwrap();
         assert!(full.pixels.chunks_exact(4).all(|pixel| *pixel == [0, 0, 0, u8::MAX]));
         assert!(renderer.render(&scene, &style).unwrap() == full, "{backend:?}: confined to the objects");
+        let unaware = Pruning { replaced_shaders: Vec::new(), ..renderer.pruning(1) };
+        let confined = prune(&plan, &scene, &unaware).plan;
+        assert!(renderer.draw(&scene, &confined).unwrap() != full, "else this test would see nothing");
         let short = prune(&plan, &scene, &renderer.pruning(u32::MAX));
         assert!(!left_out(&short).contains(&Rule::EmptyPixels));
         assert!(left_out(&short).contains(&Rule::BackgroundSquare), "the other shaders are as they were");
@@ -53,59 +56,71 @@ fn a_border_shader_replaced_by_one_that_inks_all_of_the_picture_inks_all_of_it()
     }
 }
 
+/// A shader replaced, and a style and a scene whose short plan would draw something else if it did not count.
+struct Replaced {
+    path: &'static str,
+    text: String,
+    style: Style,
+    scene: Scene,
+}
+
+fn replaced(path: &'static str, text: &str, style: Style) -> Replaced {
+    Replaced { path, text: text.to_owned(), style, scene: far_away("builtin:gear") }
+}
+
 #[test]
 fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
-    let one_tone = {
-        let mut cartoon = Cartoon::default();
-        cartoon.tones.count = 1;
-        cartoon
-    };
-    let larger =
-        |text: &str| text.replace("gl_Position=ftransform()", "gl_Position=ftransform()*vec4(3.0,3.0,1.0,1.0)");
+    let mut one_tone = Cartoon::default();
+    one_tone.tones.count = 1;
+    let three = Style::named(StyleName::ThreePass);
     let source = |path: &str| tinta::glsl::source(path).unwrap().to_owned();
+    let scaled = |path: &str, factor: &str| {
+        source(path).replace("ftransform()", &format!("ftransform() * vec4({factor}, {factor}, 1.0, 1.0)"))
+    };
     let in_stripes = "#version 120\nvoid main() { gl_FragColor = vec4(mod(floor(gl_FragCoord.x), 2.0)); }\n";
     let holed =
         "#version 120\nvoid main() { if (mod(gl_FragCoord.x, 4.0) < 2.0) discard; gl_FragColor = vec4(0.5); }\n";
     let dark = "#version 120\nfloat toneOf(float diffuse, float specular) { return 0.25; }\n";
-    let three = Style::named(StyleName::ThreePass);
-    let cases: [(&str, String, Style); 9] = [
-        // Borders where the map is no longer even, and beyond where objects are.
-        ("evangelista/map.frag", in_stripes.to_owned(), three.clone()),
-        ("evangelista/map.frag", in_stripes.to_owned(), Style::named(StyleName::TwoPass)),
-        ("evangelista/map.vert", larger(&source("evangelista/map.vert")), three.clone()),
-        ("evangelista/toon.vert", larger(&source("evangelista/toon.vert")), three),
-        ("improved/plane-map.frag", in_stripes.to_owned(), Style::Ink(Ink::default())),
-        ("improved/plane-ink.frag", ALL_INK.to_owned(), Style::Ink(Ink::default())),
-        (
-            "improved/two-targets.vert",
-            source("improved/two-targets.vert").replace("ftransform()", "vec4(0.0)"),
-            Style::Mrt(Mrt::default()),
-        ),
+    let front_away = source("phong/phong.frag").replace("void main() {", "void main() { if (gl_FrontFacing) discard;");
+    assert!(front_away.contains("discard"));
+    let cases = [
+        // The map is no longer even.
+        replaced("evangelista/map.frag", in_stripes, three.clone()),
+        replaced("evangelista/map.frag", in_stripes, Style::named(StyleName::TwoPass)),
+        // Objects are drawn where the camera does not have them.
+        replaced("evangelista/map.vert", &scaled("evangelista/map.vert", "3.0"), three.clone()),
+        replaced("improved/two-targets.vert", &scaled("improved/two-targets.vert", "3.0"), Style::Mrt(Mrt::default())),
+        Replaced {
+            scene: beside("builtin:bust"),
+            ..replaced("evangelista/toon.vert", &scaled("evangelista/toon.vert", "0.2"), three)
+        },
+        replaced("improved/plane-ink.frag", ALL_INK, Style::Ink(Ink::default())),
         // A part of the shorter program only: the longer one is as it was.
-        ("improved/tone-one.frag", dark.to_owned(), Style::ThreePass(one_tone)),
-        ("valente/paper.frag", holed.to_owned(), Style::Charcoal(Charcoal::default())),
+        replaced("improved/tone-one.frag", dark, Style::ThreePass(one_tone)),
+        // Through holes one sees what was cleared, or the faces behind.
+        replaced("valente/paper.frag", holed, Style::Charcoal(Charcoal::default())),
+        Replaced { scene: ball(4), ..replaced("phong/phong.frag", &front_away, Style::Phong(Phong::default())) },
     ];
     let mut renderer = renderer(BACKENDS[0]);
-    for (path, text, style) in cases {
-        let scene = far_away("builtin:gear");
+    for Replaced { path, text, style, scene } in cases {
         replace(&mut renderer, path, &text);
         let plan = style.plan(&scene, Show::Final).unwrap();
         let full = renderer.draw(&scene, &plan).unwrap();
+        let other = Style::named(StyleName::ThreePass).plan(&scene, Show::Map).unwrap();
+        let mut draw = |pruning: &Pruning| {
+            // Nothing of the full picture may be left for the short plan to show.
+            renderer.draw(&scene, &other).unwrap();
+            renderer.draw(&scene, &prune(&plan, &scene, pruning).plan).unwrap()
+        };
+        let mut would_differ = false;
         for is_software in [true, false] {
-            let short = prune(&plan, &scene, &Pruning { is_software, ..renderer.pruning(u32::MAX) }).plan;
-            assert!(renderer.draw(&scene, &short).unwrap() == full, "{path} in {}\n{short:#}", style.name());
+            let pruning = Pruning { is_software, replaced_shaders: vec![path.to_owned()], ..every_rule() };
+            assert!(draw(&pruning) == full, "{path} in {}", style.name());
+            would_differ |= draw(&Pruning { replaced_shaders: Vec::new(), ..pruning }) != full;
         }
+        assert!(would_differ, "{path} in {} shows nothing", style.name());
+        assert_eq!(renderer.pruning(1).replaced_shaders, [path]);
     }
-    // Through the holes one sees the faces behind.
-    let (scene, style) = (ball(4), Style::Phong(Phong::default()));
-    let behind = source("phong/phong.frag").replace("void main() {", "void main() { if (gl_FrontFacing) discard;");
-    assert!(behind.contains("discard"));
-    let plan = style.plan(&scene, Show::Final).unwrap();
-    let pruning = Pruning { pictures: u32::MAX, ..renderer.pruning(1) };
-    assert!(left_out(&prune(&plan, &scene, &pruning)).contains(&Rule::HiddenFaces));
-    replace(&mut renderer, "phong/phong.frag", &behind);
-    let short = prune(&plan, &scene, &renderer.pruning(u32::MAX)).plan;
-    assert!(renderer.draw(&scene, &short).unwrap() == renderer.draw(&scene, &plan).unwrap());
 }
 
 /// The same plan by copies of its shaders under names of one's own, and their texts.
@@ -170,16 +185,6 @@ fn a_style_of_ones_own_that_states_facts_is_pruned_like_the_built_in_ones() {
     for rule in ["border", "culled-faces", "unused-light", "background-square", "empty-pixels", "overwritten-clear"] {
         assert!(seen.contains(rule), "{rule} applies to none of them: {seen:?}");
     }
-    // Objects and faces are left out of the halftone of examples/ too.
-    let beside = crate::prune::beside("builtin:bust");
-    assert!(
-        left_out(&prune(
-            &as_ones_own(Style::named(StyleName::Phong).plan(&beside, Show::Final).unwrap()).0,
-            &beside,
-            &every_rule()
-        ))
-        .contains(&Rule::OutsideObjects)
-    );
 }
 
 #[test]

@@ -186,7 +186,7 @@ impl Resources {
                 plan::Texture::BorderMap => self.targets.border_map(),
                 plan::Texture::Drawn(name) => self.targets.drawn(*name),
                 plan::Texture::DepthMap => self.targets.depth_map(),
-                plan::Texture::ToneTable => self.textures.tone_table(),
+                plan::Texture::Table(number) => self.textures.table(*number),
                 plan::Texture::Picture(number) => self.textures.picture(*number),
                 plan::Texture::Material => self.textures.white(),
             };

@@ -101,7 +101,7 @@ impl Plan {
         written.needs_color(last.target, last.name)
     }
 
-    /// Passes, targets, the table, pictures and supersampling.
+    /// Passes, targets, tables, pictures and supersampling.
     fn check_as_a_whole(&self) -> Result<(), Flaw> {
         let mut formats: Vec<(Drawn, Format)> = Vec::new();
         for pass in &self.passes {
@@ -117,8 +117,8 @@ impl Plan {
                 }
             }
         }
-        if self.tone_table.as_ref().is_some_and(|table| table.texels.is_empty()) {
-            return Err(wrong_size("the table of tones".to_owned(), "empty".to_owned(), "one texel or more"));
+        if let Some(table) = self.tables.iter().find(|table| table.texels.is_empty()) {
+            return Err(wrong_size(table.name.to_owned(), "empty".to_owned(), "one texel or more"));
         }
         for plan_picture in &self.pictures {
             let (size, bytes) = (plan_picture.picture.size, plan_picture.picture.pixels.len());
@@ -203,8 +203,10 @@ impl Written {
         for (_, texture) in &draw.textures {
             match *texture {
                 Texture::Material => {}
-                Texture::ToneTable if plan.tone_table.is_none() => return Err(missing(pass, "the table of tones")),
-                Texture::ToneTable => {}
+                Texture::Table(number) if number >= plan.tables.len() => {
+                    return Err(missing(pass, &format!("table {number}, counted from 0")));
+                }
+                Texture::Table(_) => {}
                 Texture::Picture(number) if number >= plan.pictures.len() => {
                     return Err(missing(pass, &format!("picture {number}, counted from 0")));
                 }

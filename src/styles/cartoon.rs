@@ -146,7 +146,8 @@ impl Cartoon {
             .iter()
             .flat_map(|pass| &pass.steps)
             .any(|step| matches!(step, Step::Draw(draw) if draw.textures.iter().any(|(name, _)| *name == "toneTable")));
-        let plan = Plan { tone_table: self.tones.table().filter(|_| reads_table), output, ..Plan::new(passes) };
+        let tables = if reads_table { self.tones.tables() } else { Vec::new() };
+        let plan = Plan { tables, output, ..Plan::new(passes) };
         if shows_map(show) { plan } else { self.supersample.finish(plan, scene.size) }
     }
 

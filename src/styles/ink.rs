@@ -106,7 +106,8 @@ impl Ink {
         if matches!(show, Show::Final | Show::Borders) && self.is_inked {
             passes.push(self.ink_pass(scene, surface, show == Show::Borders));
         }
-        let plan = Plan { tone_table: self.tones.table().filter(|_| show != Show::Borders), ..Plan::new(passes) };
+        let tables = if show == Show::Borders { Vec::new() } else { self.tones.tables() };
+        let plan = Plan { tables, ..Plan::new(passes) };
         Ok(sampling.finish(plan, scene.size))
     }
 

@@ -74,7 +74,7 @@ impl Mrt {
             self.geometry_pass(scene),
             Pass { target: Target::Textures(&TONES_ALONE), ..Pass::new("border", vec![Step::Draw(square)]) },
         ];
-        let plan = Plan { tone_table: self.tones.table(), ..Plan::new(passes) };
+        let plan = Plan { tables: self.tones.tables(), ..Plan::new(passes) };
         Ok(self.supersample.finish(plan, scene.size))
     }
 

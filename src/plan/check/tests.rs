@@ -107,8 +107,8 @@ fn targets_and_textures_that_are_not_there_are_found() {
     plan.passes.remove(0);
     says(&plan, "the pass border needs a pass that draws the texture");
     let mut plan = three_pass();
-    draw_of(&mut plan, 1).textures.push(("table", Texture::ToneTable));
-    says(&plan, "the pass tones needs the table of tones");
+    draw_of(&mut plan, 1).textures.push(("table", Texture::Table(0)));
+    says(&plan, "the pass tones needs table 0");
     let mut plan = three_pass();
     draw_of(&mut plan, 1).textures.push(("paper", Texture::Picture(0)));
     says(&plan, "the pass tones needs picture 0");

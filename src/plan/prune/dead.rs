@@ -98,23 +98,22 @@ fn take(read: &mut Vec<Texture>, textures: &[Texture]) -> bool {
 /// Leaves out pictures and tables that no step reads.
 pub(super) fn unread_textures(plan: &mut Plan) -> Result<Omission, String> {
     let read: Vec<Texture> = plan.draws().flat_map(|draw| draw.textures.iter().map(|(_, texture)| *texture)).collect();
-    let mut dropped = Vec::new();
-    if plan.tone_table.is_some() && !read.contains(&Texture::ToneTable) {
-        plan.tone_table = None;
-        dropped.push("the table of tones");
-    }
-    let is_read: Vec<bool> = (0..plan.pictures.len()).map(|number| read.contains(&Texture::Picture(number))).collect();
-    let unread = plan.pictures.iter().zip(&is_read).filter(|(_, is_read)| !**is_read);
-    dropped.extend(unread.map(|(picture, _)| picture.name));
+    let tables = drop_unread(&mut plan.tables, |number| read.contains(&Texture::Table(number)));
+    let pictures = drop_unread(&mut plan.pictures, |number| read.contains(&Texture::Picture(number)));
+    let dropped: Vec<&str> = tables
+        .dropped
+        .iter()
+        .map(|table| table.name)
+        .chain(pictures.dropped.iter().map(|picture| picture.name))
+        .collect();
     if dropped.is_empty() {
         return Err("every texture of this plan is read".to_owned());
     }
-    let mut flags = is_read.iter();
-    plan.pictures.retain(|_| flags.next().is_some_and(|is_read| *is_read));
-    let number = |old: usize| is_read[..old].iter().filter(|is_read| **is_read).count();
     for (_, texture) in plan.draws_mut().flat_map(|draw| &mut draw.textures) {
-        if let Texture::Picture(old) = texture {
-            *old = number(*old);
+        match texture {
+            Texture::Table(number) => *number = tables.number(*number),
+            Texture::Picture(number) => *number = pictures.number(*number),
+            Texture::BorderMap | Texture::DepthMap | Texture::Drawn(_) | Texture::Material => {}
         }
     }
     Ok(Omission {
@@ -123,4 +122,27 @@ pub(super) fn unread_textures(plan: &mut Plan) -> Result<Omission, String> {
         reason: "no shader that is left samples them".to_owned(),
         facts: vec![format!("{} of the plan are read", counted(plan.pictures.len(), "picture", "pictures"))],
     })
+}
+
+/// What is left of a list, and what is not.
+struct Left<T> {
+    is_read: Vec<bool>,
+    dropped: Vec<T>,
+}
+
+impl<T> Left<T> {
+    /// The number now of what had this number.
+    fn number(&self, old: usize) -> usize {
+        self.is_read[..old].iter().filter(|is_read| **is_read).count()
+    }
+}
+
+/// Leaves in a list what is read of it, by number.
+fn drop_unread<T: Clone>(list: &mut Vec<T>, is_read: impl Fn(usize) -> bool) -> Left<T> {
+    let is_read: Vec<bool> = (0..list.len()).map(is_read).collect();
+    let of =
+        |wanted: bool| list.iter().zip(&is_read).filter(move |(_, read)| **read == wanted).map(|(one, _)| one.clone());
+    let (kept, dropped) = (of(true).collect(), of(false).collect());
+    *list = kept;
+    Left { is_read, dropped }
 }
