@@ -356,7 +356,7 @@ picture: the framebuffer
     }
 
     #[test]
-    fn the_tone_table_travels_only_with_plans_that_read_it() {
+    fn tables_travel_only_with_plans_that_read_them() {
         let mut cartoon = Cartoon::default();
         cartoon.tones.lookup = ToneLookup::Texture;
         let style = Style::ThreePass(cartoon);

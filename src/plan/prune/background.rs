@@ -68,7 +68,7 @@ pub(super) fn empty_pixels(plan: &mut Plan, situation: &Situation<'_>) -> Result
         for (place, step) in pass.steps.iter().enumerate() {
             if let Step::Draw(draw) = step
                 && confined.is_none()
-                && draw.scissor.is_none()
+                && draw.scissor.or(pass.scissor).is_none()
                 && let Some(reach) = reach_beyond_objects(draw, &pass.steps[..place], &ground)
             {
                 confined = Some((place, reach));
