@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::time::Instant;
 use tinta::mesh::Mesh;
-use tinta::plan::prune::{Pruning, prune};
+use tinta::plan::prune::prune;
 use tinta::renderer::milliseconds_since;
 use tinta::styles::{Cartoon, Ink, Mrt};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, load};
@@ -109,7 +109,7 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
     base.make_arrays();
     let counts = base.hiding(&base.objects[0]).counts();
     println!("  once, not in the frames: what hides what, {:.1} ms; {counts:?}", milliseconds_since(start));
-    let pruning = Pruning::for_context(renderer.context(), u32::MAX);
+    let pruning = renderer.pruning(u32::MAX);
     for _ in 0..settings.rounds {
         for ((_, style, is_pruned), series) in styles.iter().zip(&mut series) {
             // The plan of a view, and what can be left out of it, are part of its frame.

@@ -18,7 +18,7 @@ use sphere::bumpy_sphere;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
-use tinta::plan::prune::{Pruning, prune};
+use tinta::plan::prune::prune;
 use tinta::plan::{Draw, Geometry, Paint, Pass, Plan, Step};
 use tinta::renderer::milliseconds_since;
 use tinta::styles::{Cartoon, Mrt};
@@ -83,7 +83,7 @@ enum Contestant {
 impl Contestant {
     /// The milliseconds of one frame, its plan included.
     fn frame_ms(&self, renderer: &mut Renderer, scene: &Scene) -> f64 {
-        let pruning = Pruning::for_context(renderer.context(), u32::MAX);
+        let pruning = renderer.pruning(u32::MAX);
         let start = Instant::now();
         let made;
         let plan = match self {

@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 use std::sync::Arc;
-use tinta::plan::{Draw, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
+use tinta::plan::{Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Target, load};
 
 /// The shaders' names in the plan, and their texts.
@@ -29,10 +29,12 @@ pub fn draw(model: &str, output: &str) -> tinta::Result<()> {
     target.write(&renderer.draw(&scene, &halftone(&scene, 8.0))?)
 }
 
-/// One pass: clear, then all objects through both shaders, dots this far apart.
+/// One pass: clear, then all objects through both shaders, dots this far apart. Both shaders keep vertices and pixels where they
+/// are, so what a view cannot show may be left out.
 pub fn halftone(scene: &Scene, distance_px: f32) -> Plan {
     let program = Program { vertex: VERTEX.0, fragments: vec![FRAGMENT.0] };
     let uniforms = vec![Uniform { name: "distance", value: Value::Float(distance_px) }];
-    let objects = Draw { uniforms, ..Draw::new(Geometry::Objects(Paint::Materials), Some(program)) };
+    let objects =
+        Draw { uniforms, facts: Facts::plain(), ..Draw::new(Geometry::Objects(Paint::Materials), Some(program)) };
     Plan::new(vec![Pass::new("halftone", vec![Step::clear(scene.background.clear_color()), Step::Draw(objects)])])
 }

@@ -144,6 +144,13 @@ pub enum Error {
         /// GL_RENDERER of the context.
         renderer: String,
     },
+    /// A plan cannot be drawn for this scene.
+    #[error("the plan cannot be drawn: {flaw}")]
+    Plan {
+        /// What is wrong with it.
+        #[source]
+        flaw: crate::plan::Flaw,
+    },
     /// The driver refused one of our shaders.
     #[error("glsl/{path}: the driver refuses this shader ({log}); another driver may take it: see `tinta info`")]
     Shader {
@@ -191,6 +198,7 @@ impl Error {
             Self::NoContext { .. } => "no-context",
             Self::NoWindow { .. } => "no-window",
             Self::PictureTooLarge { .. } => "picture-too-large",
+            Self::Plan { .. } => "plan",
             Self::Shader { .. } => "shader",
             Self::Gl { .. } => "gl",
             Self::ContextLost { .. } => "context-lost",

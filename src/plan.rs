@@ -1,6 +1,7 @@
 //! What a style wants GL to do, as plain data: passes of steps, each with all the state it needs.
 //!
-//! A style makes it from a scene, `gl` carries it out, and anybody can print, compare or check it without a GPU.
+//! A style makes it from a scene, `gl` carries it out, and anybody can print, compare or check it without a GPU. What a style
+//! knows of its shaders it states beside each draw ([`Facts`]), for those who leave out what a scene does not need ([`prune`]).
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -14,16 +15,22 @@
 //! let passes: Vec<&str> = plan.passes.iter().map(|pass| pass.name).collect();
 //! assert_eq!(passes, ["map", "tones", "border"]);
 //! // A plan prints as what it does, step by step.
-//! assert!(plan.to_string().contains("evangelista/border.frag"));
+//! assert!(plan.to_string().contains("copy the framebuffer into the texture BorderMap"));
+//! // What a style states of its draws is printed by `{:#}`.
+//! assert!(format!("{plan:#}").contains("reads no further than 2 px"));
 //! # Ok(())
 //! # }
 //! ```
 
+mod check;
 mod display;
+mod facts;
 pub mod prune;
 mod target;
 
-pub use target::{Attachment, Attachments, Drawn, Format, Target};
+pub use check::Flaw;
+pub use facts::{Facts, Shorter, WhereEven};
+pub use target::{Attachment, Attachments, Choice, Drawn, Format, Target};
 
 use crate::mesh::Part;
 use crate::names::find;
@@ -38,8 +45,8 @@ use std::sync::Arc;
 pub struct Plan {
     /// In order; each pass is timed by its name.
     pub passes: Vec<Pass>,
-    /// The table of tones that [`Texture::ToneTable`] stands for, if a step reads it.
-    pub tone_table: Option<ToneTable>,
+    /// The tables that [`Texture::Table`] numbers.
+    pub tables: Vec<PlanTable>,
     /// The pictures that [`Texture::Picture`] numbers.
     pub pictures: Vec<PlanPicture>,
     /// How many times as wide and high as the picture it is drawn, from 1. Above 1 the plan itself ends by drawing
@@ -63,6 +70,7 @@ pub struct Pass {
 }
 
 /// One thing for GL to do.
+#[expect(clippy::large_enum_variant, reason = "most steps draw, and a plan has about ten: a box would save nothing")]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step {
     /// Clear colour and depth.
@@ -109,6 +117,8 @@ pub struct Draw {
     pub scissor: Option<Rectangle>,
     /// Which faces of [`Geometry::Objects`] are drawn, an entry for each of the scene's objects; `None` for all.
     pub faces: Option<Arc<Vec<Faces>>>,
+    /// What may be assumed of its shaders.
+    pub facts: Facts,
 }
 
 /// Which faces of an object are drawn.
@@ -132,7 +142,7 @@ pub struct FaceList {
 }
 
 impl Draw {
-    /// A draw that tests and writes depth and does nothing else besides.
+    /// A draw that tests and writes depth and does nothing else besides, of whose shaders nothing is assumed.
     pub fn new(geometry: Geometry, program: Option<Program>) -> Self {
         Self {
             geometry,
@@ -145,6 +155,7 @@ impl Draw {
             polygon_offset: None,
             scissor: None,
             faces: None,
+            facts: Facts::default(),
         }
     }
 }
@@ -276,8 +287,8 @@ pub enum Texture {
     Drawn(Drawn),
     /// The depth buffer as the last [`Step::CopyDepth`] left it, window z in red; NEAREST, CLAMP_TO_EDGE.
     DepthMap,
-    /// The plan's [`ToneTable`], one-dimensional; NEAREST, CLAMP_TO_EDGE.
-    ToneTable,
+    /// The plan's table of this number, one-dimensional; NEAREST, CLAMP_TO_EDGE.
+    Table(usize),
     /// The plan's picture of this number.
     Picture(usize),
     /// The texture of each material, by the model's own texture coordinates, LINEAR, GL_REPEAT; white where it has none.
@@ -317,10 +328,12 @@ pub enum Depth {
     Ignore,
 }
 
-/// Tones as a one-dimensional texture: (tone of a diffuse value, tone of a specular value or 0) a texel.
+/// Two functions of one number as a one-dimensional texture.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ToneTable {
-    /// Values in 1/255, for the light values 0 to 1 at the texels' centres.
+pub struct PlanTable {
+    /// What it is, for those who read the plan.
+    pub name: &'static str,
+    /// Luminance and alpha, in 1/255, for the numbers 0 to 1 at the texels' centres.
     pub texels: Vec<[u8; 2]>,
 }
 
@@ -336,9 +349,9 @@ pub enum Output {
 }
 
 impl Plan {
-    /// A plan of these passes that reads neither tones nor pictures, drawn at its own size.
+    /// A plan of these passes that reads neither tables nor pictures, drawn at its own size.
     pub fn new(passes: Vec<Pass>) -> Self {
-        Self { passes, tone_table: None, pictures: Vec::new(), supersample: 1, output: Output::Rgba }
+        Self { passes, tables: Vec::new(), pictures: Vec::new(), supersample: 1, output: Output::Rgba }
     }
 
     /// All steps with the name of their pass.

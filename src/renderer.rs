@@ -122,6 +122,19 @@ impl Renderer {
         remarks
     }
 
+    /// How to prune plans of which this renderer draws so many pictures: everything that pays by this context. Nothing is
+    /// assumed of shaders it has in place of built-in ones, so ask again after [`Renderer::replace_shaders`].
+    pub fn pruning(&self, pictures: u32) -> Pruning {
+        let info = self.context.info();
+        Pruning {
+            keep: Vec::new(),
+            pictures,
+            is_software: info.is_software(),
+            subpixel_bits: info.subpixel_bits,
+            replaced_shaders: self.resources.replaced_shaders(),
+        }
+    }
+
     /// Draws one triangle the way `style` will draw at this size, pruned or not, so that the driver compiles its shaders
     /// now: worth it while a large model is still being read on another thread.
     ///
@@ -152,14 +165,14 @@ impl Renderer {
     /// [`Error::Setting`] from the style, [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
     pub fn render(&mut self, scene: &Scene, style: &Style) -> Result<Picture> {
         let plan = style.plan(scene, Show::Final)?;
-        self.draw(scene, &prune(&plan, scene, &Pruning::for_context(self.context.info(), 1)).plan)
+        self.draw(scene, &prune(&plan, scene, &self.pruning(1)).plan)
     }
 
     /// Carries out a plan made for this scene.
     ///
     /// # Errors
     ///
-    /// [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
+    /// [`Error::Plan`] before anything is drawn, [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
     pub fn draw(&mut self, scene: &Scene, plan: &Plan) -> Result<Picture> {
         self.with_context(scene, plan, |frame| {
             frame.all_steps()?;
@@ -259,6 +272,7 @@ impl Renderer {
     /// Uses these texts as shaders, by their paths below `glsl/`: in place of the built-in ones of that path, or beside them
     /// where there is none, for plans of your own that name them in a [`Program`]. Those given before and not now are gone.
     /// A vertex shader's path ends with `.vert`. All are compiled now, so that a mistake is found before the next picture.
+    /// What styles state of built-in shaders does not hold of those in their place, and [`Renderer::pruning`] says so.
     ///
     /// # Errors
     ///
@@ -341,6 +355,7 @@ impl Renderer {
         work: impl FnOnce(&mut Frame<'_>) -> Result<T>,
     ) -> Result<T> {
         self.resources.refuse_if_lost("drawing")?;
+        plan.check(scene).map_err(|flaw| Error::Plan { flaw })?;
         let surface = scene.size.times(plan.supersample);
         if self.surface != Some(surface) {
             self.resize(surface, plan.supersample)?;

@@ -356,12 +356,12 @@ picture: the framebuffer
     }
 
     #[test]
-    fn the_tone_table_travels_only_with_plans_that_read_it() {
+    fn tables_travel_only_with_plans_that_read_them() {
         let mut cartoon = Cartoon::default();
         cartoon.tones.lookup = ToneLookup::Texture;
         let style = Style::ThreePass(cartoon);
-        assert!(plan(&style, Show::Final).tone_table.is_some());
-        assert!(plan(&style, Show::Borders).tone_table.is_none());
+        assert_eq!(plan(&style, Show::Final).tables.len(), 1);
+        assert!(plan(&style, Show::Borders).tables.is_empty());
     }
 
     #[test]

@@ -46,6 +46,7 @@ mod mrt;
 mod output;
 mod output_killed;
 mod pipeline;
+mod plan_facts;
 mod presets;
 mod prune;
 mod prune_pictures;

@@ -12,7 +12,7 @@ use tinta::{
 };
 
 /// As if many pictures were to come, so that every rule is worth its time.
-fn every_rule() -> Pruning {
+pub fn every_rule() -> Pruning {
     Pruning { pictures: u32::MAX, subpixel_bits: 8, ..Pruning::default() }
 }
 
@@ -340,7 +340,7 @@ fn only_the_shaders_that_the_shorter_plan_names_are_compiled_warming_up_included
     let scene = scene("builtin:open-box", 64, 64);
     let style = cartoon(|cartoon| (cartoon.border, cartoon.tones.count) = (None, 1));
     let settings = SceneSettings { size: scene.size, ..SceneSettings::default() };
-    let pruning = Pruning::for_context(renderer.context(), 1);
+    let pruning = renderer.pruning(1);
     renderer.warm_up(&settings, &style, Show::Final, Some(&pruning)).unwrap();
     let warm = renderer.programs();
     renderer.render(&scene, &style).unwrap();

@@ -57,7 +57,7 @@ fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
         .map(|(_, style)| Style::named(*style))
         .collect();
     styles.push(cartoon(|cartoon| (cartoon.cull_back_faces, cartoon.tones.count) = (true, 2)));
-    let pruning = Pruning { pictures: u32::MAX, ..Pruning::for_context(renderer.context(), 1) };
+    let pruning = Pruning { pictures: u32::MAX, ..renderer.pruning(1) };
     let mut dice = Dice(mesh.triangles.len() as u64);
     for number in 0..views {
         let view = random_view(&scene, &mut dice);
@@ -119,7 +119,7 @@ fn fifty_views_of_every_model_in_every_style_are_the_same_bytes_by_osmesa() {
 fn every_setting_draws_the_same_bytes_pruned() {
     for backend in BACKENDS {
         let mut renderer = renderer(backend);
-        let pruning = Pruning { pictures: u32::MAX, ..Pruning::for_context(renderer.context(), 1) };
+        let pruning = Pruning { pictures: u32::MAX, ..renderer.pruning(1) };
         let grey = Background::Color(Color([0.5, 0.25, 0.125]));
         for background in [Background::Color(Color([1.0; 3])), grey, Background::Transparent] {
             let settings =

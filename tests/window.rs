@@ -114,6 +114,20 @@ fn a_shader_that_does_not_compile_shows_its_log_and_the_one_before_stays() {
 }
 
 #[test]
+fn a_border_shader_that_inks_all_of_the_picture_is_not_confined_to_the_objects() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("evangelista")).unwrap();
+    let all_ink = "#version 120\nvoid main() { gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0); }\n";
+    std::fs::write(folder.path().join("evangelista/border.frag"), all_ink).unwrap();
+    for backend in [Backend::Egl, Backend::OsMesa] {
+        let mut viewer = viewer(&["builtin:gear"], backend, Some(folder.path()));
+        let picture = shown(&mut viewer, [ViewerEvent::Zoom(0.3)]);
+        let inked = picture.pixels.chunks_exact(4).filter(|pixel| **pixel == [0, 0, 0, u8::MAX]).count();
+        assert_eq!(inked, picture.size.pixel_count(), "--full inks all of it");
+    }
+}
+
+#[test]
 fn a_model_is_read_again_when_its_file_changes_and_what_cannot_be_read_leaves_the_last_one() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("a.obj");

@@ -157,8 +157,7 @@ fn draw(arguments: &Arguments, options: &Options, studio: &mut Studio) -> Result
     let Loaded { scene, files, published, load_ms, plan_ms } = loaded?;
     let Ready { renderer, context_ms, warm_up_ms } = ready?;
     let pruning = Instant::now();
-    let Pruned { plan, omissions, kept } =
-        arguments.prune.pruned(&published, &scene, renderer.context(), arguments.run.frames);
+    let Pruned { plan, omissions, kept } = arguments.prune.pruned(&published, &scene, renderer, arguments.run.frames);
     let plan_ms = plan_ms + milliseconds_since(pruning);
     let remarks = renderer.remarks(&plan);
     remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
@@ -187,7 +186,7 @@ fn draw(arguments: &Arguments, options: &Options, studio: &mut Studio) -> Result
     let passes = renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?;
     if arguments.run.explain {
         let mut text = explanation(&plan, &passes, &times, frames);
-        if let Some(pruning) = arguments.prune.pruning(renderer.context(), arguments.run.frames) {
+        if let Some(pruning) = arguments.prune.pruning(renderer, arguments.run.frames) {
             text.push_str(&prune::explanation(renderer, &scene, &published, &pruning, frames)?);
         }
         return super::print(&text).map(|()| verdict);
@@ -280,7 +279,7 @@ fn open_renderer(
         None
     } else {
         let start = Instant::now();
-        let pruning = arguments.prune.pruning(renderer.context(), arguments.run.frames);
+        let pruning = arguments.prune.pruning(&renderer, arguments.run.frames);
         renderer.warm_up(settings, style, arguments.styles.show, pruning.as_ref())?;
         Some(milliseconds_since(start))
     };

@@ -8,6 +8,7 @@ use super::objects::{Buffer, Program, Shader, TimerQuery};
 use super::targets::{Targets, clear_each};
 use super::textures::Textures;
 use crate::error::{Error, Result};
+use crate::glsl;
 use crate::plan::{self, Depth, Draw, Geometry, LineDrawing, Plan, Step, Target};
 use crate::scene::{Rectangle, Scene, Size};
 use crate::tolerances::BACKGROUND_DISTANCE;
@@ -185,11 +186,13 @@ impl Resources {
                 plan::Texture::BorderMap => self.targets.border_map(),
                 plan::Texture::Drawn(name) => self.targets.drawn(*name),
                 plan::Texture::DepthMap => self.targets.depth_map(),
-                plan::Texture::ToneTable => self.textures.tone_table(),
+                plan::Texture::Table(number) => self.textures.table(*number),
                 plan::Texture::Picture(number) => self.textures.picture(*number),
                 plan::Texture::Material => self.textures.white(),
             };
-            texture.ok_or_else(|| Error::gl("drawing", "a plan reads a texture before it is made"))?.bind(unit as u32);
+            texture
+                .ok_or_else(|| Error::gl("drawing", "a plan was carried out without being checked"))?
+                .bind(unit as u32);
         }
         let is_fixed = draw.program.as_ref().is_none_or(|program| program.fragments.is_empty());
         for unit in 0..legacy::FIXED_UNITS {
@@ -372,6 +375,15 @@ impl Resources {
     pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> HashMap<String, String> {
         self.programs.clear();
         self.gl.replaced_shaders.replace(shaders)
+    }
+
+    /// The built-in shaders in whose place there is another text, in order of their paths.
+    pub fn replaced_shaders(&self) -> Vec<String> {
+        let replaced = self.gl.replaced_shaders.borrow();
+        let is_other = |(path, text): &(&String, &String)| glsl::source(path).is_some_and(|built_in| built_in != *text);
+        let mut paths: Vec<String> = replaced.iter().filter(is_other).map(|(path, _)| path.clone()).collect();
+        paths.sort();
+        paths
     }
 
     /// Compiles a shader by itself and lets go of it.

@@ -98,7 +98,10 @@ pub fn check(info: &ContextInfo, plan: &Plan) -> Result<()> {
 }
 
 fn refused(info: &ContextInfo, attachments: &Attachments, lack: &str) -> Error {
-    Error::setting(attachments.asked_by, format!("{} {lack}; use {}", info.renderer, attachments.instead))
+    let Attachments { asked_by, instead, .. } = attachments;
+    let draws = attachments.instead_draws.map(|what| format!(", which draws {what}")).unwrap_or_default();
+    let problem = format!("{} {lack}; use --{} {}{draws}", info.renderer, instead.setting, instead.value);
+    Error::setting(format!("--{} {}", asked_by.setting, asked_by.value), problem)
 }
 
 /// A texture copied from a framebuffer of this size.

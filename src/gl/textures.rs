@@ -6,7 +6,7 @@ use super::objects::Texture;
 use crate::error::{Error, Result};
 use crate::mesh::NONE;
 use crate::picture::Picture;
-use crate::plan::{self, Draw, Plan, Sampling, Step, ToneTable};
+use crate::plan::{self, Draw, Plan, PlanTable, Sampling, Step};
 use crate::scene::{Object, Scene, Size};
 use glow::HasContext;
 use std::rc::Rc;
@@ -15,7 +15,8 @@ use std::sync::Arc;
 /// The textures there are.
 #[derive(Default)]
 pub struct Textures {
-    tone_table: Option<(ToneTable, Texture)>,
+    /// Those of the last plan that had any; its numbers are theirs.
+    tables: Vec<(PlanTable, Texture)>,
     pictures: Vec<(Arc<Picture>, Sampling, Texture)>,
     /// Which of `pictures` each of the plan's is.
     plan_pictures: Vec<usize>,
@@ -25,10 +26,11 @@ pub struct Textures {
 impl Textures {
     /// Uploads what this plan reads and is not there yet, and lets go of what it does not read.
     pub fn prepare(&mut self, gl: &Rc<Gl>, scene: &Scene, plan: &Plan) -> Result<()> {
-        if let Some(table) = &plan.tone_table
-            && self.tone_table.as_ref().is_none_or(|(present, _)| present != table)
-        {
-            self.tone_table = Some((table.clone(), upload_tone_table(gl, table)?));
+        if !plan.tables.is_empty() && !self.tables.iter().map(|(table, _)| table).eq(&plan.tables) {
+            self.tables.clear();
+            for table in &plan.tables {
+                self.tables.push((table.clone(), upload_table(gl, table)?));
+            }
         }
         let mut wanted: Vec<(Arc<Picture>, Sampling)> =
             plan.pictures.iter().map(|picture| (picture.picture.clone(), picture.sampling)).collect();
@@ -65,9 +67,9 @@ impl Textures {
         Ok(())
     }
 
-    /// The tones of the plan.
-    pub fn tone_table(&self) -> Option<&Texture> {
-        self.tone_table.as_ref().map(|(_, texture)| texture)
+    /// The plan's table of this number.
+    pub fn table(&self, number: usize) -> Option<&Texture> {
+        self.tables.get(number).map(|(_, texture)| texture)
     }
 
     /// The plan's picture of this number.
@@ -127,7 +129,7 @@ fn upload(gl: &Rc<Gl>, picture: &Picture, sampling: Sampling) -> Result<Texture>
     Ok(texture)
 }
 
-fn upload_tone_table(gl: &Rc<Gl>, table: &ToneTable) -> Result<Texture> {
+fn upload_table(gl: &Rc<Gl>, table: &PlanTable) -> Result<Texture> {
     let texture = Texture::new(gl, glow::TEXTURE_1D, Sampling::NearestClamped)?;
     let texels = glow::PixelUnpackData::Slice(Some(table.texels.as_flattened()));
     // SAFETY: the context is current, the texture bound, and the texels are two bytes each, packed.

@@ -1,10 +1,13 @@
 //! Plans as text, for `--explain` and for tests.
 
-use super::{Depth, Draw, EdgeRun, Faces, Geometry, LineDrawing, Mark, Paint, Plan, Program, Step, Texture, Value};
+use super::{
+    Depth, Draw, EdgeRun, Faces, Facts, Geometry, LineDrawing, Mark, Paint, Plan, Program, Step, Texture, Value,
+};
 use crate::scene::Rectangle;
 use std::fmt;
 
 impl fmt::Display for Plan {
+    /// Step by step; as `{:#}` with what is stated of each draw below it.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.supersample > 1 {
             writeln!(out, "everything drawn {} times as wide and high as the picture", self.supersample)?;
@@ -15,6 +18,12 @@ impl fmt::Display for Plan {
             writeln!(out)?;
             for step in &pass.steps {
                 writeln!(out, "  {step}")?;
+                if let Step::Draw(Draw { facts, .. }) = step
+                    && out.alternate()
+                    && *facts != Facts::default()
+                {
+                    writeln!(out, "    {facts}")?;
+                }
             }
         }
         self.write_picture(out)
@@ -70,8 +79,7 @@ impl fmt::Display for Draw {
         }
         match &self.program {
             None => write!(out, " without shaders")?,
-            Some(Program { vertex, fragments }) if fragments.is_empty() => write!(out, " with {vertex}")?,
-            Some(Program { vertex, fragments }) => write!(out, " with {vertex} + {}", fragments.join(" + "))?,
+            Some(program) => write!(out, " with {program}")?,
         }
         for uniform in &self.uniforms {
             match uniform.value {
@@ -83,7 +91,7 @@ impl fmt::Display for Draw {
         }
         for (sampler, texture) in &self.textures {
             match texture {
-                Texture::Drawn(name) => write!(out, ", {sampler} = {name:?}")?,
+                Texture::Drawn(name) => write!(out, ", {sampler} = {name}")?,
                 _ => write!(out, ", {sampler} = {texture:?}")?,
             }
         }
@@ -106,6 +114,13 @@ impl fmt::Display for Draw {
             write_faces(out, faces)?;
         }
         Ok(())
+    }
+}
+
+impl fmt::Display for Program {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}", self.vertex)?;
+        self.fragments.iter().try_for_each(|fragment| write!(out, " + {fragment}"))
     }
 }
 

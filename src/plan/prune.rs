@@ -2,17 +2,18 @@
 //!
 //! In: a [`Plan`] as published and the [`Scene`] it was made for. Out: [`Pruned`], the plan without what cannot change a
 //! byte of the picture, and of each [`Rule`] either the [`Omission`] it led to, with its reason and the facts it rests on,
-//! or why it left everything in. Every rule has to be exact on every driver, not nearly so; what is only nearly exact is an
+//! or why it left everything in. What shaders do is known from what the plan states of its draws ([`super::Facts`]), so that
+//! plans of anybody's making are shortened, and none by a shader that was replaced meanwhile. Every rule has to be exact on every driver, not nearly so; what is only nearly exact is an
 //! option of a style. `Pruning::default` is for one picture: what takes longer to find out than one picture takes to draw is
 //! then left in.
 
 mod background;
 mod dead;
+mod ground;
 mod objects;
 mod shaders;
 
-use super::{Draw, Geometry, Plan, Program, Step};
-use crate::gl::ContextInfo;
+use super::{Draw, Geometry, Plan, Step};
 use crate::names::find;
 use crate::scene::{Rectangle, Scene, Size};
 use serde::Serialize;
@@ -24,7 +25,7 @@ use std::str::FromStr;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rule {
-    /// The border's square where its filter is multiplied by 0.
+    /// Draws that add nothing: the border's square where its filter is multiplied by 0.
     Border,
     /// Objects outside the picture.
     OutsideObjects,
@@ -67,17 +68,17 @@ impl Rule {
     }
 
     /// Shortens the plan, or says why not.
-    fn apply(self, plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
+    fn apply(self, plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
         match self {
             Self::Border => dead::border(plan),
-            Self::OutsideObjects => objects::outside(plan, facts),
-            Self::CulledFaces => objects::culled_faces(plan, facts),
-            Self::HiddenFaces => objects::hidden_faces(plan, facts),
+            Self::OutsideObjects => objects::outside(plan, situation),
+            Self::CulledFaces => objects::culled_faces(plan, situation),
+            Self::HiddenFaces => objects::hidden_faces(plan, situation),
             Self::UnusedLight => shaders::unused_light(plan),
             Self::BackgroundSquare => background::square(plan),
-            Self::EmptyPixels => background::empty_pixels(plan, facts),
+            Self::EmptyPixels => background::empty_pixels(plan, situation),
             Self::UnreadMap => dead::unread_map(plan),
-            Self::OverwrittenClear => background::overwritten_clear(plan, facts),
+            Self::OverwrittenClear => background::overwritten_clear(plan, situation),
             Self::UnreadTextures => dead::unread_textures(plan),
         }
     }
@@ -97,7 +98,7 @@ impl fmt::Display for Rule {
     }
 }
 
-/// How to prune.
+/// How to prune; [`crate::Renderer::pruning`] has what holds of a renderer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Pruning {
     /// Rules that are not to be applied. Default none.
@@ -108,19 +109,14 @@ pub struct Pruning {
     pub is_software: bool,
     /// Bits to which GL places a vertex within a pixel. Default 4, as many as every driver has.
     pub subpixel_bits: u32,
+    /// Shaders, by their paths, whose texts are no longer those that the styles know: what a plan states of draws by them
+    /// does not count. Default none.
+    pub replaced_shaders: Vec<String>,
 }
 
 impl Default for Pruning {
     fn default() -> Self {
-        Self { keep: Vec::new(), pictures: 1, is_software: true, subpixel_bits: 4 }
-    }
-}
-
-impl Pruning {
-    /// Everything that pays for so many pictures by this context.
-    pub fn for_context(context: &ContextInfo, pictures: u32) -> Self {
-        let ContextInfo { subpixel_bits, .. } = *context;
-        Self { keep: Vec::new(), pictures, is_software: context.is_software(), subpixel_bits }
+        Self { keep: Vec::new(), pictures: 1, is_software: true, subpixel_bits: 4, replaced_shaders: Vec::new() }
     }
 }
 
@@ -162,11 +158,12 @@ pub struct Pruned {
 /// Leaves out of a plan made for this scene what cannot change its picture.
 pub fn prune(plan: &Plan, scene: &Scene, pruning: &Pruning) -> Pruned {
     let mut pruned = Pruned { plan: plan.clone(), omissions: Vec::new(), kept: Vec::new() };
-    let facts = Facts { scene, surface: scene.size.times(plan.supersample), pruning, extent: OnceCell::new() };
+    pruned.plan.forget_facts_of(&pruning.replaced_shaders);
+    let situation = Situation { scene, surface: scene.size.times(plan.supersample), pruning, extent: OnceCell::new() };
     for (_, rule) in Rule::ALL {
         let result = match pruning.keep.contains(&rule) {
             true => Err("--keep asks for it".to_owned()),
-            false => rule.apply(&mut pruned.plan, &facts),
+            false => rule.apply(&mut pruned.plan, &situation),
         };
         match result {
             Ok(omission) => pruned.omissions.push(omission),
@@ -177,7 +174,7 @@ pub fn prune(plan: &Plan, scene: &Scene, pruning: &Pruning) -> Pruned {
 }
 
 /// What is known of the scene, found out when first asked for.
-struct Facts<'a> {
+struct Situation<'a> {
     scene: &'a Scene,
     /// The size of what is drawn into.
     surface: Size,
@@ -185,7 +182,7 @@ struct Facts<'a> {
     extent: OnceCell<Option<Rectangle>>,
 }
 
-impl Facts<'_> {
+impl Situation<'_> {
     /// The pixels that faces of objects can touch.
     fn extent(&self) -> Option<Rectangle> {
         *self.extent.get_or_init(|| {
@@ -210,9 +207,14 @@ impl Draw {
     fn is_of_objects(&self) -> bool {
         matches!(self.geometry, Geometry::Objects(_))
     }
+}
 
-    fn has_shader(&self, path: &str) -> bool {
-        self.program.as_ref().is_some_and(|Program { vertex, fragments }| *vertex == path || fragments.contains(&path))
+/// Leaves out passes without steps; the last one stays where the picture would be another target's without it.
+fn drop_empty_passes(plan: &mut Plan) {
+    let (target, last) = (plan.picture_target(), plan.passes.last().cloned());
+    plan.passes.retain(|pass| !pass.steps.is_empty());
+    if plan.picture_target().picture() != target.picture() {
+        plan.passes.extend(last);
     }
 }
 

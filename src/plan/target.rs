@@ -20,10 +20,12 @@ pub struct Attachments {
     pub colors: &'static [Attachment],
     /// Whether there is a depth buffer.
     pub has_depth: bool,
-    /// The option that asks for them, for a driver that has none.
-    pub asked_by: &'static str,
-    /// What to ask for instead there.
-    pub instead: &'static str,
+    /// What asks for them, for a driver that has none.
+    pub asked_by: Choice,
+    /// What to choose instead there.
+    pub instead: Choice,
+    /// What that draws, where it is not quite the same.
+    pub instead_draws: Option<&'static str>,
 }
 
 /// A texture that is drawn into: RGBA, NEAREST, CLAMP_TO_EDGE. Within a plan a name has one format.
@@ -35,13 +37,17 @@ pub struct Attachment {
     pub format: Format,
 }
 
-/// The names of textures that are drawn into.
+/// The name of a texture that is drawn into, which a style chooses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Drawn {
-    /// Normals and depth.
-    Map,
-    /// The picture before its borders, then with them.
-    Tones,
+pub struct Drawn(pub &'static str);
+
+/// A value of a setting, as a user would choose it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Choice {
+    /// The setting's name.
+    pub setting: &'static str,
+    /// Its value.
+    pub value: &'static str,
 }
 
 /// What a channel of a texture that is drawn into holds.
@@ -85,13 +91,39 @@ impl Plan {
     pub(super) fn write_picture(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let holder = match self.picture_target() {
             Target::Framebuffer => "the framebuffer".to_owned(),
-            Target::Textures(attachments) => format!("the texture {:?}", attachments.colors[0].name),
+            Target::Textures(attachments) => format!("the texture {}", attachments.colors[0].name),
         };
         match self.output {
             Output::Rgba => writeln!(out, "picture: {holder}"),
             Output::Rgb => writeln!(out, "picture: {holder}'s red, green and blue"),
             Output::AlphaAsGrey => writeln!(out, "picture: {holder}'s alpha as grey"),
         }
+    }
+}
+
+impl Target {
+    /// The texture that holds the picture of a pass into it, the first of its textures; `None` for the framebuffer.
+    pub fn picture(self) -> Option<Drawn> {
+        match self {
+            Self::Framebuffer => None,
+            Self::Textures(attachments) => attachments.colors.first().map(|color| color.name),
+        }
+    }
+}
+
+impl Target {
+    /// How many colours a pass into it draws at once.
+    pub(super) fn color_count(self) -> usize {
+        match self {
+            Self::Framebuffer => 1,
+            Self::Textures(attachments) => attachments.colors.len(),
+        }
+    }
+}
+
+impl fmt::Display for Drawn {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.0)
     }
 }
 
@@ -106,7 +138,7 @@ impl fmt::Display for Target {
                 Format::Float16 => 16,
                 Format::Float32 => 32,
             };
-            write!(out, "{and} {name:?}, {bits} bits a channel")?;
+            write!(out, "{and} {name}, {bits} bits a channel")?;
         }
         Ok(())
     }

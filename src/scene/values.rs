@@ -73,6 +73,17 @@ impl Rectangle {
         }
     }
 
+    /// The least rectangle around this and another.
+    pub fn around(self, other: Self) -> Self {
+        let (x, y) = (self.x.min(other.x), self.y.min(other.y));
+        Self {
+            x,
+            y,
+            width: (self.x + self.width).max(other.x + other.width) - x,
+            height: (self.y + self.height).max(other.y + other.height) - y,
+        }
+    }
+
     /// Number of pixels.
     pub fn pixel_count(self) -> usize {
         self.width as usize * self.height as usize

@@ -10,7 +10,7 @@ use crate::compare::InkMask;
 use crate::error::Result;
 use crate::measure::{Ink, shading_of};
 use crate::picture::Picture;
-use crate::plan::prune::{Pruning, prune};
+use crate::plan::prune::prune;
 use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::Show;
@@ -89,7 +89,7 @@ impl Subject {
     pub fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<Drawn> {
         let style = &variant.style;
         let plan = style.plan(&self.scene, Show::Final)?;
-        let pruning = Pruning::for_context(renderer.context(), MANY_PICTURES);
+        let pruning = renderer.pruning(MANY_PICTURES);
         let picture = renderer.draw(&self.scene, &prune(&plan, &self.scene, &pruning).plan)?;
         let full = renderer.draw(&self.scene, &plan)?;
         let mut figures = self.figures.clone();

@@ -4,7 +4,7 @@ use super::supersample::texture_unit;
 use super::{MapEncoding, lens};
 use crate::error::{Error, Result};
 use crate::names::find;
-use crate::plan::{Depth, Draw, Geometry, Program, Texture, Uniform, Value};
+use crate::plan::{Depth, Draw, Facts, Geometry, Program, Texture, Uniform, Value, WhereEven};
 use crate::scene::{Scene, Size};
 use serde::Serialize;
 use std::str::FromStr;
@@ -127,8 +127,28 @@ impl Border {
             textures,
             depth: Depth::Ignore,
             blend: true,
+            facts: Facts {
+                reach_px: Some(self.reach_px(scene, surface)),
+                // No difference is an alpha of 0.
+                where_even: Some(WhereEven::Unchanged),
+                // The slope's threshold is black or white by itself.
+                adds_nothing: (self.detection_factor == 0.0 && !self.slope_threshold)
+                    .then(|| "the detection factor is 0".to_owned()),
+                ..Facts::plain()
+            },
             ..Draw::new(Geometry::ScreenSquare, Some(Program { vertex: "evangelista/border.vert", fragments }))
         }
+    }
+
+    /// How far the filter looks in a map of this size, pixels; one more costs nothing.
+    pub(super) fn reach_px(&self, scene: &Scene, surface: Size) -> u32 {
+        let [before, behind] = taps(self.width_px, surface.width / scene.size.width, self.is_one_sided());
+        // The slope's threshold looks twice as far.
+        before.max(behind) * if self.slope_threshold { 2 } else { 1 } + 1
+    }
+
+    fn is_one_sided(&self) -> bool {
+        self.filter == Filter::Roberts
     }
 
     /// The uniforms of the listing: how far apart texels are.
@@ -142,8 +162,7 @@ impl Border {
         let mut uniforms = Self::published_uniforms(surface);
         uniforms.push(Uniform { name: "detectionFactor", value: Value::Float(self.detection_factor) });
         if self.width_px.is_some() || self.slope_threshold {
-            let one_sided = self.filter == Filter::Roberts;
-            uniforms.push(reach(self.width_px, scale, one_sided));
+            uniforms.push(reach(self.width_px, scale, self.is_one_sided()));
         }
         if self.slope_threshold {
             let gap = [LEAST_GAP[0] * scale as f32, LEAST_GAP[1] * encoding.depth_step()];
@@ -165,13 +184,18 @@ pub(super) fn check_width(width_px: Option<u32>) -> Result<()> {
     }
 }
 
-/// `reach`: how many pixels taps reach to the left or below and to the right or above for a line of this width in a map so
-/// many times the picture's size; a one-sided filter has taps to the right and above only.
-pub(super) fn reach(width_px: Option<u32>, scale: u32, one_sided: bool) -> Uniform {
-    let reach = match width_px.map(|width| width * scale) {
+/// How many pixels taps reach to the left or below and to the right or above for a line of this width in a map so many times
+/// the picture's size; a one-sided filter has taps to the right and above only.
+pub(super) fn taps(width_px: Option<u32>, scale: u32, one_sided: bool) -> [u32; 2] {
+    match width_px.map(|width| width * scale) {
         None => [1, 1],
         Some(width) if one_sided => [0, width],
         Some(width) => [width / 2, width - width / 2],
-    };
-    Uniform { name: "reach", value: Value::Vec2(reach.map(|pixels| pixels as f32)) }
+    }
+}
+
+/// `reach`: [`taps`] for a shader.
+pub(super) fn reach(width_px: Option<u32>, scale: u32, one_sided: bool) -> Uniform {
+    let taps = taps(width_px, scale, one_sided);
+    Uniform { name: "reach", value: Value::Vec2(taps.map(|pixels| pixels as f32)) }
 }

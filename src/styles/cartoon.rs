@@ -5,7 +5,7 @@
 
 use super::{Border, MapEncoding, MapTarget, Show, Supersample, Tones};
 use crate::error::{Error, Result};
-use crate::plan::{Depth, Draw, Geometry, Output, Paint, Pass, Plan, Program, Step, Target};
+use crate::plan::{Depth, Draw, Facts, Geometry, Output, Paint, Pass, Plan, Program, Step, Target, WhereEven};
 use crate::scene::{Background, Scene};
 use serde::Serialize;
 
@@ -98,7 +98,14 @@ impl Cartoon {
                 textures.extend(self.tones.textures());
             }
             let program = Program { vertex: "evangelista/two-pass.vert", fragments };
-            Draw { uniforms, textures, ..self.draw(Geometry::Objects(Paint::Materials), program) }
+            let facts = Facts {
+                reach_px: Some(border.reach_px(scene, surface)),
+                // On the background every tone is 1.
+                where_even: background.then(|| WhereEven::Color(scene.background.clear_color())),
+                shorter: self.tones.shorter(&program),
+                ..Facts::plain()
+            };
+            Draw { uniforms, textures, facts, ..self.draw(Geometry::Objects(Paint::Materials), program) }
         });
         let pass = Pass::new("tones-and-border", steps);
         Ok(self.finish(scene, vec![self.map_pass(scene, true), pass], show))
@@ -139,7 +146,8 @@ impl Cartoon {
             .iter()
             .flat_map(|pass| &pass.steps)
             .any(|step| matches!(step, Step::Draw(draw) if draw.textures.iter().any(|(name, _)| *name == "toneTable")));
-        let plan = Plan { tone_table: self.tones.table().filter(|_| reads_table), output, ..Plan::new(passes) };
+        let tables = if reads_table { self.tones.tables() } else { Vec::new() };
+        let plan = Plan { tables, output, ..Plan::new(passes) };
         if shows_map(show) { plan } else { self.supersample.finish(plan, scene.size) }
     }
 
@@ -151,7 +159,8 @@ impl Cartoon {
         if self.background_square {
             let [red, green, blue, _] = scene.background.clear_color();
             let square = draw(Geometry::BackgroundSquare { color: [red, green, blue, 1.0] });
-            steps.push(Step::Draw(Draw { depth: Depth::Ignore, ..square }));
+            let facts = Facts::constant(encoding.background());
+            steps.push(Step::Draw(Draw { depth: Depth::Ignore, facts, ..square }));
         }
         steps.push(Step::Draw(draw(Geometry::Objects(Paint::Materials))));
         // The picture of a map is the framebuffer's.
@@ -174,7 +183,14 @@ impl Cartoon {
                 false => vec!["evangelista/toon-settings.frag", self.tones.shader()],
             };
             let program = Program { vertex: "evangelista/toon.vert", fragments };
+            let facts = Facts {
+                // On the background every tone is 1: the published highlight's, or that of settings.
+                constant_color: background.then(|| scene.background.clear_color()),
+                shorter: self.tones.shorter(&program),
+                ..Facts::plain()
+            };
             Draw {
+                facts,
                 uniforms: if published { Vec::new() } else { self.tones.uniforms(background) },
                 textures: if published { Vec::new() } else { self.tones.textures() },
                 ..self.draw(Geometry::Objects(Paint::Materials), program)
@@ -184,7 +200,7 @@ impl Cartoon {
     }
 
     fn draw(&self, geometry: Geometry, program: Program) -> Draw {
-        Draw { cull_back_faces: self.cull_back_faces, ..Draw::new(geometry, Some(program)) }
+        Draw { cull_back_faces: self.cull_back_faces, facts: Facts::plain(), ..Draw::new(geometry, Some(program)) }
     }
 
     /// Clear, background square, objects; `draw` makes the draw for the background (true) or the objects (false).

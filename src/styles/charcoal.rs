@@ -14,7 +14,7 @@ use super::Show;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::plan::{
-    Depth, Draw, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
+    Depth, Draw, Facts, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
 };
 use crate::scene::{Background, Scene, Size};
 use serde::Serialize;
@@ -164,6 +164,7 @@ impl Charcoal {
             steps.push(Step::Draw(Draw {
                 textures: vec![("paperTexture", Texture::Picture(PAPER))],
                 depth: Depth::Ignore,
+                facts: Facts::plain(),
                 ..Draw::new(Geometry::ScreenSquare, Some(program))
             }));
         }
@@ -215,6 +216,7 @@ impl Charcoal {
             uniforms,
             textures,
             cull_back_faces: self.cull_back_faces,
+            facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(Paint::Uniform([1.0; 4])), Some(program))
         }
     }

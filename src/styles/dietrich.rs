@@ -3,7 +3,7 @@
 
 use super::Show;
 use crate::error::{Error, Result};
-use crate::plan::{Draw, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
+use crate::plan::{Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::{Background, Color, Scene};
 use serde::Serialize;
 
@@ -54,6 +54,7 @@ impl Dietrich {
                 Uniform { name: "inkColor", value: Value::Vec3(self.ink.0) },
             ],
             cull_back_faces: self.cull_back_faces,
+            facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(paint), Some(program))
         };
         let steps = vec![Step::clear(ground), Step::Draw(draw)];

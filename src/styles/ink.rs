@@ -3,14 +3,14 @@
 //! Evangelista's three passes with another map and another filter: the map holds each pixel's own plane, the filter asks
 //! whether neighbouring planes meet. What was measured is in `docs/ink.md`.
 
-use super::border::{check_width, reach};
+use super::border::{check_width, reach, taps};
 use super::lens::DepthRange;
 use super::map::map_texture;
 use super::{MapTarget, Show, Supersample, Tones, lens, supersample};
 use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
 use crate::names::find;
-use crate::plan::{Depth, Draw, Geometry, Paint, Pass, Plan, Program, Step, Target, Uniform, Value};
+use crate::plan::{Depth, Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Target, Uniform, Value, WhereEven};
 use crate::scene::{Background, Scene, Size};
 use serde::Serialize;
 use std::str::FromStr;
@@ -106,7 +106,8 @@ impl Ink {
         if matches!(show, Show::Final | Show::Borders) && self.is_inked {
             passes.push(self.ink_pass(scene, surface, show == Show::Borders));
         }
-        let plan = Plan { tone_table: self.tones.table().filter(|_| show != Show::Borders), ..Plan::new(passes) };
+        let tables = if show == Show::Borders { Vec::new() } else { self.tones.tables() };
+        let plan = Plan { tables, ..Plan::new(passes) };
         Ok(sampling.finish(plan, scene.size))
     }
 
@@ -132,6 +133,7 @@ impl Ink {
         let objects = Draw {
             uniforms: vec![lens::footprint(scene, surface, depth), depth.of_distance(scene)],
             cull_back_faces: self.cull_back_faces,
+            facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
         let mut steps = vec![Step::clear([0.0; 4]), Step::Draw(objects)];
@@ -155,6 +157,7 @@ impl Ink {
             uniforms: if published { Vec::new() } else { self.tones.uniforms(false) },
             textures: if published { Vec::new() } else { self.tones.textures() },
             cull_back_faces: self.cull_back_faces,
+            facts: Facts { shorter: self.tones.shorter(&program), ..Facts::plain() },
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
         Pass::new("tones", vec![Step::clear(scene.background.clear_color()), Step::Draw(objects)])
@@ -173,11 +176,19 @@ impl Ink {
             reach(Some(self.line_width_px), scale, false),
         ];
         uniforms.extend(lens::rays(scene, surface));
+        let [before, behind] = taps(Some(self.line_width_px), scale, false);
         let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/plane-ink.frag"] };
         let square = Draw {
             uniforms,
             textures: vec![("planeMap", map_texture(self.map_target.target()))],
             depth: Depth::Ignore,
+            facts: Facts {
+                reach_px: Some(before.max(behind) + 1),
+                // It leaves out the pixels that are not inked.
+                keeps_pixels: false,
+                where_even: Some(WhereEven::Unchanged),
+                ..Facts::plain()
+            },
             ..Draw::new(Geometry::ScreenSquare, Some(program))
         };
         let mut steps = Vec::new();

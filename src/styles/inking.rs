@@ -9,7 +9,8 @@ use crate::edges::{Class, ClassSet, CreaseAngle, Side, SilhouetteRule, side_of_f
 use crate::error::{Error, Result};
 use crate::names::find;
 use crate::plan::{
-    Depth, Draw, EdgeRun, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture,
+    Depth, Draw, EdgeRun, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
+    Texture,
 };
 use crate::scene::{Background, Color, Scene};
 use serde::Serialize;
@@ -262,6 +263,7 @@ impl Inking {
             textures,
             cull_back_faces: self.cull_back_faces,
             polygon_offset: Some(self.polygon_offset),
+            facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(paint), program)
         };
         (draw, pictures)

@@ -1,7 +1,7 @@
 //! The map of the cartoon styles: how normals and depth are stored between the passes (errata E6 to E8).
 
 use crate::names::find;
-use crate::plan::{Attachment, Attachments, Drawn, Format, Program, Target, Texture};
+use crate::plan::{Attachment, Attachments, Choice, Drawn, Format, Program, Target, Texture};
 use serde::Serialize;
 use std::str::FromStr;
 
@@ -47,6 +47,14 @@ impl MapEncoding {
         match self {
             Self::Paper | Self::Float16 | Self::Float => [0.0, 0.0, 0.0, 1.0],
             Self::Biased | Self::DepthTexture => [0.5, 0.5, 0.5, 1.0],
+        }
+    }
+
+    /// What the background square leaves in a pixel of the map: its normal in eye space, and the depth of the far plane.
+    pub(super) fn background(self) -> [f32; 4] {
+        match self {
+            Self::Paper | Self::Float16 | Self::Float => [0.0, 0.0, 1.0, 1.0],
+            Self::Biased | Self::DepthTexture => [0.5, 0.5, 1.0, 1.0],
         }
     }
 
@@ -116,27 +124,32 @@ impl MapTarget {
 pub(super) fn map_texture(target: Target) -> Texture {
     match target {
         Target::Framebuffer => Texture::BorderMap,
-        Target::Textures(_) => Texture::Drawn(Drawn::Map),
+        Target::Textures(_) => Texture::Drawn(MAP_TEXTURE),
     }
 }
 
+/// Normals and depth.
+pub(super) const MAP_TEXTURE: Drawn = Drawn("Map");
+
 const MAP: Attachments = Attachments {
-    colors: &[Attachment { name: Drawn::Map, format: Format::Unorm8 }],
+    colors: &[Attachment { name: MAP_TEXTURE, format: Format::Unorm8 }],
     has_depth: true,
-    asked_by: "--map-target texture",
-    instead: "--map-target copy",
+    asked_by: Choice { setting: "map-target", value: "texture" },
+    instead: Choice { setting: "map-target", value: "copy" },
+    instead_draws: None,
 };
 
 const FLOAT16_MAP: Attachments = Attachments {
-    colors: &[Attachment { name: Drawn::Map, format: Format::Float16 }],
+    colors: &[Attachment { name: MAP_TEXTURE, format: Format::Float16 }],
     has_depth: true,
-    asked_by: "--map-encoding float16",
-    instead: "--map-encoding biased",
+    asked_by: Choice { setting: "map-encoding", value: "float16" },
+    instead: Choice { setting: "map-encoding", value: "biased" },
+    instead_draws: None,
 };
 
 const FLOAT_MAP: Attachments = Attachments {
-    colors: &[Attachment { name: Drawn::Map, format: Format::Float32 }],
-    asked_by: "--map-encoding float",
+    colors: &[Attachment { name: MAP_TEXTURE, format: Format::Float32 }],
+    asked_by: Choice { setting: "map-encoding", value: "float" },
     ..FLOAT16_MAP
 };
 

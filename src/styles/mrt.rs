@@ -4,10 +4,12 @@
 //! blended over it as in the third pass, and it is read back itself: nothing is copied. The background needs no square:
 //! both textures are cleared to what the square would leave in them.
 
+use super::map::MAP_TEXTURE;
 use super::{Border, Cartoon, MapEncoding, MapTarget, Show, Supersample, Tones};
 use crate::error::Result;
 use crate::plan::{
-    Attachment, Attachments, Draw, Drawn, Format, Geometry, Paint, Pass, Plan, Program, Step, Target, Texture,
+    Attachment, Attachments, Choice, Draw, Drawn, Facts, Format, Geometry, Paint, Pass, Plan, Program, Step, Target,
+    Texture,
 };
 use crate::scene::Scene;
 use serde::Serialize;
@@ -41,17 +43,16 @@ impl Default for Mrt {
     }
 }
 
-/// What the square leaves in the map: the normal (0, 0, 1), farthest depth.
-const SQUARE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
-
-const TONES: Attachment = Attachment { name: Drawn::Tones, format: Format::Unorm8 };
-const MAP: Attachment = Attachment { name: Drawn::Map, format: Format::Unorm8 };
+/// The picture before its borders, then with them.
+const TONES: Attachment = Attachment { name: Drawn("Tones"), format: Format::Unorm8 };
+const MAP: Attachment = Attachment { name: MAP_TEXTURE, format: Format::Unorm8 };
 
 const TONES_AND_MAP: Attachments = Attachments {
     colors: &[TONES, MAP],
     has_depth: true,
-    asked_by: "--style mrt",
-    instead: "--style three-pass, which draws the same picture but for rounding",
+    asked_by: Choice { setting: "style", value: "mrt" },
+    instead: Choice { setting: "style", value: "three-pass" },
+    instead_draws: Some("the same picture but for rounding"),
 };
 
 /// What the border is blended over while it reads the map.
@@ -67,13 +68,13 @@ impl Mrt {
         };
         cartoon.check(scene, show)?;
         let surface = self.supersample.surface(scene.size);
-        let map = vec![("borderMap", Texture::Drawn(Drawn::Map))];
+        let map = vec![("borderMap", Texture::Drawn(MAP_TEXTURE))];
         let square = border.square(scene, surface, MapEncoding::Paper, map);
         let passes = vec![
             self.geometry_pass(scene),
             Pass { target: Target::Textures(&TONES_ALONE), ..Pass::new("border", vec![Step::Draw(square)]) },
         ];
-        let plan = Plan { tone_table: self.tones.table(), ..Plan::new(passes) };
+        let plan = Plan { tables: self.tones.tables(), ..Plan::new(passes) };
         Ok(self.supersample.finish(plan, scene.size))
     }
 
@@ -102,9 +103,11 @@ impl Mrt {
             uniforms: if published { Vec::new() } else { self.tones.uniforms(false) },
             textures: if published { Vec::new() } else { self.tones.textures() },
             cull_back_faces: self.cull_back_faces,
+            facts: Facts { shorter: self.tones.shorter(&program), ..Facts::plain() },
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
-        let map = if self.background_square { SQUARE } else { MapEncoding::Paper.empty() };
+        let encoding = MapEncoding::Paper;
+        let map = if self.background_square { encoding.background() } else { encoding.empty() };
         let colors = vec![scene.background.clear_color(), map];
         let steps = vec![Step::ClearEach { colors }, Step::Draw(objects)];
         Pass { target: Target::Textures(&TONES_AND_MAP), ..Pass::new("tones-and-map", steps) }

@@ -2,7 +2,7 @@
 
 use super::Show;
 use crate::error::{Error, Result};
-use crate::plan::{Draw, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
+use crate::plan::{Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::Scene;
 use serde::Serialize;
 
@@ -44,6 +44,7 @@ impl Phong {
                 uniform("shininess", self.shininess),
             ],
             cull_back_faces: self.cull_back_faces,
+            facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
         let steps = vec![Step::clear(scene.background.clear_color()), Step::Draw(draw)];

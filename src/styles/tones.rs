@@ -2,7 +2,8 @@
 
 use crate::error::{Error, Result};
 use crate::names::find;
-use crate::plan::{Texture, ToneTable, Uniform, Value};
+use crate::plan::{PlanTable, Program, Shorter, Texture, Uniform, Value};
+use crate::tolerances::UNREACHED_LIGHT;
 use serde::Serialize;
 use std::str::FromStr;
 
@@ -59,6 +60,9 @@ impl Default for Tones {
 /// A threshold no light reaches: light values end at 1.
 const NEVER: f32 = 2.0;
 
+/// The part that compares both kinds of light with their thresholds.
+const STEPS: &str = "evangelista/tone-steps.frag";
+
 /// Texels of the tone table: thresholds are exact to 1/1023.
 const TABLE_SIZE: usize = 1024;
 
@@ -104,9 +108,26 @@ impl Tones {
     /// The fragment shader that finds the tones.
     pub(super) fn shader(&self) -> &'static str {
         match self.lookup {
-            ToneLookup::Steps => "evangelista/tone-steps.frag",
+            ToneLookup::Steps => STEPS,
             ToneLookup::Texture => "evangelista/tone-texture.frag",
         }
+    }
+
+    /// A program that compares with thresholds, without the light that reaches none: the driver then leaves that light out
+    /// of both shaders.
+    pub(super) fn shorter(&self, program: &Program) -> Option<Shorter> {
+        let [diffuse, specular] = self.thresholds();
+        if specular < UNREACHED_LIGHT || !program.has_shader(STEPS) {
+            return None;
+        }
+        let (part, without) = match diffuse < UNREACHED_LIGHT {
+            true => ("improved/tone-diffuse.frag", "highlights"),
+            false => ("improved/tone-one.frag", "diffuse light and highlights"),
+        };
+        let mut program = program.clone();
+        program.fragments.iter_mut().filter(|fragment| **fragment == STEPS).for_each(|fragment| *fragment = part);
+        let because = format!("light ends at 1, and the thresholds are {diffuse} and {specular}");
+        Some(Shorter { program, without, because })
     }
 
     /// Its uniforms; on the `background` every tone is 1, so that the square has the colour it was given.
@@ -130,13 +151,13 @@ impl Tones {
     pub(super) fn textures(&self) -> Vec<(&'static str, Texture)> {
         match self.lookup {
             ToneLookup::Steps => Vec::new(),
-            ToneLookup::Texture => vec![("toneTable", Texture::ToneTable)],
+            ToneLookup::Texture => vec![("toneTable", Texture::Table(0))],
         }
     }
 
-    /// The table, where one is read.
-    pub(super) fn table(&self) -> Option<ToneTable> {
-        (self.lookup == ToneLookup::Texture).then(|| {
+    /// The plan's tables where one is read: the tone of a diffuse value, and that of a specular value or 0.
+    pub(super) fn tables(&self) -> Vec<PlanTable> {
+        let table = (self.lookup == ToneLookup::Texture).then(|| {
             let byte = |level: f32| (level * 255.0).round() as u8;
             let [_, specular_threshold] = self.thresholds();
             let texel = |index: usize| {
@@ -145,8 +166,9 @@ impl Tones {
                 let highlight = if light > specular_threshold { byte(self.levels[2]).max(1) } else { 0 };
                 [byte(self.tone(light, f32::NEG_INFINITY)), highlight]
             };
-            ToneTable { texels: (0..TABLE_SIZE).map(texel).collect() }
-        })
+            PlanTable { name: "the table of tones", texels: (0..TABLE_SIZE).map(texel).collect() }
+        });
+        table.into_iter().collect()
     }
 }
 
@@ -175,7 +197,7 @@ mod tests {
     fn the_table_says_what_the_steps_say() {
         for count in 1..=3 {
             let tones = Tones { count, lookup: ToneLookup::Texture, ..Tones::default() };
-            let texels = tones.table().unwrap().texels;
+            let texels = tones.tables().remove(0).texels;
             for light in (0..TABLE_SIZE).map(|i| i as f32 / (TABLE_SIZE - 1) as f32) {
                 for other in [0.0, 0.5, 1.0f32] {
                     let at = |light: f32| texels[(light * (TABLE_SIZE - 1) as f32).round() as usize];

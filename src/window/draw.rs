@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
 use crate::measure::Ink;
 use crate::picture::Picture;
-use crate::plan::prune::{Pruning, prune};
+use crate::plan::prune::prune;
 use crate::renderer::{PassTime, Renderer, milliseconds_since};
 use crate::scene::{Scene, SceneSettings};
 use crate::styles::{Show, Style};
@@ -155,7 +155,7 @@ impl Drawer {
     /// As [`Renderer::render`].
     pub fn draw_scene(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<Picture> {
         let plan = style.plan(scene, show)?;
-        let plan = prune(&plan, scene, &Pruning::for_context(self.renderer.context(), 1)).plan;
+        let plan = prune(&plan, scene, &self.renderer.pruning(1)).plan;
         self.renderer.draw(scene, &plan)
     }
 
@@ -169,7 +169,7 @@ impl Drawer {
         let mut costs = Vec::new();
         for (side, style, _) in &job.drawings {
             let plan = style.plan(&scene, Show::Final)?;
-            let plan = prune(&plan, &scene, &Pruning::for_context(self.renderer.context(), 1)).plan;
+            let plan = prune(&plan, &scene, &self.renderer.pruning(1)).plan;
             let passes = self.renderer.time_passes(&scene, &plan, TIMED_FRAMES)?;
             let ink = Ink::of_style(&mut self.renderer, &scene, style)?;
             costs.push(Cost { side: *side, style: style.name(), passes, ink });

@@ -68,7 +68,7 @@ pub fn run(arguments: &Arguments, target: &AnimationTarget, studio: &mut Studio)
     for (number, scene) in scenes.iter().enumerate() {
         let frame = Instant::now();
         let published = style.plan(scene, arguments.styles.show)?;
-        let plan = arguments.prune.pruned(&published, scene, renderer.context(), scenes.len() as u32).plan;
+        let plan = arguments.prune.pruned(&published, scene, renderer, scenes.len() as u32).plan;
         if number == 0 {
             renderer.remarks(&plan).iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
         }

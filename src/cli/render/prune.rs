@@ -3,7 +3,6 @@
 use super::super::Verdict;
 use super::Arguments;
 use std::path::{Path, PathBuf};
-use tinta::gl::ContextInfo;
 use tinta::plan::Plan;
 use tinta::plan::prune::{Omission, Pruned, Pruning, Rule, prune};
 use tinta::renderer::median;
@@ -36,14 +35,14 @@ const MOST_ROUNDS: usize = 101;
 
 impl PruneArguments {
     /// How to prune for so many pictures; `None` for not at all.
-    pub fn pruning(&self, context: &ContextInfo, pictures: u32) -> Option<Pruning> {
+    pub fn pruning(&self, renderer: &Renderer, pictures: u32) -> Option<Pruning> {
         let pictures = if self.verify { ALL_WORTH_IT } else { pictures };
-        (!self.full).then(|| Pruning { keep: self.keep.clone(), ..Pruning::for_context(context, pictures) })
+        (!self.full).then(|| Pruning { keep: self.keep.clone(), ..renderer.pruning(pictures) })
     }
 
     /// The plan that is drawn.
-    pub fn pruned(&self, published: &Plan, scene: &Scene, context: &ContextInfo, pictures: u32) -> Pruned {
-        match self.pruning(context, pictures) {
+    pub fn pruned(&self, published: &Plan, scene: &Scene, renderer: &Renderer, pictures: u32) -> Pruned {
+        match self.pruning(renderer, pictures) {
             Some(pruning) => prune(published, scene, &pruning),
             None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
         }

@@ -2,6 +2,7 @@ use super::*;
 use crate::gl::Backend;
 use crate::gl::context::Context;
 use crate::mesh::Mesh;
+use crate::plan::{Attachment, Choice};
 use crate::scene::{Scene, SceneSettings};
 use crate::styles::{Cartoon, Ink, MapEncoding, MapTarget, Show, Style, StyleName};
 use std::sync::Arc;
@@ -48,10 +49,11 @@ fn what_a_driver_lacks_is_refused_by_the_option_that_asks_for_it() {
 #[test]
 fn one_texture_in_two_formats_is_an_error_and_leaves_nothing_behind() {
     const HALF: Attachments = Attachments {
-        colors: &[crate::plan::Attachment { name: Drawn::Map, format: Format::Float16 }],
+        colors: &[Attachment { name: Drawn("Map"), format: Format::Float16 }],
         has_depth: false,
-        asked_by: "",
-        instead: "",
+        asked_by: Choice { setting: "size", value: "8" },
+        instead: Choice { setting: "size", value: "4" },
+        instead_draws: None,
     };
     let context = Context::open(Backend::Auto).unwrap_or_else(|error| panic!("{error}"));
     let _current = context.enter().unwrap();

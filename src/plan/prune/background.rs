@@ -1,7 +1,8 @@
 //! Pixels without an object: squares that could be a clear, squares that need not reach there, clears that are drawn over.
 
-use super::{Facts, Omission, Rule, counted};
-use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Step, Target, Texture, Uniform, Value};
+use super::ground::{Ground, covers, stays_in_objects};
+use super::{Omission, Rule, Situation, counted, drop_empty_passes};
+use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Step, Target, Texture, WhereEven};
 use crate::scene::Rectangle;
 use crate::tolerances::EIGHT_BIT_TIE;
 
@@ -13,9 +14,13 @@ pub(super) fn square(plan: &mut Plan) -> Result<Omission, String> {
         let [Step::Clear { color: Some(color), depth: true }, Step::Draw(draw), ..] = pass.steps.as_mut_slice() else {
             continue;
         };
-        let Geometry::BackgroundSquare { color: given } = draw.geometry else { continue };
-        let Some(drawn) = constant_color(draw, given) else {
-            kept = "borders are drawn on the background square".to_owned();
+        let Geometry::BackgroundSquare { .. } = draw.geometry else { continue };
+        let constant = draw.facts.constant_color.filter(|_| covers(draw) && pass.target.color_count() == 1);
+        let Some(drawn) = constant else {
+            kept = match draw.facts.where_even {
+                Some(_) => "borders are drawn on the background square".to_owned(),
+                None => "its shaders are not known to give one colour all over".to_owned(),
+            };
             continue;
         };
         if has_eight_bits(pass.target) && !drawn.iter().all(|channel| rounds_alike(*channel)) {
@@ -40,25 +45,6 @@ pub(super) fn square(plan: &mut Plan) -> Result<Omission, String> {
     })
 }
 
-/// The colour that a background square of this colour has in all its pixels, if it is one.
-fn constant_color(draw: &Draw, [red, green, blue, _]: [f32; 4]) -> Option<[f32; 4]> {
-    let program = draw.program.as_ref()?;
-    if draw.blend || draw.depth != Depth::Ignore || draw.scissor.is_some() {
-        return None;
-    }
-    match (program.vertex, program.fragments.first().copied()?) {
-        // Its normal in eye space, and depth that of the far plane.
-        ("evangelista/map.vert", "evangelista/map.frag") => Some([0.0, 0.0, 1.0, 1.0]),
-        ("improved/map-biased.vert", "evangelista/map.frag") => Some([0.5, 0.5, 1.0, 1.0]),
-        ("improved/map-float.vert", "improved/map-float.frag") => Some([0.0, 0.0, 1.0, 1.0]),
-        // Its tone is 1: the published highlight's, or that of settings with all levels 1.
-        ("evangelista/toon.vert", "evangelista/toon.frag" | "evangelista/toon-settings.frag") => {
-            Some([red, green, blue, 1.0])
-        }
-        _ => None,
-    }
-}
-
 /// Whether a channel of what is drawn into has 8 bits.
 fn has_eight_bits(target: Target) -> bool {
     match target {
@@ -73,35 +59,41 @@ fn rounds_alike(channel: f32) -> bool {
 }
 
 /// Confines squares to the pixels that an object can change.
-pub(super) fn empty_pixels(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
-    let whole = facts.surface.pixel_count();
+pub(super) fn empty_pixels(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
+    let whole = situation.surface.pixel_count();
     let (mut changed, mut saved) = (Vec::new(), 0);
+    let mut ground = Ground::default();
     for pass in &mut plan.passes {
-        let cleared = match pass.steps.first() {
-            Some(Step::Clear { color, .. }) => *color,
-            _ => None,
-        };
-        let Some(place) = pass.steps.iter().position(|step| answers_to_objects_only(step, cleared)) else { continue };
-        let Step::Draw(draw) = &mut pass.steps[place] else { continue };
-        let reach = reach_px(draw);
-        let needed = facts.extent().map(|extent| extent.grown(reach, facts.surface));
+        let mut confined = None;
+        for (place, step) in pass.steps.iter().enumerate() {
+            if let Step::Draw(draw) = step
+                && confined.is_none()
+                && draw.scissor.or(pass.scissor).is_none()
+                && let Some(reach) = reach_beyond_objects(draw, &pass.steps[..place], &ground)
+            {
+                confined = Some((place, reach));
+            }
+            ground.follow(step, pass.target, pass.scissor);
+        }
+        let Some((place, reach)) = confined else { continue };
+        let needed = situation.extent().map(|extent| extent.grown(reach, situation.surface));
         let count = needed.map_or(0, Rectangle::pixel_count);
         // Nothing is saved by a frame of single pixels.
-        if draw.scissor.is_some() || count * 20 > whole * 19 {
+        if count * 20 > whole * 19 {
             continue;
         }
         changed.push(pass.name);
         saved += whole - count;
-        match needed {
-            Some(rectangle) => draw.scissor = Some(rectangle),
-            None => drop(pass.steps.remove(place)),
+        match (&mut pass.steps[place], needed) {
+            (Step::Draw(draw), Some(rectangle)) => draw.scissor = Some(rectangle),
+            _ => drop(pass.steps.remove(place)),
         }
     }
     if changed.is_empty() {
         return Err("no square answers to objects alone, or they fill the picture".to_owned());
     }
-    plan.passes.retain(|pass| !pass.steps.is_empty());
-    confine_maps(plan, facts);
+    drop_empty_passes(plan);
+    confine_maps(plan, situation);
     let percent = saved * 100 / (whole * changed.len());
     Ok(Omission {
         rule: Rule::EmptyPixels,
@@ -109,9 +101,9 @@ pub(super) fn empty_pixels(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omissio
         reason:
             "no object reaches them, the map is the same all around them, and the filter answers to differences alone"
                 .to_owned(),
-        facts: vec![match facts.extent() {
+        facts: vec![match situation.extent() {
             Some(Rectangle { x, y, width, height }) => {
-                format!("objects lie in {width} x {height} pixels from ({x}, {y}) of {}", facts.surface)
+                format!("objects lie in {width} x {height} pixels from ({x}, {y}) of {}", situation.surface)
             }
             None => "no object lies in the picture".to_owned(),
         }],
@@ -119,9 +111,8 @@ pub(super) fn empty_pixels(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omissio
 }
 
 /// Confines clearing, drawing and copying a map to the pixels that are read of it, where only confined squares and objects do.
-fn confine_maps(plan: &mut Plan, facts: &Facts<'_>) {
-    let Some(extent) = facts.extent() else { return };
-    for number in 0..plan.passes.len() - 1 {
+fn confine_maps(plan: &mut Plan, situation: &Situation<'_>) {
+    for number in 0..plan.passes.len().saturating_sub(1) {
         let pass = &plan.passes[number];
         let leaves: Vec<Texture> = match pass.target {
             Target::Textures(attachments) => {
@@ -130,11 +121,12 @@ fn confine_maps(plan: &mut Plan, facts: &Facts<'_>) {
             Target::Framebuffer => pass.steps.iter().filter_map(copied).collect(),
         };
         let later = || plan.passes[number + 1..].iter();
+        let clears_all = |pass: &Pass| {
+            matches!(pass.steps.first(), Some(Step::Clear { color: Some(_), depth: true })) && pass.scissor.is_none()
+        };
         // What the pass itself draws must be gone, or read by these textures alone.
         let is_gone = match pass.target {
-            Target::Framebuffer => later()
-                .find(|pass| pass.target == Target::Framebuffer)
-                .is_some_and(|pass| matches!(pass.steps.first(), Some(Step::Clear { color: Some(_), depth: true }))),
+            Target::Framebuffer => later().find(|pass| pass.target == Target::Framebuffer).is_some_and(clears_all),
             Target::Textures(_) => !later().any(|later| later.target != Target::Framebuffer),
         };
         // The readers end where the texture is copied anew.
@@ -145,14 +137,25 @@ fn confine_maps(plan: &mut Plan, facts: &Facts<'_>) {
             .filter_map(|step| if let Step::Draw(draw) = step { Some(draw) } else { None })
             .filter(|d| reads(d))
             .collect();
-        let is_confined = |draw: &&Draw| draw.scissor.is_some() || draw.is_of_objects();
-        if leaves.is_empty() || readers.is_empty() || !is_gone || !readers.iter().all(is_confined) {
+        if readers.is_empty() || !is_gone || pass.scissor.is_some() {
             continue;
         }
-        let reach = readers.iter().map(|draw| reach_px(draw)).max().unwrap_or_default();
         // As far as the squares go, and from there as far as they look.
-        plan.passes[number].scissor = Some(extent.grown(reach.saturating_mul(2), facts.surface));
+        let read: Option<Vec<Rectangle>> = readers.iter().map(|draw| read_px(draw, situation)).collect();
+        if let Some(all) = read.and_then(|parts| parts.into_iter().reduce(Rectangle::around)) {
+            plan.passes[number].scissor = Some(all);
+        }
     }
+}
+
+/// The pixels of a map that a draw reads; `None` where that may be all.
+fn read_px(draw: &Draw, situation: &Situation<'_>) -> Option<Rectangle> {
+    let drawn = match draw.scissor {
+        Some(scissor) => scissor,
+        None if stays_in_objects(draw) => situation.extent()?,
+        None => return None,
+    };
+    Some(drawn.grown(draw.facts.reach_px?, situation.surface))
 }
 
 /// The texture that a step copies into.
@@ -164,48 +167,29 @@ fn copied(step: &Step) -> Option<Texture> {
     }
 }
 
-/// Whether a step is a square that leaves pixels as they are, or cleared, wherever the map is the same all around.
-fn answers_to_objects_only(step: &Step, cleared: Option<[f32; 4]>) -> bool {
-    let Step::Draw(draw) = step else { return false };
-    let borders = ["evangelista/border.frag", "evangelista/border-settings.frag"];
-    match draw.geometry {
-        Geometry::ScreenSquare => {
-            draw.blend && borders.iter().any(|shader| draw.has_shader(shader))
-                || draw.has_shader("improved/plane-ink.frag")
-        }
-        Geometry::BackgroundSquare { color } if cleared == Some(color) => {
-            let two_pass = ["evangelista/two-pass.frag", "evangelista/two-pass-settings.frag"];
-            two_pass.iter().any(|shader| draw.has_shader(shader)) && color.iter().all(|channel| rounds_alike(*channel))
-        }
-        _ => false,
-    }
-}
-
-/// How far a draw's filter looks, pixels.
-fn reach_px(draw: &Draw) -> u32 {
-    let given = draw.uniforms.iter().find(|uniform| uniform.name == "reach").map(|Uniform { value, .. }| *value);
-    let taps = match given {
-        Some(Value::Vec2([before, behind])) => before.max(behind).ceil() as u32,
-        _ => 1,
+/// How far from objects, in pixels, a square may change something: where it leaves pixels as they are, or as they were cleared,
+/// wherever the map is the same all around; `None` for any other draw.
+fn reach_beyond_objects(draw: &Draw, before: &[Step], ground: &Ground) -> Option<u32> {
+    let is_square = matches!(draw.geometry, Geometry::ScreenSquare | Geometry::BackgroundSquare { .. });
+    let is_seen = match draw.facts.where_even? {
+        WhereEven::Unchanged => true,
+        WhereEven::Color(even) => match before {
+            [Step::Clear { color: Some(cleared), .. }] => {
+                *cleared == even && !draw.blend && even.iter().all(|channel| rounds_alike(*channel))
+            }
+            _ => false,
+        },
     };
-    // The slope's threshold looks twice as far; one pixel more costs nothing.
-    taps * if draw.has_shader("improved/slope-threshold.frag") { 2 } else { 1 } + 1
+    (is_square && is_seen && draw.depth != Depth::TestAndWrite && ground.is_even_for(draw))
+        .then_some(draw.facts.reach_px)
+        .flatten()
 }
 
 /// Leaves a colour uncleared that the next step draws over.
-pub(super) fn overwritten_clear(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
-    let covers = |draw: &Draw| {
-        let is_full = matches!(draw.geometry, Geometry::ScreenSquare | Geometry::BackgroundSquare { .. });
-        is_full
-            && draw.depth == Depth::Ignore
-            && !draw.blend
-            && draw.scissor.is_none()
-            // It leaves pixels out.
-            && !draw.has_shader("improved/plane-ink.frag")
-    };
+pub(super) fn overwritten_clear(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
     let mut passes = Vec::new();
     // Measured: charcoal takes 1.1 times as long without it.
-    if facts.pruning.is_software {
+    if situation.pruning.is_software {
         return Err(
             "drawing on the processor goes tile by tile, and a tile that is not cleared is first read".to_owned()
         );

@@ -1,32 +1,29 @@
-//! What nothing reads: squares that draw nothing, maps and copies without a filter, textures without a shader.
+//! What nothing sees: draws that add nothing, maps and copies without a filter, textures without a shader.
 
-use super::{Omission, Rule, counted};
-use crate::plan::{Draw, Geometry, Plan, Step, Target, Texture, Value};
+use super::{Omission, Rule, counted, drop_empty_passes};
+use crate::plan::{Draw, Plan, Step, Target, Texture};
 
-/// Leaves out the border's square where its response is multiplied by 0.
+/// Leaves out draws that add nothing, as borders do whose response is multiplied by 0.
 pub(super) fn border(plan: &mut Plan) -> Result<Omission, String> {
-    let is_invisible = |step: &Step| match step {
-        Step::Draw(draw) => {
-            let factor = draw.uniforms.iter().find(|uniform| uniform.name == "detectionFactor");
-            draw.geometry == Geometry::ScreenSquare
-                && draw.blend
-                && draw.has_shader("evangelista/border-settings.frag")
-                // The slope's threshold is black or white by itself.
-                && !draw.has_shader("improved/slope-threshold.frag")
-                && factor.is_some_and(|uniform| uniform.value == Value::Float(0.0))
+    let reason = |step: &Step| if let Step::Draw(draw) = step { draw.facts.adds_nothing.clone() } else { None };
+    let (mut what, mut facts) = (Vec::new(), Vec::new());
+    for (pass, step) in plan.steps() {
+        let Some(reason) = reason(step) else { continue };
+        what.push(format!("the {pass}'s {}", step.name()));
+        if !facts.contains(&reason) {
+            facts.push(reason);
         }
-        _ => false,
-    };
-    if !plan.steps().any(|(_, step)| is_invisible(step)) {
+    }
+    if what.is_empty() {
         return Err("there is no border that is multiplied by 0".to_owned());
     }
-    plan.passes.iter_mut().for_each(|pass| pass.steps.retain(|step| !is_invisible(step)));
-    plan.passes.retain(|pass| !pass.steps.is_empty());
+    plan.passes.iter_mut().for_each(|pass| pass.steps.retain(|step| reason(step).is_none()));
+    drop_empty_passes(plan);
     Ok(Omission {
         rule: Rule::Border,
-        what: "the border's square".to_owned(),
-        reason: "its alpha is 0 everywhere, and blending that leaves every pixel as it is".to_owned(),
-        facts: vec!["the detection factor is 0".to_owned()],
+        what: what.join(", "),
+        reason: "it leaves every pixel as it is".to_owned(),
+        facts,
     })
 }
 
@@ -45,10 +42,13 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
     let mut read: Vec<Texture> = textures_of(plan.picture_target()).into_iter().take(1).collect();
     let mut dropped = Vec::new();
     for pass in plan.passes.iter_mut().rev() {
-        let (name, drawn) = (pass.name, textures_of(pass.target));
+        let (name, drawn, is_partial) = (pass.name, textures_of(pass.target), pass.scissor.is_some());
         let mut kept = Vec::new();
         for step in std::mem::take(&mut pass.steps).into_iter().rev() {
             let is_read = match (&step, pass.target) {
+                // Where a part is copied, the rest is still that of the copy before.
+                (Step::CopyFramebuffer, _) if is_partial => read.contains(&Texture::BorderMap),
+                (Step::CopyDepth, _) if is_partial => read.contains(&Texture::DepthMap),
                 (Step::CopyFramebuffer, _) => take(&mut read, &[Texture::BorderMap]),
                 (Step::CopyDepth, _) => take(&mut read, &[Texture::DepthMap]),
                 (_, Target::Framebuffer) => framebuffer_is_read,
@@ -61,11 +61,13 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
             match &step {
                 Step::CopyFramebuffer | Step::CopyDepth => framebuffer_is_read = true,
                 // What was there before is gone.
-                Step::Clear { color: Some(_), depth: true } | Step::ClearEach { .. } => match pass.target {
-                    Target::Framebuffer => framebuffer_is_read = false,
-                    Target::Textures(_) => drop(take(&mut read, &drawn)),
-                },
-                Step::Clear { .. } => {}
+                Step::Clear { color: Some(_), depth: true } | Step::ClearEach { .. } if !is_partial => {
+                    match pass.target {
+                        Target::Framebuffer => framebuffer_is_read = false,
+                        Target::Textures(_) => drop(take(&mut read, &drawn)),
+                    }
+                }
+                Step::Clear { .. } | Step::ClearEach { .. } => {}
                 Step::Draw(Draw { textures, .. }) => read.extend(textures.iter().map(|(_, texture)| *texture)),
             }
             kept.push(step);
@@ -76,7 +78,7 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
     if dropped.is_empty() {
         return Err("every pass and every copy is read".to_owned());
     }
-    plan.passes.retain(|pass| !pass.steps.is_empty());
+    drop_empty_passes(plan);
     dropped.reverse();
     Ok(Omission {
         rule: Rule::UnreadMap,
@@ -96,23 +98,22 @@ fn take(read: &mut Vec<Texture>, textures: &[Texture]) -> bool {
 /// Leaves out pictures and tables that no step reads.
 pub(super) fn unread_textures(plan: &mut Plan) -> Result<Omission, String> {
     let read: Vec<Texture> = plan.draws().flat_map(|draw| draw.textures.iter().map(|(_, texture)| *texture)).collect();
-    let mut dropped = Vec::new();
-    if plan.tone_table.is_some() && !read.contains(&Texture::ToneTable) {
-        plan.tone_table = None;
-        dropped.push("the table of tones");
-    }
-    let is_read: Vec<bool> = (0..plan.pictures.len()).map(|number| read.contains(&Texture::Picture(number))).collect();
-    let unread = plan.pictures.iter().zip(&is_read).filter(|(_, is_read)| !**is_read);
-    dropped.extend(unread.map(|(picture, _)| picture.name));
+    let tables = drop_unread(&mut plan.tables, |number| read.contains(&Texture::Table(number)));
+    let pictures = drop_unread(&mut plan.pictures, |number| read.contains(&Texture::Picture(number)));
+    let dropped: Vec<&str> = tables
+        .dropped
+        .iter()
+        .map(|table| table.name)
+        .chain(pictures.dropped.iter().map(|picture| picture.name))
+        .collect();
     if dropped.is_empty() {
         return Err("every texture of this plan is read".to_owned());
     }
-    let mut flags = is_read.iter();
-    plan.pictures.retain(|_| flags.next().is_some_and(|is_read| *is_read));
-    let number = |old: usize| is_read[..old].iter().filter(|is_read| **is_read).count();
     for (_, texture) in plan.draws_mut().flat_map(|draw| &mut draw.textures) {
-        if let Texture::Picture(old) = texture {
-            *old = number(*old);
+        match texture {
+            Texture::Table(number) => *number = tables.number(*number),
+            Texture::Picture(number) => *number = pictures.number(*number),
+            Texture::BorderMap | Texture::DepthMap | Texture::Drawn(_) | Texture::Material => {}
         }
     }
     Ok(Omission {
@@ -121,4 +122,27 @@ pub(super) fn unread_textures(plan: &mut Plan) -> Result<Omission, String> {
         reason: "no shader that is left samples them".to_owned(),
         facts: vec![format!("{} of the plan are read", counted(plan.pictures.len(), "picture", "pictures"))],
     })
+}
+
+/// What is left of a list, and what is not.
+struct Left<T> {
+    is_read: Vec<bool>,
+    dropped: Vec<T>,
+}
+
+impl<T> Left<T> {
+    /// The number now of what had this number.
+    fn number(&self, old: usize) -> usize {
+        self.is_read[..old].iter().filter(|is_read| **is_read).count()
+    }
+}
+
+/// Leaves in a list what is read of it, by number.
+fn drop_unread<T: Clone>(list: &mut Vec<T>, is_read: impl Fn(usize) -> bool) -> Left<T> {
+    let is_read: Vec<bool> = (0..list.len()).map(is_read).collect();
+    let of =
+        |wanted: bool| list.iter().zip(&is_read).filter(move |(_, read)| **read == wanted).map(|(one, _)| one.clone());
+    let (kept, dropped) = (of(true).collect(), of(false).collect());
+    *list = kept;
+    Left { is_read, dropped }
 }

@@ -1,14 +1,15 @@
 //! Objects outside the picture, and faces that a view cannot show.
 
-use super::{Facts, Omission, Rule, counted};
+use super::ground::stays_in_objects;
+use super::{Omission, Rule, Situation, counted};
 use crate::hiding::{DrawnFaces, faces_not_culled};
 use crate::plan::{Depth, Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
 use crate::scene::{Object, Scene};
 use std::sync::Arc;
 
 /// Leaves out objects outside the picture, with their edges.
-pub(super) fn outside(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
-    let scene = facts.scene;
+pub(super) fn outside(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
+    let scene = situation.scene;
     let all_outside = |width_px: f32| -> Vec<bool> {
         scene.objects.iter().map(|object| scene.is_outside(object, width_px)).collect()
     };
@@ -22,12 +23,13 @@ pub(super) fn outside(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, St
     );
     let (mut is_changed, mut edges) = (false, 0);
     for draw in plan.draws_mut() {
+        let keeps_places = draw.keeps_places();
         match &mut draw.geometry {
-            Geometry::Objects(_) if draw.faces.is_none() => {
+            Geometry::Objects(_) if draw.faces.is_none() && keeps_places => {
                 draw.faces = Some(selection.clone());
                 is_changed = true;
             }
-            Geometry::Edges { runs, width_px, .. } => {
+            Geometry::Edges { runs, width_px, .. } if keeps_places => {
                 let beyond = all_outside(*width_px);
                 let is_left_out = |run: &EdgeRun| beyond.get(run.object).is_some_and(|is_outside| *is_outside);
                 let left_out: usize = runs.iter().filter(|run| is_left_out(run)).map(|run| run.ends.len()).sum();
@@ -44,7 +46,7 @@ pub(super) fn outside(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, St
         return Err("objects outside the picture are left out already".to_owned());
     }
     if count == outside.len() {
-        let draws_nothing = |step: &Step| matches!(step, Step::Draw(draw) if draw.is_of_objects());
+        let draws_nothing = |step: &Step| matches!(step, Step::Draw(draw) if stays_in_objects(draw));
         plan.passes.iter_mut().for_each(|pass| pass.steps.retain(|step| !draws_nothing(step)));
     }
     let lines =
@@ -58,9 +60,10 @@ pub(super) fn outside(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, St
 }
 
 /// Leaves out faces that the driver would cull once it has computed their vertices.
-pub(super) fn culled_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
-    let Facts { scene, surface, pruning, .. } = *facts;
-    if !plan.draws().any(|draw| draw.is_of_objects() && draw.cull_back_faces) {
+pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
+    let Situation { scene, surface, pruning, .. } = *situation;
+    let is_culled = |draw: &Draw| draw.cull_back_faces && draw.keeps_places();
+    if !plan.draws().any(|draw| draw.is_of_objects() && is_culled(draw)) {
         return Err(
             "this style draws faces from both sides; --cull back leaves those out that are turned away".to_owned()
         );
@@ -69,7 +72,7 @@ pub(super) fn culled_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omissio
         return Err("the device culls faster than they are found here".to_owned());
     }
     let lists = |object: &Object| faces_not_culled(scene, object, surface, pruning.subpixel_bits);
-    let left_out = choose(plan, scene, |draw| draw.cull_back_faces, lists);
+    let left_out = choose(plan, scene, is_culled, lists);
     if left_out == 0 {
         return Err("no face is surely turned away".to_owned());
     }
@@ -90,8 +93,8 @@ const WORTH_HIDING: u32 = 16;
 const LEAST_PERCENT: usize = 16;
 
 /// Leaves out faces that are turned away and behind others of their own closed surface.
-pub(super) fn hidden_faces(plan: &mut Plan, facts: &Facts<'_>) -> Result<Omission, String> {
-    let Facts { scene, surface, pruning, .. } = *facts;
+pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
+    let Situation { scene, surface, pruning, .. } = *situation;
     if !plan.draws().any(is_hiding) {
         return Err(
             "faces pushed back by polygon offset, or culled already, need not hide what is behind them".to_owned()
@@ -152,6 +155,8 @@ fn is_hiding(draw: &Draw) -> bool {
         && draw.polygon_offset.is_none()
         && !draw.blend
         && !draw.cull_back_faces
+        && draw.keeps_places()
+        && draw.keeps_pixels()
 }
 
 /// Which faces of each object a draw draws.

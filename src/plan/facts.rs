@@ -1,0 +1,176 @@
+//! What a style states of its draws, so that `prune` can shorten plans without knowing a shader.
+//!
+//! A draw's state says how it meets the depth buffer or what it is blended with; what its shaders do only their author knows.
+//! So a style states it beside the draw. A plan draws the same whatever it states: nobody but `prune` reads this, and what is
+//! not stated is not assumed. Where a shader is replaced by another text, its draws' facts are dropped.
+
+use super::{Draw, Plan, Program, Step};
+use std::fmt;
+
+/// What may be assumed of a draw's shaders. The default is nothing.
+///
+/// ```
+/// use tinta::plan::{Draw, Facts, Geometry, Paint, Program};
+///
+/// let program = Program { vertex: "own/dots.vert", fragments: vec!["own/dots.frag"] };
+/// let dots = Draw { facts: Facts::plain(), ..Draw::new(Geometry::Objects(Paint::Materials), Some(program)) };
+/// assert_eq!(dots.facts.to_string(), "keeps places, keeps pixels");
+/// ```
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Facts {
+    /// Vertices are drawn where the scene's camera has them, as `ftransform()` puts them. Faces outside the picture, turned
+    /// away or hidden can then be left out.
+    pub keeps_places: bool,
+    /// Every pixel of a face gets a colour and has the depth of the face: none is discarded, no depth is written by a shader.
+    pub keeps_pixels: bool,
+    /// All its pixels get this colour: red, green, blue, alpha.
+    pub constant_color: Option<[f32; 4]>,
+    /// It leaves every pixel's colour and depth as they are, for this reason.
+    pub adds_nothing: Option<String>,
+    /// How far from its own pixel it reads the textures that passes leave, at most, pixels.
+    pub reach_px: Option<u32>,
+    /// What becomes of a pixel where all of these textures hold one value each as far as the draw reads.
+    pub where_even: Option<WhereEven>,
+    /// A program that draws the same with less work.
+    pub shorter: Option<Shorter>,
+}
+
+/// What a filter makes of a pixel around which there is nothing to find.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WhereEven {
+    /// It is left as it is.
+    Unchanged,
+    /// It gets this colour: red, green, blue, alpha.
+    Color([f32; 4]),
+}
+
+/// A program for the same uniforms, textures and pixels that leaves out light no tone depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shorter {
+    /// Its shaders.
+    pub program: Program,
+    /// What they do not compute.
+    pub without: &'static str,
+    /// Why that makes no difference.
+    pub because: String,
+}
+
+impl Facts {
+    /// Those of most shaders: places and pixels are kept.
+    pub fn plain() -> Self {
+        Self { keeps_places: true, keeps_pixels: true, ..Self::default() }
+    }
+
+    /// Those of a square of one colour.
+    pub fn constant(color: [f32; 4]) -> Self {
+        Self { constant_color: Some(color), ..Self::plain() }
+    }
+}
+
+impl Draw {
+    /// Whether vertices are drawn where the camera has them: stated, or by the fixed-function pipeline.
+    pub fn keeps_places(&self) -> bool {
+        self.program.is_none() || self.facts.keeps_places
+    }
+
+    /// Whether every pixel of a face is drawn at the face's depth: stated, or by the fixed-function pipeline.
+    pub fn keeps_pixels(&self) -> bool {
+        self.program.as_ref().is_none_or(|program| program.fragments.is_empty()) || self.facts.keeps_pixels
+    }
+}
+
+impl Program {
+    /// Whether this is one of its shaders.
+    pub fn has_shader(&self, path: &str) -> bool {
+        self.vertex == path || self.fragments.contains(&path)
+    }
+}
+
+impl Plan {
+    /// Drops what was stated of draws by any of these shaders, because they are not those that the style knew.
+    pub fn forget_facts_of(&mut self, shaders: &[String]) {
+        let has_one = |program: &Program| shaders.iter().any(|path| program.has_shader(path));
+        let steps = self.passes.iter_mut().flat_map(|pass| &mut pass.steps);
+        for draw in steps.filter_map(|step| if let Step::Draw(draw) = step { Some(draw) } else { None }) {
+            if draw.program.as_ref().is_some_and(has_one) {
+                draw.facts = Facts::default();
+            }
+            draw.facts.shorter.take_if(|shorter| has_one(&shorter.program));
+        }
+    }
+}
+
+impl fmt::Display for Facts {
+    /// `keeps places, keeps pixels`; nothing where nothing is stated.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let color = |[r, g, b, a]: [f32; 4]| format!("({r}, {g}, {b}, {a})");
+        let facts = [
+            self.keeps_places.then(|| "keeps places".to_owned()),
+            self.keeps_pixels.then(|| "keeps pixels".to_owned()),
+            self.constant_color.map(|constant| format!("all in {}", color(constant))),
+            self.adds_nothing.as_ref().map(|reason| format!("adds nothing: {reason}")),
+            self.reach_px.map(|reach| format!("reads no further than {reach} px")),
+            self.where_even.map(|what| match what {
+                WhereEven::Unchanged => "nothing where that is even".to_owned(),
+                WhereEven::Color(even) => format!("{} where that is even", color(even)),
+            }),
+            self.shorter
+                .as_ref()
+                .map(|Shorter { program, without, .. }| format!("the same as {program} without {without}")),
+        ];
+        out.write_str(&facts.into_iter().flatten().collect::<Vec<_>>().join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{Geometry, Pass};
+
+    fn program(vertex: &'static str, fragment: &'static str) -> Program {
+        Program { vertex, fragments: vec![fragment] }
+    }
+
+    fn facts_after(facts: Facts, replaced: &str) -> Facts {
+        let draw = Draw { facts, ..Draw::new(Geometry::ScreenSquare, Some(program("a.vert", "a.frag"))) };
+        let mut plan = Plan::new(vec![Pass::new("a", vec![Step::Draw(draw)])]);
+        plan.forget_facts_of(&[replaced.to_owned()]);
+        let Step::Draw(draw) = plan.passes.remove(0).steps.remove(0) else { panic!("a draw") };
+        draw.facts
+    }
+
+    #[test]
+    fn facts_go_with_any_shader_of_their_program_and_stay_with_others() {
+        let shorter = Shorter { program: program("a.vert", "b.frag"), without: "light", because: String::new() };
+        let facts = Facts { shorter: Some(shorter), ..Facts::constant([1.0; 4]) };
+        assert_eq!(facts_after(facts.clone(), "a.vert"), Facts::default());
+        assert_eq!(facts_after(facts.clone(), "a.frag"), Facts::default());
+        assert_eq!(facts_after(facts.clone(), "c.frag"), facts);
+        // The program that was to draw the same does no longer.
+        assert_eq!(facts_after(facts, "b.frag"), Facts::constant([1.0; 4]));
+    }
+
+    #[test]
+    fn fixed_functions_need_not_be_stated() {
+        let fixed = Draw::new(Geometry::ScreenSquare, None);
+        assert!(fixed.keeps_places() && fixed.keeps_pixels());
+        let half = Draw::new(Geometry::ScreenSquare, Some(Program { vertex: "a.vert", fragments: Vec::new() }));
+        assert!(!half.keeps_places() && half.keeps_pixels());
+        let own = Draw::new(Geometry::ScreenSquare, Some(program("a.vert", "a.frag")));
+        assert!(!own.keeps_places() && !own.keeps_pixels());
+        assert_eq!(own.facts.to_string(), "");
+    }
+
+    #[test]
+    fn facts_print_as_what_they_allow() {
+        let facts = Facts { reach_px: Some(2), where_even: Some(WhereEven::Unchanged), ..Facts::plain() };
+        assert_eq!(
+            facts.to_string(),
+            "keeps places, keeps pixels, reads no further than 2 px, nothing where that is even"
+        );
+        assert_eq!(
+            Facts::constant([0.0, 0.5, 1.0, 1.0]).to_string(),
+            "keeps places, keeps pixels, all in (0, 0.5, 1, 1)"
+        );
+    }
+}
