@@ -26,11 +26,10 @@ mod target;
 pub use target::{Attachment, Attachments, Drawn, Format, Target};
 
 use crate::mesh::Part;
-use crate::names::find;
+use crate::settings::Choice;
 use crate::picture::Picture;
 use crate::scene::Rectangle;
 use serde::Serialize;
-use std::str::FromStr;
 use std::sync::Arc;
 
 /// The steps of one picture.
@@ -228,12 +227,8 @@ impl LineDrawing {
     pub const ALL: [(&'static str, Self); 2] = [("gl", Self::Gl), ("quads", Self::Quads)];
 }
 
-impl FromStr for LineDrawing {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for LineDrawing {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 /// A vertex shader and the fragment shaders linked with it, by their paths below `glsl/`.

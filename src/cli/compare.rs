@@ -84,7 +84,7 @@ pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<
             problem: "the sheet and --json cannot share standard output; name a file".to_owned(),
         });
     }
-    if arguments.styles.no_borders {
+    if arguments.styles.are_without_borders() {
         return Err(Error::Setting {
             setting: "--no-borders".to_owned(),
             problem: "it is lines that are compared; leave it out".to_owned(),
@@ -109,9 +109,9 @@ pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<
     let styles = [arguments.left, arguments.right].map(|name| arguments.styles.style(name));
     let [left_style, right_style] = styles;
     let styles = [left_style?, right_style?];
-    let meshes = load_meshes(&studio.library, &arguments.models, &arguments.model.options())?;
+    let meshes = load_meshes(&studio.library, &arguments.models, &arguments.model.settings()?)?;
     let count = meshes.len();
-    let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()))?;
+    let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()?)?)?;
     let renderer = studio.renderer(arguments.backend)?;
     let mut draw = |style: &tinta::Style| -> Result<Drawing> {
         let start = Instant::now();

@@ -11,6 +11,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use tinta::preset::{OptionValue, Options, Preset};
+use tinta::settings::ON_OFF;
 use tinta::{Error, Result};
 
 #[derive(clap::Args)]
@@ -66,14 +67,9 @@ impl Given {
 
     /// An error about an option that the preset gave, with the preset's name and line.
     pub fn attributed(&self, error: Error) -> Error {
-        let (Some(preset), Error::Setting { setting, problem }) = (&self.preset, &error) else { return error };
-        let is_named = |option: &str| {
-            let mut words = setting.split([' ', ',', '=']);
-            words.any(|word| word.strip_prefix("--") == Some(option))
-        };
-        match self.used.iter().find(|(option, _)| is_named(option)) {
-            Some((_, key)) => preset.refuse(key, format!("{setting}: {problem}")),
-            None => error,
+        match (&self.preset, &error) {
+            (Some(preset), Error::Setting { .. }) => preset.attributed(error, &self.used),
+            _ => error,
         }
     }
 }
@@ -244,9 +240,6 @@ pub fn words_of(arg: &Arg, value: &OptionValue) -> std::result::Result<Vec<OsStr
         }
     }
 }
-
-/// How options that are on or off call their value.
-pub const ON_OFF: &str = "ON|OFF";
 
 fn long<'a>(command: &'a Command, name: &str) -> Option<&'a Arg> {
     command.get_arguments().find(|arg| arg.get_long() == Some(name))

@@ -1,6 +1,7 @@
 //! Which frame of an animated model is read: a number, between two frames also, or a name.
 
 use crate::error::{Error, Result};
+use crate::settings::{Kind, Problem, Value};
 use serde::Serialize;
 use std::{fmt, str::FromStr};
 
@@ -39,6 +40,20 @@ impl FromStr for ModelFrame {
             _ if text.is_empty() => Err("give a frame's number or name".to_owned()),
             _ => Ok(Self::Name(text.to_owned())),
         }
+    }
+}
+
+impl Value for ModelFrame {
+    fn kind() -> Kind {
+        Kind::Text { offered: &[], example: "run3" }
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(text.parse()?)
     }
 }
 

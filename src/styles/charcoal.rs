@@ -10,13 +10,14 @@ mod pictures;
 pub use choices::{CetCoordinate, CetFilter, ContrastOperator, Improvements, Noise, Recipe};
 pub use pictures::{CharcoalPictures, Paper};
 
-use super::Show;
+use super::{ALL_STYLES, Show, cull};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::plan::{
     Depth, Draw, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
 };
 use crate::scene::{Background, Scene, Size};
+use crate::settings::{Kind, ON_OFF, Setting, Value as _, names_of, under};
 use serde::Serialize;
 
 /// Settings of `charcoal` and `sand`; the defaults are the text's where it gives them, ours elsewhere (errata V7).
@@ -82,6 +83,133 @@ impl Default for Charcoal {
             cull_back_faces: false,
             pictures: CharcoalPictures::default(),
         }
+    }
+}
+
+impl Charcoal {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let common = vec![cull(|charcoal: &mut Self| &mut charcoal.cull_back_faces)];
+        let recipe = Setting::of(
+            "charcoal",
+            "RECIPE",
+            Kind::Recipe(names_of::<Recipe>()),
+            "Recipe: published, darker (density 85, contrast exponent 1.2, smudged), closure (density 35, contrast exponent 2, \
+             saturation 1.4); options given beside it count more",
+            |_: &Self| Recipe::Published.text(),
+            |charcoal, text| {
+                let recipe = Self::recipe(Recipe::parse(text)?);
+                (charcoal.density_percent, charcoal.contrast_exponent) =
+                    (recipe.density_percent, recipe.contrast_exponent);
+                (charcoal.smudge, charcoal.saturation) = (recipe.smudge, recipe.saturation);
+                Ok(())
+            },
+        );
+        let grain = vec![
+            recipe,
+            Setting::field(
+                "seed",
+                "N",
+                "Where the random numbers begin; the same seed gives the same textures",
+                |charcoal: &mut Self| &mut charcoal.seed,
+            )
+            .range(0.0, 1000.0, 0),
+            Setting::field(
+                "density",
+                "PERCENT",
+                "Share of black pixels in the grain's texture before they are moved, percent; more is darker",
+                |charcoal: &mut Self| &mut charcoal.density_percent,
+            )
+            .range(0.0, 100.0, 0),
+            Setting::field(
+                "cet-exponent",
+                "M",
+                "Exponent m that moves black pixels along t to t^m; more leaves fewer grains in light tones",
+                |charcoal: &mut Self| &mut charcoal.cet_exponent,
+            )
+            .range(1.0, 20.0, 1)
+            .labelled("grain exponent"),
+        ];
+        let drawing = vec![
+            Setting::field(
+                "contrast-exponent",
+                "M",
+                "Exponent of the light's contrast; more darkens all but the lights",
+                |charcoal: &mut Self| &mut charcoal.contrast_exponent,
+            )
+            .range(0.1, 6.0, 2),
+            Setting::field(
+                "saturation",
+                "FACTOR",
+                "What the light is multiplied by; above 1 faint lines vanish (closure)",
+                |charcoal: &mut Self| &mut charcoal.saturation,
+            )
+            .range(0.0, 3.0, 2),
+            Setting::field("smudge", ON_OFF, "Smudge the drawing, on or off; on is darker", |charcoal: &mut Self| {
+                &mut charcoal.smudge
+            }),
+            Setting::field(
+                "light-1",
+                "X,Y,Z",
+                "Direction towards the first light, seen from the eye",
+                |charcoal: &mut Self| &mut charcoal.lights[0],
+            )
+            .range(-1.0, 1.0, 2)
+            .labelled("first light"),
+            Setting::field("light-2", "X,Y,Z", "Direction towards the second light", |charcoal: &mut Self| {
+                &mut charcoal.lights[1]
+            })
+            .range(-1.0, 1.0, 2)
+            .labelled("second light"),
+            Setting::field(
+                "paper",
+                "FILE",
+                "Picture of the paper, stretched over the whole drawing in place of --background",
+                |charcoal: &mut Self| &mut charcoal.paper,
+            )
+            .said("made from the seed"),
+            Setting::field(
+                "texture-size",
+                "WxH",
+                "Size of grain, noise and paper, stretched over the drawing; more is finer",
+                |charcoal: &mut Self| &mut charcoal.texture_size,
+            ),
+            Setting::field(
+                "cet-filter",
+                "FILTER",
+                "Filter of the grain's texture: linear, mipmap (blurs the grain away)",
+                |charcoal: &mut Self| &mut charcoal.cet_filter,
+            )
+            .labelled("grain filter"),
+            Setting::field(
+                "cet-coordinate",
+                "LIGHT",
+                "Light that chooses the grain: original, saturated",
+                |charcoal: &mut Self| &mut charcoal.cet_coordinate,
+            )
+            .labelled("grain chosen by"),
+            Setting::field(
+                "contrast-operator",
+                "OPERATOR",
+                "What enhances contrast: power (as published), sigmoid, bias",
+                |charcoal: &mut Self| &mut charcoal.operator,
+            ),
+            Setting::field(
+                "noise",
+                "WHERE",
+                "Where the noise lies: screen (as published), object (turns with the model)",
+                |charcoal: &mut Self| &mut charcoal.noise,
+            ),
+            Setting::field(
+                "improve",
+                "FLAWS",
+                "Flaws of the text to mend: clamp, wrap, paper-coordinate, luminance with commas between, or all",
+                |charcoal: &mut Self| &mut charcoal.improve,
+            )
+            .labelled("mended flaws"),
+        ];
+        let heading = "Styles charcoal and sand (the defaults are the text's where it gives them)";
+        under(ALL_STYLES, common).chain(under(heading, grain)).chain(under(heading, drawing)).collect()
     }
 }
 

@@ -1,9 +1,8 @@
 //! The map of the cartoon styles: how normals and depth are stored between the passes (errata E6 to E8).
 
-use crate::names::find;
+use crate::settings::{Choice, Setting};
 use crate::plan::{Attachment, Attachments, Drawn, Format, Program, Target, Texture};
 use serde::Serialize;
-use std::str::FromStr;
 
 /// How normals and depth are stored.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -31,6 +30,10 @@ impl MapEncoding {
         ("float", Self::Float),
         ("depth-texture", Self::DepthTexture),
     ];
+
+    /// What the setting does.
+    pub(super) const HELP: &'static str = "How normals and depth are kept: paper, biased (0.5 n + 0.5), float16, float, depth-texture \
+         (biased, depth from the depth buffer); mrt has paper only";
 
     /// The shaders that write it.
     pub(super) fn program(self) -> Program {
@@ -103,6 +106,13 @@ impl MapTarget {
     /// Both, as the user writes them.
     pub const ALL: [(&'static str, Self); 2] = [("copy", Self::Copy), ("texture", Self::Texture)];
 
+    /// The setting of a style that has one.
+    pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        let help = "Copy the map into its texture (copy) or draw it there by a framebuffer object (texture), the same picture but \
+                    for rounding; mrt always does";
+        Setting::field("map-target", "HOW", help, field)
+    }
+
     /// What a map of 8 bits a channel is written into.
     pub(super) fn target(self) -> Target {
         match self {
@@ -140,18 +150,10 @@ const FLOAT_MAP: Attachments = Attachments {
     ..FLOAT16_MAP
 };
 
-impl FromStr for MapTarget {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for MapTarget {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
-impl FromStr for MapEncoding {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for MapEncoding {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }

@@ -4,12 +4,16 @@
 //! blended over it as in the third pass, and it is read back itself: nothing is copied. The background needs no square:
 //! both textures are cleared to what the square would leave in them.
 
-use super::{Border, Cartoon, MapEncoding, MapTarget, Show, Supersample, Tones};
-use crate::error::Result;
+use super::cartoon::background_square;
+use super::{
+    ALL_STYLES, Border, CARTOON, Cartoon, IMAGE_SPACE, MapEncoding, MapTarget, Show, Supersample, Tones, cull, no_borders,
+};
+use crate::error::{Error, Result};
 use crate::plan::{
     Attachment, Attachments, Draw, Drawn, Format, Geometry, Paint, Pass, Plan, Program, Step, Target, Texture,
 };
 use crate::scene::Scene;
+use crate::settings::{Kind, Setting, Value as _, under, within};
 use serde::Serialize;
 
 /// Settings of `mrt`; the defaults are those of the three passes.
@@ -38,6 +42,43 @@ impl Default for Mrt {
             cull_back_faces: false,
             supersample: Supersample::One,
         }
+    }
+}
+
+impl Mrt {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let common = vec![
+            no_borders(
+                |mrt: &Self| mrt.border.is_none(),
+                |mrt, is_without| mrt.border = (!is_without).then(|| mrt.border.unwrap_or_default()),
+            ),
+            cull(|mrt: &mut Self| &mut mrt.cull_back_faces),
+        ];
+        // There for who draws both: the three passes have more encodings.
+        let encoding = Setting::of(
+            "map-encoding",
+            "ENCODING",
+            Kind::Choice(vec!["paper"]),
+            MapEncoding::HELP,
+            |_: &Self| MapEncoding::Paper.text(),
+            |_, text| match MapEncoding::parse(text)? {
+                MapEncoding::Paper => Ok(()),
+                _ => Err(Error::setting(
+                    "--map-encoding",
+                    "style mrt keeps its map as published; leave it out, or draw --style three-pass",
+                )
+                .into()),
+            },
+        );
+        let map = vec![background_square(|mrt: &mut Self| &mut mrt.background_square), encoding];
+        let image_space = vec![Supersample::setting(|mrt: &mut Self| &mut mrt.supersample)];
+        under(ALL_STYLES, common)
+            .chain(within(Tones::settings(), |mrt: &mut Self| Some(&mut mrt.tones)))
+            .chain(within(Border::settings(), |mrt: &mut Self| mrt.border.as_mut()))
+            .chain(under(CARTOON, map))
+            .chain(under(IMAGE_SPACE, image_space))
+            .collect()
     }
 }
 

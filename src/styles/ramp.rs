@@ -4,6 +4,7 @@ use crate::error::{Error, Result};
 use crate::mesh::VertexArrays;
 use crate::picture::Picture;
 use crate::scene::{Color, Object, Scene, Size};
+use crate::settings::{Kind, Problem, Value};
 use glam::{DVec3, Vec3};
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
@@ -82,6 +83,46 @@ impl Ramp {
             squares.sum::<f32>()
         };
         (0..ROWS).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
+    }
+}
+
+/// What the built-in ramp is called.
+const BUILT_IN: &str = "built-in";
+
+impl Value for Ramp {
+    fn kind() -> Kind {
+        Kind::File
+    }
+
+    /// A ramp that is from no file has none.
+    fn text(&self) -> String {
+        match &self.path {
+            Some(path) => path.to_string_lossy().into_owned(),
+            None if *self == Self::default() => BUILT_IN.to_owned(),
+            None => String::new(),
+        }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(if text == BUILT_IN { Self::default() } else { Self::read(Path::new(text))? })
+    }
+}
+
+impl Value for RampRow {
+    fn kind() -> Kind {
+        Kind::Choice(vec!["material", "object", "0", "1", "2", "3"])
+    }
+
+    fn text(&self) -> String {
+        match self {
+            Self::Material => "material".to_owned(),
+            Self::Object => "object".to_owned(),
+            Self::Row(row) => row.to_string(),
+        }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(text.parse()?)
     }
 }
 

@@ -1,10 +1,9 @@
 //! Drawing larger than the picture and taking the mean: edges are smooth, lines finer than a pixel.
 
-use crate::names::find;
+use crate::settings::{Choice, Setting};
 use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Target, Texture, Uniform, Value};
 use crate::scene::Size;
 use serde::Serialize;
-use std::str::FromStr;
 
 /// How many times as wide and high as the picture it is drawn.
 ///
@@ -25,6 +24,15 @@ pub enum Supersample {
 impl Supersample {
     /// All of them, as the user writes them.
     pub const ALL: [(&'static str, Self); 3] = [("1", Self::One), ("2", Self::Two), ("4", Self::Four)];
+
+    /// What the setting does.
+    pub(super) const HELP: &'static str =
+        "Draw 1, 2 or 4 times as wide and high and shrink; the largest picture shrinks by as much (tinta info has it)";
+
+    /// The setting of a style that always has a factor.
+    pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        Setting::field("supersample", "N", Self::HELP, field).said("1; ink --quality best 2")
+    }
 
     /// The factor.
     pub fn factor(self) -> u32 {
@@ -73,12 +81,8 @@ impl From<Supersample> for u32 {
     }
 }
 
-impl FromStr for Supersample {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for Supersample {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 /// How far apart the texels of a texture of this size are.

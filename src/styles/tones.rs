@@ -1,10 +1,10 @@
 //! The tones of the cartoon styles: which light gets which of one, two or three levels (section 3.2, figure 5).
 
+use super::CARTOON;
 use crate::error::{Error, Result};
-use crate::names::find;
+use crate::settings::{Choice, Kind, Setting, Value as _, under};
 use crate::plan::{Texture, ToneTable, Uniform, Value};
 use serde::Serialize;
-use std::str::FromStr;
 
 /// Settings of the tones; the defaults are the listing's constants.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -36,11 +36,42 @@ impl ToneLookup {
     pub const ALL: [(&'static str, Self); 2] = [("steps", Self::Steps), ("texture", Self::Texture)];
 }
 
-impl FromStr for ToneLookup {
-    type Err = String;
+impl Choice for ToneLookup {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
+}
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
+impl Tones {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let thresholds = Setting::of(
+            "tone-thresholds",
+            "D,S",
+            Kind::Numbers { count: 2, range: [0.0, 1.0], decimals: 3 },
+            "Diffuse and specular light from which the second and third tone hold",
+            |tones: &Self| [tones.diffuse_threshold, tones.specular_threshold].text(),
+            |tones, text| {
+                [tones.diffuse_threshold, tones.specular_threshold] = <[f32; 2]>::parse(text)?;
+                Ok(())
+            },
+        );
+        let settings = vec![
+            Setting::field("tones", "N", "Number of tones, 1 to 3; fewer leave out the brightest", |tones: &mut Self| {
+                &mut tones.count
+            })
+            .range(1.0, 3.0, 0),
+            thresholds,
+            Setting::field("tone-levels", "A,B,C", "What the tones multiply the colour by", |tones: &mut Self| {
+                &mut tones.levels
+            })
+            .range(0.0, 1.0, 3),
+            Setting::field(
+                "tone-lookup",
+                "HOW",
+                "Find tones by comparing (steps) or in a 1-D texture (texture)",
+                |tones: &mut Self| &mut tones.lookup,
+            ),
+        ];
+        under(CARTOON, settings).collect()
     }
 }
 

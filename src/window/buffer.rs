@@ -37,7 +37,7 @@ impl Buffer {
     pub fn drawn(self, style: &Style) -> (Style, Show) {
         match self {
             Self::EdgeClasses => (edge_classes(), Show::Final),
-            Self::Show(show) if buffers(super::dials::name_of(style)).contains(&self) => (style.clone(), show),
+            Self::Show(show) if buffers(style.style_name()).contains(&self) => (style.clone(), show),
             Self::Show(_) => (style.clone(), Show::Final),
         }
     }

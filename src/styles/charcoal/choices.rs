@@ -1,8 +1,7 @@
 //! The charcoal drawing's choices that have names.
 
-use crate::names::find;
+use crate::settings::{Choice, Kind, Problem, Value};
 use serde::Serialize;
-use std::str::FromStr;
 
 /// The text's ways to draw, in its conclusions.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -107,70 +106,59 @@ impl Improvements {
     pub const ALL: Self = Self { clamp: true, wrap: true, paper_coordinate: true, luminance: true };
 }
 
-impl FromStr for Improvements {
-    type Err = String;
+impl Improvements {
+    /// Each flaw's name, and whether it is mended.
+    fn named(&mut self) -> [(&'static str, &mut bool); 4] {
+        let Self { clamp, wrap, paper_coordinate, luminance } = self;
+        [("clamp", clamp), ("wrap", wrap), ("paper-coordinate", paper_coordinate), ("luminance", luminance)]
+    }
+}
 
-    fn from_str(text: &str) -> Result<Self, String> {
+impl Value for Improvements {
+    fn kind() -> Kind {
+        let names = Self::default().named().map(|(name, _)| name);
+        Kind::Several(names.into_iter().chain(["all", "none"]).collect())
+    }
+
+    fn text(&self) -> String {
+        let mut all = *self;
+        let mended: Vec<&str> =
+            all.named().into_iter().filter(|(_, is_mended)| **is_mended).map(|(name, _)| name).collect();
+        if mended.is_empty() { "none".to_owned() } else { mended.join(",") }
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
         match text {
             "none" => return Ok(Self::default()),
             "all" => return Ok(Self::ALL),
             _ => {}
         }
         let mut chosen = Self::default();
-        for name in text.split(',') {
-            match name.trim() {
-                "clamp" => chosen.clamp = true,
-                "wrap" => chosen.wrap = true,
-                "paper-coordinate" => chosen.paper_coordinate = true,
-                "luminance" => chosen.luminance = true,
-                _ => {
-                    return Err(
-                        "write all, none, or some of clamp, wrap, paper-coordinate, luminance with commas between"
-                            .to_owned(),
-                    );
-                }
-            }
+        for name in text.split(',').map(str::trim) {
+            let usage = "write all, none, or some of clamp, wrap, paper-coordinate, luminance with commas between";
+            let mut named = chosen.named().into_iter();
+            *named.find(|(known, _)| *known == name).ok_or_else(|| usage.to_owned())?.1 = true;
         }
         Ok(chosen)
     }
 }
 
-impl FromStr for Recipe {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for Recipe {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
-impl FromStr for CetFilter {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for CetFilter {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
-impl FromStr for CetCoordinate {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for CetCoordinate {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
-impl FromStr for ContrastOperator {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for ContrastOperator {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
-impl FromStr for Noise {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for Noise {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }

@@ -3,6 +3,7 @@
 use super::Charcoal;
 use crate::error::{Error, Result};
 use crate::picture::Picture;
+use crate::settings::{Kind, Problem, Value};
 use crate::textures::{ContrastTexture, LARGEST_SIDE_PX, NoiseTexture, PaperTexture};
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
@@ -33,6 +34,26 @@ impl Paper {
         // Transparent paper would make the drawing's own alpha negative.
         let picture = Arc::new(Picture::read(path)?.opaque());
         Ok(Self::File { path: path.to_path_buf(), picture })
+    }
+}
+
+/// What paper that is made is called.
+const MADE: &str = "made";
+
+impl Value for Paper {
+    fn kind() -> Kind {
+        Kind::File
+    }
+
+    fn text(&self) -> String {
+        match self {
+            Self::Made => MADE.to_owned(),
+            Self::File { path, .. } => path.to_string_lossy().into_owned(),
+        }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(if text == MADE { Self::Made } else { Self::read(Path::new(text))? })
     }
 }
 
