@@ -250,9 +250,13 @@ impl CameraSettings {
                 &mut camera.eye
             })
             .said("where --view shows the whole scene"),
-            Setting::open_field("target", "X,Y,Z", "centre", "Point in the middle of the picture", |camera: &mut Self| {
-                &mut camera.target
-            })
+            Setting::open_field(
+                "target",
+                "X,Y,Z",
+                "centre",
+                "Point in the middle of the picture",
+                |camera: &mut Self| &mut camera.target,
+            )
             .said("the scene's centre"),
             Setting::open_field("up", "X,Y,Z", "y", "Direction that is up in the picture", |camera: &mut Self| {
                 &mut camera.up

@@ -53,8 +53,8 @@ use glam::DVec2;
 use serde::Serialize;
 use space::Space;
 use std::collections::HashMap;
-use std::sync::{Arc, LazyLock};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, LazyLock};
 use std::time::Instant;
 use visibility::Lines;
 

@@ -26,9 +26,9 @@ mod target;
 pub use target::{Attachment, Attachments, Drawn, Format, Target};
 
 use crate::mesh::Part;
-use crate::settings::Choice;
 use crate::picture::Picture;
 use crate::scene::Rectangle;
+use crate::settings::Choice;
 use serde::Serialize;
 use std::sync::Arc;
 

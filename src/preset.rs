@@ -130,7 +130,9 @@ impl Preset {
     /// [`Error::Picture`] for a file that cannot be read.
     pub fn style(&self) -> Result<Style> {
         if let Some(key) = self.options.keys().find(|key| !is_known(key)) {
-            return Err(self.refuse(key, format!("{key}: there is no such option; keys are long names of tinta render --help")));
+            return Err(
+                self.refuse(key, format!("{key}: there is no such option; keys are long names of tinta render --help"))
+            );
         }
         let all: Vec<(String, String)> = self.options.keys().map(|key| (key.clone(), key.clone())).collect();
         Style::from_options(&self.options).map_err(|error| self.attributed(error, &all))

@@ -110,10 +110,8 @@ impl Default for SceneSettings {
 
 impl HasSettings for SceneSettings {
     fn table() -> &'static Table<Self> {
-        static TABLE: LazyLock<Table<SceneSettings>> = LazyLock::new(|| Table {
-            settings: SceneSettings::settings(),
-            defaults: vec![SceneSettings::default()],
-        });
+        static TABLE: LazyLock<Table<SceneSettings>> =
+            LazyLock::new(|| Table { settings: SceneSettings::settings(), defaults: vec![SceneSettings::default()] });
         &TABLE
     }
 }
@@ -136,7 +134,9 @@ impl SceneSettings {
             },
         );
         let settings = vec![
-            Setting::field("size", "WxH", "Size in pixels, or one number for a square", |scene: &mut Self| &mut scene.size),
+            Setting::field("size", "WxH", "Size in pixels, or one number for a square", |scene: &mut Self| {
+                &mut scene.size
+            }),
             background.said("white"),
             Setting::flag(
                 "transparent",

@@ -343,9 +343,7 @@ impl<T: Clone + 'static> Setting<T> {
             (Kind::Flag, OptionValue::Text(_)) => Err("write true or false, without quotes".to_owned()),
             (_, OptionValue::Text(text)) => Ok(text.clone()),
             (Kind::Flag | Kind::Switch, OptionValue::Switch(is_on)) => Ok(on_off(*is_on).to_owned()),
-            (_, OptionValue::Switch(_)) => {
-                Err(format!("this takes a value ({}), not true or false", self.value_name))
-            }
+            (_, OptionValue::Switch(_)) => Err(format!("this takes a value ({}), not true or false", self.value_name)),
         }
     }
 
@@ -528,9 +526,11 @@ impl<T: Clone + 'static> Setting<T> {
     /// Its value as JSON has it: numbers as numbers, `null` for what is left open.
     fn json(&self, of: &T) -> serde_json::Value {
         let text = self.value(of).unwrap_or_default();
+        let is_whole = !matches!(self.kind, Kind::Numbers { decimals: 1.., .. });
         let number = |text: &str| {
+            let whole = text.parse::<u64>().ok().filter(|_| is_whole).map(Into::into);
             let float = || text.parse().ok().and_then(serde_json::Number::from_f64);
-            text.parse::<u64>().ok().map(Into::into).or_else(float).map(serde_json::Value::Number)
+            whole.or_else(float).map(serde_json::Value::Number)
         };
         let plain = |text: &str| number(text).unwrap_or_else(|| text.into());
         match &self.kind {

@@ -4,6 +4,8 @@
 //! of a struct stands here: which settings a command has, which exclude each other, paths that are no text.
 
 pub mod ignored;
+#[cfg(test)]
+mod tests;
 
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches, parser::ValueSource};
 use std::ffi::OsString;

@@ -374,7 +374,7 @@ mod tests {
             ("-z", DVec3::NEG_Z),
         ];
         for (text, up) in axes {
-            let axis: UpAxis = text.parse().unwrap();
+            let axis = <UpAxis as crate::settings::Value>::parse(text).unwrap();
             assert_eq!(axis.to_y_up(up), DVec3::Y, "{text}");
             let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|v| axis.to_y_up(v));
             assert_eq!(x.cross(y), z, "{text} keeps handedness");

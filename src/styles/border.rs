@@ -3,9 +3,9 @@
 use super::supersample::texture_unit;
 use super::{CARTOON, IMAGE_SPACE, MapEncoding, lens};
 use crate::error::{Error, Result};
-use crate::settings::{Choice, ON_OFF, Setting, under};
 use crate::plan::{Depth, Draw, Geometry, Program, Texture, Uniform, Value};
 use crate::scene::{Scene, Size};
+use crate::settings::{Choice, ON_OFF, Setting, under};
 use serde::Serialize;
 
 /// Settings of the border; the defaults are the listing's.

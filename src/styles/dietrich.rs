@@ -51,9 +51,12 @@ impl Dietrich {
                 |dietrich: &mut Self| &mut dietrich.threshold,
             )
             .range(0.0, 1.0, 3),
-            Setting::field("ink-color", "R,G,B", "Red, green and blue of the ink, each from 0 to 1", |dietrich: &mut Self| {
-                &mut dietrich.ink.0
-            })
+            Setting::field(
+                "ink-color",
+                "R,G,B",
+                "Red, green and blue of the ink, each from 0 to 1",
+                |dietrich: &mut Self| &mut dietrich.ink.0,
+            )
             .labelled("ink colour"),
         ];
         under(ALL_STYLES, common).chain(under("Style dietrich", own)).collect()

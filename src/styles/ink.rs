@@ -11,9 +11,9 @@ use super::{
 };
 use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
-use crate::settings::{Choice, Setting, Value as _, under, within};
 use crate::plan::{Depth, Draw, Geometry, Paint, Pass, Plan, Program, Step, Target, Uniform, Value};
 use crate::scene::{Background, Scene, Size};
+use crate::settings::{Choice, Setting, Value as _, under, within};
 use serde::Serialize;
 
 /// Settings of `ink`.

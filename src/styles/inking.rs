@@ -7,11 +7,11 @@
 use super::{ALL_STYLES, INKING, Ramp, RampRow, Show, cull, no_borders, ramp};
 use crate::edges::{Class, ClassSet, CreaseAngle, Side, SilhouetteRule, side_of_face};
 use crate::error::{Error, Result};
-use crate::settings::{Choice, Kind, ON_OFF, Problem, Setting, Value, under};
 use crate::plan::{
     Depth, Draw, EdgeRun, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture,
 };
 use crate::scene::{Background, Color, Scene};
+use crate::settings::{Choice, Kind, ON_OFF, Problem, Setting, Value, under};
 use serde::Serialize;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -160,9 +160,12 @@ impl Inking {
                 "Which gradient: material (the nearest to its colour), object (one after the other), or 0 to 3",
                 |inking: &mut Self| &mut inking.ramp_row,
             ),
-            Setting::field("light", "WHERE", "Compute the light on the cpu or in a vertex-shader", |inking: &mut Self| {
-                &mut inking.light
-            })
+            Setting::field(
+                "light",
+                "WHERE",
+                "Compute the light on the cpu or in a vertex-shader",
+                |inking: &mut Self| &mut inking.light,
+            )
             .labelled("light on"),
             Setting::field("texture", ON_OFF, "Multiply the model's own picture in, on or off", |inking: &mut Self| {
                 &mut inking.has_texture
@@ -258,8 +261,7 @@ impl Value for ClassColors {
             return "figure-6".to_owned();
         }
         let colored = Class::ALL.iter().filter(|(_, class)| self.0[*class as usize] != Color([0.0; 3]));
-        let texts: Vec<String> =
-            colored.map(|(name, class)| format!("{name}={}", self.0[*class as usize])).collect();
+        let texts: Vec<String> = colored.map(|(name, class)| format!("{name}={}", self.0[*class as usize])).collect();
         if texts.is_empty() { "black".to_owned() } else { texts.join(",") }
     }
 

@@ -1,7 +1,7 @@
 //! The map of the cartoon styles: how normals and depth are stored between the passes (errata E6 to E8).
 
-use crate::settings::{Choice, Setting};
 use crate::plan::{Attachment, Attachments, Drawn, Format, Program, Target, Texture};
+use crate::settings::{Choice, Setting};
 use serde::Serialize;
 
 /// How normals and depth are stored.

@@ -6,7 +6,8 @@
 
 use super::cartoon::background_square;
 use super::{
-    ALL_STYLES, Border, CARTOON, Cartoon, IMAGE_SPACE, MapEncoding, MapTarget, Show, Supersample, Tones, cull, no_borders,
+    ALL_STYLES, Border, CARTOON, Cartoon, IMAGE_SPACE, MapEncoding, MapTarget, Show, Supersample, Tones, cull,
+    no_borders,
 };
 use crate::error::{Error, Result};
 use crate::plan::{

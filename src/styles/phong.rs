@@ -37,9 +37,12 @@ impl Phong {
                 "Share of the colour seen where no light falls; more lightens the shadows",
                 |phong: &mut Self| &mut phong.ambient,
             ),
-            Setting::field("specular", "SHARE", "Weight of the white highlight; more is brighter", |phong: &mut Self| {
-                &mut phong.specular
-            }),
+            Setting::field(
+                "specular",
+                "SHARE",
+                "Weight of the white highlight; more is brighter",
+                |phong: &mut Self| &mut phong.specular,
+            ),
             Setting::field(
                 "shininess",
                 "EXPONENT",

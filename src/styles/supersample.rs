@@ -1,8 +1,8 @@
 //! Drawing larger than the picture and taking the mean: edges are smooth, lines finer than a pixel.
 
-use crate::settings::{Choice, Setting};
 use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Target, Texture, Uniform, Value};
 use crate::scene::Size;
+use crate::settings::{Choice, Setting};
 use serde::Serialize;
 
 /// How many times as wide and high as the picture it is drawn.

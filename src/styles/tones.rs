@@ -2,8 +2,8 @@
 
 use super::CARTOON;
 use crate::error::{Error, Result};
-use crate::settings::{Choice, Kind, Setting, Value as _, under};
 use crate::plan::{Texture, ToneTable, Uniform, Value};
+use crate::settings::{Choice, Kind, Setting, Value as _, under};
 use serde::Serialize;
 
 /// Settings of the tones; the defaults are the listing's constants.
@@ -55,9 +55,12 @@ impl Tones {
             },
         );
         let settings = vec![
-            Setting::field("tones", "N", "Number of tones, 1 to 3; fewer leave out the brightest", |tones: &mut Self| {
-                &mut tones.count
-            })
+            Setting::field(
+                "tones",
+                "N",
+                "Number of tones, 1 to 3; fewer leave out the brightest",
+                |tones: &mut Self| &mut tones.count,
+            )
             .range(1.0, 3.0, 0),
             thresholds,
             Setting::field("tone-levels", "A,B,C", "What the tones multiply the colour by", |tones: &mut Self| {

@@ -135,6 +135,23 @@ mod tests {
     }
 
     #[test]
+    fn a_setting_is_a_dial_wherever_it_is_declared() {
+        let table: &'static Table<f32> = Box::leak(Box::new(Table {
+            settings: vec![
+                Setting::field("grain-size", "PIXELS", "How large grains are; more is coarser", |grain: &mut f32| {
+                    grain
+                })
+                .range(1.0, 9.0, 1),
+            ],
+            defaults: vec![2.0],
+        }));
+        let dials = of_table(table, &3.5, &2.0);
+        let [dial] = &dials[..] else { panic!("one dial") };
+        assert_eq!((dial.option().as_str(), dial.setting.label().as_str()), ("--grain-size", "grain size"));
+        assert_eq!((dial.value.as_str(), dial.default.as_str(), dial.is_default()), ("3.5", "2", false));
+    }
+
+    #[test]
     fn nonsense_is_refused_in_a_sentence_that_names_the_option() {
         for style in styles() {
             for dial in of(&style).iter().filter(|dial| dial.setting.kind != Kind::File) {

@@ -68,7 +68,7 @@ fn offered(command: &str, option: &str) -> Vec<&'static str> {
 }
 
 /// What a table of settings offers for an option; nothing for one of another table.
-fn of_table<T: HasSettings>(option: &str) -> Vec<&'static str> {
+pub fn of_table<T: HasSettings>(option: &str) -> Vec<&'static str> {
     let settings = T::table().settings.iter().filter(|setting| setting.name == option);
     settings.map(|setting| setting.kind.offered()).next().unwrap_or_default()
 }

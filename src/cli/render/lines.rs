@@ -194,7 +194,10 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &Te
         ],
         "style lines has no passes and no frames; leave it out, or name a picture such as drawing.png",
     )?;
-    refuse_given(&[("--no-borders", arguments.styles.are_without_borders())], "it is lines that are drawn; leave it out")?;
+    refuse_given(
+        &[("--no-borders", arguments.styles.are_without_borders())],
+        "it is lines that are drawn; leave it out",
+    )?;
     refuse_given(
         &[("-o -", *target == TextTarget::Stdout && run.json)],
         "the drawing and --json cannot share standard output; name a file",

@@ -2,8 +2,8 @@
 
 use crate::edges::Class;
 use crate::error::{Error, Result};
-use crate::settings::{Choice, HasSettings, Kind, Problem, Setting, Table, Value, under};
 use crate::scene::{Background, Color, Size};
+use crate::settings::{Choice, HasSettings, Kind, Problem, Setting, Table, Value, under};
 use crate::styles::{ClassColors, line_width};
 use serde::Serialize;
 use std::str::FromStr;
@@ -18,7 +18,7 @@ pub struct SvgSettings {
     pub command: String,
     /// The recipe to make it again, JSON, kept in its metadata too. Default none.
     pub recipe: String,
-/// What becomes of hidden lines. Default none of them is written.
+    /// What becomes of hidden lines. Default none of them is written.
     pub hidden: Hidden,
     /// Each class's colour. Default black.
     pub class_colors: ClassColors,
@@ -55,7 +55,7 @@ impl Default for SvgSettings {
     }
 }
 
-    impl HasSettings for SvgSettings {
+impl HasSettings for SvgSettings {
     fn table() -> &'static Table<Self> {
         static TABLE: LazyLock<Table<SvgSettings>> =
             LazyLock::new(|| Table { settings: SvgSettings::settings(), defaults: vec![SvgSettings::default()] });

@@ -2,6 +2,7 @@
 
 use crate::settings::{Choice, Kind, Problem, Value};
 use serde::Serialize;
+use std::str::FromStr;
 
 /// The text's ways to draw, in its conclusions.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -128,6 +129,14 @@ impl Value for Improvements {
     }
 
     fn parse(text: &str) -> Result<Self, Problem> {
+        Ok(text.parse()?)
+    }
+}
+
+impl FromStr for Improvements {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
         match text {
             "none" => return Ok(Self::default()),
             "all" => return Ok(Self::ALL),
