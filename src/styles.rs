@@ -124,17 +124,7 @@ pub enum Show {
 impl Style {
     /// The style of this name with the paper's settings.
     pub fn named(name: StyleName) -> Self {
-        match name {
-            StyleName::Phong => Self::Phong(Phong::default()),
-            StyleName::ThreePass => Self::ThreePass(Cartoon::default()),
-            StyleName::TwoPass => Self::TwoPass(Cartoon::default()),
-            StyleName::Mrt => Self::Mrt(Mrt::default()),
-            StyleName::Inking => Self::Inking(Inking::default()),
-            StyleName::Dietrich => Self::Dietrich(Dietrich::default()),
-            StyleName::Ink => Self::Ink(Ink::default()),
-            StyleName::Charcoal => Self::Charcoal(Charcoal::default()),
-            StyleName::Sand => Self::Sand(Charcoal::default()),
-        }
+        (name.info().published)()
     }
 
     /// Which style it is.
@@ -213,11 +203,7 @@ impl Style {
 
     /// Whether its tones can be shown by themselves.
     pub fn has_tones(&self) -> bool {
-        match self {
-            Self::ThreePass(_) | Self::TwoPass(_) | Self::Mrt(_) => true,
-            Self::Inking(_) | Self::Dietrich(_) | Self::Ink(_) => true,
-            Self::Phong(_) | Self::Charcoal(_) | Self::Sand(_) => false,
-        }
+        self.style_name().info().shows.contains(&Show::Tones)
     }
 
     /// What GL has to do for this scene.
@@ -324,25 +310,124 @@ pub enum StyleName {
     Sand,
 }
 
-impl StyleName {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 9] = [
-        ("phong", Self::Phong),
-        ("three-pass", Self::ThreePass),
-        ("two-pass", Self::TwoPass),
-        ("mrt", Self::Mrt),
-        ("inking", Self::Inking),
-        ("dietrich", Self::Dietrich),
-        ("ink", Self::Ink),
-        ("charcoal", Self::Charcoal),
-        ("sand", Self::Sand),
-    ];
+/// A style's row: what is known of it besides its settings, which stand beside its struct, and its plan.
+#[derive(Debug)]
+pub struct StyleInfo {
+    /// Which style.
+    pub style: StyleName,
+    /// Its name as the user writes it.
+    pub name: &'static str,
+    /// Its pictures, the finished one first.
+    pub shows: &'static [Show],
+    /// The style with the paper's settings.
+    published: fn() -> Style,
 }
 
+/// Pictures of the styles that filter a map.
+const CARTOON_SHOWS: &[Show] =
+    &[Show::Final, Show::Map, Show::Normals, Show::Depth, Show::Borders, Show::Tones];
+
+/// Pictures of those whose lines are from edges or grazing views.
+const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
+
+/// Pictures of the drawings in charcoal and sand.
+const CHARCOAL_SHOWS: &[Show] = &[Show::Final, Show::Diffuse, Show::Cem, Show::Cet, Show::Paper];
+
+/// Every style, in the order in which they are listed.
+const STYLES: [StyleInfo; 9] = [
+    StyleInfo {
+        style: StyleName::Phong,
+        name: "phong",
+        shows: &[Show::Final],
+        published: || Style::Phong(Phong::default()),
+    },
+    StyleInfo {
+        style: StyleName::ThreePass,
+        name: "three-pass",
+        shows: CARTOON_SHOWS,
+        published: || Style::ThreePass(Cartoon::default()),
+    },
+    StyleInfo {
+        style: StyleName::TwoPass,
+        name: "two-pass",
+        shows: CARTOON_SHOWS,
+        published: || Style::TwoPass(Cartoon::default()),
+    },
+    StyleInfo {
+        style: StyleName::Mrt,
+        name: "mrt",
+        shows: CARTOON_SHOWS,
+        published: || Style::Mrt(Mrt::default()),
+    },
+    StyleInfo {
+        style: StyleName::Inking,
+        name: "inking",
+        shows: LINE_SHOWS,
+        published: || Style::Inking(Inking::default()),
+    },
+    StyleInfo {
+        style: StyleName::Dietrich,
+        name: "dietrich",
+        shows: LINE_SHOWS,
+        published: || Style::Dietrich(Dietrich::default()),
+    },
+    StyleInfo {
+        style: StyleName::Ink,
+        name: "ink",
+        shows: &[Show::Final, Show::Map, Show::Borders, Show::Tones],
+        published: || Style::Ink(Ink::default()),
+    },
+    StyleInfo {
+        style: StyleName::Charcoal,
+        name: "charcoal",
+        shows: CHARCOAL_SHOWS,
+        published: || Style::Charcoal(Charcoal::default()),
+    },
+    StyleInfo {
+        style: StyleName::Sand,
+        name: "sand",
+        shows: CHARCOAL_SHOWS,
+        published: || Style::Sand(Charcoal::default()),
+    },
+];
+
 impl StyleName {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); STYLES.len()] = {
+        let mut all = [("", Self::Phong); STYLES.len()];
+        let mut index = 0;
+        while index < STYLES.len() {
+            all[index] = (STYLES[index].name, STYLES[index].style);
+            index += 1;
+        }
+        all
+    };
+
+    /// All names, with commas between.
+    pub fn list() -> String {
+        Self::ALL.map(|(name, _)| name).join(", ")
+    }
+
+    /// The names of those that draw lines, with commas between.
+    pub fn list_with_lines() -> String {
+        let with_lines = STYLES.iter().filter(|info| info.style.has_lines());
+        with_lines.map(|info| info.name).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Its row.
+    pub fn info(self) -> &'static StyleInfo {
+        static ROWS: [StyleInfo; STYLES.len()] = STYLES;
+        &ROWS[self as usize]
+    }
+
     /// As the user writes it.
     pub fn name(self) -> &'static str {
-        Self::ALL[self as usize].0
+        self.info().name
+    }
+
+    /// Whether it draws lines that can be shown by themselves, as published.
+    pub fn has_lines(self) -> bool {
+        self.info().shows.contains(&Show::Borders)
     }
 }
 

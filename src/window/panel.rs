@@ -34,7 +34,7 @@ pub fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     choices(ui, "style", style.name(), StyleName::ALL.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::Style(side, name.to_owned()));
     });
-    let buffers = super::buffer::buffers(style.style_name()).iter().map(|buffer| buffer.name());
+    let buffers = super::buffer::buffers(style.style_name()).into_iter().map(|buffer| buffer.name());
     choices(ui, "shown", state.buffer.name(), buffers, |name| events.push(ViewerEvent::Buffer(name.to_owned())));
     choices(ui, "presets", "", SHIPPED.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::OpenPreset(name.to_owned()));
