@@ -324,8 +324,7 @@ pub struct StyleInfo {
 }
 
 /// Pictures of the styles that filter a map.
-const CARTOON_SHOWS: &[Show] =
-    &[Show::Final, Show::Map, Show::Normals, Show::Depth, Show::Borders, Show::Tones];
+const CARTOON_SHOWS: &[Show] = &[Show::Final, Show::Map, Show::Normals, Show::Depth, Show::Borders, Show::Tones];
 
 /// Pictures of those whose lines are from edges or grazing views.
 const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
@@ -353,12 +352,7 @@ const STYLES: [StyleInfo; 9] = [
         shows: CARTOON_SHOWS,
         published: || Style::TwoPass(Cartoon::default()),
     },
-    StyleInfo {
-        style: StyleName::Mrt,
-        name: "mrt",
-        shows: CARTOON_SHOWS,
-        published: || Style::Mrt(Mrt::default()),
-    },
+    StyleInfo { style: StyleName::Mrt, name: "mrt", shows: CARTOON_SHOWS, published: || Style::Mrt(Mrt::default()) },
     StyleInfo {
         style: StyleName::Inking,
         name: "inking",

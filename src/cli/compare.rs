@@ -23,8 +23,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE|DIR")]
     output: String,
 
-    /// Style on the left: three-pass, two-pass, mrt, inking, dietrich, ink [default: three-pass]
-    #[arg(long, value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
+    #[arg(long, help = format!("Style on the left: {} [default: three-pass]", StyleName::list_with_lines()), value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
     left: StyleName,
 
     /// Style on the right [default: inking]
@@ -97,12 +96,10 @@ pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<
         });
     }
     for (option, name) in [("--left", arguments.left), ("--right", arguments.right)] {
-        if matches!(name, StyleName::Phong | StyleName::Charcoal | StyleName::Sand) {
+        if !name.has_lines() {
             return Err(Error::Setting {
                 setting: format!("{option} {}", name.name()),
-                problem:
-                    "this style has no lines to compare; choose three-pass, two-pass, mrt, inking, dietrich or ink"
-                        .to_owned(),
+                problem: format!("this style has no lines to compare; choose one of {}", StyleName::list_with_lines()),
             });
         }
     }

@@ -39,8 +39,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: String,
 
-    /// Style: phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand, lines [default: three-pass; into .svg and .json: lines]
-    #[arg(long, value_name = "STYLE")]
+    #[arg(long, help = format!("Style: {}, lines [default: three-pass; into .svg and .json: lines]", StyleName::list()), value_name = "STYLE")]
     style: Option<lines::StyleChoice>,
 
     #[command(flatten)]

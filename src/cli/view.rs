@@ -18,8 +18,7 @@ pub struct Arguments {
     #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
     models: Vec<String>,
 
-    /// Style: phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand [default: three-pass]
-    #[arg(long, value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
+    #[arg(long, help = format!("Style: {} [default: three-pass]", StyleName::list()), value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
     style: StyleName,
 
     /// Style right of a divider [default: none, one style alone]

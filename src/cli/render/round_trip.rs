@@ -55,11 +55,11 @@ fn of_table<T: HasSettings>(table: &'static Table<T>, file: &Path) -> Vec<Sample
         };
         let value = match setting.kind {
             Kind::File => file.to_str().unwrap().to_owned(),
-            _ => setting.kind.samples(&defaults[0]).into_iter().filter(differs).find(is_taken).unwrap(),
+            _ => setting.kind.samples(&defaults[0]).into_iter().filter(differs).find(is_taken)?,
         };
-        Sample { name: setting.name, kind: setting.kind.clone(), value }
+        Some(Sample { name: setting.name, kind: setting.kind.clone(), value })
     };
-    table.of(None).iter().map(sample).collect()
+    table.of(None).iter().filter_map(sample).collect()
 }
 
 /// A sample of each setting, those of styles first.
