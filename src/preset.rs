@@ -188,6 +188,7 @@ pub fn to_toml(options: &Options, comment: &str) -> String {
         let name = if !name.is_empty() && name.chars().all(is_bare) { name.clone() } else { quoted(name) };
         let _ = match value {
             OptionValue::Switch(switch) => writeln!(text, "{name} = {switch}"),
+            OptionValue::Texts(values) => writeln!(text, "{name} = {}", quoted(&values.join(","))),
             OptionValue::Text(value) if is_number(value) => writeln!(text, "{name} = {value}"),
             OptionValue::Text(value) => writeln!(text, "{name} = {}", quoted(value)),
         };

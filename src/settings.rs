@@ -45,6 +45,8 @@ pub enum OptionValue {
     Switch(bool),
     /// The value as it is written on the command line.
     Text(String),
+    /// Several, which are one with commas between where an option is not repeated.
+    Texts(Vec<String>),
 }
 
 impl OptionValue {
@@ -340,8 +342,11 @@ impl<T: Clone + 'static> Setting<T> {
     /// The text that this is of what is given; the error says what should be given instead.
     fn text_of(&self, value: &OptionValue) -> std::result::Result<String, String> {
         match (&self.kind, value) {
-            (Kind::Flag, OptionValue::Text(_)) => Err("write true or false, without quotes".to_owned()),
+            (Kind::Flag, OptionValue::Text(_) | OptionValue::Texts(_)) => {
+                Err("write true or false, without quotes".to_owned())
+            }
             (_, OptionValue::Text(text)) => Ok(text.clone()),
+            (_, OptionValue::Texts(texts)) => Ok(texts.join(",")),
             (Kind::Flag | Kind::Switch, OptionValue::Switch(is_on)) => Ok(on_off(*is_on).to_owned()),
             (_, OptionValue::Switch(_)) => Err(format!("this takes a value ({}), not true or false", self.value_name)),
         }

@@ -159,8 +159,8 @@ impl Style {
             Some(OptionValue::Text(name)) => {
                 name.parse().map_err(|problem: String| Error::setting(format!("--style {name}"), problem))?
             }
-            Some(OptionValue::Switch(_)) => {
-                return Err(Error::setting("--style", "this takes a value (STYLE), not true or false"));
+            Some(_) => {
+                return Err(Error::setting("--style", "this takes one value (STYLE), not true, false or several"));
             }
         };
         Self::with_options(name, options)

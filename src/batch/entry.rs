@@ -1,8 +1,9 @@
 //! What is written down of a job that has ended.
 
-use super::job::{Job, JobCommand, JobValue, OUTPUTS};
+use super::job::{Job, JobCommand, OUTPUTS};
 use super::place::place_in;
 use crate::recipe::{Driver, FileRecord};
+use crate::settings::OptionValue;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -134,7 +135,7 @@ impl Entry {
 pub fn written(job: &Job, folder: &Path) -> Vec<Written> {
     let mut files = Vec::new();
     for (key, value) in &job.options {
-        let JobValue::Text(output) = value else { continue };
+        let OptionValue::Text(output) = value else { continue };
         if !OUTPUTS.contains(&key.as_str()) {
             continue;
         }

@@ -228,7 +228,8 @@ pub fn words_of(arg: &Arg, value: &OptionValue) -> std::result::Result<Vec<OsStr
     let is_on_off = arg.get_value_names().is_some_and(|names| names.iter().any(|name| name.as_str() == ON_OFF));
     match value {
         OptionValue::Text(value) if takes_value => Ok(vec![format!("--{name}={value}").into()]),
-        OptionValue::Text(_) => Err("write true or false, without quotes".to_owned()),
+        OptionValue::Texts(values) if takes_value => Ok(vec![format!("--{name}={}", values.join(",")).into()]),
+        OptionValue::Text(_) | OptionValue::Texts(_) => Err("write true or false, without quotes".to_owned()),
         OptionValue::Switch(switch) if is_on_off => {
             Ok(vec![format!("--{name}={}", if *switch { "on" } else { "off" }).into()])
         }
