@@ -27,10 +27,6 @@ pub struct Arguments {
     #[command(flatten)]
     grain: Chosen<OfGrain>,
 
-    /// Standard deviation of the blur that follows, pixels [default: 0.8]
-    #[arg(long, value_name = "PIXELS", default_value = "0.8", hide_default_value = true, allow_hyphen_values = true)]
-    cet_blur: f64,
-
     /// Print one JSON object: files, settings, milliseconds [default: off]
     #[arg(long)]
     json: bool,
@@ -43,7 +39,7 @@ impl Selection for OfGrain {
     type Of = Style;
 
     fn has(setting: &Setting<Style>) -> bool {
-        ["seed", "density", "cet-exponent"].contains(&setting.name)
+        ["seed", "density", "cet-exponent", "cet-blur"].contains(&setting.name)
     }
 }
 
@@ -107,7 +103,7 @@ impl Arguments {
             size: self.size,
             density_percent: charcoal.density_percent,
             exponent: charcoal.cet_exponent,
-            blur_px: self.cet_blur,
+            blur_px: charcoal.cet_blur_px,
             seed: charcoal.seed,
         })
     }

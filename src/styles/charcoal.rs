@@ -39,6 +39,9 @@ pub struct Charcoal {
     /// Exponent of the contrast-enhanced texture, at least 1. Default 5.5, the text's middle one; more leaves fewer
     /// grains in light tones.
     pub cet_exponent: f64,
+    /// Standard deviation of the blur of the contrast-enhanced texture, pixels, 0 to 100. Default 0.8, ours; more is softer
+    /// grain, and none at all where it is as wide as a row of tones.
+    pub cet_blur_px: f64,
     /// Where the random numbers of all textures begin. Default 0.
     pub seed: u64,
     /// Size of the textures made here, pixels. Default 512 x 512. Noise and paper are stretched once over the picture, as
@@ -72,6 +75,7 @@ impl Default for Charcoal {
             lights: [[0.26, 0.9, 0.35], [-0.7, -0.56, 0.45]],
             density_percent: 60.0,
             cet_exponent: 5.5,
+            cet_blur_px: 0.8,
             seed: 0,
             texture_size: Size { width: 512, height: 512 },
             paper: Paper::Made,
@@ -129,6 +133,14 @@ impl Charcoal {
             )
             .range(1.0, 20.0, 1)
             .labelled("grain exponent"),
+            Setting::field(
+                "cet-blur",
+                "PIXELS",
+                "Standard deviation of the blur that follows, pixels; more is softer grain",
+                |charcoal: &mut Self| &mut charcoal.cet_blur_px,
+            )
+            .range(0.0, 5.0, 2)
+            .labelled("grain blur"),
         ];
         let drawing = vec![
             Setting::field(

@@ -113,7 +113,7 @@ impl CharcoalPictures {
                 seed,
                 density_percent: charcoal.density_percent,
                 exponent: charcoal.cet_exponent,
-                ..ContrastTexture::default()
+                blur_px: charcoal.cet_blur_px,
             },
             noise: NoiseTexture { size, seed },
             paper: charcoal.paper.clone(),
