@@ -29,7 +29,6 @@ use crate::mesh::Part;
 use crate::picture::Picture;
 use crate::scene::Rectangle;
 use crate::settings::Choice;
-use serde::Serialize;
 use std::sync::Arc;
 
 /// The steps of one picture.
@@ -212,8 +211,7 @@ pub enum Mark {
 }
 
 /// How lines get their width.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum LineDrawing {
     /// As GL draws lines and points; as quads where the width is beyond the driver's range.
     #[default]

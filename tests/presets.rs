@@ -88,7 +88,7 @@ fn what_a_preset_gets_wrong_is_said_with_file_line_and_key() {
         refused_in_one_line(&[command, "builtin:open-box", "-o", &out, "--preset", &preset], &all);
     };
     refused("render", "tones = 2\n\nfoo = 1\n", &["line 3", "foo", "there is no option --foo"]);
-    refused("render", "tones = \"two\"\n", &["line 1", "--tones", "invalid digit"]);
+    refused("render", "tones = \"two\"\n", &["line 1", "--tones", "give a whole number"]);
     refused("render", "# tones\ntones = 7\n", &["line 2: --tones 7"]);
     refused("render", "tones = true\n", &["line 1: tones: this takes a value (N)"]);
     refused("render", "parallel = \"yes\"\n", &["line 1: parallel: write true or false"]);

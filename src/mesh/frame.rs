@@ -2,12 +2,10 @@
 
 use crate::error::{Error, Result};
 use crate::settings::{Kind, Problem, Value};
-use serde::Serialize;
 use std::{fmt, str::FromStr};
 
 /// A frame as the user names it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum ModelFrame {
     /// Counted from 0; a fraction lies on the straight way from one frame to the next.
     Number(f64),

@@ -133,8 +133,7 @@ impl Serialize for LoadOptions {
 }
 
 /// Where a mesh's normals come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Normals {
     /// From the file; computed smooth where the file has none.
     File,
@@ -154,8 +153,7 @@ impl Choice for Normals {
 }
 
 /// The model's axis that shall point up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UpAxis {
     /// As the file's format has it: z up in MD2 (where x is the front) and 3DS (where -y is), y in the others.
     Auto,
@@ -166,13 +164,10 @@ pub enum UpAxis {
     /// +z is up; -y is then the front.
     Z,
     /// -x is up.
-    #[serde(rename = "-x")]
     MinusX,
     /// -y is up.
-    #[serde(rename = "-y")]
     MinusY,
     /// -z is up.
-    #[serde(rename = "-z")]
     MinusZ,
 }
 

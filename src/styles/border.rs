@@ -9,7 +9,7 @@ use crate::settings::{Choice, ON_OFF, Setting, under};
 use serde::Serialize;
 
 /// Settings of the border; the defaults are the listing's.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Border {
     /// The filter. Default laplacian4, the paper's.
     pub filter: Filter,

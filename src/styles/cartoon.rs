@@ -10,10 +10,9 @@ use crate::error::{Error, Result};
 use crate::plan::{Depth, Draw, Geometry, Output, Paint, Pass, Plan, Program, Step, Target};
 use crate::scene::{Background, Scene};
 use crate::settings::{ON_OFF, Setting, under, within};
-use serde::Serialize;
 
 /// Settings of both cartoon styles; the defaults are the paper's.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Cartoon {
     /// The tones.
     pub tones: Tones,

@@ -18,10 +18,9 @@ use crate::plan::{
 };
 use crate::scene::{Background, Scene, Size};
 use crate::settings::{Kind, ON_OFF, Setting, Value as _, names_of, under};
-use serde::Serialize;
 
 /// Settings of `charcoal` and `sand`; the defaults are the text's where it gives them, ours elsewhere (errata V7).
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Charcoal {
     /// Exponent m of the contrast operator, above 0. Default 1.5, ours; more darkens all but the lights.
     pub contrast_exponent: f32,
@@ -62,7 +61,6 @@ pub struct Charcoal {
     /// Whether faces turned away from the eye are left out. Default no.
     pub cull_back_faces: bool,
     /// The textures once they are made; kept for the next picture with the same settings and shared between clones.
-    #[serde(skip)]
     pub pictures: CharcoalPictures,
 }
 

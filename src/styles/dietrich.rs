@@ -6,10 +6,9 @@ use crate::error::{Error, Result};
 use crate::plan::{Draw, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::{Background, Color, Scene};
 use crate::settings::{Setting, under};
-use serde::Serialize;
 
 /// Settings of `dietrich`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Dietrich {
     /// Cosine of the angle between normal and view below which a pixel is ink, 0 to 1. Default 0.25; more makes lines
     /// wider, on flat surfaces first.

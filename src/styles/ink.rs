@@ -14,10 +14,9 @@ use crate::error::{Error, Result};
 use crate::plan::{Depth, Draw, Geometry, Paint, Pass, Plan, Program, Step, Target, Uniform, Value};
 use crate::scene::{Background, Scene, Size};
 use crate::settings::{Choice, Setting, Value as _, under, within};
-use serde::Serialize;
 
 /// Settings of `ink`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Ink {
     /// How much time the picture may take. Default standard.
     pub quality: Quality,
@@ -43,8 +42,7 @@ pub struct Ink {
 }
 
 /// How much time a picture may take.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Quality {
     /// No more than the faithful three passes.
     #[default]

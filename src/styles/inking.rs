@@ -12,12 +12,11 @@ use crate::plan::{
 };
 use crate::scene::{Background, Color, Scene};
 use crate::settings::{Choice, Kind, ON_OFF, Problem, Setting, Value, under};
-use serde::Serialize;
 use std::str::FromStr;
 use std::sync::Arc;
 
 /// Settings of `inking`; the defaults are the text's.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Inking {
     /// Whether lines are drawn. Default yes.
     pub is_inked: bool,
@@ -182,8 +181,7 @@ pub(crate) fn line_width<T: Clone + 'static>(field: fn(&mut T) -> &mut f32) -> S
 }
 
 /// How faces are painted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaintMode {
     /// In the background's colour: they only hide lines.
     None,
@@ -203,8 +201,7 @@ impl Choice for PaintMode {
 }
 
 /// Where the light that the ramp is looked up by is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LightOn {
     /// On the CPU at every vertex, as in the listing.
     Cpu,
@@ -222,7 +219,7 @@ impl Choice for LightOn {
 }
 
 /// A colour for each class of edges, in the order of [`Class::ALL`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClassColors(pub [Color; Class::ALL.len()]);
 
 impl Default for ClassColors {

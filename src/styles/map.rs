@@ -2,11 +2,9 @@
 
 use crate::plan::{Attachment, Attachments, Drawn, Format, Program, Target, Texture};
 use crate::settings::{Choice, Setting};
-use serde::Serialize;
 
 /// How normals and depth are stored.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum MapEncoding {
     /// Normals clamped to [0, 1], depth in the 8 bits of alpha: the listing's.
     #[default]
@@ -92,8 +90,7 @@ impl MapEncoding {
 }
 
 /// How the map gets from the pass that draws it to the one that reads it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum MapTarget {
     /// Drawn into the framebuffer and copied into a texture: the listing's.
     #[default]

@@ -15,10 +15,9 @@ use crate::plan::{
 };
 use crate::scene::Scene;
 use crate::settings::{Kind, Setting, Value as _, under, within};
-use serde::Serialize;
 
 /// Settings of `mrt`; the defaults are those of the three passes.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Mrt {
     /// The tones.
     pub tones: Tones,

@@ -5,10 +5,9 @@ use crate::error::{Error, Result};
 use crate::plan::{Draw, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::Scene;
 use crate::settings::{Setting, under};
-use serde::Serialize;
 
 /// Settings of `phong`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Phong {
     /// Share of the colour seen where no light falls. Default 0.25; more lightens the shadows.
     pub ambient: f32,

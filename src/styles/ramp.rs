@@ -108,6 +108,12 @@ impl Value for Ramp {
     }
 }
 
+impl Serialize for Ramp {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.text())
+    }
+}
+
 impl Value for RampRow {
     fn kind() -> Kind {
         Kind::Choice(vec!["material", "object", "0", "1", "2", "3"])
@@ -126,18 +132,8 @@ impl Value for RampRow {
     }
 }
 
-impl Serialize for Ramp {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        match &self.path {
-            Some(path) => serializer.collect_str(&path.display()),
-            None => serializer.serialize_str("built-in"),
-        }
-    }
-}
-
 /// Which gradient a surface gets.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum RampRow {
     /// Each material the one nearest to its colour; without a colour the first.
     #[default]

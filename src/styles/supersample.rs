@@ -3,14 +3,12 @@
 use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Target, Texture, Uniform, Value};
 use crate::scene::Size;
 use crate::settings::{Choice, Setting};
-use serde::Serialize;
 
 /// How many times as wide and high as the picture it is drawn.
 ///
 /// The largest picture shrinks by the same factor: a driver that draws 16384 x 16384 pixels at most makes pictures of up to
 /// 4096 x 4096 with [`Supersample::Four`].
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(into = "u32")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Supersample {
     /// As large as the picture, as published.
     #[default]
@@ -72,12 +70,6 @@ impl Supersample {
         steps.push(Step::Draw(square));
         plan.passes.push(Pass::new("shrink", steps));
         plan
-    }
-}
-
-impl From<Supersample> for u32 {
-    fn from(supersample: Supersample) -> Self {
-        supersample.factor()
     }
 }
 

@@ -4,10 +4,9 @@ use super::CARTOON;
 use crate::error::{Error, Result};
 use crate::plan::{Texture, ToneTable, Uniform, Value};
 use crate::settings::{Choice, Kind, Setting, Value as _, under};
-use serde::Serialize;
 
 /// Settings of the tones; the defaults are the listing's constants.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Tones {
     /// How many tones, 1 to 3: the first, then the diffuse one, then the highlight. Default 3, the listing.
     pub count: u8,
@@ -22,8 +21,7 @@ pub struct Tones {
 }
 
 /// How a tone is found from the light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ToneLookup {
     /// By comparing with the thresholds, as in the listing.
     Steps,

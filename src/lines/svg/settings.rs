@@ -5,7 +5,6 @@ use crate::error::{Error, Result};
 use crate::scene::{Background, Color, Size};
 use crate::settings::{Choice, HasSettings, Kind, Problem, Setting, Table, Value, under};
 use crate::styles::{ClassColors, line_width};
-use serde::Serialize;
 use std::str::FromStr;
 use std::sync::LazyLock;
 
@@ -130,8 +129,7 @@ impl SvgSettings {
 }
 
 /// What becomes of hidden lines.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Hidden {
     /// They are left out.
     #[default]
@@ -152,8 +150,7 @@ impl Choice for Hidden {
 }
 
 /// How large an SVG is on paper.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum PaperSize {
     /// In pixels, whatever they are.
     #[default]
@@ -187,7 +184,7 @@ impl PaperSize {
 }
 
 /// Widths of lines by class, pixels, in the order of [`Class::ALL`]; `None` as wide as all others.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ClassWidths(pub [Option<f32>; Class::ALL.len()]);
 
 impl Value for ClassWidths {

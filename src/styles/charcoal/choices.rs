@@ -1,7 +1,6 @@
 //! The charcoal drawing's choices that have names.
 
 use crate::settings::{Choice, Kind, Problem, Value};
-use serde::Serialize;
 use std::str::FromStr;
 
 /// The text's ways to draw, in its conclusions.
@@ -23,8 +22,7 @@ impl Recipe {
 }
 
 /// How the contrast-enhanced texture is filtered.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum CetFilter {
     /// GL_LINEAR, as published.
     #[default]
@@ -39,8 +37,7 @@ impl CetFilter {
 }
 
 /// By which light the rows of the contrast-enhanced texture are read.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum CetCoordinate {
     /// Before saturation, as published.
     #[default]
@@ -55,8 +52,7 @@ impl CetCoordinate {
 }
 
 /// What enhances contrast.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum ContrastOperator {
     /// The light to the power of the exponent, as published.
     #[default]
@@ -74,8 +70,7 @@ impl ContrastOperator {
 }
 
 /// Where the noise lies that chooses grains.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Noise {
     /// On the picture, as published: the model moves behind it.
     #[default]
@@ -90,7 +85,7 @@ impl Noise {
 }
 
 /// Which of the text's flaws are mended.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Improvements {
     /// V2: the saturated light is clamped to 1.
     pub clamp: bool,

@@ -5,7 +5,6 @@ use crate::error::{Error, Result};
 use crate::picture::Picture;
 use crate::settings::{Kind, Problem, Value};
 use crate::textures::{ContrastTexture, LARGEST_SIDE_PX, NoiseTexture, PaperTexture};
-use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -54,15 +53,6 @@ impl Value for Paper {
 
     fn parse(text: &str) -> std::result::Result<Self, Problem> {
         Ok(if text == MADE { Self::Made } else { Self::read(Path::new(text))? })
-    }
-}
-
-impl Serialize for Paper {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        match self {
-            Self::Made => serializer.serialize_str("made"),
-            Self::File { path, .. } => serializer.collect_str(&path.display()),
-        }
     }
 }
 
