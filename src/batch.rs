@@ -29,7 +29,7 @@ mod slice;
 mod summary;
 
 pub use entry::{Entry, Failure, Outcome, Run, Status, Written, written};
-pub use job::{Job, JobCommand, JobValue, OUTPUTS};
+pub use job::{Job, JobCommand, OUTPUTS};
 pub use journal::{Entries, Journal, begun, done};
 pub use list::{LIST_FILE, List};
 pub use place::{is_own_file, place_in};

@@ -21,6 +21,7 @@
 //! ```
 
 use crate::error::{Error, Result};
+use crate::settings::{Kind, Problem, Setting, Value, under};
 use crate::tolerances::{
     CAMERA_ALIGNMENT, DEPTH_MARGIN, FRAME_FILL, LARGEST_COORDINATE, LARGEST_DISTANCE, NEAREST_FRACTION, SAME_POINT,
 };
@@ -155,6 +156,20 @@ impl FromStr for View {
     }
 }
 
+impl Value for View {
+    fn kind() -> Kind {
+        Kind::Text { offered: &["iso", "front", "back", "left", "right", "top", "bottom"], example: "-37.25,12" }
+    }
+
+    fn text(&self) -> String {
+        format!("{},{}", self.azimuth_degrees, self.elevation_degrees)
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(text.parse()?)
+    }
+}
+
 /// What the user asks of the camera; what is left open is fitted to the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CameraSettings {
@@ -194,7 +209,77 @@ impl Default for CameraSettings {
     }
 }
 
+/// What the camera's settings are listed under.
+pub const HEADING: &str = "Camera";
+
 impl CameraSettings {
+    /// The settings.
+    pub(crate) fn settings() -> Vec<Setting<Self>> {
+        let view = Setting::of(
+            "view",
+            "VIEW",
+            View::kind(),
+            "View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees",
+            // An eye stands where it stands, wherever the view would have put it.
+            |camera: &Self| if camera.eye.is_some() { View::DEFAULT.text() } else { camera.view.text() },
+            |camera, text| {
+                camera.view = View::parse(text)?;
+                Ok(())
+            },
+        );
+        let settings = vec![
+            view,
+            Setting::field("fov", "DEGREES", "Vertical field of view in degrees", |camera: &mut Self| {
+                &mut camera.fov_y_degrees
+            })
+            .range(5.0, 120.0, 1),
+            Setting::flag(
+                "parallel",
+                "Parallel projection instead of perspective",
+                |camera: &Self| camera.parallel,
+                |camera, is_on| camera.parallel = is_on,
+            ),
+            Setting::open_field(
+                "height",
+                "LENGTH",
+                "fitted",
+                "Height of what a parallel projection shows, model units; less is nearer",
+                |camera: &mut Self| &mut camera.height,
+            ),
+            Setting::open_field("eye", "X,Y,Z", "fitted", "Position of the eye, model units", |camera: &mut Self| {
+                &mut camera.eye
+            })
+            .said("where --view shows the whole scene"),
+            Setting::open_field(
+                "target",
+                "X,Y,Z",
+                "centre",
+                "Point in the middle of the picture",
+                |camera: &mut Self| &mut camera.target,
+            )
+            .said("the scene's centre"),
+            Setting::open_field("up", "X,Y,Z", "y", "Direction that is up in the picture", |camera: &mut Self| {
+                &mut camera.up
+            })
+            .said("0,1,0"),
+            Setting::open_field(
+                "near",
+                "LENGTH",
+                "fitted",
+                "Distance of the near plane from the eye, model units",
+                |camera: &mut Self| &mut camera.near,
+            ),
+            Setting::open_field(
+                "far",
+                "LENGTH",
+                "fitted",
+                "Distance of the far plane from the eye, model units",
+                |camera: &mut Self| &mut camera.far,
+            ),
+        ];
+        under(HEADING, settings).collect()
+    }
+
     /// The camera that shows all points in a picture of this aspect (width over height), as far as not given.
     ///
     /// `centre` and `radius` are the scene's, world space. Fails by name on what cannot be a camera.

@@ -48,6 +48,7 @@ pub mod record;
 pub mod renderer;
 pub mod report;
 pub mod scene;
+pub mod settings;
 pub mod sheet;
 pub mod shell;
 pub mod stress;

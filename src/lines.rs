@@ -10,7 +10,7 @@
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
-//! use std::sync::Arc;
+//! use std::sync::{Arc, LazyLock};
 //! use tinta::lines::svg;
 //! use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, VisibleLines, load};
 //!
@@ -42,11 +42,12 @@ pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
 pub use svg::{ClassWidths, Hidden, PaperSize, SvgSettings, svg, svg_of_paths};
 
-use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle};
+use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::renderer::milliseconds_since;
 use crate::scene::{Scene, Size};
+use crate::settings::{HasSettings, Kind, Setting, Table, Value as _};
 use crate::threads::both;
 use faces::Faces;
 use features::{Edges, MendedEdges, Part};
@@ -54,13 +55,13 @@ use glam::DVec2;
 use serde::Serialize;
 use space::Space;
 use std::collections::HashMap;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, LazyLock};
 use std::time::Instant;
 use visibility::Lines;
 
 /// Which lines are wanted.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct LineSettings {
     /// Classes of lines. Default all but the seams of textures and normals, which belong to a model's data, not its shape.
     pub classes: ClassSet,
@@ -81,6 +82,40 @@ impl Default for LineSettings {
             ]),
             crease_angle: CreaseAngle::default(),
         }
+    }
+}
+
+impl HasSettings for LineSettings {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<LineSettings>> =
+            LazyLock::new(|| Table { settings: LineSettings::settings(), defaults: vec![LineSettings::default()] });
+        &TABLE
+    }
+}
+
+impl LineSettings {
+    fn settings() -> Vec<Setting<Self>> {
+        // There for who draws both: inking has the other rule too.
+        let silhouette = Setting::of(
+            "silhouette",
+            "RULE",
+            Kind::Choice(vec!["exact"]),
+            SilhouetteRule::HELP,
+            |_: &Self| SilhouetteRule::Exact.text(),
+            |_, text| match SilhouetteRule::parse(text)? {
+                SilhouetteRule::Exact => Ok(()),
+                SilhouetteRule::Paper => Err(Error::setting(
+                    "--silhouette paper",
+                    "style lines finds silhouettes exactly; leave it out, or draw --style inking into a .png",
+                )
+                .into()),
+            },
+        );
+        vec![
+            ClassSet::setting(ClassSet::ALL, |lines: &mut Self| &mut lines.classes),
+            CreaseAngle::setting(|lines: &mut Self| &mut lines.crease_angle),
+            silhouette.said(SilhouetteRule::SAID_DEFAULT),
+        ]
     }
 }
 

@@ -30,14 +30,12 @@ mod target;
 
 pub use check::Flaw;
 pub use facts::{Facts, Shorter, WhereEven};
-pub use target::{Attachment, Attachments, Choice, Drawn, Format, Target};
+pub use target::{Attachment, Attachments, Drawn, Format, SettingValue, Target};
 
 use crate::mesh::Part;
-use crate::names::find;
 use crate::picture::Picture;
 use crate::scene::Rectangle;
-use serde::Serialize;
-use std::str::FromStr;
+use crate::settings::Choice;
 use std::sync::Arc;
 
 /// The steps of one picture.
@@ -224,8 +222,7 @@ pub enum Mark {
 }
 
 /// How lines get their width.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum LineDrawing {
     /// As GL draws lines and points; as quads where the width is beyond the driver's range.
     #[default]
@@ -239,12 +236,8 @@ impl LineDrawing {
     pub const ALL: [(&'static str, Self); 2] = [("gl", Self::Gl), ("quads", Self::Quads)];
 }
 
-impl FromStr for LineDrawing {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for LineDrawing {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 /// A vertex shader and the fragment shaders linked with it, by their paths below `glsl/`.

@@ -1,8 +1,7 @@
 //! Presets: settings kept in a TOML file under the long names of the command line's options, and those that ship.
 //!
 //! A preset is exactly a command line kept in a file: `line-width = 3` is `--line-width 3`. What names and values there are
-//! is known where the options are defined, so this module keeps [`Options`] as names and texts; `settings.rs` and `style.rs` say
-//! which options make given settings, which is how a window writes down what it shows.
+//! is declared beside the structs they set, see [`crate::settings`]; this module reads and writes the file.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -16,17 +15,18 @@
 //! # }
 //! ```
 
-mod settings;
 mod shipped;
-mod style;
 
-pub use settings::{of_lines, of_load, of_scene, of_show};
+pub use crate::settings::{OptionValue, Options};
 pub use shipped::SHIPPED;
-pub use style::of_style;
 
 use crate::error::{Error, Result};
 use crate::files::shown;
-use serde::{Deserialize, Serialize};
+use crate::lines::{LineSettings, SvgSettings};
+use crate::mesh::LoadOptions;
+use crate::scene::SceneSettings;
+use crate::settings::HasSettings;
+use crate::styles::Style;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::io::Read;
@@ -38,26 +38,6 @@ pub const LARGEST_BYTES: u64 = 64 << 10;
 
 /// How the names of presets that ship begin.
 pub const PREFIX: &str = "paper:";
-
-/// Options by their long names without dashes, each at most once.
-pub type Options = BTreeMap<String, OptionValue>;
-
-/// What is given for an option.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum OptionValue {
-    /// `true` or `false`: an option without a value that is given or not, or `on` and `off`.
-    Switch(bool),
-    /// The value as it is written on the command line.
-    Text(String),
-}
-
-impl OptionValue {
-    /// A value that is written as a text.
-    pub fn text(text: impl Into<String>) -> Self {
-        Self::Text(text.into())
-    }
-}
 
 /// A preset: the options it sets, and where each stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -142,10 +122,53 @@ impl Preset {
         self.lines.get(option).copied()
     }
 
+    /// The style it names, three-pass where it names none, with the settings it sets.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Preset`] with the line for an option that there is not and for a value that an option cannot have;
+    /// [`Error::Picture`] for a file that cannot be read.
+    pub fn style(&self) -> Result<Style> {
+        if let Some(key) = self.options.keys().find(|key| !is_known(key)) {
+            return Err(
+                self.refuse(key, format!("{key}: there is no such option; keys are long names of tinta render --help"))
+            );
+        }
+        let all: Vec<(String, String)> = self.options.keys().map(|key| (key.clone(), key.clone())).collect();
+        Style::from_options(&self.options).map_err(|error| self.attributed(error, &all))
+    }
+
+    /// An error about an option that the preset gave, with the preset's name and line; `used` are the options of it that count,
+    /// by their names on the command line and in the preset.
+    pub fn attributed(&self, error: Error, used: &[(String, String)]) -> Error {
+        let Error::Setting { setting, problem } = &error else { return error };
+        let is_named = |option: &str| {
+            let mut words = setting.split([' ', ',', '=']);
+            words.any(|word| word.strip_prefix("--") == Some(option))
+        };
+        match used.iter().find(|(option, _)| is_named(option)) {
+            Some((_, key)) => self.refuse(key, format!("{setting}: {problem}")),
+            None => error,
+        }
+    }
+
     /// An error about one of its options.
     pub fn refuse(&self, option: &str, problem: impl Into<String>) -> Error {
         Error::Preset { path: self.name.clone(), line: self.line_of(option), problem: problem.into() }
     }
+}
+
+/// What a preset may hold besides the settings of styles, scene, models and lines.
+const OTHERS: [&str; 8] = ["style", "show", "turntable", "animate", "frame-delay", "full", "keep", "backend"];
+
+/// Whether there is an option of this name that a preset may hold.
+pub fn is_known(name: &str) -> bool {
+    OTHERS.contains(&name)
+        || Style::table().has(name)
+        || SceneSettings::table().has(name)
+        || LoadOptions::table().has(name)
+        || LineSettings::table().has(name)
+        || SvgSettings::table().has(name)
 }
 
 /// The names of all presets that ship, with commas between.
@@ -165,6 +188,7 @@ pub fn to_toml(options: &Options, comment: &str) -> String {
         let name = if !name.is_empty() && name.chars().all(is_bare) { name.clone() } else { quoted(name) };
         let _ = match value {
             OptionValue::Switch(switch) => writeln!(text, "{name} = {switch}"),
+            OptionValue::Texts(values) => writeln!(text, "{name} = {}", quoted(&values.join(","))),
             OptionValue::Text(value) if is_number(value) => writeln!(text, "{name} = {value}"),
             OptionValue::Text(value) => writeln!(text, "{name} = {}", quoted(value)),
         };

@@ -280,6 +280,7 @@ pub fn option_words(name: &str, value: &OptionValue) -> Vec<String> {
         OptionValue::Switch(false) => Vec::new(),
         OptionValue::Switch(true) => vec![format!("--{name}")],
         // Beside its name it would be taken for an option.
+        OptionValue::Texts(values) => option_words(name, &OptionValue::Text(values.join(","))),
         OptionValue::Text(value) if value.starts_with('-') => vec![format!("--{name}={value}")],
         OptionValue::Text(value) => vec![format!("--{name}"), value.clone()],
     }

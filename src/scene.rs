@@ -36,9 +36,10 @@ use crate::error::{Error, Result};
 use crate::hiding::Hiding;
 use crate::mesh::{Mesh, NONE, VertexArrays, bounds};
 use crate::picture::Picture;
+use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
 use crate::tolerances::SCENE_RADIUS;
 use glam::{DMat4, DVec3, Mat4, Vec3};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 /// A mesh at a place.
 #[derive(Debug, Clone)]
@@ -104,6 +105,65 @@ impl Default for SceneSettings {
             background: Background::Color(Color([1.0; 3])),
             color: None,
         }
+    }
+}
+
+impl HasSettings for SceneSettings {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<SceneSettings>> =
+            LazyLock::new(|| Table { settings: SceneSettings::settings(), defaults: vec![SceneSettings::default()] });
+        &TABLE
+    }
+}
+
+impl SceneSettings {
+    fn settings() -> Vec<Setting<Self>> {
+        let default = || Self::default().background;
+        let background = Setting::of(
+            "background",
+            "COLOUR",
+            Color::kind(),
+            "Colour behind the scene: a CSS name, #rrggbb or rgb(r,g,b)",
+            move |scene: &Self| match (scene.background, default()) {
+                (Background::Color(color), _) | (Background::Transparent, Background::Color(color)) => color.text(),
+                _ => String::new(),
+            },
+            |scene, text| {
+                scene.background = Background::Color(Color::parse(text)?);
+                Ok(())
+            },
+        );
+        let settings = vec![
+            Setting::field("size", "WxH", "Size in pixels, or one number for a square", |scene: &mut Self| {
+                &mut scene.size
+            }),
+            background.said("white"),
+            Setting::flag(
+                "transparent",
+                "No background: alpha 0 where nothing is drawn",
+                |scene: &Self| scene.background == Background::Transparent,
+                |scene, is_on| {
+                    if is_on {
+                        scene.background = Background::Transparent;
+                    } else if scene.background == Background::Transparent {
+                        scene.background = Self::default().background;
+                    }
+                },
+            ),
+            Setting::open_field("color", "COLOUR", "own", "One colour for all surfaces", |scene: &mut Self| {
+                &mut scene.color
+            })
+            .said("the model's own, #edbd85 where it has none"),
+            Setting::field(
+                "copies",
+                "N",
+                "Repeat the models on a square grid, up to 10000 times",
+                |scene: &mut Self| &mut scene.copies,
+            )
+            .range(1.0, 100.0, 0),
+        ];
+        let camera = within(CameraSettings::settings(), |scene: &mut Self| Some(&mut scene.camera));
+        under("Scene", settings).chain(camera).collect()
     }
 }
 

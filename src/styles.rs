@@ -52,6 +52,7 @@ pub use charcoal::{
 };
 pub use dietrich::Dietrich;
 pub use ink::{Ink, Quality};
+pub(crate) use inking::line_width;
 pub use inking::{ClassColors, Inking, LightOn, PaintMode};
 pub use map::{MapEncoding, MapTarget};
 pub use mrt::Mrt;
@@ -60,16 +61,18 @@ pub use ramp::{Ramp, RampRow};
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::names::find;
 use crate::plan::Plan;
 use crate::scene::Scene;
-use serde::Serialize;
+use crate::settings::{HasSettings, OptionValue, Options, Setting, Table, within};
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
 use std::str::FromStr;
+use std::sync::LazyLock;
 
 /// A style with its settings.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(tag = "name", rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Style {
     /// Smooth shading per pixel.
     Phong(Phong),
@@ -121,32 +124,69 @@ pub enum Show {
 impl Style {
     /// The style of this name with the paper's settings.
     pub fn named(name: StyleName) -> Self {
-        match name {
-            StyleName::Phong => Self::Phong(Phong::default()),
-            StyleName::ThreePass => Self::ThreePass(Cartoon::default()),
-            StyleName::TwoPass => Self::TwoPass(Cartoon::default()),
-            StyleName::Mrt => Self::Mrt(Mrt::default()),
-            StyleName::Inking => Self::Inking(Inking::default()),
-            StyleName::Dietrich => Self::Dietrich(Dietrich::default()),
-            StyleName::Ink => Self::Ink(Ink::default()),
-            StyleName::Charcoal => Self::Charcoal(Charcoal::default()),
-            StyleName::Sand => Self::Sand(Charcoal::default()),
+        (name.info().published)()
+    }
+
+    /// Which style it is.
+    pub fn style_name(&self) -> StyleName {
+        match self {
+            Self::Phong(_) => StyleName::Phong,
+            Self::ThreePass(_) => StyleName::ThreePass,
+            Self::TwoPass(_) => StyleName::TwoPass,
+            Self::Mrt(_) => StyleName::Mrt,
+            Self::Inking(_) => StyleName::Inking,
+            Self::Dietrich(_) => StyleName::Dietrich,
+            Self::Ink(_) => StyleName::Ink,
+            Self::Charcoal(_) => StyleName::Charcoal,
+            Self::Sand(_) => StyleName::Sand,
         }
     }
 
     /// The style's name as the user writes it.
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::Phong(_) => "phong",
-            Self::ThreePass(_) => "three-pass",
-            Self::TwoPass(_) => "two-pass",
-            Self::Mrt(_) => "mrt",
-            Self::Inking(_) => "inking",
-            Self::Dietrich(_) => "dietrich",
-            Self::Ink(_) => "ink",
-            Self::Charcoal(_) => "charcoal",
-            Self::Sand(_) => "sand",
-        }
+        self.style_name().name()
+    }
+
+    /// The style that options name, three-pass where they name none, with the settings they set. What is for other styles, or
+    /// no style's, is left alone, as the command line does.
+    ///
+    /// # Errors
+    ///
+    /// [`crate::Error::Setting`] for a style or value that there is not, [`crate::Error::Picture`] for a file that cannot be read.
+    pub fn from_options(options: &Options) -> Result<Self> {
+        let name = match options.get("style") {
+            None => StyleName::ThreePass,
+            Some(OptionValue::Text(name)) => {
+                name.parse().map_err(|problem: String| Error::setting(format!("--style {name}"), problem))?
+            }
+            Some(_) => {
+                return Err(Error::setting("--style", "this takes one value (STYLE), not true, false or several"));
+            }
+        };
+        Self::with_options(name, options)
+    }
+
+    /// The style of this name with the settings that options set, whatever style they name.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Style::from_options`].
+    pub fn with_options(name: StyleName, options: &Options) -> Result<Self> {
+        let mut style = Self::named(name);
+        Self::table().apply(&mut style, options)?;
+        Ok(style)
+    }
+
+    /// The options that make this style with these settings: its name, and what differs from the default; so one option alone
+    /// is the published style.
+    ///
+    /// # Errors
+    ///
+    /// [`crate::Error::Setting`] for what no text says: a file whose name is none, no class of lines at all.
+    pub fn to_options(&self) -> Result<Options> {
+        let mut options = Self::table().options(self, &Self::named(self.style_name()))?;
+        options.insert("style".to_owned(), OptionValue::text(self.name()));
+        Ok(options)
     }
 
     /// Whether it draws lines that can be shown by themselves.
@@ -163,11 +203,7 @@ impl Style {
 
     /// Whether its tones can be shown by themselves.
     pub fn has_tones(&self) -> bool {
-        match self {
-            Self::ThreePass(_) | Self::TwoPass(_) | Self::Mrt(_) => true,
-            Self::Inking(_) | Self::Dietrich(_) | Self::Ink(_) => true,
-            Self::Phong(_) | Self::Charcoal(_) | Self::Sand(_) => false,
-        }
+        self.style_name().info().shows.contains(&Show::Tones)
     }
 
     /// What GL has to do for this scene.
@@ -188,6 +224,67 @@ impl Style {
             Self::Sand(charcoal) => charcoal.sand(scene, show),
         }
     }
+}
+
+impl HasSettings for Style {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<Style>> = LazyLock::new(|| Table {
+            settings: settings(),
+            defaults: StyleName::ALL.map(|(_, name)| Style::named(name)).into(),
+        });
+        &TABLE
+    }
+}
+
+/// Its name, and each setting under its own.
+impl Serialize for Style {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let settings = Self::table().record(self);
+        let mut map = serializer.serialize_map(Some(settings.len() + 1))?;
+        map.serialize_entry("name", self.name())?;
+        settings.iter().try_for_each(|(name, value)| map.serialize_entry(name, value))?;
+        map.end()
+    }
+}
+
+/// What the settings are listed under, in this order.
+const HEADINGS: [&str; 5] = [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE];
+const ALL_STYLES: &str = "All styles";
+const CARTOON: &str = "Styles three-pass, two-pass and mrt (the defaults are the paper's)";
+const INKING: &str = "Style inking: lines from the model's edges (the defaults are the text's)";
+const IMAGE_SPACE: &str = "Styles three-pass, two-pass, mrt and ink";
+
+/// The settings of all styles, each declared beside its struct.
+fn settings() -> Vec<Setting<Style>> {
+    let mut settings: Vec<Setting<Style>> = within(Cartoon::settings(), |style| match style {
+        Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => Some(cartoon),
+        _ => None,
+    })
+    .chain(within(Mrt::settings(), |style| if let Style::Mrt(mrt) = style { Some(mrt) } else { None }))
+    .chain(within(Inking::settings(), |style| if let Style::Inking(inking) = style { Some(inking) } else { None }))
+    .chain(within(Dietrich::settings(), |style| if let Style::Dietrich(it) = style { Some(it) } else { None }))
+    .chain(within(Ink::settings(), |style| if let Style::Ink(ink) = style { Some(ink) } else { None }))
+    .chain(within(Charcoal::settings(), |style| match style {
+        Style::Charcoal(charcoal) | Style::Sand(charcoal) => Some(charcoal),
+        _ => None,
+    }))
+    .chain(within(Phong::settings(), |style| if let Style::Phong(phong) = style { Some(phong) } else { None }))
+    .collect();
+    let rank = |heading: &str| HEADINGS.iter().position(|known| *known == heading).unwrap_or(HEADINGS.len());
+    settings.sort_by_key(|setting| rank(setting.heading));
+    settings
+}
+
+/// The setting whether lines are left out.
+fn no_borders<T: Clone + 'static>(get: fn(&T) -> bool, set: fn(&mut T, bool)) -> Setting<T> {
+    Setting::flag("no-borders", "No lines, tones or paint alone", get, set).labelled("no lines")
+}
+
+/// The setting whether faces turned away are left out.
+fn cull<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
+    let help = "Leave out faces turned away: none, back; faster, and nearly the same picture of closed models (inking: a few more \
+                pixels)";
+    Setting::either("cull", "FACES", ["none", "back"], help, field)
 }
 
 /// The styles' names.
@@ -213,25 +310,118 @@ pub enum StyleName {
     Sand,
 }
 
-impl StyleName {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 9] = [
-        ("phong", Self::Phong),
-        ("three-pass", Self::ThreePass),
-        ("two-pass", Self::TwoPass),
-        ("mrt", Self::Mrt),
-        ("inking", Self::Inking),
-        ("dietrich", Self::Dietrich),
-        ("ink", Self::Ink),
-        ("charcoal", Self::Charcoal),
-        ("sand", Self::Sand),
-    ];
+/// A style's row: what is known of it besides its settings, which stand beside its struct, and its plan.
+#[derive(Debug)]
+pub struct StyleInfo {
+    /// Which style.
+    pub style: StyleName,
+    /// Its name as the user writes it.
+    pub name: &'static str,
+    /// Its pictures, the finished one first.
+    pub shows: &'static [Show],
+    /// The style with the paper's settings.
+    published: fn() -> Style,
 }
 
+/// Pictures of the styles that filter a map.
+const CARTOON_SHOWS: &[Show] = &[Show::Final, Show::Map, Show::Normals, Show::Depth, Show::Borders, Show::Tones];
+
+/// Pictures of those whose lines are from edges or grazing views.
+const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
+
+/// Pictures of the drawings in charcoal and sand.
+const CHARCOAL_SHOWS: &[Show] = &[Show::Final, Show::Diffuse, Show::Cem, Show::Cet, Show::Paper];
+
+/// Every style, in the order in which they are listed.
+const STYLES: [StyleInfo; 9] = [
+    StyleInfo {
+        style: StyleName::Phong,
+        name: "phong",
+        shows: &[Show::Final],
+        published: || Style::Phong(Phong::default()),
+    },
+    StyleInfo {
+        style: StyleName::ThreePass,
+        name: "three-pass",
+        shows: CARTOON_SHOWS,
+        published: || Style::ThreePass(Cartoon::default()),
+    },
+    StyleInfo {
+        style: StyleName::TwoPass,
+        name: "two-pass",
+        shows: CARTOON_SHOWS,
+        published: || Style::TwoPass(Cartoon::default()),
+    },
+    StyleInfo { style: StyleName::Mrt, name: "mrt", shows: CARTOON_SHOWS, published: || Style::Mrt(Mrt::default()) },
+    StyleInfo {
+        style: StyleName::Inking,
+        name: "inking",
+        shows: LINE_SHOWS,
+        published: || Style::Inking(Inking::default()),
+    },
+    StyleInfo {
+        style: StyleName::Dietrich,
+        name: "dietrich",
+        shows: LINE_SHOWS,
+        published: || Style::Dietrich(Dietrich::default()),
+    },
+    StyleInfo {
+        style: StyleName::Ink,
+        name: "ink",
+        shows: &[Show::Final, Show::Map, Show::Borders, Show::Tones],
+        published: || Style::Ink(Ink::default()),
+    },
+    StyleInfo {
+        style: StyleName::Charcoal,
+        name: "charcoal",
+        shows: CHARCOAL_SHOWS,
+        published: || Style::Charcoal(Charcoal::default()),
+    },
+    StyleInfo {
+        style: StyleName::Sand,
+        name: "sand",
+        shows: CHARCOAL_SHOWS,
+        published: || Style::Sand(Charcoal::default()),
+    },
+];
+
 impl StyleName {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); STYLES.len()] = {
+        let mut all = [("", Self::Phong); STYLES.len()];
+        let mut index = 0;
+        while index < STYLES.len() {
+            all[index] = (STYLES[index].name, STYLES[index].style);
+            index += 1;
+        }
+        all
+    };
+
+    /// All names, with commas between.
+    pub fn list() -> String {
+        Self::ALL.map(|(name, _)| name).join(", ")
+    }
+
+    /// The names of those that draw lines, with commas between.
+    pub fn list_with_lines() -> String {
+        let with_lines = STYLES.iter().filter(|info| info.style.has_lines());
+        with_lines.map(|info| info.name).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Its row.
+    pub fn info(self) -> &'static StyleInfo {
+        static ROWS: [StyleInfo; STYLES.len()] = STYLES;
+        &ROWS[self as usize]
+    }
+
     /// As the user writes it.
     pub fn name(self) -> &'static str {
-        Self::ALL[self as usize].0
+        self.info().name
+    }
+
+    /// Whether it draws lines that can be shown by themselves, as published.
+    pub fn has_lines(self) -> bool {
+        self.info().shows.contains(&Show::Borders)
     }
 }
 
@@ -244,6 +434,12 @@ impl FromStr for StyleName {
 }
 
 impl Show {
+    /// The option that shows this picture; none for the finished one.
+    pub fn to_options(self) -> Options {
+        let name = Self::ALL.iter().find(|(_, known)| *known == self && self != Self::Final);
+        name.map(|(name, _)| ("show".to_owned(), OptionValue::text(*name))).into_iter().collect()
+    }
+
     /// Whether only charcoal and sand draw this picture.
     fn is_of_charcoal(self) -> bool {
         matches!(self, Self::Diffuse | Self::Cem | Self::Cet | Self::Paper)

@@ -201,7 +201,7 @@ fn the_record_says_what_was_drawn_and_how_long_it_took() {
     assert_eq!(record["models"][0]["vertices"], 8);
     assert_eq!(record["triangles"], 40);
     assert_eq!(record["style"]["name"], "three-pass");
-    assert_eq!(record["style"]["border"]["filter"], "laplacian4");
+    assert_eq!(record["style"]["filter"], "laplacian4");
     assert_eq!(record["size"], serde_json::json!({ "width": 80, "height": 60 }));
     assert_eq!(record["camera"]["fov_y_degrees"], 30.0);
     let passes: Vec<&str> = record["passes"].as_array().unwrap().iter().map(|p| p["name"].as_str().unwrap()).collect();
@@ -339,7 +339,7 @@ fn frames_and_skins_are_refused_where_a_model_has_none_and_recorded_where_it_has
         (record["load"].clone(), String::from_utf8_lossy(&output.stderr).into_owned())
     };
     let (load, said) = render(&[]);
-    assert!(load["skin"].is_null() && load["model_frame"] == 0.0 && load["up_axis"] == "auto", "{load}");
+    assert!(load["skin"].is_null() && load["model-frame"] == 0 && load["up-axis"] == "auto", "{load}");
     assert!(said.contains("the picture ART\\my skin.png is not beside it"), "{said}");
     folder.file("My Skin.png", b"");
     assert_eq!(render(&[]).1, "");

@@ -50,7 +50,7 @@ fn lines_are_written_as_json_and_their_record_is_printed() {
     assert_eq!(segments, counted("visible_segments") + counted("hidden_segments"));
     let record = made(&["render", "builtin:open-box", "-o", &folder.path("a.svg"), "--json", "--hidden", "ghost"]);
     let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
-    assert_eq!((&record["style"]["hidden"], &record["style"]["line_width_px"]), (&"ghost".into(), &2.0.into()));
+    assert_eq!((&record["style"]["hidden"], &record["style"]["line-width"]), (&"ghost".into(), &2.0.into()));
     assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(6));
 }
 

@@ -7,7 +7,7 @@
 use crate::support::{BACKENDS, failure_folder, public_models, renderer, scene, scene_with, side_by_side};
 use std::sync::Arc;
 use tinta::picture::write_rgba_png;
-use tinta::plan::{Attachment, Attachments, Choice, Drawn, Format, Plan, Target};
+use tinta::plan::{Attachment, Attachments, Drawn, Format, Plan, SettingValue, Target};
 use tinta::styles::{Border, Cartoon, Filter, Ink, MapEncoding, MapTarget, Mrt, Supersample, ToneLookup, Tones};
 use tinta::{
     Background, Color, LoadOptions, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load,
@@ -27,8 +27,8 @@ const MOVED_SHARE: f64 = 0.0005;
 const TONES: Attachments = Attachments {
     colors: &[Attachment { name: Drawn("Tones"), format: Format::Unorm8 }],
     has_depth: false,
-    asked_by: Choice { setting: "size", value: "8" },
-    instead: Choice { setting: "size", value: "4" },
+    asked_by: SettingValue { setting: "size", value: "8" },
+    instead: SettingValue { setting: "size", value: "4" },
     instead_draws: None,
 };
 const TONES_AND_DEPTH: Attachments = Attachments { has_depth: true, ..TONES };

@@ -63,8 +63,8 @@ fn what_the_command_line_gives_counts_more_and_the_record_states_what_counted() 
         b"style = \"mrt\"\ntones = 2\ndetection-factor = 0.7\nview = \"front\"\nbackground = \"red\"\nparallel = true\n",
     );
     let given = record(&["--preset", &preset]);
-    assert_eq!((&given["style"]["name"], &given["style"]["tones"]["count"]), (&"mrt".into(), &2.into()));
-    assert!((given["style"]["border"]["detection_factor"].as_f64().unwrap() - 0.7).abs() < 1e-6);
+    assert_eq!((&given["style"]["name"], &given["style"]["tones"]), (&"mrt".into(), &2.into()));
+    assert!((given["style"]["detection-factor"].as_f64().unwrap() - 0.7).abs() < 1e-6);
     assert_eq!(given["background"]["color"], serde_json::json!([1.0, 0.0, 0.0]));
     // On either side of --preset; and what excludes an option of the preset beats it.
     for options in [
@@ -72,7 +72,7 @@ fn what_the_command_line_gives_counts_more_and_the_record_states_what_counted() 
         &["--preset", &preset, "--transparent", "--eye=1,2,9", "--tones=1"],
     ] {
         let beaten = record(options);
-        assert_eq!((&beaten["style"]["name"], &beaten["style"]["tones"]["count"]), (&"mrt".into(), &1.into()));
+        assert_eq!((&beaten["style"]["name"], &beaten["style"]["tones"]), (&"mrt".into(), &1.into()));
         assert_eq!(beaten["camera"]["eye"], serde_json::json!([1.0, 2.0, 9.0]));
         assert_eq!(beaten["background"], "transparent");
     }
@@ -88,7 +88,7 @@ fn what_a_preset_gets_wrong_is_said_with_file_line_and_key() {
         refused_in_one_line(&[command, "builtin:open-box", "-o", &out, "--preset", &preset], &all);
     };
     refused("render", "tones = 2\n\nfoo = 1\n", &["line 3", "foo", "there is no option --foo"]);
-    refused("render", "tones = \"two\"\n", &["line 1", "--tones", "invalid digit"]);
+    refused("render", "tones = \"two\"\n", &["line 1", "--tones", "give a whole number"]);
     refused("render", "# tones\ntones = 7\n", &["line 2: --tones 7"]);
     refused("render", "tones = true\n", &["line 1: tones: this takes a value (N)"]);
     refused("render", "parallel = \"yes\"\n", &["line 1: parallel: write true or false"]);
@@ -180,7 +180,7 @@ fn a_comparison_takes_a_presets_style_for_the_left() {
         (&record["left"]["style"]["name"], &record["right"]["style"]["name"]),
         (&"inking".into(), &"dietrich".into())
     );
-    assert_eq!((&record["left"]["style"]["line_width_px"], &record["size"]["width"]), (&4.0.into(), &64.into()));
+    assert_eq!((&record["left"]["style"]["line-width"], &record["size"]["width"]), (&4.0.into(), &64.into()));
     assert_eq!(compare(&["--left", "ink"])["left"]["style"]["name"], "ink");
 }
 

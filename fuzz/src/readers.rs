@@ -4,8 +4,9 @@
 //! One function a reader, for the fuzz targets beside this file and for `tests/corpus.rs`, which runs every file of the
 //! corpus through the same function with an ordinary compiler.
 
-use tinta::batch::{Entries, Job, JobValue, List, Slice, Summary, place_in};
+use tinta::batch::{Entries, Job, List, Slice, Summary, place_in};
 use tinta::mesh::{LoadOptions, Loaded, VertexArrays, read_bytes};
+use tinta::settings::OptionValue;
 use tinta::{EdgeList, Picture, Preset, Recipe, Result, Scene, SceneSettings};
 
 /// An OBJ model; behind a zero byte the material file that it may name.
@@ -152,7 +153,7 @@ pub fn batch(bytes: &[u8]) {
                 let again = Job::parse(job.json.as_bytes()).expect("just written");
                 assert_eq!((&again.id, &again.sha256, &again.json), (&job.id, &job.sha256, &job.json));
                 for (_, value) in &job.options {
-                    let JobValue::Text(output) = value else { continue };
+                    let OptionValue::Text(output) = value else { continue };
                     if let Ok(place) = place_in(folder, output) {
                         let is_parent = |part| part == std::path::Component::ParentDir;
                         assert!(place.starts_with(folder) && !place.components().any(is_parent), "{}", place.display());

@@ -2,6 +2,7 @@
 
 use crate::files::shown;
 use crate::limits::{JOB_BYTES, JOB_ID_BYTES};
+use crate::settings::OptionValue;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -38,17 +39,6 @@ impl JobCommand {
     }
 }
 
-/// What a job gives for an option, as the command line would.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum JobValue {
-    /// `true` or `false`.
-    Switch(bool),
-    /// A text, or a number as JSON writes it.
-    Text(String),
-    /// Several of them, in brackets.
-    Texts(Vec<String>),
-}
-
 /// What one line asks for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Job {
@@ -61,7 +51,7 @@ pub struct Job {
     /// The models.
     pub models: Vec<String>,
     /// Every other key, by name, as the line has it.
-    pub options: Vec<(String, JobValue)>,
+    pub options: Vec<(String, OptionValue)>,
     /// SHA-256 of its content, hexadecimal: blanks and the order of its keys do not count.
     pub sha256: String,
     /// The content as JSON on one line, its keys sorted.
@@ -88,7 +78,7 @@ pub(super) struct Asked {
     pub id: String,
     pub command: JobCommand,
     models: Vec<String>,
-    options: Vec<(String, JobValue)>,
+    options: Vec<(String, OptionValue)>,
 }
 
 impl Asked {
@@ -106,7 +96,7 @@ impl Asked {
     /// The options that name what the job writes, with those names.
     pub fn outputs(&self) -> impl Iterator<Item = (&str, &str)> {
         self.options.iter().filter_map(|(key, value)| match value {
-            JobValue::Text(output) if OUTPUTS.contains(&key.as_str()) => Some((key.as_str(), output.as_str())),
+            OptionValue::Text(output) if OUTPUTS.contains(&key.as_str()) => Some((key.as_str(), output.as_str())),
             _ => None,
         })
     }
@@ -114,7 +104,7 @@ impl Asked {
     /// The text that an option is given.
     pub fn text(&self, option: &str) -> Option<&str> {
         self.options.iter().find_map(|(key, value)| match value {
-            JobValue::Text(text) if key == option => Some(text.as_str()),
+            OptionValue::Text(text) if key == option => Some(text.as_str()),
             _ => None,
         })
     }
@@ -186,11 +176,11 @@ fn check_id(id: &str) -> Result<(), String> {
     }
 }
 
-fn job_value(value: Value) -> Result<JobValue, String> {
+fn job_value(value: Value) -> Result<OptionValue, String> {
     match value {
-        Value::Bool(switch) => Ok(JobValue::Switch(switch)),
-        Value::Array(values) => values.into_iter().map(scalar).collect::<Result<_, _>>().map(JobValue::Texts),
-        value => scalar(value).map(JobValue::Text),
+        Value::Bool(switch) => Ok(OptionValue::Switch(switch)),
+        Value::Array(values) => values.into_iter().map(scalar).collect::<Result<_, _>>().map(OptionValue::Texts),
+        value => scalar(value).map(OptionValue::Text),
     }
 }
 
@@ -265,13 +255,13 @@ mod tests {
             (job.id.as_str(), job.command, job.models),
             ("7", JobCommand::Render, vec!["a.obj".to_owned(), "b.ply".to_owned()])
         );
-        let text = |text: &str| JobValue::Text(text.to_owned());
+        let text = |text: &str| OptionValue::Text(text.to_owned());
         let expected = [
             ("output", text("a.png")),
             ("weld", text("1e-7")),
             ("seed", text("18446744073709551615")),
-            ("parallel", JobValue::Switch(true)),
-            ("tone-levels", JobValue::Texts(["0.5", "1", "2"].map(str::to_owned).to_vec())),
+            ("parallel", OptionValue::Switch(true)),
+            ("tone-levels", OptionValue::Texts(["0.5", "1", "2"].map(str::to_owned).to_vec())),
             ("fov", text("-10.5")),
         ];
         assert_eq!(job.options, expected.map(|(key, value)| (key.to_owned(), value)));

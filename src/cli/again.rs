@@ -158,7 +158,7 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     };
     let backend = recipe.gl.as_ref().and_then(|gl| gl.backend.parse().ok()).unwrap_or_default();
     let render = render.with_backend(backend);
-    check_size(arguments, render.size())?;
+    check_size(arguments, render.size()?)?;
     match render::run(&render, &given, &mut Studio::for_one()) {
         // Another way to OpenGL is better than none; that it is another is said.
         Err(Error::NoContext { .. }) if backend != Backend::Auto => {

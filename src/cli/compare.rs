@@ -23,8 +23,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE|DIR")]
     output: String,
 
-    /// Style on the left: three-pass, two-pass, mrt, inking, dietrich, ink [default: three-pass]
-    #[arg(long, value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
+    #[arg(long, help = format!("Style on the left: {} [default: three-pass]", StyleName::list_with_lines()), value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
     left: StyleName,
 
     /// Style on the right [default: inking]
@@ -85,7 +84,7 @@ pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<
             problem: "the sheet and --json cannot share standard output; name a file".to_owned(),
         });
     }
-    if arguments.styles.no_borders {
+    if arguments.styles.are_without_borders() {
         return Err(Error::Setting {
             setting: "--no-borders".to_owned(),
             problem: "it is lines that are compared; leave it out".to_owned(),
@@ -98,21 +97,19 @@ pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<
         });
     }
     for (option, name) in [("--left", arguments.left), ("--right", arguments.right)] {
-        if matches!(name, StyleName::Phong | StyleName::Charcoal | StyleName::Sand) {
+        if !name.has_lines() {
             return Err(Error::Setting {
                 setting: format!("{option} {}", name.name()),
-                problem:
-                    "this style has no lines to compare; choose three-pass, two-pass, mrt, inking, dietrich or ink"
-                        .to_owned(),
+                problem: format!("this style has no lines to compare; choose one of {}", StyleName::list_with_lines()),
             });
         }
     }
     let styles = [arguments.left, arguments.right].map(|name| arguments.styles.style(name));
     let [left_style, right_style] = styles;
     let styles = [left_style?, right_style?];
-    let meshes = load_meshes(&studio.library, &arguments.models, &arguments.model.options())?;
+    let meshes = load_meshes(&studio.library, &arguments.models, &arguments.model.settings()?)?;
     let count = meshes.len();
-    let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()))?;
+    let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()?)?)?;
     let renderer = studio.renderer(arguments.backend)?;
     let mut draw = |style: &tinta::Style| -> Result<Drawing> {
         let start = Instant::now();

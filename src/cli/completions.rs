@@ -10,6 +10,8 @@ use clap_complete::Shell as Written;
 use tinta::Result;
 use tinta::mesh::BUILTINS;
 use tinta::preset::SHIPPED;
+#[cfg(test)]
+pub use values::of_table;
 
 /// Print a script with which a shell completes tinta's commands, options, values and files
 #[derive(clap::Args)]

@@ -2,12 +2,14 @@
 
 use super::library::Library;
 use super::models::load_meshes;
-use super::options::{CameraArguments, CreaseArguments, ModelArguments};
+use super::options::{CameraArguments, Chosen, ModelArguments, Selection};
 use std::time::Instant;
 use tinta::edges::{Class, ClassSet, Classes, NormalCones, Silhouettes};
 use tinta::record::{CameraRecord, EdgeRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
-use tinta::{EdgeList, Error, Result, Scene, SceneSettings};
+use tinta::settings::Setting;
+use tinta::styles::Inking;
+use tinta::{EdgeList, Error, Result, Scene, SceneSettings, Style, StyleName};
 
 /// Count a model's edges by class, and time how they are found
 #[derive(clap::Args)]
@@ -25,7 +27,7 @@ pub struct Arguments {
     json: bool,
 
     #[command(flatten)]
-    crease: CreaseArguments,
+    crease: Chosen<OfEdges>,
 
     #[command(flatten)]
     camera: CameraArguments,
@@ -34,14 +36,26 @@ pub struct Arguments {
     options: ModelArguments,
 }
 
+/// What the edge list is asked, as the style inking asks it.
+struct OfEdges;
+
+impl Selection for OfEdges {
+    type Of = Style;
+
+    fn has(setting: &Setting<Style>) -> bool {
+        ["crease-angle", "silhouette"].contains(&setting.name)
+    }
+}
+
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let crease_angle = arguments.crease.crease_angle()?;
-    let rule = arguments.crease.silhouette();
+    let style = Style::with_options(StyleName::Inking, &arguments.crease.options)?;
+    let Inking { crease_angle, silhouette: rule, .. } =
+        if let Style::Inking(inking) = style { inking } else { Inking::default() };
     let start = Instant::now();
     let mut meshes =
-        load_meshes(&Library::for_one(), std::slice::from_ref(&arguments.model), &arguments.options.options())?;
+        load_meshes(&Library::for_one(), std::slice::from_ref(&arguments.model), &arguments.options.settings()?)?;
     let load_ms = milliseconds_since(start);
-    let settings = SceneSettings { camera: arguments.camera.settings(), ..SceneSettings::default() };
+    let settings = SceneSettings { camera: arguments.camera.settings()?, ..SceneSettings::default() };
     let scene = Scene::new(meshes.clone(), &settings)?;
     let Some(mesh) = meshes.pop() else { return Err(Error::CommandLine { problem: "no model was named".to_owned() }) };
     let eye = scene.eye(&scene.objects[0], rule);
@@ -78,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let record = EdgeRecord {
         version: env!("CARGO_PKG_VERSION"),
         model: ModelRecord::new(&mesh),
-        load: arguments.options.options(),
+        load: arguments.options.settings()?,
         edges: edges.len(),
         classes: counts,
         reversed_edges: edges.reversed_edges(),

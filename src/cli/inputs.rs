@@ -2,10 +2,15 @@
 
 use std::path::{Path, PathBuf};
 use tinta::preset::{OptionValue, Options};
-use tinta::{Error, Result};
+use tinta::settings::{HasSettings, Kind};
+use tinta::{Error, LoadOptions, Result, Style};
 
 /// Options whose value is a file that is read.
-const READ: [&str; 3] = ["skin", "ramp", "paper"];
+fn read() -> Vec<&'static str> {
+    let of_styles = Style::table().of(None).into_iter().map(|setting| (setting.name, &setting.kind));
+    let of_models = LoadOptions::table().of(None).into_iter().map(|setting| (setting.name, &setting.kind));
+    of_models.chain(of_styles).filter(|(_, kind)| **kind == Kind::File).map(|(name, _)| name).collect()
+}
 
 /// What a command reads, as far as its command line says.
 pub struct Inputs(Vec<(&'static str, PathBuf)>);
@@ -19,7 +24,7 @@ impl Inputs {
         };
         let models = models.iter().map(|model| ("model", PathBuf::from(model)));
         let preset = preset.map(|preset| ("preset", PathBuf::from(preset)));
-        Self(models.chain(READ.iter().filter_map(|name| named(name))).chain(preset).collect())
+        Self(models.chain(read().into_iter().filter_map(named)).chain(preset).collect())
     }
 
     /// Pictures that models name, known once these are read.

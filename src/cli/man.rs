@@ -104,7 +104,7 @@ fn examples(whole: &Command) -> Vec<String> {
 }
 
 /// A page; the program's own names `commands`.
-fn page(command: &Command, examples: &[String], commands: &[String]) -> String {
+pub fn page(command: &Command, examples: &[String], commands: &[String]) -> String {
     let usage = command.clone().render_usage().to_string();
     let usage = usage.strip_prefix("Usage: ").unwrap_or(&usage).to_owned();
     let man = Man::new(command.clone().override_usage(usage));

@@ -14,10 +14,12 @@ use settings::{of_words, settings};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use tinta::camera;
 use tinta::measure::{MeasureSettings, Measured, Row, Setting, Subject, measure, steps};
 use tinta::renderer::milliseconds_since;
 use tinta::report::{ReportInfo, ReportPicture, RowLog, read_rows};
-use tinta::{Backend, Error, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
+use tinta::settings::{HasSettings, Kind};
+use tinta::{Backend, Error, LoadOptions, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
 
 /// Measure every style's error against its run time; a table, plots and a page come out
 #[derive(clap::Args)]
@@ -221,28 +223,22 @@ fn counted(count: usize, what: &str) -> String {
 
 /// Camera and model as the user asked for them: without these a row could not be drawn again.
 fn scene_options(words: impl Iterator<Item = String>) -> String {
-    const WITH_VALUE: [&str; 13] = [
-        "--view",
-        "--fov",
-        "--eye",
-        "--target",
-        "--up",
-        "--near",
-        "--far",
-        "--up-axis",
-        "--weld",
-        "--normals",
-        "--smooth-angle",
-        "--skin",
-        "--model-frame",
-    ];
+    let is_kept = |word: &str| {
+        let name = word.strip_prefix("--")?.split('=').next()?;
+        let camera = SceneSettings::table().of(None).into_iter().find(|setting| setting.name == name);
+        let camera = camera.filter(|setting| setting.heading == camera::HEADING).map(|setting| &setting.kind);
+        // Whether defects are refused is nothing of a picture, and what lies outside is for whoever has it.
+        let model = || LoadOptions::table().of(None).into_iter().find(|setting| setting.name == name);
+        let model = || model().map(|setting| &setting.kind).filter(|kind| **kind != Kind::Flag);
+        camera.or_else(model)
+    };
     let mut words = words;
     let mut options = String::new();
     while let Some(word) = words.next() {
-        let name = word.split('=').next().unwrap_or_default();
-        if name == "--parallel" || (WITH_VALUE.contains(&name) && name != word) {
+        let Some(kind) = is_kept(&word) else { continue };
+        if *kind == Kind::Flag || word.contains('=') {
             options = options + " " + &tinta::shell::quoted(&word);
-        } else if WITH_VALUE.contains(&name) {
+        } else {
             let value = words.next().unwrap_or_default();
             options = options + " " + &tinta::shell::quoted(&format!("{word}={value}"));
         }
@@ -271,12 +267,12 @@ fn groups(arguments: &Arguments, models: &[&str], library: &Library) -> Result<V
     let mut groups = Vec::new();
     for model in models {
         let start = Instant::now();
-        let loaded = library.read(model, &arguments.model.options())?;
+        let loaded = library.read(model, &arguments.model.settings()?)?;
         let load_ms = milliseconds_since(start);
         loaded.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
         for size in &arguments.size {
             let settings =
-                SceneSettings { size: *size, camera: arguments.camera.settings(), ..SceneSettings::default() };
+                SceneSettings { size: *size, camera: arguments.camera.settings()?, ..SceneSettings::default() };
             let scene = Scene::new(vec![loaded.mesh.clone()], &settings)?;
             groups.push(Group { model: (*model).to_owned(), scene, load_ms });
         }

@@ -1,152 +1,265 @@
-//! Options that more than one command takes, in groups: camera, styles, models.
+//! Options that more than one command takes: loops over the tables of settings.
+//!
+//! Name, values, help and default of each are declared beside the struct it sets, see `tinta::settings`. What is no setting
+//! of a struct stands here: which settings a command has, which exclude each other, paths that are no text.
 
-mod charcoal;
 pub mod ignored;
-mod scene;
-mod style;
+#[cfg(test)]
+mod tests;
 
-pub use charcoal::GrainArguments;
-pub use scene::SceneArguments;
-pub use style::{CreaseArguments, StyleArguments};
-
-use glam::DVec3;
+use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches, parser::ValueSource};
+use std::ffi::OsString;
+use std::marker::PhantomData;
 use std::path::PathBuf;
-use tinta::mesh::{ModelFrame, Normals, UpAxis};
-use tinta::{CameraSettings, LoadOptions, View};
+use tinta::camera;
+use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
+use tinta::styles::{Paper, Ramp};
+use tinta::{
+    CameraSettings, Error, LineSettings, LoadOptions, Result, SceneSettings, Show, Style, StyleName, SvgSettings,
+};
 
-#[derive(clap::Args)]
-#[command(next_help_heading = "Camera")]
-pub struct CameraArguments {
-    /// View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees [default: 30,15]
-    #[arg(long, value_name = "VIEW", default_value = "30,15", hide_default_value = true, allow_hyphen_values = true)]
-    view: View,
+/// Some of a table's settings as options.
+pub trait Selection {
+    /// Whose settings.
+    type Of: HasSettings;
 
-    /// Vertical field of view in degrees [default: 30]
-    #[arg(long, value_name = "DEGREES", default_value = "30", hide_default_value = true, allow_hyphen_values = true)]
-    fov: f64,
+    /// Whether they are listed under headings of their own.
+    const HAS_HEADINGS: bool = true;
 
-    /// Parallel projection instead of perspective [default: off]
-    #[arg(long)]
-    parallel: bool,
-
-    /// Height of what a parallel projection shows, model units; less is nearer [default: fitted]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    height: Option<f64>,
-
-    /// Position of the eye, model units [default: where --view shows the whole scene]
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true, conflicts_with = "view")]
-    eye: Option<DVec3>,
-
-    /// Point in the middle of the picture [default: the scene's centre]
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
-    target: Option<DVec3>,
-
-    /// Direction that is up in the picture [default: 0,1,0]
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
-    up: Option<DVec3>,
-
-    /// Distance of the near plane from the eye, model units [default: fitted]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    near: Option<f64>,
-
-    /// Distance of the far plane from the eye, model units [default: fitted]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    far: Option<f64>,
+    /// Whether this is one of them.
+    fn has(_setting: &Setting<Self::Of>) -> bool {
+        true
+    }
 }
 
-#[derive(clap::Args)]
-#[command(next_help_heading = "Models")]
-pub struct ModelArguments {
-    /// Axis that points up in the file: auto (z in MD2 and 3DS, else y), x, y, z, -x, -y, -z [default: auto]
-    #[arg(long, value_name = "AXIS", default_value = "auto", hide_default_value = true, allow_hyphen_values = true)]
-    up_axis: UpAxis,
-
-    /// Join vertices nearer than this share of the model's size [default: 1e-7]
-    #[arg(long, value_name = "SHARE", default_value = "1e-7", hide_default_value = true, allow_hyphen_values = true)]
-    weld: f64,
-
-    /// Normals: file (computed where it has none), smooth, flat [default: file]
-    #[arg(long, value_name = "WHERE", default_value = "file", hide_default_value = true)]
-    normals: Normals,
-
-    /// Largest angle between faces that computed normals round off, degrees [default: 60]
-    #[arg(long, value_name = "DEGREES", default_value = "60", hide_default_value = true, allow_hyphen_values = true)]
-    smooth_angle: f64,
-
-    /// Refuse models with defects [default: off, defects are counted and left out]
-    #[arg(long)]
-    strict: bool,
-
-    /// Picture for all surfaces (PCX, PNG, TGA, BMP, JPEG, PPM) [default: what the model names, found beside it]
-    #[arg(long, value_name = "FILE")]
-    skin: Option<PathBuf>,
-
-    /// Follow material files, data and pictures that the model names outside its folder [default: off, said and not followed]
-    #[arg(long)]
-    allow_external: bool,
-
-    /// Frame of an animated model (MD2), from 0; 1.5 lies between two [default: 0]
-    #[arg(long, value_name = "N|NAME", default_value = "0", hide_default_value = true, allow_hyphen_values = true)]
-    model_frame: ModelFrame,
+/// What is given of a selection on the command line.
+pub struct Chosen<S> {
+    /// By name, as a preset has it.
+    pub options: Options,
+    /// Files whose paths are no text, which options cannot hold.
+    paths: Vec<(&'static str, PathBuf)>,
+    selection: PhantomData<S>,
 }
+
+/// Settings that exclude each other, by an option and those that cannot stand beside it.
+const CONFLICTS: [(&str, &[&str]); 4] = [
+    ("eye", &["view"]),
+    ("transparent", &["background"]),
+    ("width-mm", &["dpi"]),
+    ("pen", &["class-widths", "line-width"]),
+];
+
+impl<S: Selection> Chosen<S> {
+    fn all() -> impl Iterator<Item = &'static Setting<S::Of>> {
+        S::Of::table().of(None).into_iter().filter(|setting| S::has(setting))
+    }
+
+    /// Refuses the first of them that is given.
+    pub fn refuse(&self, problem: &str) -> Result<()> {
+        match Self::all().find(|setting| self.options.contains_key(setting.name)) {
+            Some(setting) => {
+                Err(Error::Setting { setting: format!("--{}", setting.name), problem: problem.to_owned() })
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn is_on(&self, flag: &str) -> bool {
+        self.options.get(flag) == Some(&OptionValue::Switch(true))
+    }
+}
+
+/// The option of a setting.
+fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'static Setting<T>) -> Arg {
+    let default = setting.said_default.map_or_else(|| table.default_of(setting), str::to_owned);
+    let arg = Arg::new(setting.name).long(setting.name).help(format!("{} [default: {default}]", setting.help));
+    if setting.kind == Kind::Flag {
+        return arg.action(ArgAction::SetTrue);
+    }
+    let arg = arg.action(ArgAction::Set).value_name(setting.value_name);
+    // As soon as it is read only what is no value at all is refused; whose setting it is, is known later.
+    let check = move |text: &str| table.check(setting.name, text).map(|()| text.to_owned());
+    match &setting.kind {
+        Kind::File => arg.value_parser(clap::value_parser!(PathBuf)),
+        Kind::Numbers { .. } | Kind::Text { .. } => arg.value_parser(check).allow_hyphen_values(true),
+        Kind::Choice(names) if names.iter().any(|name| name.starts_with('-')) => {
+            arg.value_parser(check).allow_hyphen_values(true)
+        }
+        _ => arg.value_parser(check),
+    }
+}
+
+/// A command with a table's settings among its options.
+pub fn with_settings<T: Clone + Send + Sync + 'static>(
+    command: Command,
+    table: &'static Table<T>,
+    settings: impl Iterator<Item = &'static Setting<T>>,
+    has_headings: bool,
+) -> Command {
+    settings.fold(command, |command, setting| {
+        let arg = arg(table, setting).help_heading(has_headings.then_some(setting.heading));
+        let excluded = CONFLICTS.iter().filter(|(option, _)| *option == setting.name).flat_map(|(_, others)| *others);
+        command.arg(arg.conflicts_with_all(excluded))
+    })
+}
+
+impl<S: Selection> clap::Args for Chosen<S> {
+    fn augment_args(command: Command) -> Command {
+        with_settings(command, S::Of::table(), Self::all(), S::HAS_HEADINGS)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl<S: Selection> FromArgMatches for Chosen<S> {
+    fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
+        let mut chosen = Self { options: Options::new(), paths: Vec::new(), selection: PhantomData };
+        for setting in Self::all() {
+            if matches.value_source(setting.name) != Some(ValueSource::CommandLine) {
+                continue;
+            }
+            let raw = matches.get_raw(setting.name).and_then(|mut raw| raw.next()).map(OsString::from);
+            let value = match raw.unwrap_or_default().into_string() {
+                _ if setting.kind == Kind::Flag => OptionValue::Switch(true),
+                Ok(text) => OptionValue::Text(text),
+                Err(path) => {
+                    chosen.paths.push((setting.name, path.into()));
+                    continue;
+                }
+            };
+            chosen.options.insert(setting.name.to_owned(), value);
+        }
+        Ok(chosen)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> std::result::Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// The settings of every style.
+pub struct OfStyles;
+
+impl Selection for OfStyles {
+    type Of = Style;
+}
+
+/// The styles' settings, in one group for every command that draws.
+#[derive(clap::Args)]
+#[command(next_help_heading = "All styles")]
+pub struct StyleArguments {
+    /// Which picture: final, borders, tones; three-pass, two-pass and mrt also normals, depth, map, ink also map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
+    #[arg(long, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
+    pub show: Show,
+
+    #[command(flatten)]
+    given: Chosen<OfStyles>,
+}
+
+impl StyleArguments {
+    /// The style of this name with these settings; what belongs to other styles is left alone.
+    pub fn style(&self, name: StyleName) -> Result<Style> {
+        let mut style = Style::with_options(name, &self.given.options)?;
+        for (option, path) in &self.given.paths {
+            match (&mut style, *option) {
+                (Style::Inking(inking), "ramp") => inking.ramp = Ramp::read(path)?,
+                (Style::Charcoal(charcoal) | Style::Sand(charcoal), "paper") => charcoal.paper = Paper::read(path)?,
+                _ => {}
+            }
+        }
+        Ok(style)
+    }
+
+    /// Whether the lines are to be left out.
+    pub fn are_without_borders(&self) -> bool {
+        self.given.is_on("no-borders")
+    }
+
+    /// What the style lines finds.
+    pub fn line_settings(&self) -> Result<LineSettings> {
+        LineSettings::from_options(&self.given.options)
+    }
+
+    /// How the style lines draws it; some of that it has in common with inking.
+    pub fn svg_settings(&self, lines: &LineArguments) -> Result<SvgSettings> {
+        let mut svg = SvgSettings::from_options(&self.given.options)?;
+        SvgSettings::table().apply(&mut svg, &lines.options)?;
+        Ok(svg)
+    }
+}
+
+/// The settings of lines that no other style has.
+pub struct OfLinesAlone;
+
+impl Selection for OfLinesAlone {
+    type Of = SvgSettings;
+
+    fn has(setting: &Setting<SvgSettings>) -> bool {
+        !Style::table().has(setting.name)
+    }
+}
+
+pub type LineArguments = Chosen<OfLinesAlone>;
+
+/// What a scene is besides its models and its camera.
+pub struct OfScene;
+
+impl Selection for OfScene {
+    type Of = SceneSettings;
+
+    fn has(setting: &Setting<SceneSettings>) -> bool {
+        setting.heading != camera::HEADING
+    }
+}
+
+pub type SceneArguments = Chosen<OfScene>;
+
+impl SceneArguments {
+    pub fn settings(&self, camera: CameraSettings) -> Result<SceneSettings> {
+        Ok(SceneSettings { camera, ..SceneSettings::from_options(&self.options)? })
+    }
+
+    /// Whether there is no background.
+    pub fn is_transparent(&self) -> bool {
+        self.is_on("transparent")
+    }
+}
+
+/// The camera of a scene.
+pub struct OfCamera;
+
+impl Selection for OfCamera {
+    type Of = SceneSettings;
+
+    fn has(setting: &Setting<SceneSettings>) -> bool {
+        setting.heading == camera::HEADING
+    }
+}
+
+pub type CameraArguments = Chosen<OfCamera>;
 
 impl CameraArguments {
-    pub fn settings(&self) -> CameraSettings {
-        CameraSettings {
-            view: self.view,
-            eye: self.eye,
-            target: self.target,
-            up: self.up,
-            fov_y_degrees: self.fov,
-            parallel: self.parallel,
-            height: self.height,
-            near: self.near,
-            far: self.far,
-        }
+    pub fn settings(&self) -> Result<CameraSettings> {
+        SceneSettings::from_options(&self.options).map(|scene| scene.camera)
     }
 }
+
+/// How models are read.
+pub struct OfModels;
+
+impl Selection for OfModels {
+    type Of = LoadOptions;
+}
+
+pub type ModelArguments = Chosen<OfModels>;
 
 impl ModelArguments {
-    pub fn options(&self) -> LoadOptions {
-        LoadOptions {
-            weld: self.weld,
-            normals: self.normals,
-            smooth_angle_degrees: self.smooth_angle,
-            up_axis: self.up_axis,
-            strict: self.strict,
-            model_frame: self.model_frame.clone(),
-            skin: self.skin.clone(),
-            allow_external: self.allow_external,
-        }
-    }
-}
-
-fn parse_vector(text: &str) -> std::result::Result<DVec3, String> {
-    parse_numbers::<f64, 3>(text).map(DVec3::from_array)
-}
-
-fn parse_pair(text: &str) -> std::result::Result<[f32; 2], String> {
-    parse_numbers(text)
-}
-
-fn parse_triple(text: &str) -> std::result::Result<[f32; 3], String> {
-    parse_numbers(text)
-}
-
-fn parse_numbers<T: std::str::FromStr, const N: usize>(text: &str) -> std::result::Result<[T; N], String> {
-    let numbers: Vec<T> = text.split(',').map_while(|number| number.trim().parse().ok()).collect();
-    let whole = numbers.len() == text.split(',').count();
-    numbers
-        .try_into()
-        .ok()
-        .filter(|_| whole)
-        .ok_or_else(|| format!("give {N} numbers with commas between them and no blanks"))
-}
-
-fn parse_switch(text: &str) -> std::result::Result<bool, String> {
-    match text {
-        "on" => Ok(true),
-        "off" => Ok(false),
-        _ => Err("choose on or off".to_owned()),
+    pub fn settings(&self) -> Result<LoadOptions> {
+        let load = LoadOptions::from_options(&self.options)?;
+        let skin = self.paths.iter().find(|(option, _)| *option == "skin").map(|(_, path)| path.clone());
+        Ok(LoadOptions { skin: skin.or(load.skin), ..load })
     }
 }

@@ -11,6 +11,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use tinta::preset::{OptionValue, Options, Preset};
+use tinta::settings::ON_OFF;
 use tinta::{Error, Result};
 
 #[derive(clap::Args)]
@@ -66,14 +67,9 @@ impl Given {
 
     /// An error about an option that the preset gave, with the preset's name and line.
     pub fn attributed(&self, error: Error) -> Error {
-        let (Some(preset), Error::Setting { setting, problem }) = (&self.preset, &error) else { return error };
-        let is_named = |option: &str| {
-            let mut words = setting.split([' ', ',', '=']);
-            words.any(|word| word.strip_prefix("--") == Some(option))
-        };
-        match self.used.iter().find(|(option, _)| is_named(option)) {
-            Some((_, key)) => preset.refuse(key, format!("{setting}: {problem}")),
-            None => error,
+        match (&self.preset, &error) {
+            (Some(preset), Error::Setting { .. }) => preset.attributed(error, &self.used),
+            _ => error,
         }
     }
 }
@@ -232,7 +228,8 @@ pub fn words_of(arg: &Arg, value: &OptionValue) -> std::result::Result<Vec<OsStr
     let is_on_off = arg.get_value_names().is_some_and(|names| names.iter().any(|name| name.as_str() == ON_OFF));
     match value {
         OptionValue::Text(value) if takes_value => Ok(vec![format!("--{name}={value}").into()]),
-        OptionValue::Text(_) => Err("write true or false, without quotes".to_owned()),
+        OptionValue::Texts(values) if takes_value => Ok(vec![format!("--{name}={}", values.join(",")).into()]),
+        OptionValue::Text(_) | OptionValue::Texts(_) => Err("write true or false, without quotes".to_owned()),
         OptionValue::Switch(switch) if is_on_off => {
             Ok(vec![format!("--{name}={}", if *switch { "on" } else { "off" }).into()])
         }
@@ -244,9 +241,6 @@ pub fn words_of(arg: &Arg, value: &OptionValue) -> std::result::Result<Vec<OsStr
         }
     }
 }
-
-/// How options that are on or off call their value.
-pub const ON_OFF: &str = "ON|OFF";
 
 fn long<'a>(command: &'a Command, name: &str) -> Option<&'a Arg> {
     command.get_arguments().find(|arg| arg.get_long() == Some(name))

@@ -13,7 +13,7 @@ use super::Verdict;
 use super::inputs::Inputs;
 use super::library::Library;
 use super::models::load_with_files;
-use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments, ignored};
+use super::options::{CameraArguments, LineArguments, ModelArguments, SceneArguments, StyleArguments, ignored};
 use super::preset::Given;
 use super::studio::Studio;
 use std::path::{Path, PathBuf};
@@ -39,8 +39,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: String,
 
-    /// Style: phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand, lines [default: three-pass; into .svg and .json: lines]
-    #[arg(long, value_name = "STYLE")]
+    #[arg(long, help = format!("Style: {}, lines [default: three-pass; into .svg and .json: lines]", StyleName::list()), value_name = "STYLE")]
     style: Option<lines::StyleChoice>,
 
     #[command(flatten)]
@@ -53,7 +52,7 @@ pub struct Arguments {
     styles: StyleArguments,
 
     #[command(flatten)]
-    lines: lines::LineArguments,
+    lines: LineArguments,
 
     #[command(flatten)]
     model: ModelArguments,
@@ -78,8 +77,17 @@ impl Arguments {
     }
 
     /// How large the picture is to be.
-    pub fn size(&self) -> Size {
-        self.scene.settings(self.camera.settings()).size
+    ///
+    /// # Errors
+    ///
+    /// As for its settings.
+    pub fn size(&self) -> Result<Size> {
+        Ok(self.scene_settings()?.size)
+    }
+
+    /// The scene's settings and the camera's.
+    fn scene_settings(&self) -> Result<SceneSettings> {
+        self.scene.settings(self.camera.settings()?)
     }
 
     /// The style of a picture.
@@ -141,10 +149,10 @@ fn draw(arguments: &Arguments, options: &Options, studio: &mut Studio) -> Result
         return lines::run(arguments, options, format, &studio.library).map(|()| Verdict::Good);
     }
     arguments.lines.refuse("only style lines has this; leave it out, or write a .svg")?;
-    if let Some(target) = arguments.animation.target(&arguments.output, arguments.scene.transparent)? {
+    if let Some(target) = arguments.animation.target(&arguments.output, arguments.scene.is_transparent())? {
         return animate::run(arguments, &target, studio);
     }
-    let target = Target::check(&arguments.output, arguments.scene.transparent)?;
+    let target = Target::check(&arguments.output, arguments.scene.is_transparent())?;
     if target == Target::Stdout && (arguments.run.json || arguments.run.explain) {
         return Err(Error::Setting {
             setting: "-o -".to_owned(),
@@ -153,7 +161,7 @@ fn draw(arguments: &Arguments, options: &Options, studio: &mut Studio) -> Result
     }
     make_dump_folder(arguments)?;
     let style = arguments.styles.style(arguments.style_name())?;
-    let (ready, loaded) = ready(arguments, &style, studio);
+    let (ready, loaded) = ready(arguments, &arguments.scene_settings()?, &style, studio);
     let Loaded { scene, files, published, load_ms, plan_ms } = loaded?;
     let Ready { renderer, context_ms, warm_up_ms } = ready?;
     let pruning = Instant::now();
@@ -196,8 +204,8 @@ fn draw(arguments: &Arguments, options: &Options, studio: &mut Studio) -> Result
         version: env!("CARGO_PKG_VERSION"),
         model: ModelRecord::together(&models),
         models,
-        load: arguments.model.options(),
-        copies: arguments.scene.copies,
+        load: arguments.model.settings()?,
+        copies: arguments.scene_settings()?.copies,
         triangles: scene.triangle_count(),
         style,
         show: arguments.styles.show,
@@ -231,12 +239,12 @@ struct Ready<R> {
 /// Reads the models and gets a renderer ready: the studio's, or one that is opened meanwhile.
 fn ready<'s>(
     arguments: &Arguments,
+    settings: &SceneSettings,
     style: &Style,
     studio: &'s mut Studio,
 ) -> (Result<Ready<&'s mut Renderer>>, Result<Loaded>) {
-    let settings = arguments.scene.settings(arguments.camera.settings());
     let (backend, library) = (arguments.run.backend, &studio.library);
-    let load = || load_scene(arguments, &settings, style, library);
+    let load = || load_scene(arguments, settings, style, library);
     if studio.has(backend) {
         let loaded = load();
         let renderer = studio.renderer(backend);
@@ -248,9 +256,9 @@ fn ready<'s>(
         // Where no second thread can be had, one after the other.
         let Ok(loading) = std::thread::Builder::new().spawn_scoped(scope, load) else {
             let loaded = load();
-            return (open_renderer(arguments, &settings, style, open, || true), loaded);
+            return (open_renderer(arguments, settings, style, open, || true), loaded);
         };
-        let opened = open_renderer(arguments, &settings, style, open, || loading.is_finished());
+        let opened = open_renderer(arguments, settings, style, open, || loading.is_finished());
         match loading.join() {
             Ok(loaded) => (opened, loaded),
             Err(panic) => std::panic::resume_unwind(panic),
@@ -300,7 +308,7 @@ struct Loaded {
 /// Reads the models, puts the scene together and plans it, which finds its edges where the style draws them.
 fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style, library: &Library) -> Result<Loaded> {
     let start = Instant::now();
-    let (meshes, files) = load_with_files(library, &arguments.models, &arguments.model.options())?;
+    let (meshes, files) = load_with_files(library, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, settings)?;
     // Known only now.
@@ -390,10 +398,10 @@ mod tests {
         }
         assert_eq!(arguments.style_name(), StyleName::ThreePass);
         assert_eq!(arguments.styles.line_settings().unwrap(), LineSettings::default());
-        let drawn = SvgSettings { title: String::new(), ..lines::svg_settings(&arguments, None) };
+        let drawn = SvgSettings { title: String::new(), ..lines::svg_settings(&arguments, None).unwrap() };
         assert_eq!(drawn, SvgSettings::default());
-        assert_eq!(arguments.model.options(), LoadOptions::default());
-        let (asked, default) = (arguments.scene.settings(arguments.camera.settings()), SceneSettings::default());
+        assert_eq!(arguments.model.settings().unwrap(), LoadOptions::default());
+        let (asked, default) = (arguments.scene_settings().unwrap(), SceneSettings::default());
         assert_eq!(asked.camera, default.camera);
         assert_eq!((asked.copies, asked.size), (default.copies, default.size));
         assert_eq!((asked.background, asked.color), (default.background, default.color));

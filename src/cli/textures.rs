@@ -1,13 +1,14 @@
 //! `tinta textures`: the charcoal drawing's textures as files, to be looked at and used elsewhere.
 
-use super::options::GrainArguments;
+use super::options::{Chosen, Selection};
 use serde_json::json;
 use std::path::PathBuf;
 use std::time::Instant;
 use tinta::renderer::milliseconds_since;
-use tinta::styles::Ramp;
+use tinta::settings::Setting;
+use tinta::styles::{Charcoal, Ramp};
 use tinta::textures::{ContrastTexture, NoiseTexture, PaperTexture};
-use tinta::{Picture, Result, Size, Target};
+use tinta::{Picture, Result, Size, Style, StyleName, Target};
 
 /// Write the textures that styles draw with: a charcoal drawing's grain, noise and paper, and the paint's ramp
 #[derive(clap::Args)]
@@ -24,26 +25,33 @@ pub struct Arguments {
     size: Size,
 
     #[command(flatten)]
-    grain: GrainArguments,
-
-    /// Standard deviation of the blur that follows, pixels [default: 0.8]
-    #[arg(long, value_name = "PIXELS", default_value = "0.8", hide_default_value = true, allow_hyphen_values = true)]
-    cet_blur: f64,
+    grain: Chosen<OfGrain>,
 
     /// Print one JSON object: files, settings, milliseconds [default: off]
     #[arg(long)]
     json: bool,
 }
 
+/// What the contrast-enhanced texture and all random numbers follow from, as a charcoal drawing has them.
+struct OfGrain;
+
+impl Selection for OfGrain {
+    type Of = Style;
+
+    fn has(setting: &Setting<Style>) -> bool {
+        ["seed", "density", "cet-exponent", "cet-blur"].contains(&setting.name)
+    }
+}
+
 /// Makes all textures, then writes them: nonsense leaves no file, a full disk none of them.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let mut made = Vec::new();
-    let contrast = arguments.contrast();
+    let contrast = arguments.contrast()?;
+    let (size, seed) = (contrast.size, contrast.seed);
     made.push(Made::new("cet.png", &contrast, ContrastTexture::picture)?);
-    made.push(Made::new("noise.png", &arguments.noise(), NoiseTexture::picture)?);
-    made.push(Made::new("paper.png", &arguments.paper(), PaperTexture::picture)?);
+    made.push(Made::new("noise.png", &NoiseTexture { size, seed }, NoiseTexture::picture)?);
+    made.push(Made::new("paper.png", &PaperTexture { size, seed }, PaperTexture::picture)?);
     made.push(Made::new("ramp.png", &Ramp::default(), |ramp| Ok(Picture::clone(&ramp.picture)))?);
-    let (size, seed) = (arguments.size, arguments.grain.seed);
     if contrast == (ContrastTexture { size, seed, ..ContrastTexture::default() }) {
         let scattered = ContrastTexture::figure_2(size, seed);
         made.push(Made::new("figure-2.png", &scattered, ContrastTexture::picture)?);
@@ -86,23 +94,18 @@ impl Made {
 }
 
 impl Arguments {
-    fn contrast(&self) -> ContrastTexture {
-        let default = ContrastTexture::default();
-        ContrastTexture {
+    fn contrast(&self) -> Result<ContrastTexture> {
+        let charcoal = match Style::with_options(StyleName::Charcoal, &self.grain.options)? {
+            Style::Charcoal(charcoal) => charcoal,
+            _ => Charcoal::default(),
+        };
+        Ok(ContrastTexture {
             size: self.size,
-            density_percent: self.grain.density.unwrap_or(default.density_percent),
-            exponent: self.grain.cet_exponent.unwrap_or(default.exponent),
-            blur_px: self.cet_blur,
-            seed: self.grain.seed,
-        }
-    }
-
-    fn noise(&self) -> NoiseTexture {
-        NoiseTexture { size: self.size, seed: self.grain.seed }
-    }
-
-    fn paper(&self) -> PaperTexture {
-        PaperTexture { size: self.size, seed: self.grain.seed }
+            density_percent: charcoal.density_percent,
+            exponent: charcoal.cet_exponent,
+            blur_px: charcoal.cet_blur_px,
+            seed: charcoal.seed,
+        })
     }
 }
 
@@ -120,8 +123,10 @@ mod tests {
     #[test]
     fn without_options_the_command_line_means_the_librarys_defaults() {
         let arguments = Line::try_parse_from(["tinta", "-o", "folder"]).unwrap().arguments;
-        assert_eq!(arguments.contrast(), ContrastTexture::default());
-        assert_eq!(arguments.noise(), NoiseTexture::default());
-        assert_eq!(arguments.paper(), PaperTexture::default());
+        let contrast = arguments.contrast().unwrap();
+        assert_eq!(contrast, ContrastTexture::default());
+        let (size, seed) = (contrast.size, contrast.seed);
+        assert_eq!(NoiseTexture { size, seed }, NoiseTexture::default());
+        assert_eq!(PaperTexture { size, seed }, PaperTexture::default());
     }
 }

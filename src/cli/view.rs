@@ -1,13 +1,14 @@
 //! `tinta view`: models in a window.
 
-use super::options::{ModelArguments, StyleArguments};
+use super::options::{Chosen, ModelArguments, Selection, StyleArguments};
 use super::preset::PresetArguments;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use tinta::settings::{HasSettings, Setting};
 use tinta::window::{
     Buffer, Layout, Orbit, Replay, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
 };
-use tinta::{Backend, Background, Color, Error, Result, Size, Style, StyleName, View};
+use tinta::{Backend, Error, Result, SceneSettings, Size, Style, StyleName};
 
 /// Show models in a window: turn them, compare styles, change every setting
 #[derive(clap::Args)]
@@ -17,33 +18,15 @@ pub struct Arguments {
     #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
     models: Vec<String>,
 
-    /// Style: phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand [default: three-pass]
-    #[arg(long, value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
+    #[arg(long, help = format!("Style: {} [default: three-pass]", StyleName::list()), value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
     style: StyleName,
 
     /// Style right of a divider [default: none, one style alone]
     #[arg(long, value_name = "STYLE")]
     right: Option<StyleName>,
 
-    /// View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees [default: 30,15]
-    #[arg(long, value_name = "VIEW", default_value = "30,15", hide_default_value = true, allow_hyphen_values = true)]
-    view: View,
-
-    /// Vertical field of view in degrees [default: 30]
-    #[arg(long, value_name = "DEGREES", default_value = "30", hide_default_value = true, allow_hyphen_values = true)]
-    fov: f64,
-
-    /// Parallel projection instead of perspective [default: off]
-    #[arg(long)]
-    parallel: bool,
-
-    /// Colour behind the scene: a CSS name, #rrggbb or rgb(r,g,b) [default: white]
-    #[arg(long, value_name = "COLOUR", default_value = "white", hide_default_value = true)]
-    background: Color,
-
-    /// One colour for all surfaces [default: the model's own, #edbd85 where it has none]
-    #[arg(long, value_name = "COLOUR")]
-    color: Option<Color>,
+    #[command(flatten)]
+    scene: Chosen<OfView>,
 
     /// Size of the window in points, or one number for a square [default: 1280x720]
     #[arg(long, value_name = "WxH", default_value = "1280x720", hide_default_value = true)]
@@ -79,6 +62,18 @@ pub struct Arguments {
     models_are_read: ModelArguments,
 }
 
+/// What a viewer's scene can be from the start; the rest is done with the mouse.
+struct OfView;
+
+impl Selection for OfView {
+    type Of = SceneSettings;
+    const HAS_HEADINGS: bool = false;
+
+    fn has(setting: &Setting<SceneSettings>) -> bool {
+        ["view", "fov", "parallel", "background", "color"].contains(&setting.name)
+    }
+}
+
 /// Opens the window and returns when it is closed.
 pub fn run(arguments: &Arguments, started: Instant) -> Result<()> {
     for (option, folder) in [("--glsl", arguments.glsl.as_ref()), ("--folder", Some(&arguments.folder))] {
@@ -98,7 +93,7 @@ pub fn run(arguments: &Arguments, started: Instant) -> Result<()> {
     let replay = arguments.replay.as_deref().map(Replay::read).transpose()?;
     let viewer = ViewerOptions {
         state: state(arguments)?,
-        load: arguments.models_are_read.options(),
+        load: arguments.models_are_read.settings()?,
         backend: arguments.backend,
         shaders: arguments.glsl.clone(),
         folder: arguments.folder.clone(),
@@ -112,11 +107,11 @@ pub fn run(arguments: &Arguments, started: Instant) -> Result<()> {
 
 /// What is shown first.
 fn state(arguments: &Arguments) -> Result<ViewerState> {
-    let (view, parallel, fov_y_degrees) = (arguments.view, arguments.parallel, arguments.fov);
+    let SceneSettings { camera, background, color, .. } = SceneSettings::from_options(&arguments.scene.options)?;
+    let (view, parallel, fov_y_degrees) = (camera.view, camera.parallel, camera.fov_y_degrees);
     let orbit = Orbit { view, parallel, fov_y_degrees, ..Orbit::default() };
     let mut state = ViewerState::new(arguments.models.clone(), orbit);
-    state.background = Background::Color(arguments.background);
-    state.color = arguments.color;
+    (state.background, state.color) = (background, color);
     // Options are for every style that has them, whichever is chosen later.
     for (_, name) in StyleName::ALL {
         match arguments.styles.style(name) {

@@ -4,6 +4,7 @@ use super::{EdgeList, Incidence};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::names::find;
+use crate::settings::{Kind, Problem, Setting, Value};
 use crate::threads::{filled, in_parallel, threads_for};
 use crate::tolerances::PARALLEL_COSINE;
 use glam::DVec3;
@@ -113,6 +114,32 @@ impl ClassSet {
     }
 }
 
+impl ClassSet {
+    /// The setting of which classes are drawn; `all` are all that there can be.
+    pub(crate) fn setting<T: Clone + 'static>(all: Self, field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        let names = Class::ALL.map(|(name, _)| name).into_iter().chain(["all"]);
+        Setting::of(
+            "classes",
+            "CLASSES",
+            Kind::Several(names.collect()),
+            "Edges to draw: boundary, non-manifold, silhouette, crease, material, texture, normal, in style lines also \
+             intersection, with commas between, or all",
+            move |of: &T| field(&mut of.clone()).classes().map(Class::name).collect::<Vec<_>>().join(","),
+            move |of: &mut T, text: &str| {
+                let named = || -> std::result::Result<Vec<Class>, String> {
+                    text.split(',').map(|name| name.trim().parse()).collect()
+                };
+                *field(of) = match text {
+                    "all" => all,
+                    _ => Self::of(&named().map_err(|problem| format!("{problem}, or all"))?),
+                };
+                Ok(())
+            },
+        )
+        .said("boundary,silhouette,crease; style lines: all but texture and normal")
+    }
+}
+
 impl Serialize for ClassSet {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         serializer.collect_seq(self.classes())
@@ -143,9 +170,41 @@ impl CreaseAngle {
         Err(Error::setting(format!("--crease-angle {degrees}"), "the angle is between 0 and 180 degrees"))
     }
 
+    /// The shortest number of degrees that is read back as this angle, or the nearest one where none is.
+    fn written_degrees(self) -> f64 {
+        let degrees = self.degrees();
+        let is_it = |degrees: &f64| CreaseAngle::from_degrees(*degrees).is_ok_and(|found| found == self);
+        let rounded = (0..=14).filter_map(|decimals| format!("{degrees:.decimals$}").parse::<f64>().ok());
+        let near = (0..32).scan((degrees, degrees), |(below, above), _| {
+            (*below, *above) = (below.next_down(), above.next_up());
+            Some([*below, *above])
+        });
+        rounded.chain(near.flatten()).find(is_it).unwrap_or(degrees)
+    }
+
+    /// The setting of whatever asks for creases.
+    pub(crate) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        let help = "Least angle between faces that makes their edge a crease, degrees; style lines too";
+        Setting::field("crease-angle", "DEGREES", help, field).said("66.4, a cosine of 0.4")
+    }
+
     /// The angle in degrees.
     pub fn degrees(self) -> f64 {
         self.cosine.clamp(-1.0, 1.0).acos().to_degrees()
+    }
+}
+
+impl Value for CreaseAngle {
+    fn kind() -> Kind {
+        Kind::Numbers { count: 1, range: [0.0, 180.0], decimals: 1 }
+    }
+
+    fn text(&self) -> String {
+        self.written_degrees().text()
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(Self::from_degrees(f64::parse(text)?)?)
     }
 }
 

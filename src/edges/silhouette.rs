@@ -6,11 +6,10 @@
 use super::classes::corners;
 use super::{EdgeList, Eye, Incidence, Side, side_of_face};
 use crate::mesh::{Mesh, triangle_normal};
-use crate::names::find;
+use crate::settings::{Choice, Setting};
 use crate::threads::{filled, in_parallel, ranges, threads_for};
 use glam::{DVec3, Vec3, Vec4};
 use serde::Serialize;
-use std::str::FromStr;
 
 /// How it is decided whether an edge is silhouette.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -27,14 +26,22 @@ pub enum SilhouetteRule {
 impl SilhouetteRule {
     /// Both, as the user writes them.
     pub const ALL: [(&'static str, Self); 2] = [("paper", Self::Paper), ("exact", Self::Exact)];
+
+    /// What the setting does.
+    pub(crate) const HELP: &'static str =
+        "Find silhouettes with one view vector for all edges (paper) or exactly (exact)";
+
+    /// What help says of its default.
+    pub(crate) const SAID_DEFAULT: &'static str = "paper; style lines: exact";
+
+    /// The setting of a style that has both.
+    pub(crate) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        Setting::field("silhouette", "RULE", Self::HELP, field).said(Self::SAID_DEFAULT)
+    }
 }
 
-impl FromStr for SilhouetteRule {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for SilhouetteRule {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 /// The listing's bound on the product of two normals' components along the view.

@@ -1,12 +1,11 @@
 //! Which frame of an animated model is read: a number, between two frames also, or a name.
 
 use crate::error::{Error, Result};
-use serde::Serialize;
+use crate::settings::{Kind, Problem, Value};
 use std::{fmt, str::FromStr};
 
 /// A frame as the user names it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum ModelFrame {
     /// Counted from 0; a fraction lies on the straight way from one frame to the next.
     Number(f64),
@@ -39,6 +38,20 @@ impl FromStr for ModelFrame {
             _ if text.is_empty() => Err("give a frame's number or name".to_owned()),
             _ => Ok(Self::Name(text.to_owned())),
         }
+    }
+}
+
+impl Value for ModelFrame {
+    fn kind() -> Kind {
+        Kind::Text { offered: &[], example: "run3" }
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(text.parse()?)
     }
 }
 

@@ -7,15 +7,15 @@ use super::{Defects, Mesh, ModelFrame, assimp, builtin, gltf, md2, obj, ply, ski
 use crate::error::{Error, Result};
 use crate::files;
 use crate::limits::MODEL_BYTES;
-use crate::names::find;
+use crate::settings::{Choice, HasSettings, Setting, Table, under};
 use crate::tolerances::{LARGEST_WELD, WELD};
 use glam::DVec3;
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
+use std::sync::LazyLock;
 
 /// How a model is read.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct LoadOptions {
     /// Vertices nearer than this share of the bounding-box diagonal become one. Default 1e-7, one unit in the last
     /// place of an f32 file; 0 welds equal ones only; more closes cracks, too much eats small parts.
@@ -33,7 +33,6 @@ pub struct LoadOptions {
     pub model_frame: ModelFrame,
     /// A picture for all of the model's surfaces. Default: those the file names, found beside it; for MD2 also one that
     /// has the model's own name.
-    #[serde(serialize_with = "as_text")]
     pub skin: Option<PathBuf>,
     /// Whether files that the model names, materials, data and pictures, may lie outside its folder. Default: no, they are not
     /// followed, whether named by `..`, absolutely or through links, and that is said.
@@ -55,14 +54,86 @@ impl Default for LoadOptions {
     }
 }
 
-/// A path may hold bytes that are no text, of which a record keeps what it can.
-fn as_text<S: Serializer>(path: &Option<PathBuf>, to: S) -> std::result::Result<S::Ok, S::Error> {
-    path.as_ref().map(|path| path.to_string_lossy()).serialize(to)
+impl HasSettings for LoadOptions {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<LoadOptions>> =
+            LazyLock::new(|| Table { settings: LoadOptions::settings(), defaults: vec![LoadOptions::default()] });
+        &TABLE
+    }
+}
+
+impl LoadOptions {
+    fn settings() -> Vec<Setting<Self>> {
+        let settings = vec![
+            Setting::field(
+                "up-axis",
+                "AXIS",
+                "Axis that points up in the file: auto (z in MD2 and 3DS, else y), x, y, z, -x, -y, -z",
+                |load: &mut Self| &mut load.up_axis,
+            ),
+            Setting::field(
+                "weld",
+                "SHARE",
+                "Join vertices nearer than this share of the model's size",
+                |load: &mut Self| &mut load.weld,
+            )
+            .range(0.0, 0.001, 6)
+            .said("1e-7"),
+            Setting::field(
+                "normals",
+                "WHERE",
+                "Normals: file (computed where it has none), smooth, flat",
+                |load: &mut Self| &mut load.normals,
+            ),
+            Setting::field(
+                "smooth-angle",
+                "DEGREES",
+                "Largest angle between faces that computed normals round off, degrees",
+                |load: &mut Self| &mut load.smooth_angle_degrees,
+            )
+            .range(0.0, 180.0, 1),
+            Setting::flag(
+                "strict",
+                "Refuse models with defects",
+                |load: &Self| load.strict,
+                |load, is_on| load.strict = is_on,
+            )
+            .said("off, defects are counted and left out"),
+            Setting::open_field(
+                "skin",
+                "FILE",
+                "",
+                "Picture for all surfaces (PCX, PNG, TGA, BMP, JPEG, PPM)",
+                |load: &mut Self| &mut load.skin,
+            )
+            .said("what the model names, found beside it"),
+            Setting::flag(
+                "allow-external",
+                "Follow material files, data and pictures that the model names outside its folder",
+                |load: &Self| load.allow_external,
+                |load, is_on| load.allow_external = is_on,
+            )
+            .said("off, said and not followed"),
+            Setting::field(
+                "model-frame",
+                "N|NAME",
+                "Frame of an animated model (MD2), from 0; 1.5 lies between two",
+                |load: &mut Self| &mut load.model_frame,
+            ),
+        ];
+        under("Models", settings).collect()
+    }
+}
+
+/// Each setting under its name; of a path whose bytes are no text what can be kept.
+impl Serialize for LoadOptions {
+    fn serialize<S: Serializer>(&self, to: S) -> std::result::Result<S::Ok, S::Error> {
+        Self::table().record(self).serialize(to)
+    }
 }
 
 /// Where a mesh's normals come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Normals {
     /// From the file; computed smooth where the file has none.
     File,
@@ -77,17 +148,12 @@ impl Normals {
     pub const ALL: [(&'static str, Self); 3] = [("file", Self::File), ("smooth", Self::Smooth), ("flat", Self::Flat)];
 }
 
-impl FromStr for Normals {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for Normals {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 /// The model's axis that shall point up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UpAxis {
     /// As the file's format has it: z up in MD2 (where x is the front) and 3DS (where -y is), y in the others.
     Auto,
@@ -98,13 +164,10 @@ pub enum UpAxis {
     /// +z is up; -y is then the front.
     Z,
     /// -x is up.
-    #[serde(rename = "-x")]
     MinusX,
     /// -y is up.
-    #[serde(rename = "-y")]
     MinusY,
     /// -z is up.
-    #[serde(rename = "-z")]
     MinusZ,
 }
 
@@ -134,12 +197,8 @@ impl UpAxis {
     }
 }
 
-impl FromStr for UpAxis {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for UpAxis {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 /// What [`load`] read and what it noticed on the way, to be said once.
@@ -310,7 +369,7 @@ mod tests {
             ("-z", DVec3::NEG_Z),
         ];
         for (text, up) in axes {
-            let axis: UpAxis = text.parse().unwrap();
+            let axis = <UpAxis as crate::settings::Value>::parse(text).unwrap();
             assert_eq!(axis.to_y_up(up), DVec3::Y, "{text}");
             let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|v| axis.to_y_up(v));
             assert_eq!(x.cross(y), z, "{text} keeps handedness");

@@ -21,9 +21,9 @@ pub struct Attachments {
     /// Whether there is a depth buffer.
     pub has_depth: bool,
     /// What asks for them, for a driver that has none.
-    pub asked_by: Choice,
+    pub asked_by: SettingValue,
     /// What to choose instead there.
-    pub instead: Choice,
+    pub instead: SettingValue,
     /// What that draws, where it is not quite the same.
     pub instead_draws: Option<&'static str>,
 }
@@ -43,7 +43,7 @@ pub struct Drawn(pub &'static str);
 
 /// A value of a setting, as a user would choose it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Choice {
+pub struct SettingValue {
     /// The setting's name.
     pub setting: &'static str,
     /// Its value.

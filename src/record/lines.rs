@@ -6,7 +6,9 @@ use crate::error::{Error, Result};
 use crate::lines::{LinePath, LineSettings, LineTimes, SvgSettings, VisibleLines};
 use crate::mesh::LoadOptions;
 use crate::scene::{Scene, Size};
-use serde::Serialize;
+use crate::settings::HasSettings;
+use serde::ser::Error as _;
+use serde::{Serialize, Serializer};
 use std::fmt::Write;
 
 /// A drawing's record: enough to make it again and to compare its cost.
@@ -43,17 +45,25 @@ pub struct LinesRecord {
     pub lines_ms: f64,
 }
 
-/// The style `lines` with its settings.
-#[derive(Debug, Clone, Serialize)]
+/// The style `lines` with its settings, each under its name.
+#[derive(Debug, Clone)]
 pub struct LinesStyle {
-    /// Its name.
-    pub name: &'static str,
     /// Which lines.
-    #[serde(flatten)]
     pub lines: LineSettings,
     /// How they are drawn; absent from a JSON file's record, which draws nothing.
-    #[serde(flatten)]
     pub svg: Option<SvgSettings>,
+}
+
+impl Serialize for LinesStyle {
+    fn serialize<S: Serializer>(&self, to: S) -> std::result::Result<S::Ok, S::Error> {
+        let mut settings = LineSettings::table().record(&self.lines);
+        if let Some(svg) = &self.svg {
+            settings.extend(SvgSettings::table().record(svg));
+            settings.insert("background".to_owned(), serde_json::to_value(svg.background).map_err(S::Error::custom)?);
+        }
+        settings.insert("name".to_owned(), "lines".into());
+        settings.serialize(to)
+    }
 }
 
 /// How many pieces and paths there are.

@@ -1,16 +1,15 @@
 //! The border of the cartoon styles: which filter finds it in the map, and how strongly (section 4.1).
 
 use super::supersample::texture_unit;
-use super::{MapEncoding, lens};
+use super::{CARTOON, IMAGE_SPACE, MapEncoding, lens};
 use crate::error::{Error, Result};
-use crate::names::find;
 use crate::plan::{Depth, Draw, Facts, Geometry, Program, Texture, Uniform, Value, WhereEven};
 use crate::scene::{Scene, Size};
+use crate::settings::{Choice, ON_OFF, Setting, under};
 use serde::Serialize;
-use std::str::FromStr;
 
 /// Settings of the border; the defaults are the listing's.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Border {
     /// The filter. Default laplacian4, the paper's.
     pub filter: Filter,
@@ -57,12 +56,8 @@ impl Filter {
     ];
 }
 
-impl FromStr for Filter {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for Filter {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 impl Default for Border {
@@ -72,6 +67,41 @@ impl Default for Border {
 }
 
 impl Border {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let filter = vec![
+            Setting::field(
+                "filter",
+                "FILTER",
+                "Edge filter: laplacian4, laplacian8, mitchell, sobel, roberts",
+                |border: &mut Self| &mut border.filter,
+            )
+            .labelled("edge filter"),
+            Setting::field(
+                "detection-factor",
+                "FACTOR",
+                "What the edge filter's response is multiplied by; more darkens faint edges",
+                |border: &mut Self| &mut border.detection_factor,
+            )
+            .range(0.0, 2.0, 3),
+            Setting::field(
+                "slope-threshold",
+                ON_OFF,
+                "Let depth answer by a threshold that knows the surface's slope, on or off; off: by the filter",
+                |border: &mut Self| &mut border.slope_threshold,
+            ),
+        ];
+        let width = Setting::open_field(
+            "border-width",
+            "PIXELS",
+            "paper",
+            "Width of the borders, pixels, 1 to 64; paper is as the filter draws them, about 2; ink has 2",
+            |border: &mut Self| &mut border.width_px,
+        )
+        .offering(&["paper", "1", "2", "3", "4", "5", "6", "8", "12", "16", "24", "32", "64"]);
+        under(CARTOON, filter).chain(under(IMAGE_SPACE, vec![width])).collect()
+    }
+
     /// Whether these are the constants of the listing, so that the listing itself can run.
     fn is_published(&self) -> bool {
         *self == Self::default()

@@ -3,14 +3,16 @@
 //! With the paper's settings the published shaders run; any other setting runs their twins in which the constants are
 //! uniforms (`*-settings.frag`). A test shows that the twins draw the same picture.
 
-use super::{Border, MapEncoding, MapTarget, Show, Supersample, Tones};
+use super::{
+    ALL_STYLES, Border, CARTOON, IMAGE_SPACE, MapEncoding, MapTarget, Show, Supersample, Tones, cull, no_borders,
+};
 use crate::error::{Error, Result};
 use crate::plan::{Depth, Draw, Facts, Geometry, Output, Paint, Pass, Plan, Program, Step, Target, WhereEven};
 use crate::scene::{Background, Scene};
-use serde::Serialize;
+use crate::settings::{ON_OFF, Setting, under, within};
 
 /// Settings of both cartoon styles; the defaults are the paper's.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Cartoon {
     /// The tones.
     pub tones: Tones,
@@ -43,6 +45,41 @@ impl Default for Cartoon {
             supersample: Supersample::One,
         }
     }
+}
+
+impl Cartoon {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let common = vec![
+            no_borders(
+                |cartoon: &Self| cartoon.border.is_none(),
+                |cartoon, is_without| cartoon.border = (!is_without).then(|| cartoon.border.unwrap_or_default()),
+            ),
+            cull(|cartoon: &mut Self| &mut cartoon.cull_back_faces),
+        ];
+        let map = vec![
+            background_square(|cartoon: &mut Self| &mut cartoon.background_square),
+            Setting::field("map-encoding", "ENCODING", MapEncoding::HELP, |cartoon: &mut Self| {
+                &mut cartoon.map_encoding
+            }),
+        ];
+        let image_space = vec![
+            Supersample::setting(|cartoon: &mut Self| &mut cartoon.supersample),
+            MapTarget::setting(|cartoon: &mut Self| &mut cartoon.map_target),
+        ];
+        under(ALL_STYLES, common)
+            .chain(within(Tones::settings(), |cartoon: &mut Self| Some(&mut cartoon.tones)))
+            .chain(within(Border::settings(), |cartoon: &mut Self| cartoon.border.as_mut()))
+            .chain(under(CARTOON, map))
+            .chain(under(IMAGE_SPACE, image_space))
+            .collect()
+    }
+}
+
+/// The setting whether the map holds a square behind the scene.
+pub(super) fn background_square<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
+    let help = "Draw a square behind the scene, on or off; off loses outer borders";
+    Setting::field("background-quad", ON_OFF, help, field).labelled("background square")
 }
 
 /// Borders alone are drawn on white, as in figure 12.

@@ -10,17 +10,17 @@ mod pictures;
 pub use choices::{CetCoordinate, CetFilter, ContrastOperator, Improvements, Noise, Recipe};
 pub use pictures::{CharcoalPictures, Paper};
 
-use super::Show;
+use super::{ALL_STYLES, Show, cull};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::plan::{
     Depth, Draw, Facts, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
 };
 use crate::scene::{Background, Scene, Size};
-use serde::Serialize;
+use crate::settings::{Kind, ON_OFF, Setting, Value as _, names_of, under};
 
 /// Settings of `charcoal` and `sand`; the defaults are the text's where it gives them, ours elsewhere (errata V7).
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Charcoal {
     /// Exponent m of the contrast operator, above 0. Default 1.5, ours; more darkens all but the lights.
     pub contrast_exponent: f32,
@@ -38,6 +38,9 @@ pub struct Charcoal {
     /// Exponent of the contrast-enhanced texture, at least 1. Default 5.5, the text's middle one; more leaves fewer
     /// grains in light tones.
     pub cet_exponent: f64,
+    /// Standard deviation of the blur of the contrast-enhanced texture, pixels, 0 to 100. Default 0.8, ours; more is softer
+    /// grain, and none at all where it is as wide as a row of tones.
+    pub cet_blur_px: f64,
     /// Where the random numbers of all textures begin. Default 0.
     pub seed: u64,
     /// Size of the textures made here, pixels. Default 512 x 512. Noise and paper are stretched once over the picture, as
@@ -58,7 +61,6 @@ pub struct Charcoal {
     /// Whether faces turned away from the eye are left out. Default no.
     pub cull_back_faces: bool,
     /// The textures once they are made; kept for the next picture with the same settings and shared between clones.
-    #[serde(skip)]
     pub pictures: CharcoalPictures,
 }
 
@@ -71,6 +73,7 @@ impl Default for Charcoal {
             lights: [[0.26, 0.9, 0.35], [-0.7, -0.56, 0.45]],
             density_percent: 60.0,
             cet_exponent: 5.5,
+            cet_blur_px: 0.8,
             seed: 0,
             texture_size: Size { width: 512, height: 512 },
             paper: Paper::Made,
@@ -82,6 +85,141 @@ impl Default for Charcoal {
             cull_back_faces: false,
             pictures: CharcoalPictures::default(),
         }
+    }
+}
+
+impl Charcoal {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let common = vec![cull(|charcoal: &mut Self| &mut charcoal.cull_back_faces)];
+        let recipe = Setting::of(
+            "charcoal",
+            "RECIPE",
+            Kind::Recipe(names_of::<Recipe>()),
+            "Recipe: published, darker (density 85, contrast exponent 1.2, smudged), closure (density 35, contrast exponent 2, \
+             saturation 1.4); options given beside it count more",
+            |_: &Self| Recipe::Published.text(),
+            |charcoal, text| {
+                let recipe = Self::recipe(Recipe::parse(text)?);
+                (charcoal.density_percent, charcoal.contrast_exponent) =
+                    (recipe.density_percent, recipe.contrast_exponent);
+                (charcoal.smudge, charcoal.saturation) = (recipe.smudge, recipe.saturation);
+                Ok(())
+            },
+        );
+        let grain = vec![
+            recipe,
+            Setting::field(
+                "seed",
+                "N",
+                "Where the random numbers begin; the same seed gives the same textures",
+                |charcoal: &mut Self| &mut charcoal.seed,
+            )
+            .range(0.0, 1000.0, 0),
+            Setting::field(
+                "density",
+                "PERCENT",
+                "Share of black pixels in the grain's texture before they are moved, percent; more is darker",
+                |charcoal: &mut Self| &mut charcoal.density_percent,
+            )
+            .range(0.0, 100.0, 0),
+            Setting::field(
+                "cet-exponent",
+                "M",
+                "Exponent m that moves black pixels along t to t^m; more leaves fewer grains in light tones",
+                |charcoal: &mut Self| &mut charcoal.cet_exponent,
+            )
+            .range(1.0, 20.0, 1)
+            .labelled("grain exponent"),
+            Setting::field(
+                "cet-blur",
+                "PIXELS",
+                "Standard deviation of the blur that follows, pixels; more is softer grain",
+                |charcoal: &mut Self| &mut charcoal.cet_blur_px,
+            )
+            .range(0.0, 5.0, 2)
+            .labelled("grain blur"),
+        ];
+        let drawing = vec![
+            Setting::field(
+                "contrast-exponent",
+                "M",
+                "Exponent of the light's contrast; more darkens all but the lights",
+                |charcoal: &mut Self| &mut charcoal.contrast_exponent,
+            )
+            .range(0.1, 6.0, 2),
+            Setting::field(
+                "saturation",
+                "FACTOR",
+                "What the light is multiplied by; above 1 faint lines vanish (closure)",
+                |charcoal: &mut Self| &mut charcoal.saturation,
+            )
+            .range(0.0, 3.0, 2),
+            Setting::field("smudge", ON_OFF, "Smudge the drawing, on or off; on is darker", |charcoal: &mut Self| {
+                &mut charcoal.smudge
+            }),
+            Setting::field(
+                "light-1",
+                "X,Y,Z",
+                "Direction towards the first light, seen from the eye",
+                |charcoal: &mut Self| &mut charcoal.lights[0],
+            )
+            .range(-1.0, 1.0, 2)
+            .labelled("first light"),
+            Setting::field("light-2", "X,Y,Z", "Direction towards the second light", |charcoal: &mut Self| {
+                &mut charcoal.lights[1]
+            })
+            .range(-1.0, 1.0, 2)
+            .labelled("second light"),
+            Setting::field(
+                "paper",
+                "FILE",
+                "Picture of the paper, stretched over the whole drawing in place of --background",
+                |charcoal: &mut Self| &mut charcoal.paper,
+            )
+            .said("made from the seed"),
+            Setting::field(
+                "texture-size",
+                "WxH",
+                "Size of grain, noise and paper, stretched over the drawing; more is finer",
+                |charcoal: &mut Self| &mut charcoal.texture_size,
+            ),
+            Setting::field(
+                "cet-filter",
+                "FILTER",
+                "Filter of the grain's texture: linear, mipmap (blurs the grain away)",
+                |charcoal: &mut Self| &mut charcoal.cet_filter,
+            )
+            .labelled("grain filter"),
+            Setting::field(
+                "cet-coordinate",
+                "LIGHT",
+                "Light that chooses the grain: original, saturated",
+                |charcoal: &mut Self| &mut charcoal.cet_coordinate,
+            )
+            .labelled("grain chosen by"),
+            Setting::field(
+                "contrast-operator",
+                "OPERATOR",
+                "What enhances contrast: power (as published), sigmoid, bias",
+                |charcoal: &mut Self| &mut charcoal.operator,
+            ),
+            Setting::field(
+                "noise",
+                "WHERE",
+                "Where the noise lies: screen (as published), object (turns with the model)",
+                |charcoal: &mut Self| &mut charcoal.noise,
+            ),
+            Setting::field(
+                "improve",
+                "FLAWS",
+                "Flaws of the text to mend: clamp, wrap, paper-coordinate, luminance with commas between, or all",
+                |charcoal: &mut Self| &mut charcoal.improve,
+            )
+            .labelled("mended flaws"),
+        ];
+        let heading = "Styles charcoal and sand (the defaults are the text's where it gives them)";
+        under(ALL_STYLES, common).chain(under(heading, grain)).chain(under(heading, drawing)).collect()
     }
 }
 

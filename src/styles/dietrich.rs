@@ -1,14 +1,14 @@
 //! `dietrich`: the hardware's alternative to the edge list, as the text's section "Alternative Techniken" describes it:
 //! per pixel the normal against the view, ink below a threshold. Fast, and its lines are as wide as the surface is round.
 
-use super::Show;
+use super::{ALL_STYLES, Show, cull, no_borders};
 use crate::error::{Error, Result};
 use crate::plan::{Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::{Background, Color, Scene};
-use serde::Serialize;
+use crate::settings::{Setting, under};
 
 /// Settings of `dietrich`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Dietrich {
     /// Cosine of the angle between normal and view below which a pixel is ink, 0 to 1. Default 0.25; more makes lines
     /// wider, on flat surfaces first.
@@ -26,6 +26,41 @@ impl Default for Dietrich {
 }
 
 impl Dietrich {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let common = vec![
+            // No cosine is below 0.
+            no_borders(
+                |dietrich: &Self| dietrich.threshold == 0.0,
+                |dietrich, is_without| {
+                    if is_without {
+                        dietrich.threshold = 0.0;
+                    } else if dietrich.threshold == 0.0 {
+                        dietrich.threshold = Self::default().threshold;
+                    }
+                },
+            ),
+            cull(|dietrich: &mut Self| &mut dietrich.cull_back_faces),
+        ];
+        let own = vec![
+            Setting::field(
+                "ink-threshold",
+                "COSINE",
+                "Cosine between normal and view below which a pixel is ink, 0 to 1; more makes wider lines",
+                |dietrich: &mut Self| &mut dietrich.threshold,
+            )
+            .range(0.0, 1.0, 3),
+            Setting::field(
+                "ink-color",
+                "R,G,B",
+                "Red, green and blue of the ink, each from 0 to 1",
+                |dietrich: &mut Self| &mut dietrich.ink.0,
+            )
+            .labelled("ink colour"),
+        ];
+        under(ALL_STYLES, common).chain(under("Style dietrich", own)).collect()
+    }
+
     /// One pass: clear and draw.
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
         if !(0.0..=1.0).contains(&self.threshold) {

@@ -6,17 +6,17 @@
 use super::border::{check_width, reach, taps};
 use super::lens::DepthRange;
 use super::map::map_texture;
-use super::{MapTarget, Show, Supersample, Tones, lens, supersample};
+use super::{
+    ALL_STYLES, IMAGE_SPACE, INKING, MapTarget, Show, Supersample, Tones, cull, lens, no_borders, supersample,
+};
 use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
-use crate::names::find;
 use crate::plan::{Depth, Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Target, Uniform, Value, WhereEven};
 use crate::scene::{Background, Scene, Size};
-use serde::Serialize;
-use std::str::FromStr;
+use crate::settings::{Choice, Setting, Value as _, under, within};
 
 /// Settings of `ink`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Ink {
     /// How much time the picture may take. Default standard.
     pub quality: Quality,
@@ -42,8 +42,7 @@ pub struct Ink {
 }
 
 /// How much time a picture may take.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Quality {
     /// No more than the faithful three passes.
     #[default]
@@ -65,12 +64,8 @@ impl Quality {
     }
 }
 
-impl FromStr for Quality {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for Quality {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 impl Default for Ink {
@@ -91,6 +86,58 @@ impl Default for Ink {
 }
 
 impl Ink {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let common = vec![
+            no_borders(|ink: &Self| !ink.is_inked, |ink, is_without| ink.is_inked = !is_without),
+            cull(|ink: &mut Self| &mut ink.cull_back_faces),
+        ];
+        let width = Setting::of(
+            "border-width",
+            "PIXELS",
+            u32::kind(),
+            "Width of the lines, pixels, 1 to 64",
+            |ink: &Self| ink.line_width_px.text(),
+            |ink, text| {
+                ink.line_width_px = if text == "paper" { Self::default().line_width_px } else { u32::parse(text)? };
+                Ok(())
+            },
+        );
+        let image_space = vec![
+            width.range(1.0, 64.0, 0).labelled("line width"),
+            Setting::open_field("supersample", "N", "auto", Supersample::HELP, |ink: &mut Self| &mut ink.supersample),
+            MapTarget::setting(|ink: &mut Self| &mut ink.map_target),
+        ];
+        let own = vec![
+            Setting::field(
+                "quality",
+                "QUALITY",
+                "Time for the ink: standard (no more than three-pass) or best (drawn larger, and shrunk)",
+                |ink: &mut Self| &mut ink.quality,
+            ),
+            Setting::field(
+                "least-gap",
+                "PIXELS",
+                "Least step from one surface to another that is a line, widths of a pixel; more draws fewer lines",
+                |ink: &mut Self| &mut ink.least_gap_px,
+            )
+            .range(0.0, 20.0, 2),
+            Setting::field(
+                "gap-per-slope",
+                "PIXELS",
+                "What is added to it for each unit of slope; more draws fewer lines near outlines",
+                |ink: &mut Self| &mut ink.gap_per_slope,
+            )
+            .range(0.0, 5.0, 2),
+        ];
+        under(ALL_STYLES, common)
+            .chain(within(Tones::settings(), |ink: &mut Self| Some(&mut ink.tones)))
+            .chain(under(INKING, vec![CreaseAngle::setting(|ink: &mut Self| &mut ink.crease_angle)]))
+            .chain(under(IMAGE_SPACE, image_space))
+            .chain(under("Style ink (tones as three-pass, --crease-angle as inking)", own))
+            .collect()
+    }
+
     /// Map, tones, ink on top.
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
         self.check(show)?;

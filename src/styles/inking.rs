@@ -4,21 +4,20 @@
 //! that lines of some width join. All of it in the fixed-function pipeline, as in the text, but for the variant whose
 //! vertex shader computes the light.
 
-use super::{Ramp, RampRow, Show, ramp};
+use super::{ALL_STYLES, INKING, Ramp, RampRow, Show, cull, no_borders, ramp};
 use crate::edges::{Class, ClassSet, CreaseAngle, Side, SilhouetteRule, side_of_face};
 use crate::error::{Error, Result};
-use crate::names::find;
 use crate::plan::{
     Depth, Draw, EdgeRun, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
     Texture,
 };
 use crate::scene::{Background, Color, Scene};
-use serde::Serialize;
+use crate::settings::{Choice, Kind, ON_OFF, Problem, Setting, Value, under};
 use std::str::FromStr;
 use std::sync::Arc;
 
 /// Settings of `inking`; the defaults are the text's.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Inking {
     /// Whether lines are drawn. Default yes.
     pub is_inked: bool,
@@ -89,9 +88,101 @@ impl Default for Inking {
     }
 }
 
+impl Inking {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let common = vec![
+            no_borders(|inking: &Self| !inking.is_inked, |inking, is_without| inking.is_inked = !is_without),
+            cull(|inking: &mut Self| &mut inking.cull_back_faces),
+        ];
+        let lines = vec![
+            CreaseAngle::setting(|inking: &mut Self| &mut inking.crease_angle),
+            SilhouetteRule::setting(|inking: &mut Self| &mut inking.silhouette),
+            ClassSet::setting(ClassSet::EDGES, |inking: &mut Self| &mut inking.classes),
+            ClassColors::setting(|inking: &mut Self| &mut inking.colors),
+            line_width(|inking: &mut Self| &mut inking.line_width_px),
+            Setting::field(
+                "smooth",
+                ON_OFF,
+                "Smooth and blend the lines, on or off; quads are never smoothed",
+                |inking: &mut Self| &mut inking.is_smooth,
+            ),
+            Setting::field(
+                "joints",
+                ON_OFF,
+                "Join lines by points at their ends, on or off; thin lines hardly need it",
+                |inking: &mut Self| &mut inking.has_joints,
+            ),
+            Setting::field(
+                "back-edges",
+                ON_OFF,
+                "Draw edges both of whose faces are turned away, on or off; on closed models hardly any of them shows",
+                |inking: &mut Self| &mut inking.back_edges,
+            ),
+            Setting::field(
+                "line-drawing",
+                "HOW",
+                "Draw lines as GL lines (gl) or as quads of exactly their width (quads)",
+                |inking: &mut Self| &mut inking.line_drawing,
+            ),
+            Setting::either(
+                "ink-depth",
+                "HOW",
+                ["test", "write"],
+                "Lines write depth as in the text (write), which leaves gaps between smoothed lines, or only test it (test)",
+                |inking: &mut Self| &mut inking.writes_depth,
+            ),
+            Setting::field(
+                "polygon-offset",
+                "F,U",
+                "How far faces are pushed behind the lines: glPolygonOffset's factor and units",
+                |inking: &mut Self| &mut inking.polygon_offset,
+            )
+            .range(-10.0, 20.0, 1),
+        ];
+        let faces = vec![
+            Setting::field(
+                "paint",
+                "HOW",
+                "Paint faces in the background's colour (none), their own (flat), or by light and ramp (ramp)",
+                |inking: &mut Self| &mut inking.paint,
+            ),
+            Setting::field(
+                "ramp",
+                "FILE",
+                "Picture of four gradients, one above the other, dark at the left",
+                |inking: &mut Self| &mut inking.ramp,
+            )
+            .said("built in"),
+            Setting::field(
+                "ramp-row",
+                "ROW",
+                "Which gradient: material (the nearest to its colour), object (one after the other), or 0 to 3",
+                |inking: &mut Self| &mut inking.ramp_row,
+            ),
+            Setting::field(
+                "light",
+                "WHERE",
+                "Compute the light on the cpu or in a vertex-shader",
+                |inking: &mut Self| &mut inking.light,
+            )
+            .labelled("light on"),
+            Setting::field("texture", ON_OFF, "Multiply the model's own picture in, on or off", |inking: &mut Self| {
+                &mut inking.has_texture
+            }),
+        ];
+        under(ALL_STYLES, common).chain(under(INKING, lines)).chain(under(INKING, faces)).collect()
+    }
+}
+
+/// The setting of how wide lines are.
+pub(crate) fn line_width<T: Clone + 'static>(field: fn(&mut T) -> &mut f32) -> Setting<T> {
+    let help = "Width of the lines, pixels, above 0 to 16384, style lines too";
+    Setting::field("line-width", "PIXELS", help, field).range(0.5, 40.0, 1)
+}
+
 /// How faces are painted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaintMode {
     /// In the background's colour: they only hide lines.
     None,
@@ -106,17 +197,12 @@ impl PaintMode {
     pub const ALL: [(&'static str, Self); 3] = [("none", Self::None), ("flat", Self::Flat), ("ramp", Self::Ramp)];
 }
 
-impl FromStr for PaintMode {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for PaintMode {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 /// Where the light that the ramp is looked up by is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LightOn {
     /// On the CPU at every vertex, as in the listing.
     Cpu,
@@ -129,16 +215,12 @@ impl LightOn {
     pub const ALL: [(&'static str, Self); 2] = [("cpu", Self::Cpu), ("vertex-shader", Self::VertexShader)];
 }
 
-impl FromStr for LightOn {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for LightOn {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 /// A colour for each class of edges, in the order of [`Class::ALL`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClassColors(pub [Color; Class::ALL.len()]);
 
 impl Default for ClassColors {
@@ -156,12 +238,44 @@ impl ClassColors {
     }
 }
 
+impl ClassColors {
+    /// The setting of the colours.
+    pub(crate) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        let help = "Colours of the lines, style lines too: CLASS=COLOUR with commas between, names or #rrggbb, or figure-6 (outer \
+                    red, inner blue)";
+        Setting::field("class-colors", "COLOURS", help, field).labelled("class colours")
+    }
+}
+
+impl Value for ClassColors {
+    fn kind() -> Kind {
+        let example = "silhouette=red,crease=rgb(1 2.5 3),normal=#010203";
+        Kind::Text { offered: &["figure-6", "black"], example }
+    }
+
+    /// `CLASS=COLOUR` of each class that is not black.
+    fn text(&self) -> String {
+        if *self == Self::figure_6() {
+            return "figure-6".to_owned();
+        }
+        let colored = Class::ALL.iter().filter(|(_, class)| self.0[*class as usize] != Color([0.0; 3]));
+        let texts: Vec<String> = colored.map(|(name, class)| format!("{name}={}", self.0[*class as usize])).collect();
+        if texts.is_empty() { "black".to_owned() } else { texts.join(",") }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(text.parse()?)
+    }
+}
+
 impl FromStr for ClassColors {
     type Err = String;
 
     fn from_str(text: &str) -> std::result::Result<Self, String> {
-        if text == "figure-6" {
-            return Ok(Self::figure_6());
+        match text {
+            "figure-6" => return Ok(Self::figure_6()),
+            "black" => return Ok(Self::default()),
+            _ => {}
         }
         let mut colors = Self::default();
         for setting in text.split(',') {

@@ -1,13 +1,10 @@
 //! The map of the cartoon styles: how normals and depth are stored between the passes (errata E6 to E8).
 
-use crate::names::find;
-use crate::plan::{Attachment, Attachments, Choice, Drawn, Format, Program, Target, Texture};
-use serde::Serialize;
-use std::str::FromStr;
+use crate::plan::{Attachment, Attachments, Drawn, Format, Program, SettingValue, Target, Texture};
+use crate::settings::{Choice, Setting};
 
 /// How normals and depth are stored.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum MapEncoding {
     /// Normals clamped to [0, 1], depth in the 8 bits of alpha: the listing's.
     #[default]
@@ -31,6 +28,10 @@ impl MapEncoding {
         ("float", Self::Float),
         ("depth-texture", Self::DepthTexture),
     ];
+
+    /// What the setting does.
+    pub(super) const HELP: &'static str = "How normals and depth are kept: paper, biased (0.5 n + 0.5), float16, float, depth-texture \
+         (biased, depth from the depth buffer); mrt has paper only";
 
     /// The shaders that write it.
     pub(super) fn program(self) -> Program {
@@ -97,8 +98,7 @@ impl MapEncoding {
 }
 
 /// How the map gets from the pass that draws it to the one that reads it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum MapTarget {
     /// Drawn into the framebuffer and copied into a texture: the listing's.
     #[default]
@@ -110,6 +110,13 @@ pub enum MapTarget {
 impl MapTarget {
     /// Both, as the user writes them.
     pub const ALL: [(&'static str, Self); 2] = [("copy", Self::Copy), ("texture", Self::Texture)];
+
+    /// The setting of a style that has one.
+    pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        let help = "Copy the map into its texture (copy) or draw it there by a framebuffer object (texture), the same picture but \
+                    for rounding; mrt always does";
+        Setting::field("map-target", "HOW", help, field)
+    }
 
     /// What a map of 8 bits a channel is written into.
     pub(super) fn target(self) -> Target {
@@ -134,37 +141,29 @@ pub(super) const MAP_TEXTURE: Drawn = Drawn("Map");
 const MAP: Attachments = Attachments {
     colors: &[Attachment { name: MAP_TEXTURE, format: Format::Unorm8 }],
     has_depth: true,
-    asked_by: Choice { setting: "map-target", value: "texture" },
-    instead: Choice { setting: "map-target", value: "copy" },
+    asked_by: SettingValue { setting: "map-target", value: "texture" },
+    instead: SettingValue { setting: "map-target", value: "copy" },
     instead_draws: None,
 };
 
 const FLOAT16_MAP: Attachments = Attachments {
     colors: &[Attachment { name: MAP_TEXTURE, format: Format::Float16 }],
     has_depth: true,
-    asked_by: Choice { setting: "map-encoding", value: "float16" },
-    instead: Choice { setting: "map-encoding", value: "biased" },
+    asked_by: SettingValue { setting: "map-encoding", value: "float16" },
+    instead: SettingValue { setting: "map-encoding", value: "biased" },
     instead_draws: None,
 };
 
 const FLOAT_MAP: Attachments = Attachments {
     colors: &[Attachment { name: MAP_TEXTURE, format: Format::Float32 }],
-    asked_by: Choice { setting: "map-encoding", value: "float" },
+    asked_by: SettingValue { setting: "map-encoding", value: "float" },
     ..FLOAT16_MAP
 };
 
-impl FromStr for MapTarget {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for MapTarget {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
-impl FromStr for MapEncoding {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for MapEncoding {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }

@@ -4,18 +4,22 @@
 //! blended over it as in the third pass, and it is read back itself: nothing is copied. The background needs no square:
 //! both textures are cleared to what the square would leave in them.
 
+use super::cartoon::background_square;
 use super::map::MAP_TEXTURE;
-use super::{Border, Cartoon, MapEncoding, MapTarget, Show, Supersample, Tones};
-use crate::error::Result;
+use super::{
+    ALL_STYLES, Border, CARTOON, Cartoon, IMAGE_SPACE, MapEncoding, MapTarget, Show, Supersample, Tones, cull,
+    no_borders,
+};
+use crate::error::{Error, Result};
 use crate::plan::{
-    Attachment, Attachments, Choice, Draw, Drawn, Facts, Format, Geometry, Paint, Pass, Plan, Program, Step, Target,
-    Texture,
+    Attachment, Attachments, Draw, Drawn, Facts, Format, Geometry, Paint, Pass, Plan, Program, SettingValue, Step,
+    Target, Texture,
 };
 use crate::scene::Scene;
-use serde::Serialize;
+use crate::settings::{Kind, Setting, Value as _, under, within};
 
 /// Settings of `mrt`; the defaults are those of the three passes.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Mrt {
     /// The tones.
     pub tones: Tones,
@@ -43,6 +47,43 @@ impl Default for Mrt {
     }
 }
 
+impl Mrt {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let common = vec![
+            no_borders(
+                |mrt: &Self| mrt.border.is_none(),
+                |mrt, is_without| mrt.border = (!is_without).then(|| mrt.border.unwrap_or_default()),
+            ),
+            cull(|mrt: &mut Self| &mut mrt.cull_back_faces),
+        ];
+        // There for who draws both: the three passes have more encodings.
+        let encoding = Setting::of(
+            "map-encoding",
+            "ENCODING",
+            Kind::Choice(vec!["paper"]),
+            MapEncoding::HELP,
+            |_: &Self| MapEncoding::Paper.text(),
+            |_, text| match MapEncoding::parse(text)? {
+                MapEncoding::Paper => Ok(()),
+                _ => Err(Error::setting(
+                    "--map-encoding",
+                    "style mrt keeps its map as published; leave it out, or draw --style three-pass",
+                )
+                .into()),
+            },
+        );
+        let map = vec![background_square(|mrt: &mut Self| &mut mrt.background_square), encoding];
+        let image_space = vec![Supersample::setting(|mrt: &mut Self| &mut mrt.supersample)];
+        under(ALL_STYLES, common)
+            .chain(within(Tones::settings(), |mrt: &mut Self| Some(&mut mrt.tones)))
+            .chain(within(Border::settings(), |mrt: &mut Self| mrt.border.as_mut()))
+            .chain(under(CARTOON, map))
+            .chain(under(IMAGE_SPACE, image_space))
+            .collect()
+    }
+}
+
 /// The picture before its borders, then with them.
 const TONES: Attachment = Attachment { name: Drawn("Tones"), format: Format::Unorm8 };
 const MAP: Attachment = Attachment { name: MAP_TEXTURE, format: Format::Unorm8 };
@@ -50,8 +91,8 @@ const MAP: Attachment = Attachment { name: MAP_TEXTURE, format: Format::Unorm8 }
 const TONES_AND_MAP: Attachments = Attachments {
     colors: &[TONES, MAP],
     has_depth: true,
-    asked_by: Choice { setting: "style", value: "mrt" },
-    instead: Choice { setting: "style", value: "three-pass" },
+    asked_by: SettingValue { setting: "style", value: "mrt" },
+    instead: SettingValue { setting: "style", value: "three-pass" },
     instead_draws: Some("the same picture but for rounding"),
 };
 

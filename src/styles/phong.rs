@@ -1,13 +1,13 @@
 //! `phong`: the realistic rendering the first paper compares its cartoons with (figures 5a and 8).
 
-use super::Show;
+use super::{ALL_STYLES, Show, cull};
 use crate::error::{Error, Result};
 use crate::plan::{Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::Scene;
-use serde::Serialize;
+use crate::settings::{Setting, under};
 
 /// Settings of `phong`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Phong {
     /// Share of the colour seen where no light falls. Default 0.25; more lightens the shadows.
     pub ambient: f32,
@@ -27,6 +27,33 @@ impl Default for Phong {
 }
 
 impl Phong {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let own = vec![
+            Setting::field(
+                "ambient",
+                "SHARE",
+                "Share of the colour seen where no light falls; more lightens the shadows",
+                |phong: &mut Self| &mut phong.ambient,
+            ),
+            Setting::field(
+                "specular",
+                "SHARE",
+                "Weight of the white highlight; more is brighter",
+                |phong: &mut Self| &mut phong.specular,
+            ),
+            Setting::field(
+                "shininess",
+                "EXPONENT",
+                "Exponent of the highlight; more makes it smaller",
+                |phong: &mut Self| &mut phong.shininess,
+            )
+            .range(1.0, 200.0, 0),
+        ];
+        let common = vec![cull(|phong: &mut Self| &mut phong.cull_back_faces)];
+        under(ALL_STYLES, common).chain(under("Style phong", own)).collect()
+    }
+
     /// One pass: clear and draw.
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
         if show != Show::Final {

@@ -4,6 +4,7 @@ use crate::error::{Error, Result};
 use crate::mesh::VertexArrays;
 use crate::picture::Picture;
 use crate::scene::{Color, Object, Scene, Size};
+use crate::settings::{Kind, Problem, Value};
 use glam::{DVec3, Vec3};
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
@@ -85,18 +86,54 @@ impl Ramp {
     }
 }
 
+/// What the built-in ramp is called.
+const BUILT_IN: &str = "built-in";
+
+impl Value for Ramp {
+    fn kind() -> Kind {
+        Kind::File
+    }
+
+    /// A ramp that is from no file has none.
+    fn text(&self) -> String {
+        match &self.path {
+            Some(path) => path.to_string_lossy().into_owned(),
+            None if *self == Self::default() => BUILT_IN.to_owned(),
+            None => String::new(),
+        }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(if text == BUILT_IN { Self::default() } else { Self::read(Path::new(text))? })
+    }
+}
+
 impl Serialize for Ramp {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        match &self.path {
-            Some(path) => serializer.collect_str(&path.display()),
-            None => serializer.serialize_str("built-in"),
+        serializer.serialize_str(&self.text())
+    }
+}
+
+impl Value for RampRow {
+    fn kind() -> Kind {
+        Kind::Choice(vec!["material", "object", "0", "1", "2", "3"])
+    }
+
+    fn text(&self) -> String {
+        match self {
+            Self::Material => "material".to_owned(),
+            Self::Object => "object".to_owned(),
+            Self::Row(row) => row.to_string(),
         }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(text.parse()?)
     }
 }
 
 /// Which gradient a surface gets.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum RampRow {
     /// Each material the one nearest to its colour; without a colour the first.
     #[default]

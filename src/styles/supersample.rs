@@ -1,17 +1,14 @@
 //! Drawing larger than the picture and taking the mean: edges are smooth, lines finer than a pixel.
 
-use crate::names::find;
 use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Target, Texture, Uniform, Value};
 use crate::scene::Size;
-use serde::Serialize;
-use std::str::FromStr;
+use crate::settings::{Choice, Setting};
 
 /// How many times as wide and high as the picture it is drawn.
 ///
 /// The largest picture shrinks by the same factor: a driver that draws 16384 x 16384 pixels at most makes pictures of up to
 /// 4096 x 4096 with [`Supersample::Four`].
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(into = "u32")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Supersample {
     /// As large as the picture, as published.
     #[default]
@@ -25,6 +22,15 @@ pub enum Supersample {
 impl Supersample {
     /// All of them, as the user writes them.
     pub const ALL: [(&'static str, Self); 3] = [("1", Self::One), ("2", Self::Two), ("4", Self::Four)];
+
+    /// What the setting does.
+    pub(super) const HELP: &'static str =
+        "Draw 1, 2 or 4 times as wide and high and shrink; the largest picture shrinks by as much (tinta info has it)";
+
+    /// The setting of a style that always has a factor.
+    pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        Setting::field("supersample", "N", Self::HELP, field).said("1; ink --quality best 2")
+    }
 
     /// The factor.
     pub fn factor(self) -> u32 {
@@ -67,18 +73,8 @@ impl Supersample {
     }
 }
 
-impl From<Supersample> for u32 {
-    fn from(supersample: Supersample) -> Self {
-        supersample.factor()
-    }
-}
-
-impl FromStr for Supersample {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for Supersample {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 /// How far apart the texels of a texture of this size are.

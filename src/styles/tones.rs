@@ -1,14 +1,13 @@
 //! The tones of the cartoon styles: which light gets which of one, two or three levels (section 3.2, figure 5).
 
+use super::CARTOON;
 use crate::error::{Error, Result};
-use crate::names::find;
 use crate::plan::{PlanTable, Program, Shorter, Texture, Uniform, Value};
+use crate::settings::{Choice, Kind, Setting, Value as _, under};
 use crate::tolerances::UNREACHED_LIGHT;
-use serde::Serialize;
-use std::str::FromStr;
 
 /// Settings of the tones; the defaults are the listing's constants.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Tones {
     /// How many tones, 1 to 3: the first, then the diffuse one, then the highlight. Default 3, the listing.
     pub count: u8,
@@ -23,8 +22,7 @@ pub struct Tones {
 }
 
 /// How a tone is found from the light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ToneLookup {
     /// By comparing with the thresholds, as in the listing.
     Steps,
@@ -37,11 +35,45 @@ impl ToneLookup {
     pub const ALL: [(&'static str, Self); 2] = [("steps", Self::Steps), ("texture", Self::Texture)];
 }
 
-impl FromStr for ToneLookup {
-    type Err = String;
+impl Choice for ToneLookup {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
+}
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
+impl Tones {
+    /// Its settings.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let thresholds = Setting::of(
+            "tone-thresholds",
+            "D,S",
+            Kind::Numbers { count: 2, range: [0.0, 1.0], decimals: 3 },
+            "Diffuse and specular light from which the second and third tone hold",
+            |tones: &Self| [tones.diffuse_threshold, tones.specular_threshold].text(),
+            |tones, text| {
+                [tones.diffuse_threshold, tones.specular_threshold] = <[f32; 2]>::parse(text)?;
+                Ok(())
+            },
+        );
+        let settings = vec![
+            Setting::field(
+                "tones",
+                "N",
+                "Number of tones, 1 to 3; fewer leave out the brightest",
+                |tones: &mut Self| &mut tones.count,
+            )
+            .range(1.0, 3.0, 0),
+            thresholds,
+            Setting::field("tone-levels", "A,B,C", "What the tones multiply the colour by", |tones: &mut Self| {
+                &mut tones.levels
+            })
+            .range(0.0, 1.0, 3),
+            Setting::field(
+                "tone-lookup",
+                "HOW",
+                "Find tones by comparing (steps) or in a 1-D texture (texture)",
+                |tones: &mut Self| &mut tones.lookup,
+            ),
+        ];
+        under(CARTOON, settings).collect()
     }
 }
 

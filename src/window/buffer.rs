@@ -37,7 +37,7 @@ impl Buffer {
     pub fn drawn(self, style: &Style) -> (Style, Show) {
         match self {
             Self::EdgeClasses => (edge_classes(), Show::Final),
-            Self::Show(show) if buffers(super::dials::name_of(style)).contains(&self) => (style.clone(), show),
+            Self::Show(show) if buffers(style.style_name()).contains(&self) => (style.clone(), show),
             Self::Show(_) => (style.clone(), Show::Final),
         }
     }
@@ -55,36 +55,8 @@ impl FromStr for Buffer {
 }
 
 /// The buffers of a style, its finished picture first.
-pub fn buffers(style: StyleName) -> &'static [Buffer] {
-    use Show::{Borders, Cem, Cet, Depth, Diffuse, Final, Map, Normals, Paper, Tones};
-    const CARTOON: &[Buffer] = &[
-        Buffer::Show(Final),
-        Buffer::Show(Map),
-        Buffer::Show(Normals),
-        Buffer::Show(Depth),
-        Buffer::Show(Borders),
-        Buffer::Show(Tones),
-        Buffer::EdgeClasses,
-    ];
-    const INK: &[Buffer] =
-        &[Buffer::Show(Final), Buffer::Show(Map), Buffer::Show(Borders), Buffer::Show(Tones), Buffer::EdgeClasses];
-    const LINES: &[Buffer] = &[Buffer::Show(Final), Buffer::Show(Borders), Buffer::Show(Tones), Buffer::EdgeClasses];
-    const CHARCOAL: &[Buffer] = &[
-        Buffer::Show(Final),
-        Buffer::Show(Diffuse),
-        Buffer::Show(Cem),
-        Buffer::Show(Cet),
-        Buffer::Show(Paper),
-        Buffer::EdgeClasses,
-    ];
-    const PLAIN: &[Buffer] = &[Buffer::Show(Final), Buffer::EdgeClasses];
-    match style {
-        StyleName::ThreePass | StyleName::TwoPass | StyleName::Mrt => CARTOON,
-        StyleName::Ink => INK,
-        StyleName::Inking | StyleName::Dietrich => LINES,
-        StyleName::Charcoal | StyleName::Sand => CHARCOAL,
-        StyleName::Phong => PLAIN,
-    }
+pub fn buffers(style: StyleName) -> Vec<Buffer> {
+    style.info().shows.iter().map(|show| Buffer::Show(*show)).chain([Buffer::EdgeClasses]).collect()
 }
 
 /// The colours of classes, in their order, far apart for eyes of any kind.
@@ -132,7 +104,7 @@ mod tests {
     fn buffers_are_read_by_the_names_they_have() {
         for (_, style) in StyleName::ALL {
             for buffer in buffers(style) {
-                assert_eq!(buffer.name().parse(), Ok(*buffer));
+                assert_eq!(buffer.name().parse(), Ok(buffer));
             }
         }
         assert!("bumps".parse::<Buffer>().unwrap_err().contains("edge-classes"));

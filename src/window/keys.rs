@@ -6,11 +6,18 @@ use crate::styles::StyleName;
 use egui::{Key, Modifiers};
 
 /// What the key sheet says: keys, what they do.
-pub const SHEET: &[(&str, &str)] = &[
+pub fn sheet() -> impl Iterator<Item = (&'static str, String)> {
+    SHEET.iter().map(|(keys, what)| (*keys, what.replace(STYLES, &StyleName::list())))
+}
+
+/// Stands for the styles' names.
+const STYLES: &str = "STYLES";
+
+const SHEET: &[(&str, &str)] = &[
     ("drag", "turn the model"),
     ("right drag, Shift drag", "move it"),
     ("wheel, pinch", "nearer, farther"),
-    ("1 to 9", "phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand"),
+    ("1 to 9", STYLES),
     ("S", "one style; two with a divider to drag; two and their difference"),
     ("O", "the other side: its style is chosen by number, its settings are in the panel"),
     ("B", "buffers: map, normals, depth, borders, tones, edge classes"),
@@ -118,7 +125,7 @@ mod tests {
             state.update(made);
             assert_eq!((state.style(Side::Left).name(), &state.message), (name, &None));
         }
-        let listed = SHEET.iter().find(|(keys, _)| *keys == "1 to 9").unwrap().1;
+        let (_, listed) = sheet().find(|(keys, _)| *keys == "1 to 9").unwrap();
         assert_eq!(listed, StyleName::ALL.map(|(name, _)| name).join(", "));
     }
 

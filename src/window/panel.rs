@@ -1,9 +1,10 @@
 //! The panel: a widget for every dial of the active style. It reads the state and makes events, nothing else.
 
-use super::dials::{self, Dial, Kind};
+use super::dials::{self, Dial};
 use super::event::{Layout, Side, ViewerEvent};
 use super::viewer::Viewer;
 use crate::preset::SHIPPED;
+use crate::settings::Kind;
 use crate::styles::{Style, StyleName};
 use egui::{Color32, RichText, Ui};
 
@@ -33,7 +34,7 @@ pub fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     choices(ui, "style", style.name(), StyleName::ALL.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::Style(side, name.to_owned()));
     });
-    let buffers = super::buffer::buffers(dials::name_of(style)).iter().map(|buffer| buffer.name());
+    let buffers = super::buffer::buffers(style.style_name()).into_iter().map(|buffer| buffer.name());
     choices(ui, "shown", state.buffer.name(), buffers, |name| events.push(ViewerEvent::Buffer(name.to_owned())));
     choices(ui, "presets", "", SHIPPED.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::OpenPreset(name.to_owned()));
@@ -43,7 +44,7 @@ pub fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     ui.separator();
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         for dial in dials::of(style) {
-            ui.push_id((dial.option, side as usize), |ui| one(ui, dial, style, side, events));
+            ui.push_id((dial.setting.name, side as usize), |ui| one(ui, &dial, side, events));
         }
         ui.separator();
         ui.label("the same by");
@@ -91,7 +92,7 @@ fn faithful(ui: &mut Ui, style: &Style, side: Side, events: &mut Vec<ViewerEvent
             ui.colored_label(Color32::from_rgb(110, 190, 110), said)
                 .on_hover_text("every setting is the one its source gives");
         } else {
-            let changed = dials::of(style).filter(|dial| !dial.is_default(style)).count();
+            let changed = dials::of(style).iter().filter(|dial| !dial.is_default()).count();
             ui.colored_label(Color32::from_rgb(220, 160, 60), format!("○ {changed} changed"));
             if ui.small_button("all as published").clicked() {
                 events.push(ViewerEvent::Faithful(side));
@@ -120,36 +121,35 @@ fn choices<'a>(
 }
 
 /// A dial: its name, its widget, and the way back to the paper's value.
-fn one(ui: &mut Ui, dial: &Dial, style: &Style, side: Side, events: &mut Vec<ViewerEvent>) {
-    let Some(value) = dial.value(style) else { return };
-    let is_default = dial.is_default(style);
+fn one(ui: &mut Ui, dial: &Dial<Style>, side: Side, events: &mut Vec<ViewerEvent>) {
+    let (setting, value) = (dial.setting, &dial.value);
     ui.horizontal(|ui| {
-        let name = if is_default { RichText::new(dial.label) } else { RichText::new(dial.label).strong() };
-        ui.label(name).on_hover_text(format!("{} {}", dial.option, dial.help));
+        let name = RichText::new(setting.label());
+        let name = if dial.is_default() { name } else { name.strong() };
+        ui.label(name).on_hover_text(format!("{} {}", dial.option(), setting.help));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let paper = dial.default_value(style).unwrap_or_default();
-            let back = ui.add_enabled(!is_default, egui::Button::new("↺").small());
-            if back.on_hover_text(format!("as published: {paper}")).clicked() {
-                events.push(ViewerEvent::Default(side, dial.option.to_owned()));
+            let back = ui.add_enabled(!dial.is_default(), egui::Button::new("↺").small());
+            if back.on_hover_text(format!("as published: {}", dial.default)).clicked() {
+                events.push(ViewerEvent::Default(side, dial.option()));
             }
-            if let Kind::Switch | Kind::Flag | Kind::Choice(_) = dial.kind
-                && let Some(text) = widget(ui, dial.kind, &value)
+            if let Kind::Switch | Kind::Flag | Kind::Choice(_) = setting.kind
+                && let Some(text) = widget(ui, &setting.kind, value)
             {
-                events.push(ViewerEvent::Set(side, dial.option.to_owned(), text));
+                events.push(ViewerEvent::Set(side, dial.option(), text));
             }
         });
     });
-    if let Kind::Numbers { .. } | Kind::Text = dial.kind
-        && let Some(text) = widget(ui, dial.kind, &value)
+    if let Kind::Numbers { .. } | Kind::Several(_) | Kind::File | Kind::Text { .. } = setting.kind
+        && let Some(text) = widget(ui, &setting.kind, value)
     {
-        events.push(ViewerEvent::Set(side, dial.option.to_owned(), text));
+        events.push(ViewerEvent::Set(side, dial.option(), text));
     }
 }
 
 /// A widget for a value; its new value once it has been turned.
-fn widget(ui: &mut Ui, kind: Kind, value: &str) -> Option<String> {
+fn widget(ui: &mut Ui, kind: &Kind, value: &str) -> Option<String> {
     match kind {
-        Kind::Numbers { range: [low, high], decimals, .. } => {
+        &Kind::Numbers { range: [low, high], decimals, .. } => {
             let mut numbers: Vec<f64> = value.split(',').filter_map(|number| number.parse().ok()).collect();
             let mut has_changed = false;
             for number in &mut numbers {
@@ -164,7 +164,7 @@ fn widget(ui: &mut Ui, kind: Kind, value: &str) -> Option<String> {
             };
             has_changed.then(|| numbers.iter().map(text).collect::<Vec<_>>().join(","))
         }
-        Kind::Choice(names) => {
+        Kind::Choice(names) | Kind::Recipe(names) => {
             let mut chosen = None;
             egui::ComboBox::from_id_salt("choice").selected_text(value).show_ui(ui, |ui| {
                 for name in names {
@@ -179,7 +179,7 @@ fn widget(ui: &mut Ui, kind: Kind, value: &str) -> Option<String> {
             let mut is_on = value == "on";
             ui.checkbox(&mut is_on, "").changed().then(|| if is_on { "on" } else { "off" }.to_owned())
         }
-        Kind::Text => {
+        Kind::Several(_) | Kind::File | Kind::Text { .. } => {
             // What is being typed is kept until it is finished: half a word is no value.
             let id = ui.id().with("typed");
             let mut text: String = ui.data_mut(|data| data.get_temp(id)).unwrap_or_else(|| value.to_owned());

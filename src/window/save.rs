@@ -10,9 +10,10 @@ use crate::lines::{LineSettings, SvgSettings, VisibleLines, svg};
 use crate::mesh::LoadOptions;
 use crate::output::TextTarget;
 use crate::picture::{Picture, Target};
-use crate::preset::{OptionValue, Options, of_load, of_scene, of_show, of_style, to_toml};
+use crate::preset::{OptionValue, Options, to_toml};
 use crate::recipe::{Driver, FileRecord, Recipe, draws_with_textures, files_of};
 use crate::scene::{Scene, SceneSettings, Size};
+use crate::settings::HasSettings;
 use crate::shell;
 use crate::styles::Show;
 use std::path::{Path, PathBuf};
@@ -52,8 +53,8 @@ pub fn command(
 
 /// The recipe of what is shown of the active side, without the files' contents.
 fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save) -> Result<Recipe> {
-    let mut options = of_scene(&SceneSettings { camera: job.camera()?, ..job.settings.clone() });
-    options.extend(of_load(&surroundings.load)?);
+    let mut options = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
+    options.extend(surroundings.load.to_options()?);
     // The exact lines have no style.
     if save != Save::Lines {
         options.extend(style_options(state, job, state.active)?);
@@ -94,8 +95,8 @@ fn whole_recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, sav
 fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> {
     let drawn = job.drawings.iter().find(|(drawn, ..)| *drawn == side);
     let (style, show) = drawn.map_or((state.style(side), Show::Final), |(_, style, show)| (style, *show));
-    let mut options = of_style(style)?;
-    options.extend(of_show(show));
+    let mut options = style.to_options()?;
+    options.extend(show.to_options());
     Ok(options)
 }
 

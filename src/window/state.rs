@@ -1,10 +1,11 @@
 //! The viewer as a value: what is shown, from where, in which styles; and how events change it. No window here, no GL.
 
 use super::buffer::{Buffer, buffers};
-use super::dials::{find_dial, name_of};
+use super::dials;
 use super::event::{Effect, Layout, Save, Side, ViewerEvent};
 use super::orbit::Orbit;
 use crate::camera::View;
+use crate::preset::{OptionValue, Preset};
 use crate::scene::{Background, Color, SceneSettings, Size};
 use crate::styles::{Style, StyleName};
 
@@ -114,7 +115,7 @@ impl ViewerState {
 
     /// Shows this style on a side.
     pub fn put_style(&mut self, side: Side, style: Style) {
-        let name = name_of(&style);
+        let name = style.style_name();
         self.styles[side as usize][name as usize] = style;
         self.chosen[side as usize] = name;
     }
@@ -122,7 +123,7 @@ impl ViewerState {
     /// Sets a style's settings on both sides, for when it is chosen.
     pub fn prepare_style(&mut self, style: &Style) {
         for side in &mut self.styles {
-            side[name_of(style) as usize] = style.clone();
+            side[style.style_name() as usize] = style.clone();
         }
     }
 
@@ -207,15 +208,10 @@ impl ViewerState {
             ViewerEvent::Projection => self.orbit.parallel = !self.orbit.parallel,
             ViewerEvent::Style(side, name) => self.choose_style(side, name.parse()?),
             ViewerEvent::Set(side, option, value) => {
-                let style = self.style_mut(side);
-                find_dial(style, &option)?.set(style, &value)?;
+                dials::turn(self.style_mut(side), &option, &value)?;
             }
             ViewerEvent::Default(side, option) => {
-                let style = self.style_mut(side);
-                let dial = find_dial(style, &option)?;
-                if let Some(value) = dial.default_value(style) {
-                    dial.set(style, &value)?;
-                }
+                dials::turn_back(self.style_mut(side), &option)?;
             }
             ViewerEvent::Faithful(side) => *self.style_mut(side) = Style::named(self.chosen[side as usize]),
             ViewerEvent::Choose(side) => self.active = side,
@@ -253,7 +249,7 @@ impl ViewerState {
     fn choose_style(&mut self, side: Side, name: StyleName) {
         self.chosen[side as usize] = name;
         // The buffer stays where the new style has it, so that two styles' maps can be compared by a key.
-        if !self.sides().iter().any(|side| buffers(name_of(self.style(*side))).contains(&self.buffer)) {
+        if !self.sides().iter().any(|side| buffers(self.style(*side).style_name()).contains(&self.buffer)) {
             self.buffer = Buffer::default();
         }
     }
@@ -266,29 +262,17 @@ impl ViewerState {
     }
 
     fn next_buffer(&self) -> Buffer {
-        let known = buffers(name_of(self.style(self.active)));
+        let known = buffers(self.style(self.active).style_name());
         let index = known.iter().position(|buffer| *buffer == self.buffer).unwrap_or(0);
         known.get((index + 1) % known.len().max(1)).copied().unwrap_or_default()
     }
 
     /// Puts a preset's style and settings on the active side. What is not a style's, the camera say, is left as it is.
     fn open_preset(&mut self, name: &str) -> Result<(), String> {
-        let preset = crate::preset::Preset::read(name).map_err(|error| error.to_string())?;
-        let text = |value: &crate::preset::OptionValue| match value {
-            crate::preset::OptionValue::Switch(true) => "on".to_owned(),
-            crate::preset::OptionValue::Switch(false) => "off".to_owned(),
-            crate::preset::OptionValue::Text(text) => text.clone(),
-        };
-        let style = match preset.options.get("style") {
-            Some(style) => text(style).parse().map_err(|problem| format!("{name}: style: {problem}"))?,
-            None => self.chosen[self.active as usize],
-        };
-        let mut style = Style::named(style);
-        for (option, value) in &preset.options {
-            if let Ok(dial) = find_dial(&style, &format!("--{option}")) {
-                dial.set(&mut style, &text(value)).map_err(|problem| format!("{name}: {problem}"))?;
-            }
-        }
+        let mut preset = Preset::read(name).map_err(|error| error.to_string())?;
+        let shown = self.chosen[self.active as usize].name();
+        preset.options.entry("style".to_owned()).or_insert_with(|| OptionValue::text(shown));
+        let style = preset.style().map_err(|error| error.to_string())?;
         self.put_style(self.active, style);
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Tests of the viewer's state.
 
 use super::*;
-use crate::styles::Cartoon;
+use crate::styles::{Cartoon, Charcoal, Recipe};
 
 fn after(events: impl IntoIterator<Item = ViewerEvent>) -> ViewerState {
     let mut state = ViewerState { models: vec!["a/bust.obj".to_owned()], ..ViewerState::default() };
@@ -117,6 +117,32 @@ fn a_preset_that_ships_is_a_style_with_the_papers_constants() {
     let paper = ViewerEvent::OpenPreset("paper:valente-charcoal".to_owned());
     let state = after([ViewerEvent::Style(Side::Left, "charcoal".to_owned()), set("--seed", "7"), paper]);
     assert_eq!(*state.style(Side::Left), Style::named(StyleName::Charcoal));
+}
+
+#[test]
+fn a_preset_draws_in_the_viewer_what_it_draws_elsewhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml").to_str().unwrap().to_owned();
+    let open = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        let mut state = ViewerState::default();
+        state.update(ViewerEvent::OpenPreset(path.clone()));
+        (state.style(Side::Left).clone(), state.message.unwrap_or_default())
+    };
+    // A recipe is no dial, the view no setting of a style, and both may stand in a preset.
+    let (style, said) = open("style = \"charcoal\"\ncharcoal = \"darker\"\nview = \"front\"\ntones = 2\n");
+    assert_eq!((style, said.as_str()), (Style::Charcoal(Charcoal::recipe(Recipe::Darker)), ""));
+    for (text, words) in [
+        ("tone = 2\n", "mine.toml: line 1: tone: there is no such option"),
+        ("style = \"ink\"\ntones = \"many\"\n", "mine.toml: line 2: --tones many: give a whole number"),
+        ("filter = \"sharp\"\n", "mine.toml: line 1: --filter sharp: choose one of laplacian4"),
+        ("smooth = 2\nstyle = \"inking\"\n", "mine.toml: line 1: --smooth 2: choose on or off"),
+        ("style = \"lines\"\n", "mine.toml: line 1: --style lines: choose one of phong"),
+    ] {
+        let (style, said) = open(text);
+        assert!(said.contains(words), "{text}: {said}");
+        assert_eq!(style, Style::named(StyleName::ThreePass), "{text}");
+    }
 }
 
 #[test]

@@ -242,9 +242,9 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     if state.has_key_sheet {
         let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
             egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
-                for (keys, what) in keys::SHEET {
-                    ui.strong(*keys);
-                    ui.label(*what);
+                for (keys, what) in keys::sheet() {
+                    ui.strong(keys);
+                    ui.label(what);
                     ui.end_row();
                 }
             });

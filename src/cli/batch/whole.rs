@@ -2,8 +2,9 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use tinta::batch::{Job, JobCommand, JobValue, place_in};
+use tinta::batch::{Job, JobCommand, place_in};
 use tinta::report::ROWS_FILE;
+use tinta::settings::OptionValue;
 use tinta::{Error, Result};
 
 /// A folder in the making.
@@ -18,7 +19,9 @@ impl Making {
     /// Of a measurement; of other jobs none. A folder that is no measurement's is refused.
     pub fn of(job: &Job, folder: &Path) -> Result<Option<Self>> {
         let output = job.options.iter().find(|(key, _)| key == "output");
-        let (JobCommand::Measure, Some((_, JobValue::Text(output)))) = (job.command, output) else { return Ok(None) };
+        let (JobCommand::Measure, Some((_, OptionValue::Text(output)))) = (job.command, output) else {
+            return Ok(None);
+        };
         let Ok(place) = place_in(folder, output.trim_end_matches('/')) else { return Ok(None) };
         let name = place.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let is_empty = || std::fs::read_dir(&place).is_ok_and(|mut files| files.next().is_none());

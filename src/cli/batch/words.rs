@@ -5,7 +5,7 @@ use super::super::preset::words_of;
 use clap::{Arg, ArgAction, Command, CommandFactory};
 use std::ffi::OsString;
 use std::path::Path;
-use tinta::batch::{Job, JobValue, OUTPUTS, place_in};
+use tinta::batch::{Job, OUTPUTS, place_in};
 use tinta::preset::OptionValue;
 use tinta::{Error, Result};
 
@@ -40,18 +40,18 @@ fn unknown(command: &Command, key: &str) -> Error {
 }
 
 /// The values of an option: as many as are given where it may be repeated, otherwise one, with commas in it.
-fn values(arg: &Arg, key: &str, value: &JobValue, folder: &Path) -> Result<Vec<OptionValue>> {
+fn values(arg: &Arg, key: &str, value: &OptionValue, folder: &Path) -> Result<Vec<OptionValue>> {
     let is_repeated = matches!(arg.get_action(), ArgAction::Append) && arg.get_value_delimiter().is_none();
     if OUTPUTS.contains(&key) {
         let refuse = |problem: String| Error::Setting { setting: key.to_owned(), problem };
-        let JobValue::Text(output) = value else { return Err(refuse("this is a text: the name of a file".to_owned())) };
+        let OptionValue::Text(output) = value else {
+            return Err(refuse("this is a text: the name of a file".to_owned()));
+        };
         let place = place_in(folder, output).map_err(|problem| refuse(format!("{output}: {problem}")))?;
         return Ok(vec![OptionValue::text(place.to_string_lossy())]);
     }
     Ok(match value {
-        JobValue::Switch(switch) => vec![OptionValue::Switch(*switch)],
-        JobValue::Text(text) => vec![OptionValue::text(text)],
-        JobValue::Texts(texts) if is_repeated => texts.iter().map(OptionValue::text).collect(),
-        JobValue::Texts(texts) => vec![OptionValue::text(texts.join(","))],
+        OptionValue::Texts(texts) if is_repeated => texts.iter().map(OptionValue::text).collect(),
+        value => vec![value.clone()],
     })
 }

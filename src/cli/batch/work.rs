@@ -11,9 +11,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Receiver;
 use std::time::Instant;
-use tinta::batch::{Job, JobValue, Outcome, Run, Status, place_in, written};
+use tinta::batch::{Job, Outcome, Run, Status, place_in, written};
 use tinta::recipe::Driver;
 use tinta::renderer::milliseconds_since;
+use tinta::settings::OptionValue;
 use tinta::{Error, Renderer, Result};
 
 /// Does what it is told until nobody tells any more.
@@ -124,7 +125,7 @@ fn command(command: Command, given: &Given, studio: &mut Studio) -> Result<Verdi
 /// Makes the folders that outputs lie in.
 fn make_folders(job: &Job, folder: &Path) -> Result<()> {
     for (key, value) in &job.options {
-        let JobValue::Text(output) = value else { continue };
+        let OptionValue::Text(output) = value else { continue };
         if !tinta::batch::OUTPUTS.contains(&key.as_str()) {
             continue;
         }

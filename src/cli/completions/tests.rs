@@ -82,7 +82,7 @@ fn every_name_offered_is_taken_and_every_choice_is_offered() {
             // A choice among names says so; all of them must be offered.
             let Some(text) = refusal(command, option, "?") else { continue };
             if let Some(list) = text.split_once("choose ").map(|(_, list)| list.lines().next().unwrap()) {
-                assert!(!offered.is_empty(), "{what} is a choice ({list}): offer its names in completions/values.rs");
+                assert!(!offered.is_empty(), "{what} is a choice ({list}): offer its names");
                 choices += 1;
                 for name in list.strip_prefix("one of ").into_iter().flat_map(|list| list.split(", ")) {
                     let name = name.trim_start_matches("or ");

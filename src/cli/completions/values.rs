@@ -1,20 +1,12 @@
 //! What stands after an option: names, files or folders. clap knows how to read values, not which there are; a shell has
 //! to be told. Reading and help stay as they are: only the scripts are made from this.
 
-use super::super::preset::ON_OFF;
 use clap::builder::{PossibleValuesParser, Resettable};
 use clap::{Arg, Command, ValueHint};
-use tinta::edges::{Class, SilhouetteRule};
 use tinta::figures::figures;
-use tinta::lines::Hidden;
-use tinta::mesh::{Normals, UpAxis};
-use tinta::plan::LineDrawing;
 use tinta::plan::prune::Rule;
-use tinta::styles::{
-    CetCoordinate, CetFilter, ContrastOperator, Filter, LightOn, MapEncoding, MapTarget, Noise, PaintMode, Quality,
-    Recipe, Supersample, ToneLookup,
-};
-use tinta::{Backend, Show, Size, StyleName};
+use tinta::settings::HasSettings;
+use tinta::{Backend, LineSettings, LoadOptions, SceneSettings, Show, Size, Style, StyleName, SvgSettings};
 
 /// The command with what a shell offers for each value.
 pub fn with_values(command: Command) -> Command {
@@ -34,11 +26,7 @@ fn with_value(command: &str, arg: Arg) -> Arg {
         return arg;
     }
     let value_name = arg.get_value_names().unwrap_or_default().first().map_or("", |name| name.as_str());
-    let offered = match arg.get_long() {
-        Some(_) if value_name == ON_OFF => vec!["on", "off"],
-        Some(option) => offered(command, option),
-        None => Vec::new(),
-    };
+    let offered = arg.get_long().map(|option| offered(command, option)).unwrap_or_default();
     if !offered.is_empty() {
         // A default need not be one of them: a view may be two angles.
         return arg.default_value(Resettable::Reset).value_parser(PossibleValuesParser::new(offered));
@@ -62,39 +50,27 @@ fn offered(command: &str, option: &str) -> Vec<&'static str> {
         "left" | "right" | "styles" => names(&StyleName::ALL),
         "backend" => names(&Backend::ALL),
         "show" => names(&Show::ALL),
-        "view" => vec!["iso", "front", "back", "left", "right", "top", "bottom"],
-        "up-axis" => names(&UpAxis::ALL),
-        "normals" => names(&Normals::ALL),
-        "cull" => vec!["none", "back"],
-        "tones" => vec!["1", "2", "3"],
-        "tone-lookup" => names(&ToneLookup::ALL),
-        "filter" => names(&Filter::ALL),
-        "map-encoding" => names(&MapEncoding::ALL),
-        "border-width" => vec!["paper", "1", "2", "3", "4"],
-        "supersample" => names(&Supersample::ALL),
-        "map-target" => names(&MapTarget::ALL),
-        "silhouette" => names(&SilhouetteRule::ALL),
-        "classes" => with(names(&Class::ALL), &["all"]),
-        "class-colors" => vec!["figure-6"],
-        "line-drawing" => names(&LineDrawing::ALL),
-        "ink-depth" => vec!["write", "test"],
-        "paint" => names(&PaintMode::ALL),
-        "ramp-row" => vec!["material", "object", "0", "1", "2", "3"],
-        "light" => names(&LightOn::ALL),
-        "quality" => names(&Quality::ALL),
-        "charcoal" => names(&Recipe::ALL),
-        "cet-filter" => names(&CetFilter::ALL),
-        "cet-coordinate" => names(&CetCoordinate::ALL),
-        "contrast-operator" => names(&ContrastOperator::ALL),
-        "noise" => names(&Noise::ALL),
-        "improve" => vec!["all", "none", "clamp", "wrap", "paper-coordinate", "luminance"],
-        "hidden" => names(&Hidden::ALL),
         "keep" => names(&Rule::ALL),
         "suite" => vec!["papers", "solids", "all"],
         "only" if command == "stress" => GROUPS.to_vec(),
         "only" => figures(Size { width: 1, height: 1 }).iter().map(|figure| figure.id).collect(),
-        _ => Vec::new(),
+        _ => {
+            let tables = [
+                of_table::<Style>,
+                of_table::<SceneSettings>,
+                of_table::<LoadOptions>,
+                of_table::<LineSettings>,
+                of_table::<SvgSettings>,
+            ];
+            tables.iter().map(|table| table(option)).find(|names| !names.is_empty()).unwrap_or_default()
+        }
     }
+}
+
+/// What a table of settings offers for an option; nothing for one of another table.
+pub fn of_table<T: HasSettings>(option: &str) -> Vec<&'static str> {
+    let settings = T::table().settings.iter().filter(|setting| setting.name == option);
+    settings.map(|setting| setting.kind.offered()).next().unwrap_or_default()
 }
 
 /// Groups of cases that `tinta stress --only` names.

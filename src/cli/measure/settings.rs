@@ -3,7 +3,6 @@
 use super::super::options::StyleArguments;
 use clap::Parser;
 use tinta::measure::Setting;
-use tinta::preset::of_style;
 use tinta::recipe::option_words;
 use tinta::shell::quoted;
 use tinta::{Error, Result, Style, StyleName};
@@ -102,7 +101,7 @@ pub fn of_words(words: &[String]) -> Result<Option<Setting>> {
     let style = parsed.styles.style(parsed.style)?;
     let is_faithful = style == Style::named(parsed.style);
     // What is as by default is left out, as in the settings above.
-    let mut changed = of_style(&style)?;
+    let mut changed = style.to_options()?;
     changed.remove("style");
     let words = changed.iter().flat_map(|(name, value)| option_words(name, value));
     let options = words.fold(format!("--style {}", parsed.style.name()), |text, word| text + " " + &quoted(&word));

@@ -1,65 +1,16 @@
 //! Options that the drawn styles do not have: said, since they are harmless but hardly what was meant.
 
-/// Options of styles with the styles they are for; `lines` is that of drawings.
-const OF_STYLES: [(&[&str], &[&str]); 10] = [
-    (&["no-borders"], &["three-pass", "two-pass", "mrt", "inking", "dietrich", "ink"]),
-    (&["cull"], &["phong", "three-pass", "two-pass", "mrt", "inking", "dietrich", "ink", "charcoal", "sand"]),
-    (&["tones", "tone-thresholds", "tone-levels", "tone-lookup"], &["three-pass", "two-pass", "mrt", "ink"]),
-    (
-        &["filter", "detection-factor", "background-quad", "map-encoding", "slope-threshold"],
-        &["three-pass", "two-pass", "mrt"],
-    ),
-    (&["border-width", "supersample"], &["three-pass", "two-pass", "mrt", "ink"]),
-    (&["map-target"], &["three-pass", "two-pass", "ink"]),
-    (&["crease-angle"], &["inking", "ink", "lines"]),
-    (&["silhouette", "classes", "class-colors", "line-width"], &["inking", "lines"]),
-    (
-        &[
-            "smooth",
-            "joints",
-            "back-edges",
-            "line-drawing",
-            "ink-depth",
-            "polygon-offset",
-            "paint",
-            "ramp",
-            "ramp-row",
-            "light",
-            "texture",
-        ],
-        &["inking"],
-    ),
-    (
-        &[
-            "charcoal",
-            "seed",
-            "density",
-            "cet-exponent",
-            "contrast-exponent",
-            "saturation",
-            "smudge",
-            "light-1",
-            "light-2",
-            "paper",
-            "texture-size",
-            "cet-filter",
-            "cet-coordinate",
-            "contrast-operator",
-            "noise",
-            "improve",
-        ],
-        &["charcoal", "sand"],
-    ),
-];
+use tinta::settings::HasSettings;
+use tinta::{LineSettings, Style, StyleName, SvgSettings};
 
-/// Of one style each.
-const OF_ONE: [(&str, &str); 2] = [("ink-threshold", "dietrich"), ("quality", "ink")];
-
-/// Whether this option changes nothing in any of the styles; options that are no style's are not meant.
+/// Whether this option changes nothing in any of the styles, of which `lines` is one; options that are no style's are not
+/// meant.
 pub fn is_ignored(option: &str, styles: &[&str]) -> bool {
-    let are_others = |having: &[&str]| !styles.iter().any(|style| having.contains(style));
-    OF_STYLES.iter().any(|(options, having)| options.contains(&option) && are_others(having))
-        || OF_ONE.iter().any(|(one, having)| *one == option && are_others(&[having]))
+    let has = |style: &&str| match style.parse::<StyleName>() {
+        Ok(name) => Style::table().find(&Style::named(name), option).is_some(),
+        Err(_) => LineSettings::table().has(option) || SvgSettings::table().has(option),
+    };
+    Style::table().has(option) && !styles.iter().any(has)
 }
 
 /// What to say about options given as words on a command line that none of the drawn styles has.

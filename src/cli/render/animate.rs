@@ -20,7 +20,7 @@ pub struct AnimationArguments {
     pub turntable: Option<u32>,
 
     /// Draw all frames of an animated model (MD2), or those of one movement, such as --animate=run [default: off]
-    #[arg(long, value_name = "MOVEMENT", num_args = 0..=1, require_equals = true, default_missing_value = "", conflicts_with = "model_frame")]
+    #[arg(long, value_name = "MOVEMENT", num_args = 0..=1, require_equals = true, default_missing_value = "", conflicts_with = "model-frame")]
     pub animate: Option<String>,
 
     /// How long each picture is shown, milliseconds [default: 100 for a model's frame; a turn in 2500, at most 200 each]
@@ -89,7 +89,7 @@ pub fn run(arguments: &Arguments, target: &AnimationTarget, studio: &mut Studio)
     super::super::print_json(&json!({
         "version": env!("CARGO_PKG_VERSION"),
         "models": models,
-        "load": arguments.model.options(),
+        "load": arguments.model.settings()?,
         "style": style,
         "show": arguments.styles.show,
         "size": scenes[0].size,
@@ -120,10 +120,10 @@ fn refuse_what_is_for_one_picture(arguments: &Arguments) -> Result<()> {
 
 /// A scene for each picture, and how long reading took, milliseconds.
 pub(super) fn scenes(arguments: &Arguments, style: &Style, library: &Library) -> Result<(Vec<Scene>, f64)> {
-    let settings = arguments.scene.settings(arguments.camera.settings());
+    let settings = arguments.scene_settings()?;
     if let Some(movement) = &arguments.animation.animate {
         let start = Instant::now();
-        let frames = model_frames(&arguments.models, &arguments.model.options(), movement)?;
+        let frames = model_frames(&arguments.models, &arguments.model.settings()?, movement)?;
         let load_ms = milliseconds_since(start);
         return Ok((one_scene_a_frame(frames, &settings)?, load_ms));
     }

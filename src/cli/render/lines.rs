@@ -8,7 +8,7 @@ use std::path::Path;
 use std::str::FromStr;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
-use tinta::lines::{ClassWidths, Hidden, LineSettings, PaperSize, Progress as LineProgress, chain, svg_of_paths};
+use tinta::lines::{LineSettings, Progress as LineProgress, chain, svg_of_paths};
 use tinta::preset::Options;
 use tinta::record::{CameraRecord, LineCounts, LinesRecord, LinesStyle, ModelRecord, lines_json};
 use tinta::renderer::milliseconds_since;
@@ -29,53 +29,6 @@ impl FromStr for StyleChoice {
             return Ok(Self::Lines);
         }
         text.parse().map(Self::Picture).map_err(|error: String| format!("{error}, lines"))
-    }
-}
-
-#[derive(clap::Args)]
-#[command(
-    next_help_heading = "Style lines: exact visible lines, into FILE.svg or FILE.json; also --classes, --class-colors, --line-width, --crease-angle"
-)]
-pub struct LineArguments {
-    /// Hidden lines: none, dashed, ghost (faint; with --pen thin as all), in layers below the visible ones [default: none]
-    #[arg(long, value_name = "HOW")]
-    hidden: Option<Hidden>,
-
-    /// Widths of single classes of lines: CLASS=PIXELS with commas between; pixels of --size [default: all of --line-width]
-    #[arg(long, value_name = "WIDTHS", allow_hyphen_values = true)]
-    class_widths: Option<ClassWidths>,
-
-    /// Width on paper, millimetres; the height follows [default: none, sizes are pixels]
-    #[arg(long, value_name = "MM", allow_hyphen_values = true, conflicts_with = "dpi")]
-    width_mm: Option<f64>,
-
-    /// Size on paper as so many pixels an inch [default: none, sizes are pixels]
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    dpi: Option<f64>,
-
-    /// Write each path's class, object, mesh edges and their angles beside it, and keep all its points [default: off]
-    #[arg(long)]
-    provenance: bool,
-
-    /// For a plotter: thin lines ordered to spare empty ways, dashes as lines of their own, no background [default: off]
-    #[arg(long, conflicts_with_all = ["class_widths", "line_width"])]
-    pen: bool,
-}
-
-impl LineArguments {
-    /// Refuses the first of these options that is given.
-    pub fn refuse(&self, problem: &str) -> Result<()> {
-        refuse_given(
-            &[
-                ("--hidden", self.hidden.is_some()),
-                ("--class-widths", self.class_widths.is_some()),
-                ("--width-mm", self.width_mm.is_some()),
-                ("--dpi", self.dpi.is_some()),
-                ("--provenance", self.provenance),
-                ("--pen", self.pen),
-            ],
-            problem,
-        )
     }
 }
 
@@ -135,11 +88,11 @@ pub fn run(arguments: &Arguments, options: &Options, format: Format, library: &L
     let target = TextTarget::check(&arguments.output)?;
     refuse_what_lines_have_not(arguments, format, &target)?;
     let settings = arguments.styles.line_settings()?;
-    svg_settings(arguments, None).check()?;
+    svg_settings(arguments, None)?.check()?;
     let start = Instant::now();
-    let (meshes, files) = load_with_files(library, &arguments.models, &arguments.model.options())?;
+    let (meshes, files) = load_with_files(library, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
-    let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()))?;
+    let scene = Scene::new(meshes, &arguments.scene_settings()?)?;
     let lines = find(&scene, &settings)?;
     if !lines.segments.iter().any(|segment| segment.is_visible) {
         super::super::say("tinta: no line of these classes is seen in this picture; see --classes, --eye and --target");
@@ -152,7 +105,7 @@ pub fn run(arguments: &Arguments, options: &Options, format: Format, library: &L
         }
         Format::Json => None,
     };
-    let drawn = svg_settings(arguments, recipe.as_ref());
+    let drawn = svg_settings(arguments, recipe.as_ref())?;
     let start = Instant::now();
     let paths = if format == Format::Svg || arguments.run.json { chain(&lines.segments) } else { Vec::new() };
     let counts = LineCounts::new(&lines, &paths);
@@ -170,10 +123,10 @@ pub fn run(arguments: &Arguments, options: &Options, format: Format, library: &L
         version: env!("CARGO_PKG_VERSION"),
         model: ModelRecord::together(&models),
         models,
-        load: arguments.model.options(),
-        copies: arguments.scene.copies,
+        load: arguments.model.settings()?,
+        copies: arguments.scene_settings()?.copies,
         triangles: scene.triangle_count(),
-        style: LinesStyle { name: "lines", lines: settings, svg: (format == Format::Svg).then_some(drawn) },
+        style: LinesStyle { lines: settings, svg: (format == Format::Svg).then_some(drawn) },
         size: scene.size,
         camera: CameraRecord::new(&scene),
         edges: lines.edges,
@@ -216,28 +169,16 @@ fn find(scene: &Scene, settings: &LineSettings) -> Result<VisibleLines> {
 
 /// How the SVG is to be written. Its command has a name of its own for the output: the same drawing is the same bytes wherever
 /// it is written.
-pub fn svg_settings(arguments: &Arguments, recipe: Option<&Recipe>) -> SvgSettings {
-    let options = &arguments.lines;
-    let (class_colors, line_width_px) = arguments.styles.line_look();
+pub fn svg_settings(arguments: &Arguments, recipe: Option<&Recipe>) -> Result<SvgSettings> {
     let names =
         arguments.models.iter().map(|path| Path::new(path).file_name().map_or(path.into(), |n| n.to_string_lossy()));
-    SvgSettings {
+    Ok(SvgSettings {
         title: names.collect::<Vec<_>>().join(", "),
         command: recipe.map(|recipe| recipe.command_line("drawing.svg")).unwrap_or_default(),
         recipe: recipe.and_then(Recipe::json).unwrap_or_default(),
-        hidden: options.hidden.unwrap_or_default(),
-        class_colors,
-        line_width_px,
-        class_widths: options.class_widths.unwrap_or_default(),
-        background: arguments.scene.settings(arguments.camera.settings()).background,
-        paper_size: match (options.width_mm, options.dpi) {
-            (Some(width), _) => PaperSize::WidthMm(width),
-            (None, Some(dpi)) => PaperSize::Dpi(dpi),
-            (None, None) => PaperSize::Unset,
-        },
-        has_provenance: options.provenance,
-        is_for_pen: options.pen,
-    }
+        background: arguments.scene_settings()?.background,
+        ..arguments.styles.svg_settings(&arguments.lines)?
+    })
 }
 
 fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &TextTarget) -> Result<()> {
@@ -253,7 +194,10 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &Te
         ],
         "style lines has no passes and no frames; leave it out, or name a picture such as drawing.png",
     )?;
-    refuse_given(&[("--no-borders", arguments.styles.no_borders)], "it is lines that are drawn; leave it out")?;
+    refuse_given(
+        &[("--no-borders", arguments.styles.are_without_borders())],
+        "it is lines that are drawn; leave it out",
+    )?;
     refuse_given(
         &[("-o -", *target == TextTarget::Stdout && run.json)],
         "the drawing and --json cannot share standard output; name a file",

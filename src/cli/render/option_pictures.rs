@@ -104,7 +104,10 @@ fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
     match parsed(words).0.command {
         Command::Render(arguments) if arguments.output.ends_with(".svg") => {
             into("drawing.svg");
-            rasterized(&std::fs::read_to_string(folder.path().join("drawing.svg")).unwrap(), arguments.scene.size)
+            rasterized(
+                &std::fs::read_to_string(folder.path().join("drawing.svg")).unwrap(),
+                arguments.scene_settings().unwrap().size,
+            )
         }
         Command::Render(arguments) => {
             opaque(tiled(pictures(&arguments, renderer).unwrap_or_else(|error| refuse(&error))))

@@ -2,7 +2,7 @@ use super::*;
 use crate::gl::Backend;
 use crate::gl::context::Context;
 use crate::mesh::Mesh;
-use crate::plan::{Attachment, Choice};
+use crate::plan::{Attachment, SettingValue};
 use crate::scene::{Scene, SceneSettings};
 use crate::styles::{Cartoon, Ink, MapEncoding, MapTarget, Show, Style, StyleName};
 use std::sync::Arc;
@@ -51,8 +51,8 @@ fn one_texture_in_two_formats_is_an_error_and_leaves_nothing_behind() {
     const HALF: Attachments = Attachments {
         colors: &[Attachment { name: Drawn("Map"), format: Format::Float16 }],
         has_depth: false,
-        asked_by: Choice { setting: "size", value: "8" },
-        instead: Choice { setting: "size", value: "4" },
+        asked_by: SettingValue { setting: "size", value: "8" },
+        instead: SettingValue { setting: "size", value: "4" },
         instead_draws: None,
     };
     let context = Context::open(Backend::Auto).unwrap_or_else(|error| panic!("{error}"));

@@ -2,23 +2,20 @@
 
 use crate::edges::Class;
 use crate::error::{Error, Result};
-use crate::names::find;
 use crate::scene::{Background, Color, Size};
-use crate::styles::ClassColors;
-use serde::Serialize;
+use crate::settings::{Choice, HasSettings, Kind, Problem, Setting, Table, Value, under};
+use crate::styles::{ClassColors, line_width};
 use std::str::FromStr;
+use std::sync::LazyLock;
 
 /// How an SVG is written.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SvgSettings {
     /// Its title. Default none.
-    #[serde(skip)]
     pub title: String,
     /// The command that made it, kept in its metadata. Default none.
-    #[serde(skip)]
     pub command: String,
     /// The recipe to make it again, JSON, kept in its metadata too. Default none.
-    #[serde(skip)]
     pub recipe: String,
     /// What becomes of hidden lines. Default none of them is written.
     pub hidden: Hidden,
@@ -57,9 +54,82 @@ impl Default for SvgSettings {
     }
 }
 
+impl HasSettings for SvgSettings {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<SvgSettings>> =
+            LazyLock::new(|| Table { settings: SvgSettings::settings(), defaults: vec![SvgSettings::default()] });
+        &TABLE
+    }
+}
+
+/// What a size on paper that is left open is called.
+const UNSET: &str = "none";
+
+impl SvgSettings {
+    /// The settings; title, recipe and background come from elsewhere.
+    fn settings() -> Vec<Setting<Self>> {
+        let number = |low: f64, high: f64| Kind::Numbers { count: 1, range: [low, high], decimals: 1 };
+        let width = Setting::of(
+            "width-mm",
+            "MM",
+            number(10.0, 1000.0),
+            "Width on paper, millimetres; the height follows",
+            |svg: &Self| if let PaperSize::WidthMm(width) = svg.paper_size { width.text() } else { UNSET.to_owned() },
+            |svg, text| {
+                svg.paper_size = if text == UNSET { PaperSize::Unset } else { PaperSize::WidthMm(f64::parse(text)?) };
+                Ok(())
+            },
+        );
+        let dpi = Setting::of(
+            "dpi",
+            "N",
+            number(10.0, 1200.0),
+            "Size on paper as so many pixels an inch",
+            |svg: &Self| if let PaperSize::Dpi(dpi) = svg.paper_size { dpi.text() } else { UNSET.to_owned() },
+            |svg, text| {
+                svg.paper_size = if text == UNSET { PaperSize::Unset } else { PaperSize::Dpi(f64::parse(text)?) };
+                Ok(())
+            },
+        );
+        let settings = vec![
+            ClassColors::setting(|svg: &mut Self| &mut svg.class_colors),
+            line_width(|svg: &mut Self| &mut svg.line_width_px),
+            Setting::field(
+                "hidden",
+                "HOW",
+                "Hidden lines: none, dashed, ghost (faint; with --pen thin as all), in layers below the visible ones",
+                |svg: &mut Self| &mut svg.hidden,
+            ),
+            Setting::field(
+                "class-widths",
+                "WIDTHS",
+                "Widths of single classes of lines: CLASS=PIXELS with commas between; pixels of --size",
+                |svg: &mut Self| &mut svg.class_widths,
+            )
+            .said("all of --line-width"),
+            width.open(UNSET).said("none, sizes are pixels"),
+            dpi.open(UNSET).said("none, sizes are pixels"),
+            Setting::flag(
+                "provenance",
+                "Write each path's class, object, mesh edges and their angles beside it, and keep all its points",
+                |svg: &Self| svg.has_provenance,
+                |svg, is_on| svg.has_provenance = is_on,
+            ),
+            Setting::flag(
+                "pen",
+                "For a plotter: thin lines ordered to spare empty ways, dashes as lines of their own, no background",
+                |svg: &Self| svg.is_for_pen,
+                |svg, is_on| svg.is_for_pen = is_on,
+            ),
+        ];
+        let heading = "Style lines: exact visible lines, into FILE.svg or FILE.json; also --classes, --class-colors, \
+                       --line-width, --crease-angle";
+        under(heading, settings).collect()
+    }
+}
+
 /// What becomes of hidden lines.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Hidden {
     /// They are left out.
     #[default]
@@ -75,17 +145,12 @@ impl Hidden {
     pub const ALL: [(&'static str, Self); 3] = [("none", Self::None), ("dashed", Self::Dashed), ("ghost", Self::Ghost)];
 }
 
-impl FromStr for Hidden {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for Hidden {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
 /// How large an SVG is on paper.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum PaperSize {
     /// In pixels, whatever they are.
     #[default]
@@ -119,14 +184,34 @@ impl PaperSize {
 }
 
 /// Widths of lines by class, pixels, in the order of [`Class::ALL`]; `None` as wide as all others.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ClassWidths(pub [Option<f32>; Class::ALL.len()]);
+
+impl Value for ClassWidths {
+    fn kind() -> Kind {
+        Kind::Text { offered: &[], example: "silhouette=3,crease=0.5" }
+    }
+
+    fn text(&self) -> String {
+        let given = Class::ALL.iter().zip(self.0);
+        let given = given.filter_map(|((name, _), width)| width.map(|width| format!("{name}={width}")));
+        let text = given.collect::<Vec<_>>().join(",");
+        if text.is_empty() { UNSET.to_owned() } else { text }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(text.parse()?)
+    }
+}
 
 impl FromStr for ClassWidths {
     type Err = String;
 
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         let mut widths = Self::default();
+        if text == UNSET {
+            return Ok(widths);
+        }
         for setting in text.split(',') {
             let usage = || "write CLASS=PIXELS with commas between: silhouette=3,crease=1".to_owned();
             let (class, width) = setting.split_once('=').ok_or_else(usage)?;

@@ -2,12 +2,12 @@ use super::*;
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::prune::{Pruning, prune};
-use crate::plan::{Attachment, Attachments, Choice, Pass, PlanPicture, Program, Sampling};
+use crate::plan::{Attachment, Attachments, Pass, PlanPicture, Program, Sampling, SettingValue};
 use crate::scene::SceneSettings;
 use crate::styles::{Cartoon, MapEncoding, MapTarget, Mrt, Show, Style, StyleName, Supersample, ToneLookup};
 use std::sync::Arc;
 
-const ASKED: Choice = Choice { setting: "map-target", value: "texture" };
+const ASKED: SettingValue = SettingValue { setting: "map-target", value: "texture" };
 
 fn scene() -> Scene {
     let settings = SceneSettings { size: Size { width: 8, height: 6 }, ..SceneSettings::default() };

@@ -1,7 +1,6 @@
 //! The charcoal drawing's choices that have names.
 
-use crate::names::find;
-use serde::Serialize;
+use crate::settings::{Choice, Kind, Problem, Value};
 use std::str::FromStr;
 
 /// The text's ways to draw, in its conclusions.
@@ -23,8 +22,7 @@ impl Recipe {
 }
 
 /// How the contrast-enhanced texture is filtered.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum CetFilter {
     /// GL_LINEAR, as published.
     #[default]
@@ -39,8 +37,7 @@ impl CetFilter {
 }
 
 /// By which light the rows of the contrast-enhanced texture are read.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum CetCoordinate {
     /// Before saturation, as published.
     #[default]
@@ -55,8 +52,7 @@ impl CetCoordinate {
 }
 
 /// What enhances contrast.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum ContrastOperator {
     /// The light to the power of the exponent, as published.
     #[default]
@@ -74,8 +70,7 @@ impl ContrastOperator {
 }
 
 /// Where the noise lies that chooses grains.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Noise {
     /// On the picture, as published: the model moves behind it.
     #[default]
@@ -90,7 +85,7 @@ impl Noise {
 }
 
 /// Which of the text's flaws are mended.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Improvements {
     /// V2: the saturated light is clamped to 1.
     pub clamp: bool,
@@ -107,6 +102,32 @@ impl Improvements {
     pub const ALL: Self = Self { clamp: true, wrap: true, paper_coordinate: true, luminance: true };
 }
 
+impl Improvements {
+    /// Each flaw's name, and whether it is mended.
+    fn named(&mut self) -> [(&'static str, &mut bool); 4] {
+        let Self { clamp, wrap, paper_coordinate, luminance } = self;
+        [("clamp", clamp), ("wrap", wrap), ("paper-coordinate", paper_coordinate), ("luminance", luminance)]
+    }
+}
+
+impl Value for Improvements {
+    fn kind() -> Kind {
+        let names = Self::default().named().map(|(name, _)| name);
+        Kind::Several(names.into_iter().chain(["all", "none"]).collect())
+    }
+
+    fn text(&self) -> String {
+        let mut all = *self;
+        let mended: Vec<&str> =
+            all.named().into_iter().filter(|(_, is_mended)| **is_mended).map(|(name, _)| name).collect();
+        if mended.is_empty() { "none".to_owned() } else { mended.join(",") }
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        Ok(text.parse()?)
+    }
+}
+
 impl FromStr for Improvements {
     type Err = String;
 
@@ -117,60 +138,31 @@ impl FromStr for Improvements {
             _ => {}
         }
         let mut chosen = Self::default();
-        for name in text.split(',') {
-            match name.trim() {
-                "clamp" => chosen.clamp = true,
-                "wrap" => chosen.wrap = true,
-                "paper-coordinate" => chosen.paper_coordinate = true,
-                "luminance" => chosen.luminance = true,
-                _ => {
-                    return Err(
-                        "write all, none, or some of clamp, wrap, paper-coordinate, luminance with commas between"
-                            .to_owned(),
-                    );
-                }
-            }
+        for name in text.split(',').map(str::trim) {
+            let usage = "write all, none, or some of clamp, wrap, paper-coordinate, luminance with commas between";
+            let mut named = chosen.named().into_iter();
+            *named.find(|(known, _)| *known == name).ok_or_else(|| usage.to_owned())?.1 = true;
         }
         Ok(chosen)
     }
 }
 
-impl FromStr for Recipe {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for Recipe {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
-impl FromStr for CetFilter {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for CetFilter {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
-impl FromStr for CetCoordinate {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for CetCoordinate {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
-impl FromStr for ContrastOperator {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for ContrastOperator {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 
-impl FromStr for Noise {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
-    }
+impl Choice for Noise {
+    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }

@@ -3,8 +3,8 @@
 use super::Charcoal;
 use crate::error::{Error, Result};
 use crate::picture::Picture;
+use crate::settings::{Kind, Problem, Value};
 use crate::textures::{ContrastTexture, LARGEST_SIDE_PX, NoiseTexture, PaperTexture};
-use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -36,12 +36,23 @@ impl Paper {
     }
 }
 
-impl Serialize for Paper {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+/// What paper that is made is called.
+const MADE: &str = "made";
+
+impl Value for Paper {
+    fn kind() -> Kind {
+        Kind::File
+    }
+
+    fn text(&self) -> String {
         match self {
-            Self::Made => serializer.serialize_str("made"),
-            Self::File { path, .. } => serializer.collect_str(&path.display()),
+            Self::Made => MADE.to_owned(),
+            Self::File { path, .. } => path.to_string_lossy().into_owned(),
         }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(if text == MADE { Self::Made } else { Self::read(Path::new(text))? })
     }
 }
 
@@ -92,7 +103,7 @@ impl CharcoalPictures {
                 seed,
                 density_percent: charcoal.density_percent,
                 exponent: charcoal.cet_exponent,
-                ..ContrastTexture::default()
+                blur_px: charcoal.cet_blur_px,
             },
             noise: NoiseTexture { size, seed },
             paper: charcoal.paper.clone(),
