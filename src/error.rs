@@ -147,9 +147,9 @@ pub enum Error {
     /// A plan cannot be drawn for this scene.
     #[error("the plan cannot be drawn: {flaw}")]
     Plan {
-        /// What is wrong with it.
+        /// What is wrong with it: a [`Flaw`](crate::plan::Flaw).
         #[source]
-        flaw: crate::plan::Flaw,
+        flaw: Box<dyn std::error::Error + Send + Sync>,
     },
     /// The driver refused one of our shaders.
     #[error("glsl/{path}: the driver refuses this shader ({log}); another driver may take it: see `tinta info`")]

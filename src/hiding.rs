@@ -1,6 +1,6 @@
 //! Which faces of a mesh a view cannot show, so that GL need not draw them and the picture stays the same byte for byte.
 //!
-//! In: a mesh and its arrays, once; then a scene, for every view. Out: the arrays' indices without those faces.
+//! In: a mesh and its arrays, once; then an [`ObjectView`], for every view. Out: the arrays' indices without those faces.
 //!
 //! Leaving out all back faces would not do: at silhouettes, folds and holes a back face may win a pixel, by a tie in depth or
 //! because nothing is in front of it. A face is left out only where a front face of its own shell is surely nearer in every
@@ -46,11 +46,12 @@ mod winding;
 #[cfg(test)]
 mod tests;
 
+use crate::camera::Camera;
 use crate::mesh::{Mesh, NONE, Part, VertexArrays, triangle_normal};
 use crate::threads::{filled, threads_for};
 use crate::tolerances::{LARGEST_THICKNESS, SHELL_THICKNESS};
 use flags::Hierarchy;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Mat4, Vec3};
 use serde::Serialize;
 use shells::{Cap, Shells, Surface};
 
@@ -95,6 +96,23 @@ struct Sight {
     /// Unit vectors to the right, up and towards the eye.
     axes: [DVec3; 3],
     is_parallel: bool,
+}
+
+/// An object as a scene shows it.
+#[derive(Debug, Clone, Copy)]
+pub struct ObjectView<'a> {
+    /// What GL draws of it.
+    pub arrays: &'a VertexArrays,
+    /// The camera, world space.
+    pub camera: &'a Camera,
+    /// Where the mesh's own origin is, world space.
+    pub offset: DVec3,
+    /// The scene's radius, file units.
+    pub scene_radius: f64,
+    /// The picture's width over its height.
+    pub aspect: f64,
+    /// From the arrays' coordinates to the picture.
+    pub clip_from_object: Mat4,
 }
 
 /// How much of a mesh may be hidden.

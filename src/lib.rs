@@ -58,12 +58,15 @@ pub mod tolerances;
 #[cfg(feature = "window")]
 pub mod window;
 
+mod bvh;
 mod bytes;
+mod clock;
 mod files;
 mod markup;
 mod names;
 mod random;
 mod threads;
+mod values;
 
 pub use animation::{AnimationTarget, AnimationWriter};
 pub use camera::{Camera, CameraSettings, View};

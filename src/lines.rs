@@ -24,9 +24,9 @@
 //! # }
 //! ```
 
-pub(crate) mod boxes;
 mod cast;
 mod chain;
+mod class_colors;
 mod faces;
 mod features;
 mod image;
@@ -40,12 +40,14 @@ mod visibility;
 
 pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
+pub use class_colors::ClassColors;
+pub(crate) use class_colors::line_width;
 pub use svg::{ClassWidths, Hidden, PaperSize, SvgSettings, svg, svg_of_paths};
 
+use crate::clock::milliseconds_since;
 use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::renderer::milliseconds_since;
 use crate::scene::{Scene, Size};
 use crate::settings::{HasSettings, Kind, Setting, Table, Value as _};
 use crate::threads::both;

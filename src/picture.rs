@@ -19,7 +19,7 @@ mod read;
 
 use crate::error::{Error, Result};
 use crate::output::{Staged, check_file, write_standard_output, write_whole};
-use crate::scene::Size;
+use crate::values::Size;
 use image::codecs::{bmp::BmpEncoder, jpeg::JpegEncoder, png, pnm, tga::TgaEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use std::io::Write;

@@ -22,7 +22,7 @@
 use crate::error::{Error, Result};
 use crate::files::shown;
 use crate::gl::ContextInfo;
-use crate::markup::escaped;
+use crate::markup::{RECIPE_BEGIN, RECIPE_END};
 use crate::picture::{Note, png_text};
 use crate::preset::{OptionValue, Options};
 use crate::shell;
@@ -286,20 +286,12 @@ pub fn option_words(name: &str, value: &OptionValue) -> Vec<String> {
     }
 }
 
-const BEGIN: &str = "<tinta:recipe xmlns:tinta=\"urn:tinta:recipe\">";
-const END: &str = "</tinta:recipe>";
-
-/// The recipe as an element of an SVG's metadata, with a line end; nothing for no recipe.
-pub(crate) fn svg_element(json: &str) -> String {
-    if json.is_empty() { String::new() } else { format!("{BEGIN}{}{END}\n", escaped(json)) }
-}
-
 fn in_svg(head: &[u8]) -> std::result::Result<Option<String>, String> {
     let text = String::from_utf8_lossy(head);
     if !text.contains("<svg") {
         return Err("this is neither PNG nor SVG, and other files carry no recipe".to_owned());
     }
-    let inner = text.split_once(BEGIN).and_then(|(_, rest)| rest.split_once(END));
+    let inner = text.split_once(RECIPE_BEGIN).and_then(|(_, rest)| rest.split_once(RECIPE_END));
     Ok(inner.map(|(json, _)| {
         let plain = [("&quot;", "\""), ("&lt;", "<"), ("&gt;", ">"), ("&#39;", "'"), ("&amp;", "&")];
         plain.iter().fold(json.to_owned(), |text, (written, letter)| text.replace(written, letter))

@@ -16,6 +16,7 @@
 //! ```
 
 use crate::camera::CameraSettings;
+pub use crate::clock::milliseconds_since;
 use crate::error::{Error, Result};
 use crate::gl::context::{Context, Current};
 use crate::gl::execute::Resources;
@@ -355,7 +356,7 @@ impl Renderer {
         work: impl FnOnce(&mut Frame<'_>) -> Result<T>,
     ) -> Result<T> {
         self.resources.refuse_if_lost("drawing")?;
-        plan.check(scene).map_err(|flaw| Error::Plan { flaw })?;
+        plan.check(scene).map_err(|flaw| Error::Plan { flaw: Box::new(flaw) })?;
         let surface = scene.size.times(plan.supersample);
         if self.surface != Some(surface) {
             self.resize(surface, plan.supersample)?;
@@ -413,11 +414,6 @@ impl Drop for Renderer {
     fn drop(&mut self) {
         self.release();
     }
-}
-
-/// Milliseconds by the clock since an instant.
-pub fn milliseconds_since(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64() * 1e3
 }
 
 /// The middle value, or the mean of the two middle ones; `None` for none.

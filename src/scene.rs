@@ -26,14 +26,13 @@ mod extent;
 mod pictures;
 mod precision;
 mod turntable;
-mod values;
 
-pub use values::{Background, Color, Rectangle, Size};
+pub use crate::values::{Background, Color, Rectangle, Size};
 
 use crate::camera::{Camera, CameraSettings, Projection};
 use crate::edges::{Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
-use crate::hiding::Hiding;
+use crate::hiding::{Hiding, ObjectView};
 use crate::mesh::{Mesh, NONE, VertexArrays, bounds};
 use crate::picture::Picture;
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
@@ -259,6 +258,19 @@ impl Scene {
     /// dozen times.
     pub fn hiding<'a>(&self, object: &'a Object) -> &'a Hiding {
         object.hiding.get_or_init(|| Hiding::new(&object.mesh, self.arrays(object)))
+    }
+
+    /// What [`Scene::hiding`] is asked with.
+    pub fn view_of<'a>(&'a self, object: &'a Object) -> ObjectView<'a> {
+        let arrays = self.arrays(object);
+        ObjectView {
+            arrays,
+            camera: &self.camera,
+            offset: object.offset,
+            scene_radius: self.radius,
+            aspect: self.size.aspect(),
+            clip_from_object: self.clip_from_view() * self.view_from_object(object, arrays.centre),
+        }
     }
 
     /// Whether [`Scene::hiding`] has been made.

@@ -45,6 +45,7 @@ mod ramp;
 mod supersample;
 mod tones;
 
+pub use crate::lines::ClassColors;
 pub use border::{Border, Filter};
 pub use cartoon::Cartoon;
 pub use charcoal::{
@@ -52,8 +53,7 @@ pub use charcoal::{
 };
 pub use dietrich::Dietrich;
 pub use ink::{Ink, Quality};
-pub(crate) use inking::line_width;
-pub use inking::{ClassColors, Inking, LightOn, PaintMode};
+pub use inking::{Inking, LightOn, PaintMode};
 pub use map::{MapEncoding, MapTarget};
 pub use mrt::Mrt;
 pub use phong::Phong;

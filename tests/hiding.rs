@@ -46,7 +46,7 @@ fn share_left_out(renderer: &mut Renderer, model: &str, views: u32) -> f64 {
         let object = &scene.objects[0];
         let arrays = scene.arrays(object);
         let hiding = hiding.get_or_insert_with(|| Hiding::new(&mesh, arrays));
-        let Some(drawn) = hiding.faces_to_draw(&scene, object, SIZE, SUBPIXEL_BITS) else { continue };
+        let Some(drawn) = hiding.faces_to_draw(&scene.view_of(object), SIZE, SUBPIXEL_BITS) else { continue };
         left_out += drawn.left_out;
         let fewer = Scene::new(vec![Arc::new(reduced(&mesh, arrays, &drawn))], &settings).unwrap();
         assert_eq!(scene.camera, fewer.camera);

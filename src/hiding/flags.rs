@@ -2,7 +2,7 @@
 
 use super::distance::{Triangle, come_near, cross_beyond_corner};
 use super::shells::{Shells, Surface};
-use crate::lines::boxes::{Box3, BoxTree};
+use crate::bvh::{Box3, BoxTree};
 use crate::threads::{cores, in_chunks};
 use glam::DVec3;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

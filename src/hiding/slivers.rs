@@ -4,8 +4,8 @@
 //! seen edge-on has any depth, and may lose to what it should hide; so nothing is left out behind one.
 
 use crate::mesh::NONE;
-use crate::scene::Size;
 use crate::tolerances::WINDOW_ROUNDING_PX;
+use crate::values::Size;
 use glam::Vec2;
 
 /// Cells on a side at most: they are cleared for every view.

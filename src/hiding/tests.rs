@@ -65,7 +65,7 @@ fn scene_with(mesh: Mesh, camera: CameraSettings) -> Scene {
 fn drawn_triangles(scene: &Scene, hiding: &Hiding) -> Vec<bool> {
     let object = &scene.objects[0];
     let arrays = scene.arrays(object);
-    let Some(drawn) = hiding.faces_to_draw(scene, object, SIZE, 8) else {
+    let Some(drawn) = hiding.faces_to_draw(&scene.view_of(object), SIZE, 8) else {
         return vec![true; object.mesh.triangles.len()];
     };
     let mut is_drawn = vec![false; object.mesh.triangles.len()];
@@ -240,7 +240,9 @@ fn a_surface_too_coarse_for_the_faces_leaves_out_nothing() {
     let object = &scene.objects[0];
     let hiding = Hiding::new(&object.mesh, scene.arrays(object));
     let left_out = |side: u32, bits: u32| {
-        hiding.faces_to_draw(&scene, object, Size { width: side, height: side }, bits).map_or(0, |drawn| drawn.left_out)
+        hiding
+            .faces_to_draw(&scene.view_of(object), Size { width: side, height: side }, bits)
+            .map_or(0, |drawn| drawn.left_out)
     };
     assert!(left_out(512, 8) > left_out(64, 8) && left_out(64, 8) > left_out(64, 6), "coarser pixels ask for more");
     assert_eq!(left_out(4, 4), 0);
@@ -254,7 +256,7 @@ fn every_part_of_the_ant_keeps_its_material_and_its_order() {
     let arrays = scene.arrays(object);
     let hiding = Hiding::new(&object.mesh, arrays);
     drawn_triangles(&scene, &hiding);
-    let drawn = hiding.faces_to_draw(&scene, object, SIZE, 8).unwrap();
+    let drawn = hiding.faces_to_draw(&scene.view_of(object), SIZE, 8).unwrap();
     let mut materials = vec![NONE; arrays.vertices.len()];
     for part in &arrays.parts {
         for vertex in &arrays.indices[part.first as usize..][..part.count as usize] {

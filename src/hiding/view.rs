@@ -4,12 +4,12 @@ use super::openings::Openings;
 use super::selection::select;
 use super::slivers::Slivers;
 use super::turned::window_places;
-use super::{DrawnFaces, FACES_IN_A_BOX, Hiding, Sight, VERTICES_IN_A_BOX};
+use super::{DrawnFaces, FACES_IN_A_BOX, Hiding, ObjectView, Sight, VERTICES_IN_A_BOX};
 use crate::camera::Projection;
 use crate::mesh::{NONE, VertexArrays};
-use crate::scene::{Object, Scene, Size};
 use crate::threads::{in_parallel, threads_for};
 use crate::tolerances::{HIDING_DEPTH, HIDING_DEPTH_STEPS, NEAR_PLANE_NOISE, SUBPIXEL_STEPS, SURELY_BACK};
+use crate::values::Size;
 use glam::{DVec2, DVec3, Vec3};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -34,19 +34,13 @@ impl Hiding {
     /// supersampling), by a GL that places vertices to 2^-`subpixel_bits` of a pixel (GL_SUBPIXEL_BITS; 8 on Mesa, 4 at
     /// least). `None` where no face can be left out, or where nothing can be said of this view: a part of the object may lie
     /// before the near plane, or a pixel or a step of depth is too coarse for the mesh's faces.
-    pub fn faces_to_draw(
-        &self,
-        scene: &Scene,
-        object: &Object,
-        surface: Size,
-        subpixel_bits: u32,
-    ) -> Option<DrawnFaces> {
-        let arrays = scene.arrays(object);
+    pub fn faces_to_draw(&self, seen: &ObjectView<'_>, surface: Size, subpixel_bits: u32) -> Option<DrawnFaces> {
+        let arrays = seen.arrays;
         let is_made_of_it = arrays.indices.len() == self.planes.len() * 3;
         if self.counts.hideable_faces == 0 || !is_made_of_it {
             return None;
         }
-        let view = self.view(scene, object, arrays, surface, subpixel_bits)?;
+        let view = self.view(seen, surface, subpixel_bits)?;
         // Through a cap that may show its front a ray may come in, and it is not drawn.
         let mut is_shut = vec![true; self.counts.shells];
         let open = self.caps.iter().filter(|cap| !view.is_surely_back(&cap.plane));
@@ -55,7 +49,7 @@ impl Hiding {
         let threads = threads_for(self.planes.len());
         let is_marked: Vec<AtomicBool> = (0..self.point_count).map(|_| AtomicBool::new(false)).collect();
         let edge_on = in_parallel(self.planes.len(), threads, |faces| self.mark(&view, arrays, faces, &is_marked));
-        let places = window_places(scene, object, surface, false);
+        let places = window_places(seen, surface, false);
         let places_of = |corners: &[u32]| [0, 1, 2].map(|corner| places[corners[corner] as usize]);
         let mut slivers = Slivers::new(surface);
         for face in edge_on.iter().flatten() {
@@ -106,17 +100,10 @@ impl Hiding {
         left_out.iter().sum::<usize>() * 100 / (directions.len() * self.planes.len())
     }
 
-    fn view(
-        &self,
-        scene: &Scene,
-        object: &Object,
-        arrays: &VertexArrays,
-        surface: Size,
-        subpixel_bits: u32,
-    ) -> Option<View> {
-        let camera = &scene.camera;
+    fn view(&self, seen: &ObjectView<'_>, surface: Size, subpixel_bits: u32) -> Option<View> {
+        let ObjectView { arrays, camera, .. } = *seen;
         let is_parallel = matches!(camera.projection, Projection::Parallel { .. });
-        let eye = (camera.eye - object.offset - arrays.centre) / self.radius;
+        let eye = (camera.eye - seen.offset - arrays.centre) / self.radius;
         let view_from_world = camera.view_from_world();
         let axes = [0, 1, 2].map(|row| view_from_world.row(row).truncate());
         let backward = axes[2];
@@ -125,7 +112,7 @@ impl Hiding {
         let farthest_depth = backward.dot(eye) + backward.abs().dot(half);
         let farthest = (eye.abs() + half).length();
         let near = camera.near / self.radius + farthest * NEAR_PLANE_NOISE;
-        let nearest_depth = self.nearest_depth(arrays, scene.radius, eye, backward, near)?;
+        let nearest_depth = self.nearest_depth(arrays, seen.scene_radius, eye, backward, near)?;
         let (tangent, whole_depth) = match camera.projection {
             Projection::Perspective { fov_y_degrees } => {
                 let tangent = (fov_y_degrees.to_radians() * 0.5).tan() * farthest_depth;
@@ -135,8 +122,7 @@ impl Hiding {
             }
             Projection::Parallel { height } => (height * 0.5 / self.radius, (camera.far - camera.near) / self.radius),
         };
-        let pixel =
-            2.0 * tangent * (1.0 / f64::from(surface.height)).max(scene.size.aspect() / f64::from(surface.width));
+        let pixel = 2.0 * tangent * (1.0 / f64::from(surface.height)).max(seen.aspect / f64::from(surface.width));
         let sideways = pixel * SUBPIXEL_STEPS * 0.5f64.powi(subpixel_bits.min(24) as i32);
         let depth = self.thickness * HIDING_DEPTH;
         let cosine = (2.0 * sideways / depth).max(*SURELY_BACK.start());

@@ -8,7 +8,7 @@
 use super::flags::Hierarchy;
 use super::groups::Groups;
 use super::shells::{Shells, Surface};
-use crate::lines::boxes::{Box3, BoxTree};
+use crate::bvh::{Box3, BoxTree};
 use crate::threads::{cores, in_chunks};
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};

@@ -1,8 +1,8 @@
 //! What a ray through each pixel's middle meets first: a picture of the scene without GL.
 
-use super::boxes::Box3;
 use super::faces::Faces;
 use super::space::Space;
+use crate::bvh::Box3;
 use crate::scene::Scene;
 use crate::threads::{cores, in_chunks};
 use glam::{DVec2, DVec3};

@@ -1,7 +1,7 @@
 //! All faces of a scene in the eye's space, and which of them hide a point.
 
-use super::boxes::{Box3, BoxTree, NO_FAMILY};
 use super::space::Space;
+use crate::bvh::{Box3, BoxTree, NO_FAMILY};
 use crate::mesh::Mesh;
 use crate::scene::Object;
 use crate::threads::{cores, filled, in_chunks};

@@ -1,7 +1,7 @@
 //! Lines as they lie in the picture, and trees of them.
 
-use super::boxes::{Box3, BoxTree};
 use super::space::Space;
+use crate::bvh::{Box3, BoxTree};
 use crate::tolerances::TOUCH;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;

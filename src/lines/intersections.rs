@@ -5,9 +5,9 @@
 //! exactly on another surface the line is found once, on one side; faces of which neither has corners clearly on both sides
 //! of the other lie on one another and do not intersect.
 
-use super::boxes::{Box3, LARGEST_LEAF, NO_FAMILY};
 use super::faces::Faces;
 use super::space::Space;
+use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY};
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::CONTACT;
 use glam::DVec3;

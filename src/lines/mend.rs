@@ -8,7 +8,7 @@
 //!
 //! Cracks wider than `--weld` stay openings.
 
-use super::boxes::{Box3, BoxTree};
+use crate::bvh::{Box3, BoxTree};
 use crate::edges::{EdgeList, Incidence};
 use crate::mesh::{Mesh, NONE};
 use crate::tolerances::{CONTACT, WELD};

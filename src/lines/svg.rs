@@ -16,7 +16,7 @@ use super::{LineSegment, VisibleLines};
 use crate::edges::Class;
 use crate::error::{Error, Result};
 use crate::markup::escaped;
-use crate::recipe::svg_element;
+use crate::markup::recipe_element;
 use crate::scene::{Background, Size};
 use std::fmt::Write;
 use text::{hexadecimal, number, path_data};
@@ -107,7 +107,7 @@ fn begin(size: Size, settings: &SvgSettings, out: &mut String) {
     };
     let [title, title_again] = ["title", "dc:title"].map(|name| element(name, &settings.title));
     let command = element("dc:description", &settings.command);
-    let recipe = svg_element(&settings.recipe);
+    let recipe = recipe_element(&settings.recipe);
     let _ = write!(
         out,
         r#"<?xml version="1.0" encoding="UTF-8"?>

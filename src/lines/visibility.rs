@@ -3,13 +3,13 @@
 //! Three questions use one rule, [`Image::overlap`]: which lines lie on one another in the picture. They are cut where one of
 //! them ends and where both are equally near; the nearest is drawn; of equally near ones, one.
 
-use super::boxes::Box3;
 use super::faces::{Faces, Own, Probe};
 use super::features::Feature;
 use super::image::{FLAT, Image, LineParts, LineTree};
 use super::intersections::Piercing;
 use super::space::Space;
 use super::{LineSegment, Progress};
+use crate::bvh::Box3;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::{CONTACT, SHORTEST_LINE};
 use glam::{DVec2, DVec3};

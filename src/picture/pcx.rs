@@ -4,7 +4,7 @@
 use super::Picture;
 use super::read::check_size;
 use crate::bytes::Bytes;
-use crate::scene::Size;
+use crate::values::Size;
 
 const HEADER_BYTES: usize = 128;
 /// A byte that says so, and 256 colours.

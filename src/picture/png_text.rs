@@ -1,7 +1,7 @@
 //! PNG with a text in it, written and read: what the image crate does not do.
 
 use super::Picture;
-use crate::scene::Size;
+use crate::values::Size;
 use png::{BitDepth, ColorType, Compression, Decoder, Encoder, Filter, Limits};
 use std::io::Cursor;
 

@@ -7,7 +7,7 @@ use crate::files::{self, shown};
 use crate::limits::{
     MEMORY_FACTOR, MEMORY_SLACK_BYTES, PICTURE_BYTES, PICTURE_FILE_BYTES, PICTURE_SIDE_PX, PIXELS_A_BYTE,
 };
-use crate::scene::Size;
+use crate::values::Size;
 use image::error::{ImageError, LimitErrorKind};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;

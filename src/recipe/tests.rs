@@ -1,6 +1,7 @@
 //! Recipes written and read back; files that are damaged or mean harm.
 
 use super::*;
+use crate::markup::recipe_element;
 use crate::picture::{Picture, PictureFormat, Target};
 use crate::scene::Size;
 
@@ -45,7 +46,7 @@ fn png() -> Vec<u8> {
 }
 
 fn svg() -> String {
-    format!("<svg><metadata>\n{}</metadata></svg>", svg_element(&recipe().json().unwrap()))
+    format!("<svg><metadata>\n{}</metadata></svg>", recipe_element(&recipe().json().unwrap()))
 }
 
 #[test]
@@ -113,10 +114,10 @@ fn pictures_without_a_recipe_are_told_from_files_that_are_none() {
         std::fs::write(&path, bytes).unwrap();
         assert!(message(&path).contains(words), "{}", message(&path));
     }
-    let element = svg_element("{}");
+    let element = recipe_element("{}");
     std::fs::write(&path, format!("<svg>{element}")).unwrap();
     assert!(message(&path).contains("cannot be understood"));
-    std::fs::write(&path, format!("<svg>{}", svg_element(&" ".repeat(LARGEST_BYTES + 1)))).unwrap();
+    std::fs::write(&path, format!("<svg>{}", recipe_element(&" ".repeat(LARGEST_BYTES + 1)))).unwrap();
     assert!(message(&path).contains("longer than"), "{}", message(&path));
     assert!(message(folder.path()).contains("no ordinary file"));
     assert!(message(&folder.path().join("none")).contains("no such file"));

@@ -2,7 +2,7 @@
 
 use super::{Choice, Kind, Problem, on_off};
 use crate::names::find;
-use crate::scene::{Color, Size};
+use crate::values::{Color, Size};
 use glam::DVec3;
 use std::path::PathBuf;
 

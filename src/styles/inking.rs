@@ -7,13 +7,13 @@
 use super::{ALL_STYLES, INKING, Ramp, RampRow, Show, cull, no_borders, ramp};
 use crate::edges::{Class, ClassSet, CreaseAngle, Side, SilhouetteRule, side_of_face};
 use crate::error::{Error, Result};
+use crate::lines::{ClassColors, line_width};
 use crate::plan::{
     Depth, Draw, EdgeRun, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
     Texture,
 };
 use crate::scene::{Background, Color, Scene};
-use crate::settings::{Choice, Kind, ON_OFF, Problem, Setting, Value, under};
-use std::str::FromStr;
+use crate::settings::{Choice, ON_OFF, Setting, under};
 use std::sync::Arc;
 
 /// Settings of `inking`; the defaults are the text's.
@@ -175,12 +175,6 @@ impl Inking {
     }
 }
 
-/// The setting of how wide lines are.
-pub(crate) fn line_width<T: Clone + 'static>(field: fn(&mut T) -> &mut f32) -> Setting<T> {
-    let help = "Width of the lines, pixels, above 0 to 16384, style lines too";
-    Setting::field("line-width", "PIXELS", help, field).range(0.5, 40.0, 1)
-}
-
 /// How faces are painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaintMode {
@@ -217,74 +211,6 @@ impl LightOn {
 
 impl Choice for LightOn {
     const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
-
-/// A colour for each class of edges, in the order of [`Class::ALL`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClassColors(pub [Color; Class::ALL.len()]);
-
-impl Default for ClassColors {
-    fn default() -> Self {
-        Self([Color([0.0; 3]); Class::ALL.len()])
-    }
-}
-
-impl ClassColors {
-    /// Outer lines red, inner ones blue: figure 6 of Evangelista et al. 2005.
-    pub fn figure_6() -> Self {
-        let is_outer = |class| matches!(class, Class::Boundary | Class::NonManifold | Class::Silhouette);
-        let color = |class| if is_outer(class) { Color([0.9, 0.05, 0.05]) } else { Color([0.1, 0.2, 0.9]) };
-        Self(Class::ALL.map(|(_, class)| color(class)))
-    }
-}
-
-impl ClassColors {
-    /// The setting of the colours.
-    pub(crate) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
-        let help = "Colours of the lines, style lines too: CLASS=COLOUR with commas between, names or #rrggbb, or figure-6 (outer \
-                    red, inner blue)";
-        Setting::field("class-colors", "COLOURS", help, field).labelled("class colours")
-    }
-}
-
-impl Value for ClassColors {
-    fn kind() -> Kind {
-        let example = "silhouette=red,crease=rgb(1 2.5 3),normal=#010203";
-        Kind::Text { offered: &["figure-6", "black"], example }
-    }
-
-    /// `CLASS=COLOUR` of each class that is not black.
-    fn text(&self) -> String {
-        if *self == Self::figure_6() {
-            return "figure-6".to_owned();
-        }
-        let colored = Class::ALL.iter().filter(|(_, class)| self.0[*class as usize] != Color([0.0; 3]));
-        let texts: Vec<String> = colored.map(|(name, class)| format!("{name}={}", self.0[*class as usize])).collect();
-        if texts.is_empty() { "black".to_owned() } else { texts.join(",") }
-    }
-
-    fn parse(text: &str) -> std::result::Result<Self, Problem> {
-        Ok(text.parse()?)
-    }
-}
-
-impl FromStr for ClassColors {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        match text {
-            "figure-6" => return Ok(Self::figure_6()),
-            "black" => return Ok(Self::default()),
-            _ => {}
-        }
-        let mut colors = Self::default();
-        for setting in text.split(',') {
-            let usage = || "write figure-6, or CLASS=COLOUR with commas between: silhouette=red,crease=blue".to_owned();
-            let (class, color) = setting.split_once('=').ok_or_else(usage)?;
-            colors.0[class.trim().parse::<Class>()? as usize] = color.trim().parse()?;
-        }
-        Ok(colors)
-    }
 }
 
 /// Widest line, pixels: as wide as the largest picture of most drivers.

@@ -2,9 +2,9 @@
 
 use crate::edges::Class;
 use crate::error::{Error, Result};
+use crate::lines::{ClassColors, line_width};
 use crate::scene::{Background, Color, Size};
 use crate::settings::{Choice, HasSettings, Kind, Problem, Setting, Table, Value, under};
-use crate::styles::{ClassColors, line_width};
 use std::str::FromStr;
 use std::sync::LazyLock;
 

@@ -71,7 +71,7 @@ pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     if !pruning.is_software {
         return Err("the device culls faster than they are found here".to_owned());
     }
-    let lists = |object: &Object| faces_not_culled(scene, object, surface, pruning.subpixel_bits);
+    let lists = |object: &Object| faces_not_culled(&scene.view_of(object), surface, pruning.subpixel_bits);
     let left_out = choose(plan, scene, is_culled, lists);
     if left_out == 0 {
         return Err("no face is surely turned away".to_owned());
@@ -123,7 +123,7 @@ pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     let is_outside = |object: &Object| scene.is_outside(object, 0.0);
     let lists = |object: &Object| match is_outside(object) {
         true => None,
-        false => scene.hiding(object).faces_to_draw(scene, object, surface, pruning.subpixel_bits),
+        false => scene.hiding(object).faces_to_draw(&scene.view_of(object), surface, pruning.subpixel_bits),
     };
     let left_out = choose(plan, scene, is_hiding, lists);
     let counts = scene.objects.iter().map(|object| scene.hiding(object).counts());
