@@ -25,40 +25,12 @@
 //! # }
 //! ```
 
-pub mod animation;
-pub mod batch;
-pub mod camera;
-pub mod compare;
-pub mod edges;
-pub mod error;
-pub mod figures;
-pub mod gl;
-pub mod glsl;
-pub mod hiding;
-pub mod limits;
-pub mod lines;
-pub mod measure;
-pub mod mesh;
-pub mod output;
-pub mod picture;
-pub mod plan;
-pub mod preset;
-pub mod recipe;
-pub mod record;
-pub mod renderer;
-pub mod report;
-pub mod scene;
-pub mod settings;
-pub mod sheet;
-pub mod shell;
-pub mod stress;
-pub mod styles;
-pub mod textures;
-pub mod tolerances;
-#[cfg(feature = "window")]
-pub mod window;
+// Floors, from the ground up: a module uses those above it in this list and none below (`tests/floors.rs`).
 
-mod bvh;
+// What everything stands on.
+pub mod limits;
+pub mod tolerances;
+pub mod error;
 mod bytes;
 mod clock;
 mod files;
@@ -66,7 +38,49 @@ mod markup;
 mod names;
 mod random;
 mod threads;
+pub mod output;
 mod values;
+pub mod settings;
+
+// Geometry, without GL: from a file to the lines that are seen.
+pub mod picture;
+pub mod camera;
+pub mod mesh;
+pub mod edges;
+mod bvh;
+pub mod hiding;
+pub mod scene;
+pub mod lines;
+
+// What to draw, as data.
+pub mod glsl;
+pub mod plan;
+pub mod textures;
+pub mod styles;
+
+// Drawing it.
+pub mod gl;
+pub mod renderer;
+pub mod animation;
+
+// How a picture is asked for again.
+pub mod preset;
+pub mod shell;
+pub mod recipe;
+pub mod record;
+
+// What it is worth.
+pub mod compare;
+pub mod sheet;
+pub mod measure;
+pub mod report;
+pub mod figures;
+pub mod stress;
+
+// Many at once, and by hand.
+pub mod batch;
+#[cfg(feature = "window")]
+pub mod window;
 
 pub use animation::{AnimationTarget, AnimationWriter};
 pub use camera::{Camera, CameraSettings, View};

@@ -20,6 +20,7 @@ mod examples;
 mod external;
 mod faults;
 mod figures;
+mod floors;
 mod gltf;
 mod gltf_files;
 mod gltf_refused;
