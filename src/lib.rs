@@ -29,6 +29,7 @@ pub mod animation;
 pub mod batch;
 pub mod camera;
 pub mod compare;
+pub mod contact_sheet;
 pub mod edges;
 pub mod error;
 pub mod figures;
@@ -49,7 +50,6 @@ pub mod renderer;
 pub mod report;
 pub mod scene;
 pub mod settings;
-pub mod sheet;
 pub mod shell;
 pub mod stress;
 pub mod styles;
@@ -59,9 +59,9 @@ pub mod tolerances;
 pub mod window;
 
 mod bytes;
+mod choice;
 mod files;
 mod markup;
-mod names;
 mod random;
 mod threads;
 

@@ -61,8 +61,8 @@ pub use ramp::{Ramp, RampRow};
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
 
+use crate::choice::find;
 use crate::error::{Error, Result};
-use crate::names::find;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::settings::{HasSettings, OptionValue, Options, Setting, Table, within};

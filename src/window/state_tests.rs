@@ -129,7 +129,7 @@ fn a_preset_draws_in_the_viewer_what_it_draws_elsewhere() {
         state.update(ViewerEvent::OpenPreset(path.clone()));
         (state.style(Side::Left).clone(), state.message.unwrap_or_default())
     };
-    // A recipe is no dial, the view no setting of a style, and both may stand in a preset.
+    // A recipe is no control, the view no setting of a style, and both may stand in a preset.
     let (style, said) = open("style = \"charcoal\"\ncharcoal = \"darker\"\nview = \"front\"\ntones = 2\n");
     assert_eq!((style, said.as_str()), (Style::Charcoal(Charcoal::recipe(Recipe::Darker)), ""));
     for (text, words) in [

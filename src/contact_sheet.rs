@@ -1,8 +1,8 @@
-//! Sheets: pictures side by side with titles above and lines of text with colour swatches below. The one file that knows
-//! the font, Noto Sans Mono as bitmaps, which needs no rasteriser and no file.
+//! Contact sheets: pictures side by side with titles above and lines of text with colour swatches below. The one file that
+//! knows the font, Noto Sans Mono as bitmaps, which needs no rasteriser and no file.
 //!
 //! ```
-//! use tinta::sheet::{Caption, Panel, sheet};
+//! use tinta::contact_sheet::{Caption, Panel, sheet};
 //! use tinta::{Picture, Size};
 //!
 //! let size = Size { width: 40, height: 30 };
