@@ -48,7 +48,7 @@ mod tones;
 pub use border::{Border, Filter};
 pub use cartoon::Cartoon;
 pub use charcoal::{
-    CetCoordinate, CetFilter, Charcoal, CharcoalPictures, ContrastOperator, Improvements, Noise, Paper, Recipe,
+    CetCoordinate, CetFilter, Charcoal, CharcoalPictures, CharcoalRecipe, ContrastOperator, Improvements, Noise, Paper,
 };
 pub use dietrich::Dietrich;
 pub use ink::{Ink, Quality};
