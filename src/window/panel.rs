@@ -81,7 +81,7 @@ fn preset_file(ui: &mut Ui, events: &mut Vec<ViewerEvent>) {
     });
 }
 
-/// Whether all settings are the paper's, as a state that can be returned to.
+/// Whether all settings are the article's, as a state that can be returned to.
 fn faithful(ui: &mut Ui, style: &Style, side: Side, events: &mut Vec<ViewerEvent>) {
     ui.horizontal(|ui| {
         if controls::is_faithful(style) {
@@ -120,7 +120,7 @@ fn choices<'a>(
     });
 }
 
-/// A control: its name, its widget, and the way back to the paper's value.
+/// A control: its name, its widget, and the way back to the published value.
 fn one(ui: &mut Ui, control: &Control<Style>, side: Side, events: &mut Vec<ViewerEvent>) {
     let (setting, value) = (control.setting, &control.value);
     ui.horizontal(|ui| {
