@@ -24,7 +24,7 @@ mod entry;
 mod job;
 mod journal;
 mod list;
-mod place;
+mod output_path;
 mod slice;
 mod summary;
 
@@ -32,6 +32,6 @@ pub use entry::{Entry, Failure, Outcome, Run, Status, Written, written};
 pub use job::{Job, JobCommand, OUTPUTS};
 pub use journal::{Entries, Journal, begun, done};
 pub use list::{LIST_FILE, List};
-pub use place::{is_own_file, place_in};
+pub use output_path::{is_own_file, place_in};
 pub use slice::Slice;
 pub use summary::{SUMMARY_FILE, Summary, TIMES_FILE};

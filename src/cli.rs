@@ -10,31 +10,31 @@ mod edges;
 mod figures;
 mod info;
 mod inputs;
-mod library;
 mod man;
 mod measure;
+mod messages;
+mod model_cache;
 mod models;
 mod options;
 mod preset;
 mod progress;
 mod render;
-mod speech;
+mod session;
 mod standard_output;
 mod stress;
-mod studio;
 mod textures;
 #[cfg(feature = "window")]
 mod view;
 
 use clap::{Parser, Subcommand};
+use messages::print;
+pub use messages::{plain, say};
 use preset::Given;
 pub use preset::Stop;
-use speech::print;
-pub use speech::{plain, say};
+use session::Session;
 use std::ffi::OsString;
 use std::path::Path;
 use std::time::Instant;
-use studio::Studio;
 use tinta::{Error, Result};
 
 /// Cartoon drawings of 3D models, drawn the way a paper of 2005 drew them.
@@ -103,7 +103,7 @@ pub fn run() -> Result<Verdict> {
     let started = Instant::now();
     let (arguments, given) = match parse(std::env::args_os()) {
         Ok(parsed) => parsed,
-        Err(Stop::Help(help)) => return speech::print_help(&help).map(|()| Verdict::Good),
+        Err(Stop::Help(help)) => return messages::print_help(&help).map(|()| Verdict::Good),
         Err(Stop::Wrong(error)) => return Err(error),
     };
     carry_out(arguments.command, &given, started).map_err(|error| given.attributed(error))
@@ -115,11 +115,11 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
     match command {
         #[cfg(feature = "window")]
         Command::View(arguments) => view::run(&arguments, started),
-        Command::Render(arguments) => return render::run(&arguments, given, &mut Studio::for_one()),
+        Command::Render(arguments) => return render::run(&arguments, given, &mut Session::for_one()),
         Command::Again(arguments) => return again::run(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments, given, &mut Studio::for_one()),
+        Command::Compare(arguments) => compare::run(&arguments, given, &mut Session::for_one()),
         Command::Edges(arguments) => edges::run(&arguments),
-        Command::Measure(arguments) => measure::run(&arguments, given, &mut Studio::for_one()),
+        Command::Measure(arguments) => measure::run(&arguments, given, &mut Session::for_one()),
         Command::Textures(arguments) => textures::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Stress(arguments) => return stress::run(&arguments),

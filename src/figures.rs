@@ -27,7 +27,7 @@ mod valente;
 
 pub use draw::Artist;
 pub use measure::{
-    BackgroundRow, FilterRow, FrameRow, HowToMeasure, MixRow, Numbers, PAPER, Paper, Reason, measure, steps,
+    ARTICLE, Article, BackgroundRow, FilterRow, FrameRow, HowToMeasure, MixRow, Numbers, Reason, measure, steps,
 };
 pub use mix::{Mix, TRIANGLES};
 pub use reasons::Host;

@@ -1,7 +1,7 @@
 //! The shaders, whole files from `glsl/`, carried inside the program.
 //!
 //! ```
-//! let filter = tinta::glsl::source("evangelista/border.frag").expect("a shader of the paper");
+//! let filter = tinta::glsl::source("evangelista/border.frag").expect("a shader of the article");
 //! assert!(filter.starts_with("#version 120") && filter.contains("DETECTION_FACTOR 0.2f"));
 //! ```
 

@@ -32,6 +32,7 @@
 //! # }
 //! ```
 
+mod backface;
 mod distance;
 mod flags;
 mod groups;
@@ -39,7 +40,6 @@ mod openings;
 mod selection;
 mod shells;
 mod slivers;
-mod turned;
 mod view;
 mod winding;
 
@@ -55,7 +55,7 @@ use glam::{DVec3, Mat4, Vec3};
 use serde::Serialize;
 use shells::{Cap, Shells, Surface};
 
-pub use turned::faces_not_culled;
+pub use backface::faces_not_culled;
 
 /// What holds for every view of a mesh: its faces' planes and whether something of their own shell can hide them.
 ///

@@ -33,9 +33,9 @@ pub mod tolerances;
 pub mod error;
 mod bytes;
 mod clock;
+mod choice;
 mod files;
 mod markup;
-mod names;
 mod random;
 mod threads;
 pub mod output;
@@ -71,7 +71,7 @@ pub mod record;
 
 // What it is worth.
 pub mod compare;
-pub mod sheet;
+pub mod contact_sheet;
 pub mod measure;
 pub mod report;
 pub mod figures;

@@ -42,7 +42,7 @@ pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
 pub use class_colors::ClassColors;
 pub(crate) use class_colors::line_width;
-pub use svg::{ClassWidths, Hidden, PaperSize, SvgSettings, svg, svg_of_paths};
+pub use svg::{ClassWidths, Hidden, PageSize, SvgSettings, svg, svg_of_paths};
 
 use crate::clock::milliseconds_since;
 use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, SilhouetteRule};
@@ -106,7 +106,7 @@ impl LineSettings {
             |_: &Self| SilhouetteRule::Exact.text(),
             |_, text| match SilhouetteRule::parse(text)? {
                 SilhouetteRule::Exact => Ok(()),
-                SilhouetteRule::Paper => Err(Error::setting(
+                SilhouetteRule::Published => Err(Error::setting(
                     "--silhouette paper",
                     "style lines finds silhouettes exactly; leave it out, or draw --style inking into a .png",
                 )

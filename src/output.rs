@@ -18,10 +18,10 @@
 //! # }
 //! ```
 
-mod beside;
+mod staged_file;
 
 use crate::error::{Error, Result};
-use beside::Beside;
+use staged_file::StagedFile;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -81,13 +81,13 @@ pub(crate) fn check_file(file: &Path) -> Result<()> {
     if file.symlink_metadata().is_ok() && !file.is_file() {
         return Err(refuse("this is no ordinary file; name another, or - for standard output".to_owned()));
     }
-    Beside::open(&resolved(file)).map(drop).map_err(|error| refused(file, &error))
+    StagedFile::open(&resolved(file)).map(drop).map_err(|error| refused(file, &error))
 }
 
 /// A file's new contents, whole on the disk, under no name yet or under one that goes away with this.
 pub(crate) struct Staged {
     path: PathBuf,
-    beside: Beside,
+    temporary: StagedFile,
 }
 
 impl Staged {
@@ -109,8 +109,8 @@ impl Staged {
     ///
     /// As [`Staged::new`].
     pub(crate) fn begin(path: &Path) -> Result<Self> {
-        let beside = Beside::open(&resolved(path)).map_err(|error| refused(path, &error))?;
-        Ok(Self { path: path.to_owned(), beside })
+        let temporary = StagedFile::open(&resolved(path)).map_err(|error| refused(path, &error))?;
+        Ok(Self { path: path.to_owned(), temporary })
     }
 
     /// Writes further contents.
@@ -119,7 +119,7 @@ impl Staged {
     ///
     /// As [`Staged::new`].
     pub(crate) fn add(&mut self, bytes: &[u8]) -> Result<()> {
-        self.beside.file().write_all(bytes).map_err(|error| refused(&self.path, &error))
+        self.temporary.file().write_all(bytes).map_err(|error| refused(&self.path, &error))
     }
 
     /// Has the contents on the disk, where they replace a file.
@@ -131,7 +131,7 @@ impl Staged {
         let Ok(metadata) = self.path.metadata() else { return Ok(()) };
         // A file that is replaced keeps its permissions. And what replaces it must have reached the disk: a power
         // cut would otherwise leave neither. Of a new file nothing is lost, so nothing waits for it.
-        let file = self.beside.file();
+        let file = self.temporary.file();
         let settled = file.set_permissions(metadata.permissions()).and_then(|()| file.sync_data());
         settled.map_err(|error| refused(&self.path, &error))
     }
@@ -142,7 +142,7 @@ impl Staged {
     ///
     /// [`Error::Output`] when the folder is gone.
     pub(crate) fn put_in_place(self) -> Result<()> {
-        self.beside.put_in_place(&resolved(&self.path)).map_err(|error| refused(&self.path, &error))
+        self.temporary.put_in_place(&resolved(&self.path)).map_err(|error| refused(&self.path, &error))
     }
 }
 

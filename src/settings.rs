@@ -26,7 +26,7 @@
 
 mod value;
 
-pub use crate::names::Choice;
+pub use crate::choice::Choice;
 pub use value::{Value, names_of};
 
 use crate::error::{Error, Result};

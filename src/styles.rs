@@ -1,8 +1,8 @@
-//! The styles: settings with the papers' values as defaults, and the plan each makes of a scene. No GL here.
+//! The styles: settings with the published values as defaults, and the plan each makes of a scene. No GL here.
 //!
 //! | style | source |
 //! |---|---|
-//! | `phong` | the realistic rendering the first paper compares with |
+//! | `phong` | the realistic rendering the first article compares with |
 //! | `three-pass` | Evangelista et al. 2005, appendix 1 |
 //! | `two-pass` | Evangelista et al. 2005, section 4.2 and appendix 2 |
 //! | `mrt` | its future work, section 6: the three passes' picture with one pass over the geometry |
@@ -49,7 +49,7 @@ pub use crate::lines::ClassColors;
 pub use border::{Border, Filter};
 pub use cartoon::Cartoon;
 pub use charcoal::{
-    CetCoordinate, CetFilter, Charcoal, CharcoalPictures, ContrastOperator, Improvements, Noise, Paper, Recipe,
+    CetCoordinate, CetFilter, Charcoal, CharcoalPictures, CharcoalRecipe, ContrastOperator, Improvements, Noise, Paper,
 };
 pub use dietrich::Dietrich;
 pub use ink::{Ink, Quality};
@@ -61,8 +61,8 @@ pub use ramp::{Ramp, RampRow};
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
 
+use crate::choice::find;
 use crate::error::{Error, Result};
-use crate::names::find;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::settings::{HasSettings, OptionValue, Options, Setting, Table, within};
@@ -122,7 +122,7 @@ pub enum Show {
 }
 
 impl Style {
-    /// The style of this name with the paper's settings.
+    /// The style of this name with the published settings.
     pub fn named(name: StyleName) -> Self {
         (name.info().published)()
     }
@@ -319,7 +319,7 @@ pub struct StyleInfo {
     pub name: &'static str,
     /// Its pictures, the finished one first.
     pub shows: &'static [Show],
-    /// The style with the paper's settings.
+    /// The style with the published settings.
     published: fn() -> Style,
 }
 

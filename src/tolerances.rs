@@ -47,7 +47,7 @@ pub const LARGEST_DISTANCE: f64 = 2e4;
 pub const LEAST_DEPTH_STEPS: f64 = 256.0;
 
 /// Distance of the background square from the eye, scene radii: so far that light, view and normal are parallel on all of
-/// it and the paper's highlight tone, 1, leaves its colour as given.
+/// it and the article's highlight tone, 1, leaves its colour as given.
 pub const BACKGROUND_DISTANCE: f32 = 1000.0;
 
 /// Distance, in rows, from the edge of two texture rows at which a grain counts as lying on it: far more than a platform's

@@ -1,4 +1,4 @@
-//! The window: models turn under the mouse, two styles side by side, every setting a dial, every buffer visible.
+//! The window: models turn under the mouse, two styles side by side, every setting a control, every buffer visible.
 //!
 //! In: models and a first state. Out: pictures on a screen, and files. The pictures are those of the headless
 //! [`crate::Renderer`], drawn on threads of their own and shown as textures: the same bytes as `tinta render` writes.
@@ -7,9 +7,9 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `state.rs`, `event.rs`, `orbit.rs`, `dials.rs`, `buffer.rs`, `compose.rs` | values: what is shown, what happens, how it changes |
+//! | `state.rs`, `event.rs`, `orbit.rs`, `controls.rs`, `buffer.rs`, `compose.rs` | values: what is shown, what happens, how it changes |
 //! | `viewer.rs` | the state with the threads that work for it |
-//! | `draw.rs`, `drawers.rs`, `load.rs`, `watch.rs`, `price.rs`, `save.rs`, `report.rs` | the threads and what they tell |
+//! | `draw.rs`, `render_threads.rs`, `load.rs`, `watch.rs`, `cost.rs`, `save.rs`, `report.rs` | the threads and what they tell |
 //! | `ui.rs`, `panel.rs`, `plot.rs`, `keys.rs` | widgets: they read the state and make events |
 //! | `app.rs`, `replay.rs`, `player.rs` | the window itself, and recordings played in it |
 //!
@@ -26,9 +26,9 @@
 mod app;
 mod buffer;
 mod compose;
-mod dials;
+mod controls;
+mod cost;
 mod draw;
-mod drawers;
 mod event;
 mod keys;
 mod load;
@@ -36,7 +36,7 @@ mod orbit;
 mod panel;
 mod player;
 mod plot;
-mod price;
+mod render_threads;
 mod replay;
 mod report;
 mod save;
@@ -48,12 +48,12 @@ mod watch;
 pub use app::{WindowOptions, open};
 pub use buffer::{Buffer, buffers};
 pub use compose::composed;
+pub use cost::{Costs, Point, SideCost};
 pub use draw::{Drawer, Drawing, Job};
 pub use event::{Effect, Layout, Save, Side, ViewerEvent};
 pub use load::Stage;
 pub use orbit::Orbit;
 pub use player::PlayedRecord;
-pub use price::{Point, Price, Priced};
 pub use replay::Replay;
 pub use state::{Content, Pane, ViewerState};
 pub use viewer::{Viewer, ViewerOptions};

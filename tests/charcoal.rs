@@ -5,7 +5,7 @@ use crate::cli::{Folder, refused_in_one_line, tinta};
 use crate::support::{BACKENDS, renderer, scene, scene_with};
 use std::sync::Arc;
 use tinta::picture::Difference;
-use tinta::styles::{CetFilter, Charcoal, ContrastOperator, Improvements, Noise, Paper, Recipe};
+use tinta::styles::{CetFilter, Charcoal, CharcoalRecipe, ContrastOperator, Improvements, Noise, Paper};
 use tinta::textures::PaperTexture;
 use tinta::{Background, CameraSettings, Color, LoadOptions, Picture, Scene, SceneSettings, Show, Size, Style, load};
 
@@ -40,7 +40,8 @@ fn smudging_never_lightens_saturation_never_darkens_and_density_darkens_on_avera
         let means = [0.0, 20.0, 40.0, 60.0, 80.0, 100.0]
             .map(|density_percent| mean(&picture(Charcoal { density_percent, ..base() })));
         assert!(means.is_sorted_by(|a, b| a > b), "{means:?}");
-        let [darker, closure] = [Recipe::Darker, Recipe::Closure].map(|r| mean(&picture(Charcoal::recipe(r))));
+        let [darker, closure] =
+            [CharcoalRecipe::Darker, CharcoalRecipe::Closure].map(|r| mean(&picture(Charcoal::recipe(r))));
         assert!(darker < means[3] && means[3] < closure, "{darker} {closure}");
     }
 }

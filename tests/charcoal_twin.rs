@@ -5,7 +5,7 @@ use crate::support::{BACKENDS, failure_folder, renderer, scene_with, side_by_sid
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 use tinta::picture::write_rgba_png;
-use tinta::styles::{CetCoordinate, Charcoal, Improvements, Recipe};
+use tinta::styles::{CetCoordinate, Charcoal, CharcoalRecipe, Improvements};
 use tinta::textures::{ContrastTexture, NoiseTexture, PaperTexture};
 use tinta::{CameraSettings, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, load};
 
@@ -189,8 +189,8 @@ pub fn variants() -> Vec<(&'static str, Charcoal)> {
     vec![
         ("published", base()),
         ("sheet-3", Charcoal { seed: 3, ..base() }),
-        ("darker", Charcoal { texture_size: base().texture_size, ..Charcoal::recipe(Recipe::Darker) }),
-        ("closure", Charcoal { texture_size: base().texture_size, ..Charcoal::recipe(Recipe::Closure) }),
+        ("darker", Charcoal { texture_size: base().texture_size, ..Charcoal::recipe(CharcoalRecipe::Darker) }),
+        ("closure", Charcoal { texture_size: base().texture_size, ..Charcoal::recipe(CharcoalRecipe::Closure) }),
         ("figure-8", Charcoal { cet_coordinate: CetCoordinate::Saturated, saturation: 1.2, ..base() }),
         ("bright", Charcoal { lights: bright, ..base() }),
         ("bright-improved", Charcoal { lights: bright, saturation: 1.5, improve: Improvements::ALL, ..base() }),

@@ -6,7 +6,7 @@ use crate::support::{BACKENDS, failure_folder, renderer, root, scene_with, side_
 use tinta::edges::SilhouetteRule;
 use tinta::picture::write_rgba_png;
 use tinta::styles::{
-    Border, Cartoon, Charcoal, ClassColors, Filter, Ink, Inking, MapEncoding, PaintMode, Quality, Recipe, Tones,
+    Border, Cartoon, Charcoal, CharcoalRecipe, ClassColors, Filter, Ink, Inking, MapEncoding, PaintMode, Quality, Tones,
 };
 use tinta::{Picture, SceneSettings, Show, Size, Style, StyleName};
 
@@ -63,10 +63,10 @@ fn cases() -> Vec<Case> {
         case("bust-inking-paint", bust, Style::named(StyleName::Inking), Show::Tones),
         case("ant-inking-exact-flat", ant, Style::Inking(exact_flat), Show::Final),
         case("open-box-class-colors", open_box, Style::Inking(class_colors), Show::Final),
-        case("bust-charcoal", bust, charcoal(Recipe::Published), Show::Final),
-        case("bust-charcoal-darker", bust, charcoal(Recipe::Darker), Show::Final),
-        case("bust-charcoal-closure", bust, charcoal(Recipe::Closure), Show::Final),
-        case("gear-charcoal-cet", gear, charcoal(Recipe::Published), Show::Cet),
+        case("bust-charcoal", bust, charcoal(CharcoalRecipe::Published), Show::Final),
+        case("bust-charcoal-darker", bust, charcoal(CharcoalRecipe::Darker), Show::Final),
+        case("bust-charcoal-closure", bust, charcoal(CharcoalRecipe::Closure), Show::Final),
+        case("gear-charcoal-cet", gear, charcoal(CharcoalRecipe::Published), Show::Cet),
         case("gear-biased", gear, encoded(MapEncoding::Biased, false), Show::Borders),
         case("gear-slope-threshold", gear, encoded(MapEncoding::DepthTexture, true), Show::Borders),
         case("gear-float", gear, encoded(MapEncoding::Float, false), Show::Borders),

@@ -69,7 +69,7 @@ fn a_plane_at_a_grazing_angle_draws_no_ink_where_the_threshold_knows_its_slope()
         // At 8 degrees the surface recedes by 7 pixels' widths from one to the next.
         let scene = quads(&[ground(1.0)], view("20,8", parallel));
         let sobel = Border { filter: Filter::Sobel, detection_factor: 1.0, ..Border::default() };
-        let published = inner_ink(&mut renderer, &scene, &three_pass(sobel, MapEncoding::Paper), 3);
+        let published = inner_ink(&mut renderer, &scene, &three_pass(sobel, MapEncoding::Published), 3);
         assert!(published > 10.0, "a gradient answers to the slope: {published}");
         for (name, encoding) in MapEncoding::ALL {
             let threshold = Border { slope_threshold: true, ..sobel };
@@ -214,7 +214,7 @@ fn biased_normals_draw_equal_creases_equally_strong() {
             columns.map(darkest).sum::<f64>() / count
         })
     };
-    let [left, right] = creases(MapEncoding::Paper);
+    let [left, right] = creases(MapEncoding::Published);
     assert!(left < 0.5 * right, "as published: {left} and {right}");
     for (name, encoding) in MapEncoding::ALL.into_iter().skip(1) {
         let [left, right] = creases(encoding);

@@ -288,6 +288,6 @@ fn exact_inking_is_nearly_without_error_and_the_papers_rule_is_not_in_perspectiv
         let picture = renderer.draw(&scene, &style.plan(&scene, Show::Borders).unwrap()).unwrap();
         Ink::on_white(&picture).error(&reference, 2.0).f1
     };
-    let (exact, paper) = (f1(SilhouetteRule::Exact), f1(SilhouetteRule::Paper));
+    let (exact, paper) = (f1(SilhouetteRule::Exact), f1(SilhouetteRule::Published));
     assert!(exact > paper && exact > 0.9, "{exact} {paper}");
 }

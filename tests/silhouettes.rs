@@ -102,7 +102,7 @@ proptest! {
         let silhouettes = Silhouettes::new(&mesh, &edges);
         let (Eye::Point(view) | Eye::Direction(view)) = eye;
         let view = if view == DVec3::ZERO { DVec3::Z } else { view };
-        let found = silhouettes.find(&mesh, &edges, Eye::Direction(view), SilhouetteRule::Paper);
+        let found = silhouettes.find(&mesh, &edges, Eye::Direction(view), SilhouetteRule::Published);
         for (edge, incidence) in edges.incidence().iter().enumerate() {
             // The normal of a face without area is rounding noise, in the listing as here.
             let has_area = |face: &u32| {
@@ -119,7 +119,7 @@ proptest! {
             }
         }
         let cones = NormalCones::new(&mesh, &edges, &silhouettes);
-        prop_assert_eq!(cones.find(&mesh, &edges, &silhouettes, Eye::Direction(view), SilhouetteRule::Paper), found);
+        prop_assert_eq!(cones.find(&mesh, &edges, &silhouettes, Eye::Direction(view), SilhouetteRule::Published), found);
     }
 }
 
@@ -265,7 +265,7 @@ fn the_papers_rule_takes_edges_between_faces_that_are_both_edge_on_and_the_exact
         });
         let product: f64 = dots.product();
         assert!((product - first * second).abs() < 1e-3 * first * second, "{product:e}");
-        assert_eq!(found(&roof, SilhouetteRule::Paper), paper, "{first} {second}");
+        assert_eq!(found(&roof, SilhouetteRule::Published), paper, "{first} {second}");
         assert_eq!(found(&roof, SilhouetteRule::Exact), 0, "{first} {second}");
     }
 }

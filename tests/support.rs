@@ -90,7 +90,7 @@ pub fn ball(cuts: u32) -> Scene {
     )
 }
 
-/// Every style with the papers' settings that can draw any model; sand cannot: it needs a model with a texture.
+/// Every style with the published settings that can draw any model; sand cannot: it needs a model with a texture.
 pub fn styles() -> Vec<(&'static str, Style)> {
     let of_any_model = StyleName::ALL.iter().filter(|(_, style)| *style != StyleName::Sand);
     of_any_model.map(|(name, style)| (*name, Style::named(*style))).collect()

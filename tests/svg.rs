@@ -4,7 +4,7 @@ use glam::DVec2;
 use resvg::{tiny_skia, usvg};
 use roxmltree::{Document, Node};
 use tinta::edges::{Class, ClassCounts};
-use tinta::lines::{Hidden, LineSegment, LineTimes, PaperSize, svg};
+use tinta::lines::{Hidden, LineSegment, LineTimes, PageSize, svg};
 use tinta::{Background, Color, Size, SvgSettings, VisibleLines};
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
@@ -232,8 +232,8 @@ fn a_pens_lines_come_in_an_order_that_spares_the_way() {
 
 #[test]
 fn sizes_on_paper_are_millimetres_or_inches() {
-    let size = |paper_size| {
-        let text = svg(&drawing(), &SvgSettings { paper_size, ..SvgSettings::default() }).unwrap();
+    let size = |page_size| {
+        let text = svg(&drawing(), &SvgSettings { page_size, ..SvgSettings::default() }).unwrap();
         let document = Document::parse(&text).unwrap();
         let attribute = |name| document.root_element().attribute(name).unwrap().to_owned();
         assert_eq!(attribute("viewBox"), "0 0 120 80");
@@ -241,14 +241,14 @@ fn sizes_on_paper_are_millimetres_or_inches() {
         assert!((drawn.width() / drawn.height() - 1.5).abs() < 1e-4);
         (attribute("width"), attribute("height"))
     };
-    assert_eq!(size(PaperSize::WidthMm(180.0)), ("180mm".to_owned(), "120mm".to_owned()));
-    assert_eq!(size(PaperSize::Dpi(300.0)), ("0.4in".to_owned(), "0.266667in".to_owned()));
+    assert_eq!(size(PageSize::WidthMm(180.0)), ("180mm".to_owned(), "120mm".to_owned()));
+    assert_eq!(size(PageSize::Dpi(300.0)), ("0.4in".to_owned(), "0.266667in".to_owned()));
 }
 
 #[test]
 fn nonsense_settings_are_refused_by_name() {
     let message = |settings: SvgSettings| svg(&drawing(), &settings).unwrap_err().to_string();
     assert!(message(SvgSettings { line_width_px: 0.0, ..SvgSettings::default() }).starts_with("--line-width 0"));
-    let paper_size = PaperSize::WidthMm(f64::NAN);
-    assert!(message(SvgSettings { paper_size, ..SvgSettings::default() }).starts_with("--width-mm NaN"));
+    let page_size = PageSize::WidthMm(f64::NAN);
+    assert!(message(SvgSettings { page_size, ..SvgSettings::default() }).starts_with("--width-mm NaN"));
 }

@@ -166,14 +166,14 @@ fn a_picture_that_cannot_be_drawn_is_a_sentence_and_the_next_one_is_drawn() {
 fn prices_are_the_passes_times_and_the_lines_error_of_this_view() {
     let mut viewer = viewer(&["builtin:open-box"], Backend::Auto, None);
     shown(&mut viewer, [ViewerEvent::Price, ViewerEvent::Layout(Layout::Split)]);
-    let [left, right] = &viewer.price.sides[..] else { panic!("two sides") };
+    let [left, right] = &viewer.costs.sides[..] else { panic!("two sides") };
     assert_eq!(left.passes.iter().map(|pass| pass.name).collect::<Vec<_>>(), ["map", "tones", "border"]);
     assert_eq!((left.style, right.style), ("three-pass", "inking"));
-    let f1 = |side: &tinta::window::Priced| side.error.as_ref().unwrap().f1;
+    let f1 = |side: &tinta::window::SideCost| side.error.as_ref().unwrap().f1;
     assert!(f1(left) > 0.5 && f1(right) > 0.8, "{} {}", f1(left), f1(right));
-    assert_eq!(viewer.price.history.len(), 2);
+    assert_eq!(viewer.costs.history.len(), 2);
     shown(&mut viewer, [ViewerEvent::Turn([0.1, 0.0])]);
-    assert_eq!(viewer.price.history.len(), 2, "of the new view only");
+    assert_eq!(viewer.costs.history.len(), 2, "of the new view only");
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //! looked at again by name before anything is refused.
 
 use super::job::{Asked, JobCommand};
-use super::place::same_place;
+use super::output_path::same_place;
 use crate::animation::NumberedName;
 use crate::files::shown;
 use crate::picture::PictureFormat;

@@ -2,7 +2,7 @@
 
 use super::claims::Claim;
 use super::job::{Asked, Job, JobCommand};
-use super::place::place_in;
+use super::output_path::place_in;
 use crate::recipe::{Driver, FileRecord};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};

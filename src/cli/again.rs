@@ -1,7 +1,7 @@
 //! `tinta again`: a picture made anew by the recipe it carries, and compared with what it was.
 
 use super::preset::parse;
-use super::studio::Studio;
+use super::session::Session;
 use super::{Command, Stop, Verdict, render, say};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -159,10 +159,10 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     let backend = recipe.gl.as_ref().and_then(|gl| gl.backend.parse().ok()).unwrap_or_default();
     let render = render.with_backend(backend);
     check_size(arguments, render.size()?)?;
-    match render::run(&render, &given, &mut Studio::for_one()) {
+    match render::run(&render, &given, &mut Session::for_one()) {
         // Another way to OpenGL is better than none; that it is another is said.
         Err(Error::NoContext { .. }) if backend != Backend::Auto => {
-            render::run(&render.with_backend(Backend::Auto), &given, &mut Studio::for_one()).map(drop)
+            render::run(&render.with_backend(Backend::Auto), &given, &mut Session::for_one()).map(drop)
         }
         result => result.map(drop),
     }

@@ -4,17 +4,16 @@
 //! and models: a job that brings the driver down takes one worker with it and no other job. What a worker tells of a job is
 //! written down at once.
 
-mod crew;
+mod argv;
 mod signals;
+mod staging;
 #[cfg(test)]
 mod tests;
-mod whole;
-mod words;
-mod work;
+mod worker;
+mod worker_process;
 
 use super::progress::Progress;
 use super::{Verdict, plain, print, print_json, say};
-use crew::Worker;
 use signals::Stop;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,6 +21,7 @@ use std::sync::{Mutex, PoisonError};
 use tinta::batch::{Entry, Failure, Job, Journal, List, Outcome, Slice, Status, Summary, begun, done};
 use tinta::limits::REMARKS;
 use tinta::{Error, Result};
+use worker_process::WorkerProcess;
 
 /// Carry out a list of jobs, a line of JSON each, on all cores
 #[derive(clap::Args)]
@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
     let none = || Error::CommandLine { problem: "LIST and --output DIR are needed".to_owned() };
     let folder = arguments.output.as_deref().ok_or_else(none)?;
     if arguments.worker {
-        return work::serve(folder).map(|()| Verdict::Good);
+        return worker::serve(folder).map(|()| Verdict::Good);
     }
     let list = List::read(arguments.list.as_deref().ok_or_else(none)?)?;
     super::make_folder(folder)?;
@@ -173,7 +173,7 @@ fn carry_out(
         let mut worker = None;
         while !stop.is_asked() && lock().stop.is_none() {
             let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-            let ended = Worker::of(&mut worker, folder, workers, cores).and_then(|worker| worker.carry_out(job));
+            let ended = WorkerProcess::of(&mut worker, folder, workers, cores).and_then(|worker| worker.carry_out(job));
             let mut desk = lock();
             let noted = ended.and_then(|outcome| stop_on_full_disk(job, folder, outcome)).and_then(|outcome| {
                 note(&mut desk.counts, job, &outcome);

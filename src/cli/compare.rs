@@ -3,13 +3,13 @@
 use super::models::load_meshes;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments, ignored};
 use super::preset::{Given, PresetArguments};
-use super::studio::Studio;
+use super::session::Session;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::compare::{Agreement, AgreementNumbers, BOTH_COLOR, InkMask, LEFT_COLOR, RIGHT_COLOR};
+use tinta::contact_sheet::{Caption, Panel, sheet};
 use tinta::record::{CameraRecord, ComparisonRecord, DrawingRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
-use tinta::sheet::{Caption, Panel, sheet};
 use tinta::{Backend, Error, Picture, Result, Scene, Show, StyleName, Target};
 
 /// Draw one scene in two styles side by side, and show which lines both drew
@@ -72,8 +72,8 @@ struct Drawing {
     record: DrawingRecord,
 }
 
-pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<()> {
-    super::speech::check_output(&arguments.output)?;
+pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<()> {
+    super::messages::check_output(&arguments.output)?;
     let inputs = given.inputs(&arguments.models);
     inputs.keep(&arguments.output)?;
     inputs.keep_in(Path::new(&arguments.output), NAMES)?;
@@ -107,10 +107,10 @@ pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<
     let styles = [arguments.left, arguments.right].map(|name| arguments.styles.style(name));
     let [left_style, right_style] = styles;
     let styles = [left_style?, right_style?];
-    let meshes = load_meshes(&studio.library, &arguments.models, &arguments.model.settings()?)?;
+    let meshes = load_meshes(&session.model_cache, &arguments.models, &arguments.model.settings()?)?;
     let count = meshes.len();
     let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()?)?)?;
-    let renderer = studio.renderer(arguments.backend)?;
+    let renderer = session.renderer(arguments.backend)?;
     let mut draw = |style: &tinta::Style| -> Result<Drawing> {
         let start = Instant::now();
         let plan = style.plan(&scene, Show::Final)?;

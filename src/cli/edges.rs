@@ -1,6 +1,6 @@
 //! `tinta edges`: a model's edges by class, and how long it takes to find them.
 
-use super::library::Library;
+use super::model_cache::ModelCache;
 use super::models::load_meshes;
 use super::options::{CameraArguments, Chosen, ModelArguments, Selection};
 use std::time::Instant;
@@ -53,7 +53,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         if let Style::Inking(inking) = style { inking } else { Inking::default() };
     let start = Instant::now();
     let mut meshes =
-        load_meshes(&Library::for_one(), std::slice::from_ref(&arguments.model), &arguments.options.settings()?)?;
+        load_meshes(&ModelCache::for_one(), std::slice::from_ref(&arguments.model), &arguments.options.settings()?)?;
     let load_ms = milliseconds_since(start);
     let settings = SceneSettings { camera: arguments.camera.settings()?, ..SceneSettings::default() };
     let scene = Scene::new(meshes.clone(), &settings)?;

@@ -1,6 +1,6 @@
 //! `tinta figures`: the three texts' figures as pictures and plots of ours, on a page.
 
-use super::library::Library;
+use super::model_cache::ModelCache;
 use super::models::load_meshes;
 use super::progress::Progress;
 use serde_json::json;
@@ -132,7 +132,7 @@ impl Arguments {
     fn textured(&self) -> Result<Option<Arc<Mesh>>> {
         let Some(path) = &self.model else { return Ok(None) };
         let options = LoadOptions { skin: self.skin.clone(), ..LoadOptions::default() };
-        let mesh = load_meshes(&Library::for_one(), std::slice::from_ref(path), &options)?.pop();
+        let mesh = load_meshes(&ModelCache::for_one(), std::slice::from_ref(path), &options)?.pop();
         match mesh {
             Some(mesh) if mesh.materials.iter().any(|material| material.has_texture()) => Ok(Some(mesh)),
             _ => Err(Error::Setting {

@@ -3,11 +3,11 @@
 mod errors;
 mod settings;
 
-use super::library::Library;
+use super::model_cache::ModelCache;
 use super::options::{CameraArguments, ModelArguments};
 use super::preset::{Given, PresetArguments};
 use super::progress::Progress;
-use super::studio::Studio;
+use super::session::Session;
 use errors::{error_page, is_shown, known_picture};
 pub use settings::StyleOptions;
 use settings::{of_words, settings};
@@ -106,7 +106,7 @@ const SECONDS_A_SETTING: f64 = 0.35;
 /// Files that a measurement writes, the pictures of its plots and errors aside.
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
-pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<()> {
+pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<()> {
     if !arguments.merge.is_empty() {
         return merge(arguments, given);
     }
@@ -132,9 +132,9 @@ pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<
         Some(suite) => suite.iter().copied().chain(arguments.models.iter().map(String::as_str)).collect(),
         None => arguments.models.iter().map(String::as_str).collect(),
     };
-    studio.renderer(arguments.backend)?;
-    let groups = groups(arguments, &models, &studio.library)?;
-    let renderer = studio.renderer(arguments.backend)?;
+    session.renderer(arguments.backend)?;
+    let groups = groups(arguments, &models, &session.model_cache)?;
+    let renderer = session.renderer(arguments.backend)?;
     let expected = expected(renderer, &groups, settings.len(), how.frames)?;
     // Once nothing but the measuring can go wrong.
     make_folder(&arguments.output)?;
@@ -263,11 +263,11 @@ struct Group {
     load_ms: f64,
 }
 
-fn groups(arguments: &Arguments, models: &[&str], library: &Library) -> Result<Vec<Group>> {
+fn groups(arguments: &Arguments, models: &[&str], model_cache: &ModelCache) -> Result<Vec<Group>> {
     let mut groups = Vec::new();
     for model in models {
         let start = Instant::now();
-        let loaded = library.read(model, &arguments.model.settings()?)?;
+        let loaded = model_cache.read(model, &arguments.model.settings()?)?;
         let load_ms = milliseconds_since(start);
         loaded.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
         for size in &arguments.size {

@@ -1,6 +1,6 @@
 //! A progress bar for commands that take a while: on standard error, and only where that is a terminal.
 
-use super::speech::is_heard;
+use super::messages::is_captured;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// Disappears when it is dropped, so that a message after it stands in a line of its own.
@@ -10,7 +10,7 @@ impl Progress {
     /// A bar for `count` steps with the word for what is done, such as "drawing".
     pub fn new(what: &'static str, count: u64) -> Self {
         // Draws nothing unless standard error is a terminal, and nothing for a job of a batch, which has a bar of its own.
-        let target = if is_heard() { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let target = if is_captured() { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(count), target);
         bar.set_message(what);
         let progress = Self(bar);

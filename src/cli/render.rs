@@ -11,11 +11,11 @@ mod round_trip;
 
 use super::Verdict;
 use super::inputs::Inputs;
-use super::library::Library;
+use super::model_cache::ModelCache;
 use super::models::load_with_files;
 use super::options::{CameraArguments, LineArguments, ModelArguments, SceneArguments, StyleArguments, ignored};
 use super::preset::Given;
-use super::studio::Studio;
+use super::session::Session;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::mesh::BUILTINS;
@@ -130,12 +130,12 @@ const WARM_UP: usize = 2;
 const PASS_FRAMES: usize = 21;
 
 /// Draws what the arguments say, of which `given` has those that make the picture, by name.
-pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<Verdict> {
-    super::speech::check_output(&arguments.output)?;
+pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<Verdict> {
+    super::messages::check_output(&arguments.output)?;
     let inputs = given.inputs(&arguments.models);
     inputs.keep(&arguments.output)?;
     let preset = arguments.keep.preset_target(&arguments.output, &inputs)?;
-    let verdict = draw(arguments, &given.options, studio)?;
+    let verdict = draw(arguments, &given.options, session)?;
     // Said of what was drawn: a refusal is one sentence, and no other before it.
     let is_lines = lines::format(arguments)?.is_some();
     let style = if is_lines { "lines" } else { arguments.style_name().name() };
@@ -143,14 +143,14 @@ pub fn run(arguments: &Arguments, given: &Given, studio: &mut Studio) -> Result<
     preset.map_or(Ok(()), |target| keep::save_preset(&target, &given.options)).map(|()| verdict)
 }
 
-fn draw(arguments: &Arguments, options: &Options, studio: &mut Studio) -> Result<Verdict> {
+fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Result<Verdict> {
     if let Some(format) = lines::format(arguments)? {
         arguments.prune.refuse()?;
-        return lines::run(arguments, options, format, &studio.library).map(|()| Verdict::Good);
+        return lines::run(arguments, options, format, &session.model_cache).map(|()| Verdict::Good);
     }
     arguments.lines.refuse("only style lines has this; leave it out, or write a .svg")?;
     if let Some(target) = arguments.animation.target(&arguments.output, arguments.scene.is_transparent())? {
-        return animate::run(arguments, &target, studio);
+        return animate::run(arguments, &target, session);
     }
     let target = Target::check(&arguments.output, arguments.scene.is_transparent())?;
     if target == Target::Stdout && (arguments.run.json || arguments.run.explain) {
@@ -161,7 +161,7 @@ fn draw(arguments: &Arguments, options: &Options, studio: &mut Studio) -> Result
     }
     make_dump_folder(arguments)?;
     let style = arguments.styles.style(arguments.style_name())?;
-    let (ready, loaded) = ready(arguments, &arguments.scene_settings()?, &style, studio);
+    let (ready, loaded) = ready(arguments, &arguments.scene_settings()?, &style, session);
     let Loaded { scene, files, published, load_ms, plan_ms } = loaded?;
     let Ready { renderer, context_ms, warm_up_ms } = ready?;
     let pruning = Instant::now();
@@ -236,21 +236,21 @@ struct Ready<R> {
     warm_up_ms: Option<f64>,
 }
 
-/// Reads the models and gets a renderer ready: the studio's, or one that is opened meanwhile.
+/// Reads the models and gets a renderer ready: the session's, or one that is opened meanwhile.
 fn ready<'s>(
     arguments: &Arguments,
     settings: &SceneSettings,
     style: &Style,
-    studio: &'s mut Studio,
+    session: &'s mut Session,
 ) -> (Result<Ready<&'s mut Renderer>>, Result<Loaded>) {
-    let (backend, library) = (arguments.run.backend, &studio.library);
-    let load = || load_scene(arguments, settings, style, library);
-    if studio.has(backend) {
+    let (backend, model_cache) = (arguments.run.backend, &session.model_cache);
+    let load = || load_scene(arguments, settings, style, model_cache);
+    if session.has(backend) {
         let loaded = load();
-        let renderer = studio.renderer(backend);
+        let renderer = session.renderer(backend);
         return (renderer.map(|renderer| Ready { renderer, context_ms: 0.0, warm_up_ms: None }), loaded);
     }
-    let open = || studio.open(backend);
+    let open = || session.open(backend);
     // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
     let (opened, loaded) = std::thread::scope(|scope| {
         // Where no second thread can be had, one after the other.
@@ -265,7 +265,7 @@ fn ready<'s>(
         }
     });
     let ready = opened.map(|Ready { renderer, context_ms, warm_up_ms }| Ready {
-        renderer: studio.keep(backend, renderer),
+        renderer: session.keep(backend, renderer),
         context_ms,
         warm_up_ms,
     });
@@ -306,9 +306,14 @@ struct Loaded {
 }
 
 /// Reads the models, puts the scene together and plans it, which finds its edges where the style draws them.
-fn load_scene(arguments: &Arguments, settings: &SceneSettings, style: &Style, library: &Library) -> Result<Loaded> {
+fn load_scene(
+    arguments: &Arguments,
+    settings: &SceneSettings,
+    style: &Style,
+    model_cache: &ModelCache,
+) -> Result<Loaded> {
     let start = Instant::now();
-    let (meshes, files) = load_with_files(library, &arguments.models, &arguments.model.settings()?)?;
+    let (meshes, files) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, settings)?;
     // Known only now.

@@ -1,9 +1,9 @@
 //! The classes of an edge that do not depend on the view.
 
 use super::{EdgeList, Incidence};
+use crate::choice::find;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, NONE, triangle_normal};
-use crate::names::find;
 use crate::settings::{Kind, Problem, Setting, Value};
 use crate::threads::{filled, in_parallel, threads_for};
 use crate::tolerances::PARALLEL_COSINE;

@@ -5,7 +5,7 @@
 //! the front or all from the back, so that none of its edges can be silhouette (Sander et al. 2000 clip so; the distances
 //! of the planes make the test sharper than a bounding sphere does).
 
-use super::silhouette::{LocalEye, PAPER_CLEAR, PLANE_ERROR, is_silhouette_in_the_paper};
+use super::silhouette::{LocalEye, PLANE_ERROR, PUBLISHED_CLEAR, is_published_silhouette};
 use super::{EdgeList, Eye, Incidence, SilhouetteRule, Silhouettes};
 use crate::mesh::{Mesh, hilbert_code};
 use crate::threads::{in_parallel, threads_for};
@@ -135,7 +135,7 @@ impl NormalCones {
         let mut found = match rule {
             SilhouetteRule::Exact => self.search::<true>(&local, local.error, exactly),
             // The listing's bound is to be cleared beside the error.
-            SilhouetteRule::Paper => self.search::<false>(&local, local.error + PAPER_CLEAR, exactly),
+            SilhouetteRule::Published => self.search::<false>(&local, local.error + PUBLISHED_CLEAR, exactly),
         };
         silhouettes.add_reversed(mesh, edges, eye, rule, &mut found);
         found
@@ -235,7 +235,7 @@ impl NormalCones {
         for (place, faces) in self.edge_faces[first_edge..end].iter().enumerate() {
             let [first, second] = faces.map(|face| distances[face as usize % LEAF_FACES]);
             let is_silhouette =
-                if IS_EXACT { (first > 0.0) ^ (second > 0.0) } else { is_silhouette_in_the_paper(first, second) };
+                if IS_EXACT { (first > 0.0) ^ (second > 0.0) } else { is_published_silhouette(first, second) };
             hits |= u64::from(is_silhouette) << place;
         }
         while hits != 0 {

@@ -18,14 +18,15 @@ pub enum SilhouetteRule {
     /// The listing's: the product of both normals' components along the camera's axis is at most 1e-8, for every edge the
     /// same axis. In perspective that misses edges and invents others.
     #[default]
-    Paper,
+    #[serde(rename = "paper")]
+    Published,
     /// One face's front is seen and the other's is not, by exact arithmetic.
     Exact,
 }
 
 impl SilhouetteRule {
     /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("paper", Self::Paper), ("exact", Self::Exact)];
+    pub const ALL: [(&'static str, Self); 2] = [("paper", Self::Published), ("exact", Self::Exact)];
 
     /// What the setting does.
     pub(crate) const HELP: &'static str =
@@ -45,10 +46,10 @@ impl Choice for SilhouetteRule {
 }
 
 /// The listing's bound on the product of two normals' components along the view.
-const PAPER_BOUND: f32 = 0.000_000_01;
+const PUBLISHED_BOUND: f32 = 0.000_000_01;
 
-/// Components beyond this on one side have a product above [`PAPER_BOUND`] whatever the rounding.
-pub(super) const PAPER_CLEAR: f32 = 1.001e-4;
+/// Components beyond this on one side have a product above [`PUBLISHED_BOUND`] whatever the rounding.
+pub(super) const PUBLISHED_CLEAR: f32 = 1.001e-4;
 
 /// Bound on the f32 error of a face's distance from the eye, as a share of the numbers it is computed from: four products
 /// and three sums, and the roundings of plane and eye before.
@@ -118,7 +119,7 @@ impl Silhouettes {
         let local = self.frame.eye(eye);
         match rule {
             SilhouetteRule::Exact => local,
-            SilhouetteRule::Paper => {
+            SilhouetteRule::Published => {
                 let axis = local.homogeneous.truncate().normalize_or_zero();
                 LocalEye { homogeneous: axis.extend(0.0), error: PLANE_ERROR * axis.abs().element_sum() }
             }
@@ -156,13 +157,13 @@ impl Silhouettes {
                     })
                 })
             }
-            SilhouetteRule::Paper => {
+            SilhouetteRule::Published => {
                 let along_view = filled(self.planes.len(), threads, 0f32, |face| along_view(self.planes[face], &local));
                 in_parallel(faces.len(), threads, |range| {
                     select(range, |edge| {
                         let [first, second] = faces[edge];
                         let dots = (along_view[first as usize], along_view[second as usize]);
-                        (first != second) & is_silhouette_in_the_paper(dots.0, dots.1)
+                        (first != second) & is_published_silhouette(dots.0, dots.1)
                     })
                 })
             }
@@ -195,7 +196,7 @@ impl Silhouettes {
             let [first, second] = edges.faces[*edge as usize];
             match rule {
                 SilhouetteRule::Exact => (side(first) == Side::Front) != (side(second) == Side::Back),
-                SilhouetteRule::Paper => is_silhouette_in_the_paper(along_view(first), along_view(second)),
+                SilhouetteRule::Published => is_published_silhouette(along_view(first), along_view(second)),
             }
         };
         let before = found.len();
@@ -231,8 +232,8 @@ fn along_view([x, y, z, _]: [f32; 4], eye: &LocalEye) -> f32 {
 
 /// The listing's test, in its own precision, of two normals' components along the view.
 #[inline(always)]
-pub(super) fn is_silhouette_in_the_paper(first: f32, second: f32) -> bool {
-    first * second <= PAPER_BOUND
+pub(super) fn is_published_silhouette(first: f32, second: f32) -> bool {
+    first * second <= PUBLISHED_BOUND
 }
 
 /// The numbers of a range for which something holds.

@@ -25,9 +25,9 @@ pub struct HowToMeasure {
     pub scenes: usize,
 }
 
-/// What the paper's text prints.
+/// What the article's text prints.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Paper {
+pub struct Article {
     /// The card.
     pub device: &'static str,
     /// Picture size.
@@ -40,8 +40,8 @@ pub struct Paper {
     pub background_gain_percent: f64,
 }
 
-/// The paper's numbers; those of the shaders are in [`super::SHADERS`].
-pub const PAPER: Paper = Paper {
+/// The article's numbers; those of the shaders are in [`super::SHADERS`].
+pub const ARTICLE: Article = Article {
     device: "GeForce FX 5200, processor of 1 GHz",
     size: Size { width: 512, height: 512 },
     triangles: [3_039, 122_646],
@@ -62,14 +62,15 @@ pub struct Numbers {
     pub scenes: Vec<MixRow>,
     /// Their frames, scene by scene.
     pub frames: Vec<FrameRow>,
-    /// The paper's filter and the one it replaces.
+    /// The article's filter and the one it replaces.
     pub filters: Vec<FilterRow>,
     /// Two passes without the square, from near to far.
     pub backgrounds: Vec<BackgroundRow>,
     /// The shaders.
     pub shaders: Vec<ShaderRow>,
-    /// What the paper's text prints.
-    pub paper: Paper,
+    /// What the article's text prints.
+    #[serde(rename = "paper")]
+    pub article: Article,
     /// Why ours differ, a few sentences for each number.
     pub reasons: Vec<Reason>,
 }
@@ -160,7 +161,7 @@ impl BackgroundRow {
 }
 
 impl Numbers {
-    /// How much more frames a second the paper's filter gives than the one it replaces, percent.
+    /// How much more frames a second the article's filter gives than the one it replaces, percent.
     pub fn filter_gain_percent(&self) -> Option<f64> {
         let of = |filter| self.filters.iter().find(|row| row.filter == filter);
         Some(gain_percent(&of(Filter::Laplacian4)?.series, &of(Filter::Laplacian8)?.series))
@@ -290,7 +291,7 @@ pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut
             })
             .collect(),
         shaders: throughput::rows(&squares),
-        paper: PAPER,
+        article: ARTICLE,
         reasons: Vec::new(),
     };
     numbers.reasons = reasons(&numbers);

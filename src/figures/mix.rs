@@ -1,4 +1,4 @@
-//! Scenes of a given number of triangles, for figure 13: built-in models added one by one, as the paper's scenes grew, and
+//! Scenes of a given number of triangles, for figure 13: built-in models added one by one, as the article's scenes grew, and
 //! an open box cut into as many triangles as then are missing.
 
 use crate::error::Result;
@@ -7,7 +7,7 @@ use glam::DVec3;
 use serde::Serialize;
 use std::sync::Arc;
 
-/// Triangles of the six scenes. The paper prints the first and the last; each of the four between them has as many times
+/// Triangles of the six scenes. The article prints the first and the last; each of the four between them has as many times
 /// more than the one before it.
 pub const TRIANGLES: [usize; 6] = [3_039, 6_367, 13_338, 27_944, 58_542, 122_646];
 

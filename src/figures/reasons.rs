@@ -1,4 +1,4 @@
-//! Why our numbers are not the paper's: sentences that follow from what was measured and from what GL says it is.
+//! Why our numbers are not the article's: sentences that follow from what was measured and from what GL says it is.
 
 use super::measure::{FrameRow, Numbers, Reason, gain_percent};
 use super::throughput::ShaderRow;
@@ -155,7 +155,7 @@ fn filter(numbers: &Numbers) -> Option<String> {
          {} for its scene); in our smallest scene the border's shading is about {share:.0} % of the frame, {why}.",
         signed(frame),
         signed(alone),
-        signed(numbers.paper.filter_gain_percent)
+        signed(numbers.article.filter_gain_percent)
     ))
 }
 
@@ -165,19 +165,19 @@ fn background(numbers: &Numbers) -> Option<String> {
     let best = rows.iter().max_by(|a, b| a.gain_percent().total_cmp(&b.gain_percent()))?;
     let worst = rows.iter().min_by(|a, b| a.gain_percent().total_cmp(&b.gain_percent()))?;
     let least_covered = rows.iter().min_by(|a, b| a.covered.total_cmp(&b.covered))?;
-    let as_in_paper = if best == least_covered {
+    let as_in_article = if best == least_covered {
         "as in the paper, which finds distant objects to gain most"
     } else {
         "not where least of the picture is covered, as the paper finds"
     };
     Some(format!(
-        "Against three passes the gain is largest, {}, where the bust covers {:.0} % of the picture, {as_in_paper}, and \
+        "Against three passes the gain is largest, {}, where the bust covers {:.0} % of the picture, {as_in_article}, and \
          smallest, {}, where it covers {:.0} % (paper: up to {}).",
         signed(best.gain_percent()),
         best.covered * 100.0,
         signed(worst.gain_percent()),
         worst.covered * 100.0,
-        signed(numbers.paper.background_gain_percent)
+        signed(numbers.article.background_gain_percent)
     ))
 }
 
@@ -196,7 +196,7 @@ fn nature_of_square(numbers: &Numbers) -> Option<String> {
     })
 }
 
-/// What the paper's throughputs are.
+/// What the article's throughputs are.
 fn nature_of_theirs() -> String {
     "The paper's four are reckoned by NVShaderPerf from the compiled fragment programs, 400 million pixels a second divided \
      by 1, 11, 14 and 25.5 steps of the chip; ours are times of squares that fill a picture, with the writing of every pixel."

@@ -10,13 +10,13 @@ use crate::styles::{Border, Cartoon, Filter, Show, Style};
 use serde::Serialize;
 use std::sync::Arc;
 
-/// A shader of the paper.
+/// A shader of the article.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shader {
     /// What it does.
     pub name: &'static str,
-    /// The paper's number, million pixels a second, where it prints one.
-    pub paper_mpixels: Option<f64>,
+    /// The article's number, million pixels a second, where it prints one.
+    pub article_mpixels: Option<f64>,
     is_two_pass: bool,
     pass: &'static str,
     /// With a factor other than the published one, so that both filters run in the same shader with settings.
@@ -26,28 +26,28 @@ pub struct Shader {
 /// Detection factor of the two filters that are compared.
 pub(super) const COMPARED_FACTOR: f32 = 0.25;
 
-/// The paper's four shaders, then the two filters it compares.
+/// The article's four shaders, then the two filters it compares.
 pub const SHADERS: [Shader; 6] = [
-    Shader { name: "map", paper_mpixels: Some(400.0), is_two_pass: false, pass: "map", filter: None },
-    Shader { name: "tones", paper_mpixels: Some(36.36), is_two_pass: false, pass: "tones", filter: None },
-    Shader { name: "border", paper_mpixels: Some(28.57), is_two_pass: false, pass: "border", filter: None },
+    Shader { name: "map", article_mpixels: Some(400.0), is_two_pass: false, pass: "map", filter: None },
+    Shader { name: "tones", article_mpixels: Some(36.36), is_two_pass: false, pass: "tones", filter: None },
+    Shader { name: "border", article_mpixels: Some(28.57), is_two_pass: false, pass: "border", filter: None },
     Shader {
         name: "tones and border in one",
-        paper_mpixels: Some(15.69),
+        article_mpixels: Some(15.69),
         is_two_pass: true,
         pass: "tones-and-border",
         filter: None,
     },
     Shader {
         name: "border, four neighbours, factor as a setting",
-        paper_mpixels: None,
+        article_mpixels: None,
         is_two_pass: false,
         pass: "border",
         filter: Some(Filter::Laplacian4),
     },
     Shader {
         name: "border, eight neighbours, factor as a setting",
-        paper_mpixels: None,
+        article_mpixels: None,
         is_two_pass: false,
         pass: "border",
         filter: Some(Filter::Laplacian8),
@@ -61,8 +61,9 @@ pub struct ShaderRow {
     pub name: &'static str,
     /// The fragment shaders below `glsl/`.
     pub fragments: Vec<&'static str>,
-    /// The paper's number, million pixels a second.
-    pub paper_mpixels: Option<f64>,
+    /// The article's number, million pixels a second.
+    #[serde(rename = "paper_mpixels")]
+    pub article_mpixels: Option<f64>,
     /// Ours; `None` where the square took no measurable time.
     pub mpixels: Option<f64>,
     /// Milliseconds of the square alone: the median of the differences within a turn.
@@ -115,7 +116,7 @@ pub(super) fn rows(contestants: &[Contestant]) -> Vec<ShaderRow> {
         ShaderRow {
             name: shader.name,
             fragments: draws.flat_map(|program| program.fragments.clone()).collect(),
-            paper_mpixels: shader.paper_mpixels,
+            article_mpixels: shader.article_mpixels,
             mpixels: (square_ms > 0.0).then_some(mpixels),
             square_ms,
             with_square,

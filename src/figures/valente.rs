@@ -2,7 +2,7 @@
 
 use super::{Content, Drawing, Figure, Panel, Shot, Text, panel};
 use crate::scene::Size;
-use crate::styles::{CetCoordinate, Charcoal, Recipe, Show, Style};
+use crate::styles::{CetCoordinate, Charcoal, CharcoalRecipe, Show, Style};
 use crate::textures::ContrastTexture;
 
 const BUST: &str = "builtin:bust";
@@ -133,8 +133,8 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "The report ends with further drawings. Ours are its two recipes, stronger strokes and faint outlines left to \
              the viewer, and your model where --model names one.",
             vec![
-                face("valente-12-darker", "darker", recipe(Recipe::Darker), " --charcoal darker"),
-                face("valente-12-closure", "closure", recipe(Recipe::Closure), " --charcoal closure"),
+                face("valente-12-darker", "darker", recipe(CharcoalRecipe::Darker), " --charcoal darker"),
+                face("valente-12-closure", "closure", recipe(CharcoalRecipe::Closure), " --charcoal closure"),
                 drawn("valente-12-model", "your model", "", Shot::whole(), base.clone(), "").textured(),
             ],
         ),

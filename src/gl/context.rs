@@ -1,19 +1,20 @@
 //! Ways to an OpenGL 2.1 context without a window, tried in order, each attempt remembered.
 
+mod context_lock;
 mod egl;
 mod info;
 mod osmesa;
 #[cfg(test)]
 mod tests;
-mod turns;
 #[cfg(feature = "window")]
 pub(crate) mod window;
 
 use super::Gl;
 use super::faults::{self, Fault, Faults};
+use crate::choice::find;
 use crate::error::{Error, Result};
-use crate::names::find;
 use crate::scene::Size;
+use context_lock::{ContextGuard, ContextLock};
 use info::load_functions;
 pub use info::{ContextInfo, is_software};
 use serde::Serialize;
@@ -21,7 +22,6 @@ use std::ffi::{CStr, c_void};
 use std::mem::ManuallyDrop;
 use std::rc::Rc;
 use std::str::FromStr;
-use turns::{Turn, Turns};
 
 /// The OpenGL that contexts are asked for.
 const VERSION: (u8, u8) = (2, 1);
@@ -80,8 +80,8 @@ pub(crate) struct Context {
     platform: ManuallyDrop<Platform>,
     gl: Rc<Gl>,
     faults: Option<Rc<Faults>>,
-    /// Of the contexts it takes turns with; `None` for those of hardware, which may all be at work at once.
-    turns: Option<&'static Turns>,
+    /// Shared with the contexts of the same screen; `None` for those of hardware, which may all be at work at once.
+    lock: Option<&'static ContextLock>,
 }
 
 /// Why a context cannot be made current.
@@ -133,19 +133,19 @@ impl Candidate {
     fn open(self, fault: Option<Fault>) -> std::result::Result<Context, String> {
         let device = self.name();
         let version = if fault == Some(Fault::ContextRefused) { NO_VERSION } else { VERSION };
-        let (backend, turns) = match &self {
-            Self::Egl(_) => ("egl", &turns::OF_EGL),
-            Self::OsMesa => ("osmesa", &turns::OF_OSMESA),
+        let (backend, lock) = match &self {
+            Self::Egl(_) => ("egl", &context_lock::OF_EGL),
+            Self::OsMesa => ("osmesa", &context_lock::OF_OSMESA),
             Self::Missing { reason, .. } => return Err(reason.clone()),
         };
         // Whether the context is software's is known only when it is there.
-        let _turn = turns.take();
+        let _guard = lock.lock();
         let platform = match self {
             Self::Egl(found) => Platform::Egl(egl::EglContext::open(&found, version)?),
             Self::OsMesa => Platform::OsMesa(osmesa::OsMesaContext::open(version)?),
             Self::Missing { reason, .. } => return Err(reason),
         };
-        Context::load(platform, backend, device, fault, turns)
+        Context::load(platform, backend, device, fault, lock)
     }
 }
 
@@ -188,7 +188,7 @@ impl Context {
         backend: &'static str,
         device: String,
         fault: Option<Fault>,
-        turns: &'static Turns,
+        lock: &'static ContextLock,
     ) -> std::result::Result<Self, String> {
         let faults = fault.map(|fault| Rc::new(Faults::new(fault)));
         platform.make_current().map_err(|failed| failed.reason)?;
@@ -196,13 +196,13 @@ impl Context {
         let loaded = load_functions(&platform, faults.as_deref(), backend, device);
         drop(current);
         let gl = loaded?;
-        let turns = gl.info.is_software().then_some(turns);
-        Ok(Self { platform: ManuallyDrop::new(platform), gl: Rc::new(gl), faults, turns })
+        let lock = gl.info.is_software().then_some(lock);
+        Ok(Self { platform: ManuallyDrop::new(platform), gl: Rc::new(gl), faults, lock })
     }
 
     /// Waits until no other context of the same screen is at work.
-    fn turn(&self) -> Option<Turn> {
-        self.turns.map(Turns::take)
+    fn lock_context(&self) -> Option<ContextGuard> {
+        self.lock.map(ContextLock::lock)
     }
 
     pub fn info(&self) -> &ContextInfo {
@@ -225,7 +225,7 @@ impl Context {
                 renderer: self.info().renderer.clone(),
             });
         }
-        let _turn = self.turn();
+        let _guard = self.lock_context();
         let resized = match &mut *self.platform {
             Platform::Egl(context) => context.resize(size),
             Platform::OsMesa(context) => context.resize(size),
@@ -233,10 +233,10 @@ impl Context {
         resized.map_err(|reason| Error::gl(format!("making a surface of {size} pixels"), reason))
     }
 
-    /// Makes the context current until the guard is dropped, after waiting for its turn: a thread has one such guard at most.
+    /// Makes the context current until the guard is dropped, after waiting for its lock: a thread has one such guard at most.
     /// Contexts of both platforms share one dispatch table inside Mesa, so none is left current when another may be entered.
     pub fn enter(&self) -> Result<Current<'_>> {
-        let turn = self.turn();
+        let guard = self.lock_context();
         self.platform.make_current().map_err(|NotCurrent { is_lost, reason }| {
             let during = "making the context current";
             match is_lost {
@@ -244,13 +244,13 @@ impl Context {
                 false => Error::gl(during, reason),
             }
         })?;
-        Ok(Current::new(&self.platform, self.faults.as_ref(), turn))
+        Ok(Current::new(&self.platform, self.faults.as_ref(), guard))
     }
 }
 
 impl Drop for Context {
     fn drop(&mut self) {
-        let _turn = self.turn();
+        let _guard = self.lock_context();
         // SAFETY: it is dropped here alone, and nothing uses it afterwards.
         unsafe { ManuallyDrop::drop(&mut self.platform) };
     }
@@ -260,13 +260,13 @@ impl Drop for Context {
 pub(crate) struct Current<'a> {
     platform: &'a Platform,
     /// Ends after the context has been released, below.
-    _turn: Option<Turn>,
+    _guard: Option<ContextGuard>,
 }
 
 impl<'a> Current<'a> {
-    fn new(platform: &'a Platform, faults: Option<&Rc<Faults>>, turn: Option<Turn>) -> Self {
+    fn new(platform: &'a Platform, faults: Option<&Rc<Faults>>, guard: Option<ContextGuard>) -> Self {
         faults::set_current(faults);
-        Self { platform, _turn: turn }
+        Self { platform, _guard: guard }
     }
 }
 

@@ -274,7 +274,7 @@ impl Resources {
             }
             if draw.blend {
                 gl.enable(glow::BLEND);
-                // Colour as the paper blends; alpha adds up to the picture's coverage, which plain blending would square.
+                // Colour as the article blends; alpha adds up to the picture's coverage, which plain blending would square.
                 gl.blend_func_separate(
                     glow::SRC_ALPHA,
                     glow::ONE_MINUS_SRC_ALPHA,

@@ -24,7 +24,7 @@ pub const POINT_SMOOTH: u32 = 0x0B10;
 pub const LUMINANCE_ALPHA: u32 = 0x190A;
 /// `GL_LUMINANCE8_ALPHA8`
 pub const LUMINANCE8_ALPHA8: u32 = 0x8045;
-/// `GL_RGBA` as the internal format the paper copies to.
+/// `GL_RGBA` as the internal format the article copies to.
 pub const RGBA: u32 = 0x1908;
 /// `GL_GENERATE_MIPMAP`
 pub const GENERATE_MIPMAP: u32 = 0x8191;

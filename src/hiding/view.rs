@@ -1,9 +1,9 @@
 //! One view: which faces are surely back faces, and which of them are surrounded by such faces.
 
+use super::backface::window_places;
 use super::openings::Openings;
 use super::selection::select;
 use super::slivers::Slivers;
-use super::turned::window_places;
 use super::{DrawnFaces, FACES_IN_A_BOX, Hiding, ObjectView, Sight, VERTICES_IN_A_BOX};
 use crate::camera::Projection;
 use crate::mesh::{NONE, VertexArrays};

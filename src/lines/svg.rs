@@ -7,7 +7,7 @@
 mod settings;
 mod text;
 
-pub use settings::{ClassWidths, Hidden, PaperSize, SvgSettings};
+pub use settings::{ClassWidths, Hidden, PageSize, SvgSettings};
 
 use super::chain::{LinePath, chain};
 use super::pen::{dashes, in_pen_order};
@@ -99,7 +99,7 @@ fn layers(paths: Vec<LinePath>) -> [[Vec<LinePath>; Class::ALL.len()]; 2] {
 
 /// Everything before the layers.
 fn begin(size: Size, settings: &SvgSettings, out: &mut String) {
-    let [width, height] = settings.paper_size.lengths(size);
+    let [width, height] = settings.page_size.lengths(size);
     let Size { width: width_px, height: height_px } = size;
     let element = |name: &str, text: &str| match text {
         "" => String::new(),

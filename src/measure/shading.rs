@@ -14,7 +14,7 @@ pub(super) struct Surface {
     /// Point and interpolated normal of any length, eye space, scene radii.
     pub point: DVec3,
     pub normal: DVec3,
-    /// The corners' diffuse and specular light of the first paper, interpolated, in [0, 1].
+    /// The corners' diffuse and specular light of the first article, interpolated, in [0, 1].
     pub light: [f64; 2],
     /// Red, green, blue, of 1.
     pub color: DVec3,

@@ -17,7 +17,7 @@ use glam::{DMat3, DVec2, DVec3};
 /// Pixels nearer to a visible line than this are counted apart: there one renderer's pixel may lie on another surface.
 const RIM_PX: f64 = 1.0;
 
-/// Where the papers' light stands, eye space, scene radii.
+/// Where the articles' light stands, eye space, scene radii.
 const LIGHT: DVec3 = DVec3::ONE;
 
 /// Differences up to this come from rounding a colour twice, of 255.

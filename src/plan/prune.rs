@@ -14,7 +14,7 @@ mod objects;
 mod shaders;
 
 use super::{Draw, Geometry, Plan, Step};
-use crate::names::find;
+use crate::choice::find;
 use crate::scene::{Rectangle, Scene, Size};
 use serde::Serialize;
 use std::cell::OnceCell;

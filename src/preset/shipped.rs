@@ -1,4 +1,4 @@
-//! The presets that ship: the papers' constants, each a TOML file in `presets/` that names its source.
+//! The presets that ship: the articles' constants, each a TOML file in `presets/` that names its source.
 
 /// Their names and texts.
 pub const SHIPPED: [(&str, &str); 5] = [

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 /// What is written: the page gives these two colours others in the dark.
 pub(super) const INK: RGBColor = RGBColor(0, 0, 0);
-pub(super) const PAPER: RGBColor = RGBColor(255, 255, 255);
+pub(super) const BACKGROUND: RGBColor = RGBColor(255, 255, 255);
 /// Lines behind everything, and axes.
 pub(super) const FAINT: RGBColor = RGBColor(226, 226, 226);
 pub(super) const MIDDLE: RGBColor = RGBColor(136, 136, 136);
@@ -57,7 +57,7 @@ impl<'a> Canvas<'a> {
     /// An empty one that will be written into `svg`.
     pub(super) fn new(svg: &'a mut String, width_px: u32, height_px: u32) -> Result<Self> {
         let area = SVGBackend::with_string(svg, (width_px, height_px)).into_drawing_area();
-        drawn(area.fill(&PAPER))?;
+        drawn(area.fill(&BACKGROUND))?;
         Ok(Self { area })
     }
 

@@ -1,6 +1,6 @@
 //! A style's mark in the plots: a colour and a shape, so that neither is needed alone.
 
-use super::canvas::{Canvas, PAPER};
+use super::canvas::{BACKGROUND, Canvas};
 use crate::error::Result;
 use plotters::style::{Color, RGBColor};
 use std::f64::consts::{PI, TAU};
@@ -40,7 +40,7 @@ pub(super) fn rank(style: &str) -> usize {
 /// Draws a style's mark, filled or hollow.
 pub(super) fn draw(canvas: &Canvas<'_>, style: &str, middle: (f64, f64), is_filled: bool) -> Result<()> {
     let (_, color, outline) = MARKS.get(rank(style)).copied().unwrap_or(("", RGBColor(90, 90, 90), Outline::Circle));
-    let fill = if is_filled { color } else { PAPER };
+    let fill = if is_filled { color } else { BACKGROUND };
     let mut corners = match outline {
         Outline::Circle => {
             canvas.circle(middle, RADIUS as u32 - 1, fill.filled())?;

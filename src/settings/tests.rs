@@ -6,7 +6,7 @@ use crate::edges::ClassSet;
 use crate::lines::{LineSettings, SvgSettings};
 use crate::mesh::LoadOptions;
 use crate::scene::SceneSettings;
-use crate::styles::{Charcoal, Inking, Paper, Ramp, Recipe, Style, StyleName};
+use crate::styles::{Charcoal, CharcoalRecipe, Inking, Paper, Ramp, Style, StyleName};
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -67,7 +67,7 @@ fn options(given: &[(&str, &str)]) -> Options {
 #[test]
 fn a_style_is_what_its_options_say() {
     let style = Style::from_options(&options(&[("style", "charcoal"), ("charcoal", "darker"), ("seed", "7")])).unwrap();
-    let darker = Charcoal { seed: 7, ..Charcoal::recipe(Recipe::Darker) };
+    let darker = Charcoal { seed: 7, ..Charcoal::recipe(CharcoalRecipe::Darker) };
     assert_eq!(style, Style::Charcoal(darker));
     // A recipe is written as what it sets.
     let written = style.to_options().unwrap();

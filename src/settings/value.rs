@@ -1,7 +1,7 @@
 //! How values are written and read: each type's text, which reads back as the same value.
 
 use super::{Choice, Kind, Problem, on_off};
-use crate::names::find;
+use crate::choice::find;
 use crate::values::{Color, Size};
 use glam::DVec3;
 use std::path::PathBuf;

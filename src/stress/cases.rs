@@ -8,7 +8,7 @@ mod pictures;
 mod scale;
 mod thresholds;
 mod topology;
-mod turns;
+mod turntable;
 
 use super::{Shape, Variant};
 use crate::camera::CameraSettings;
@@ -219,7 +219,7 @@ pub fn cases(seed: u64, mixes: usize) -> Vec<Case> {
     all.extend(thresholds::cases());
     all.extend(pictures::cases());
     all.extend(mixes::cases(seed, mixes));
-    all.extend(turns::cases());
+    all.extend(turntable::cases());
     all.extend(files::cases());
     all.extend(faults::cases());
     all

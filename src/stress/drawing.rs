@@ -109,7 +109,7 @@ impl Subject {
     fn study(&self, renderer: &mut Renderer, variant: &Variant, figures: &mut Figures) -> Result<()> {
         if let Some((exact, moved, flips)) = &self.exact {
             figures.insert("edges_flipped", flips.exact as f64);
-            figures.insert("edges_flipped_paper", flips.paper as f64);
+            figures.insert("edges_flipped_paper", flips.published as f64);
             figures.insert("edges_flipped_unexplained", flips.unexplained as f64);
             let before = Shown::of(renderer, &exact.scene, variant)?;
             if let Some(ink) = before.ink.as_ref().filter(|_| variant.style.has_lines()) {

@@ -26,7 +26,7 @@ pub struct Flips {
     /// Those whose silhouette or static class is another, by exact arithmetic.
     pub exact: usize,
     /// Those of which the listing's rule for silhouettes says something else than before.
-    pub paper: usize,
+    pub published: usize,
     /// Those among `exact` for which no predicate that decides it changed its sign: there must be none.
     pub unexplained: usize,
 }
@@ -88,7 +88,8 @@ pub fn flips(before: &Scene, after: &Scene) -> Flips {
         for edge in 0..was.list.len() as u32 {
             let silhouette = was.is_silhouette(edge) != is.is_silhouette(edge);
             let fixed = was.classes.of_edges[edge as usize] != is.classes.of_edges[edge as usize];
-            flips.paper += usize::from(was.paper.binary_search(&edge).is_ok() != is.paper.binary_search(&edge).is_ok());
+            flips.published +=
+                usize::from(was.published.binary_search(&edge).is_ok() != is.published.binary_search(&edge).is_ok());
             if !silhouette && !fixed {
                 continue;
             }
@@ -118,7 +119,7 @@ struct View<'a> {
     list: &'a EdgeList,
     classes: Classes,
     exact: Vec<u32>,
-    paper: Vec<u32>,
+    published: Vec<u32>,
     eye: Eye,
     crease_angle: CreaseAngle,
 }
@@ -130,8 +131,8 @@ impl<'a> View<'a> {
         let eye = scene.eye(object, SilhouetteRule::Exact);
         let classes = Classes::new(mesh, edges.list(), crease_angle, ClassSet::EDGES);
         let exact = edges.silhouette(eye, SilhouetteRule::Exact);
-        let paper = edges.silhouette(scene.eye(object, SilhouetteRule::Paper), SilhouetteRule::Paper);
-        Self { mesh, list: edges.list(), classes, exact, paper, eye, crease_angle }
+        let published = edges.silhouette(scene.eye(object, SilhouetteRule::Published), SilhouetteRule::Published);
+        Self { mesh, list: edges.list(), classes, exact, published, eye, crease_angle }
     }
 
     fn is_silhouette(&self, edge: u32) -> bool {

@@ -64,7 +64,7 @@ pub enum Shape {
     /// A square of two triangles with a picture on it.
     Textured,
     /// A long strip that reaches from before the eye of these cases to far behind it, through the point (1, 1, 1) of eye
-    /// space, where the papers' light stands.
+    /// space, where the articles' light stands.
     ThroughTheLight,
 }
 

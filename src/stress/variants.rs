@@ -37,7 +37,7 @@ impl Variant {
         vec![Self::published(StyleName::ThreePass), Self::published(StyleName::Ink), Self::exact_inking()]
     }
 
-    /// The first paper's passes without its clamped normals, 8-bit depth and faint borders.
+    /// The first article's passes without its clamped normals, 8-bit depth and faint borders.
     pub fn mended_three_pass() -> Self {
         let border = Border { detection_factor: 1.0, slope_threshold: true, ..Border::default() };
         let cartoon = Cartoon { border: Some(border), map_encoding: MapEncoding::Float, ..Cartoon::default() };

@@ -11,7 +11,7 @@ use serde::Serialize;
 /// Settings of the border; the defaults are the listing's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Border {
-    /// The filter. Default laplacian4, the paper's.
+    /// The filter. Default laplacian4, the article's.
     pub filter: Filter,
     /// What its response is multiplied by. Default 0.2; more makes fainter edges darker.
     pub detection_factor: f32,
@@ -33,7 +33,7 @@ const LEAST_GAP: [f32; 2] = [1.5, 2.0];
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Filter {
-    /// The Laplacian over four neighbours (figure 11): the paper's.
+    /// The Laplacian over four neighbours (figure 11): the article's.
     Laplacian4,
     /// The Laplacian over eight neighbours (figure 10, left; Nienhaus and Doellner 2003).
     Laplacian8,
@@ -134,7 +134,7 @@ impl Border {
 
     /// Whether the listing can run as printed on such a map.
     pub(super) fn runs_the_listing(&self, encoding: MapEncoding) -> bool {
-        self.is_published() && encoding == MapEncoding::Paper
+        self.is_published() && encoding == MapEncoding::Published
     }
 
     /// The filter over the whole surface, blended; `textures` are those of the map.

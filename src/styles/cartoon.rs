@@ -1,6 +1,6 @@
 //! `three-pass` and `two-pass`: Evangelista et al. 2005.
 //!
-//! With the paper's settings the published shaders run; any other setting runs their twins in which the constants are
+//! With the article's settings the published shaders run; any other setting runs their twins in which the constants are
 //! uniforms (`*-settings.frag`). A test shows that the twins draw the same picture.
 
 use super::{
@@ -11,14 +11,14 @@ use crate::plan::{Depth, Draw, Facts, Geometry, Output, Paint, Pass, Plan, Progr
 use crate::scene::{Background, Scene};
 use crate::settings::{ON_OFF, Setting, under, within};
 
-/// Settings of both cartoon styles; the defaults are the paper's.
+/// Settings of both cartoon styles; the defaults are the article's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cartoon {
     /// The tones.
     pub tones: Tones,
     /// The border; `None` draws the tones alone.
     pub border: Option<Border>,
-    /// Whether a square of the background's colour is drawn behind the scene, as the paper does in every scene.
+    /// Whether a square of the background's colour is drawn behind the scene, as the article does in every scene.
     /// Default yes; without it the two-pass style loses the outer half of every silhouette (errata E10).
     pub background_square: bool,
     /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
@@ -40,7 +40,7 @@ impl Default for Cartoon {
             border: Some(Border::default()),
             background_square: true,
             cull_back_faces: false,
-            map_encoding: MapEncoding::Paper,
+            map_encoding: MapEncoding::Published,
             map_target: MapTarget::Copy,
             supersample: Supersample::One,
         }

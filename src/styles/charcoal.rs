@@ -7,7 +7,7 @@
 mod choices;
 mod pictures;
 
-pub use choices::{CetCoordinate, CetFilter, ContrastOperator, Improvements, Noise, Recipe};
+pub use choices::{CetCoordinate, CetFilter, CharcoalRecipe, ContrastOperator, Improvements, Noise};
 pub use pictures::{CharcoalPictures, Paper};
 
 use super::{ALL_STYLES, Show, cull};
@@ -95,12 +95,12 @@ impl Charcoal {
         let recipe = Setting::of(
             "charcoal",
             "RECIPE",
-            Kind::Recipe(names_of::<Recipe>()),
+            Kind::Recipe(names_of::<CharcoalRecipe>()),
             "Recipe: published, darker (density 85, contrast exponent 1.2, smudged), closure (density 35, contrast exponent 2, \
              saturation 1.4); options given beside it count more",
-            |_: &Self| Recipe::Published.text(),
+            |_: &Self| CharcoalRecipe::Published.text(),
             |charcoal, text| {
-                let recipe = Self::recipe(Recipe::parse(text)?);
+                let recipe = Self::recipe(CharcoalRecipe::parse(text)?);
                 (charcoal.density_percent, charcoal.contrast_exponent) =
                     (recipe.density_percent, recipe.contrast_exponent);
                 (charcoal.smudge, charcoal.saturation) = (recipe.smudge, recipe.saturation);
@@ -243,12 +243,12 @@ fn measurable(light: [f32; 3]) -> [f32; 3] {
 
 impl Charcoal {
     /// The settings of one of the text's recipes.
-    pub fn recipe(recipe: Recipe) -> Self {
+    pub fn recipe(recipe: CharcoalRecipe) -> Self {
         let base = Self::default();
         match recipe {
-            Recipe::Published => base,
-            Recipe::Darker => Self { density_percent: 85.0, contrast_exponent: 1.2, smudge: true, ..base },
-            Recipe::Closure => Self { density_percent: 35.0, contrast_exponent: 2.0, saturation: 1.4, ..base },
+            CharcoalRecipe::Published => base,
+            CharcoalRecipe::Darker => Self { density_percent: 85.0, contrast_exponent: 1.2, smudge: true, ..base },
+            CharcoalRecipe::Closure => Self { density_percent: 35.0, contrast_exponent: 2.0, saturation: 1.4, ..base },
         }
     }
 

@@ -69,7 +69,7 @@ impl Default for Inking {
             is_inked: true,
             classes: ClassSet::of(&[Class::Boundary, Class::Silhouette, Class::Crease]),
             crease_angle: CreaseAngle::default(),
-            silhouette: SilhouetteRule::Paper,
+            silhouette: SilhouetteRule::Published,
             line_width_px: 2.0,
             is_smooth: true,
             has_joints: true,

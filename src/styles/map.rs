@@ -8,7 +8,7 @@ use crate::settings::{Choice, Setting};
 pub enum MapEncoding {
     /// Normals clamped to [0, 1], depth in the 8 bits of alpha: the listing's.
     #[default]
-    Paper,
+    Published,
     /// Normals as 0.5 n + 0.5, depth in 8 bits.
     Biased,
     /// Both as they are, 16 bits each, in a floating-point target.
@@ -22,7 +22,7 @@ pub enum MapEncoding {
 impl MapEncoding {
     /// All of them, as the user writes them.
     pub const ALL: [(&'static str, Self); 5] = [
-        ("paper", Self::Paper),
+        ("paper", Self::Published),
         ("biased", Self::Biased),
         ("float16", Self::Float16),
         ("float", Self::Float),
@@ -36,7 +36,7 @@ impl MapEncoding {
     /// The shaders that write it.
     pub(super) fn program(self) -> Program {
         let (vertex, fragment) = match self {
-            Self::Paper => ("evangelista/map.vert", "evangelista/map.frag"),
+            Self::Published => ("evangelista/map.vert", "evangelista/map.frag"),
             Self::Biased | Self::DepthTexture => ("improved/map-biased.vert", "evangelista/map.frag"),
             Self::Float16 | Self::Float => ("improved/map-float.vert", "improved/map-float.frag"),
         };
@@ -46,7 +46,7 @@ impl MapEncoding {
     /// What a pixel of the map holds where nothing is drawn and no square either: no normal, farthest depth.
     pub(super) fn empty(self) -> [f32; 4] {
         match self {
-            Self::Paper | Self::Float16 | Self::Float => [0.0, 0.0, 0.0, 1.0],
+            Self::Published | Self::Float16 | Self::Float => [0.0, 0.0, 0.0, 1.0],
             Self::Biased | Self::DepthTexture => [0.5, 0.5, 0.5, 1.0],
         }
     }
@@ -54,7 +54,7 @@ impl MapEncoding {
     /// What the background square leaves in a pixel of the map: its normal in eye space, and the depth of the far plane.
     pub(super) fn background(self) -> [f32; 4] {
         match self {
-            Self::Paper | Self::Float16 | Self::Float => [0.0, 0.0, 1.0, 1.0],
+            Self::Published | Self::Float16 | Self::Float => [0.0, 0.0, 1.0, 1.0],
             Self::Biased | Self::DepthTexture => [0.5, 0.5, 1.0, 1.0],
         }
     }
@@ -64,7 +64,7 @@ impl MapEncoding {
         match self {
             Self::Float16 => Target::Textures(&FLOAT16_MAP),
             Self::Float => Target::Textures(&FLOAT_MAP),
-            Self::Paper | Self::Biased | Self::DepthTexture => map_target.target(),
+            Self::Published | Self::Biased | Self::DepthTexture => map_target.target(),
         }
     }
 
@@ -80,7 +80,7 @@ impl MapEncoding {
     /// The fragment shader by which a filter reads it.
     pub(super) fn shader(self) -> &'static str {
         match self {
-            Self::Paper | Self::Float16 | Self::Float => "evangelista/texel-map.frag",
+            Self::Published | Self::Float16 | Self::Float => "evangelista/texel-map.frag",
             Self::Biased => "improved/texel-biased.frag",
             Self::DepthTexture => "improved/texel-depth-texture.frag",
         }
@@ -89,7 +89,7 @@ impl MapEncoding {
     /// The step between the depths it tells apart.
     pub(super) fn depth_step(self) -> f32 {
         match self {
-            Self::Paper | Self::Biased => 1.0 / 255.0,
+            Self::Published | Self::Biased => 1.0 / 255.0,
             // The last of 11 binary digits between 0.5 and 1, where most of a scene's window depth lies.
             Self::Float16 => 1.0 / 2048.0,
             Self::Float | Self::DepthTexture => 1.0 / 16_777_216.0,

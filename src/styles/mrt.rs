@@ -25,7 +25,7 @@ pub struct Mrt {
     pub tones: Tones,
     /// The border; `None` draws the tones alone.
     pub border: Option<Border>,
-    /// Whether the map holds behind the scene what the paper's square leaves there, a normal towards the eye. Default yes;
+    /// Whether the map holds behind the scene what the article's square leaves there, a normal towards the eye. Default yes;
     /// without it outer borders are fainter where the surface is seen at a grazing angle.
     pub background_square: bool,
     /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
@@ -63,9 +63,9 @@ impl Mrt {
             "ENCODING",
             Kind::Choice(vec!["paper"]),
             MapEncoding::HELP,
-            |_: &Self| MapEncoding::Paper.text(),
+            |_: &Self| MapEncoding::Published.text(),
             |_, text| match MapEncoding::parse(text)? {
-                MapEncoding::Paper => Ok(()),
+                MapEncoding::Published => Ok(()),
                 _ => Err(Error::setting(
                     "--map-encoding",
                     "style mrt keeps its map as published; leave it out, or draw --style three-pass",
@@ -110,7 +110,7 @@ impl Mrt {
         cartoon.check(scene, show)?;
         let surface = self.supersample.surface(scene.size);
         let map = vec![("borderMap", Texture::Drawn(MAP_TEXTURE))];
-        let square = border.square(scene, surface, MapEncoding::Paper, map);
+        let square = border.square(scene, surface, MapEncoding::Published, map);
         let passes = vec![
             self.geometry_pass(scene),
             Pass { target: Target::Textures(&TONES_ALONE), ..Pass::new("border", vec![Step::Draw(square)]) },
@@ -126,13 +126,13 @@ impl Mrt {
             border: self.border,
             background_square: self.background_square,
             cull_back_faces: self.cull_back_faces,
-            map_encoding: MapEncoding::Paper,
+            map_encoding: MapEncoding::Published,
             map_target: MapTarget::Copy,
             supersample: self.supersample,
         }
     }
 
-    /// Both of the paper's geometry passes at once.
+    /// Both of the article's geometry passes at once.
     fn geometry_pass(&self, scene: &Scene) -> Pass {
         let published = self.tones.are_published();
         let fragments = match published {
@@ -147,7 +147,7 @@ impl Mrt {
             facts: Facts { shorter: self.tones.shorter(&program), ..Facts::plain() },
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
-        let encoding = MapEncoding::Paper;
+        let encoding = MapEncoding::Published;
         let map = if self.background_square { encoding.background() } else { encoding.empty() };
         let colors = vec![scene.background.clear_color(), map];
         let steps = vec![Step::ClearEach { colors }, Step::Draw(objects)];

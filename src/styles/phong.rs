@@ -1,4 +1,4 @@
-//! `phong`: the realistic rendering the first paper compares its cartoons with (figures 5a and 8).
+//! `phong`: the realistic rendering the first article compares its cartoons with (figures 5a and 8).
 
 use super::{ALL_STYLES, Show, cull};
 use crate::error::{Error, Result};

@@ -26,7 +26,7 @@ pub struct Tones {
 pub enum ToneLookup {
     /// By comparing with the thresholds, as in the listing.
     Steps,
-    /// In a one-dimensional texture, as the paper mentions.
+    /// In a one-dimensional texture, as the article mentions.
     Texture,
 }
 

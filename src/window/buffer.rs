@@ -1,7 +1,7 @@
 //! The pictures a style can show of its inside.
 
+use crate::choice::find;
 use crate::edges::{Class, ClassSet};
-use crate::names::find;
 use crate::scene::Color;
 use crate::styles::{ClassColors, Inking, PaintMode, Show, Style, StyleName};
 use std::str::FromStr;

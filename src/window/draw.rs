@@ -63,7 +63,7 @@ pub enum Order {
     /// Draw this.
     Draw(Box<Job>),
     /// Time this and draw its lines by themselves.
-    Price(Box<Job>),
+    MeasureCost(Box<Job>),
     /// Use these shaders instead of those built in, by their paths below `glsl/`.
     Shaders(HashMap<String, String>),
 }
@@ -164,7 +164,7 @@ impl Drawer {
     /// # Errors
     ///
     /// As [`Renderer::render`].
-    pub fn price(&mut self, job: &Job) -> Result<(Scene, Vec<Cost>)> {
+    pub fn measure_cost(&mut self, job: &Job) -> Result<(Scene, Vec<Cost>)> {
         let scene = job.scene()?;
         let mut costs = Vec::new();
         for (side, style, _) in &job.drawings {
@@ -234,8 +234,8 @@ fn work(backend: Backend, number: usize, orders: &Receiver<Order>, reporter: &Re
                 Ok((drawings, shader_log)) => Report::Drawn { thread: number, drawings, shader_log },
                 Err(error) => Report::NotDrawn(number, error),
             },
-            Order::Price(job) => match drawer.price(&job) {
-                Ok((scene, costs)) => Report::Priced { scene: Box::new(scene), costs },
+            Order::MeasureCost(job) => match drawer.measure_cost(&job) {
+                Ok((scene, costs)) => Report::Cost { scene: Box::new(scene), costs },
                 Err(error) => Report::NotPriced(error),
             },
             Order::Shaders(shaders) => match drawer.replace_shaders(shaders) {

@@ -46,9 +46,9 @@ pub enum ViewerEvent {
     Style(Side, String),
     /// A setting of a side's style: option, value.
     Set(Side, String, String),
-    /// The same back to the paper's value.
+    /// The same back to the published value.
     Default(Side, String),
-    /// All of a side's settings back to the paper's.
+    /// All of a side's settings back to the article's.
     Faithful(Side),
     /// The side that number keys and the panel are for.
     Choose(Side),

@@ -1,6 +1,6 @@
-//! The panel: a widget for every dial of the active style. It reads the state and makes events, nothing else.
+//! The panel: a widget for every control of the active style. It reads the state and makes events, nothing else.
 
-use super::dials::{self, Dial};
+use super::controls::{self, Control};
 use super::event::{Layout, Side, ViewerEvent};
 use super::viewer::Viewer;
 use crate::preset::SHIPPED;
@@ -43,8 +43,8 @@ pub fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     faithful(ui, style, side, events);
     ui.separator();
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        for dial in dials::of(style) {
-            ui.push_id((dial.setting.name, side as usize), |ui| one(ui, &dial, side, events));
+        for control in controls::of(style) {
+            ui.push_id((control.setting.name, side as usize), |ui| one(ui, &control, side, events));
         }
         ui.separator();
         ui.label("the same by");
@@ -81,10 +81,10 @@ fn preset_file(ui: &mut Ui, events: &mut Vec<ViewerEvent>) {
     });
 }
 
-/// Whether all settings are the paper's, as a state that can be returned to.
+/// Whether all settings are the article's, as a state that can be returned to.
 fn faithful(ui: &mut Ui, style: &Style, side: Side, events: &mut Vec<ViewerEvent>) {
     ui.horizontal(|ui| {
-        if dials::is_faithful(style) {
+        if controls::is_faithful(style) {
             let said = match style {
                 Style::Ink(_) | Style::Phong(_) | Style::Mrt(_) | Style::Dietrich(_) => "● default settings",
                 _ => "● faithful",
@@ -92,7 +92,7 @@ fn faithful(ui: &mut Ui, style: &Style, side: Side, events: &mut Vec<ViewerEvent
             ui.colored_label(Color32::from_rgb(110, 190, 110), said)
                 .on_hover_text("every setting is the one its source gives");
         } else {
-            let changed = dials::of(style).iter().filter(|dial| !dial.is_default()).count();
+            let changed = controls::of(style).iter().filter(|control| !control.is_default()).count();
             ui.colored_label(Color32::from_rgb(220, 160, 60), format!("○ {changed} changed"));
             if ui.small_button("all as published").clicked() {
                 events.push(ViewerEvent::Faithful(side));
@@ -120,29 +120,29 @@ fn choices<'a>(
     });
 }
 
-/// A dial: its name, its widget, and the way back to the paper's value.
-fn one(ui: &mut Ui, dial: &Dial<Style>, side: Side, events: &mut Vec<ViewerEvent>) {
-    let (setting, value) = (dial.setting, &dial.value);
+/// A control: its name, its widget, and the way back to the published value.
+fn one(ui: &mut Ui, control: &Control<Style>, side: Side, events: &mut Vec<ViewerEvent>) {
+    let (setting, value) = (control.setting, &control.value);
     ui.horizontal(|ui| {
         let name = RichText::new(setting.label());
-        let name = if dial.is_default() { name } else { name.strong() };
-        ui.label(name).on_hover_text(format!("{} {}", dial.option(), setting.help));
+        let name = if control.is_default() { name } else { name.strong() };
+        ui.label(name).on_hover_text(format!("{} {}", control.option(), setting.help));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let back = ui.add_enabled(!dial.is_default(), egui::Button::new("↺").small());
-            if back.on_hover_text(format!("as published: {}", dial.default)).clicked() {
-                events.push(ViewerEvent::Default(side, dial.option()));
+            let back = ui.add_enabled(!control.is_default(), egui::Button::new("↺").small());
+            if back.on_hover_text(format!("as published: {}", control.default)).clicked() {
+                events.push(ViewerEvent::Default(side, control.option()));
             }
             if let Kind::Switch | Kind::Flag | Kind::Choice(_) = setting.kind
                 && let Some(text) = widget(ui, &setting.kind, value)
             {
-                events.push(ViewerEvent::Set(side, dial.option(), text));
+                events.push(ViewerEvent::Set(side, control.option(), text));
             }
         });
     });
     if let Kind::Numbers { .. } | Kind::Several(_) | Kind::File | Kind::Text { .. } = setting.kind
         && let Some(text) = widget(ui, &setting.kind, value)
     {
-        events.push(ViewerEvent::Set(side, dial.option(), text));
+        events.push(ViewerEvent::Set(side, control.option(), text));
     }
 }
 

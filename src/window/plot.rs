@@ -1,6 +1,6 @@
 //! Times and errors of what is shown, as numbers and a small plot.
 
-use super::price::{Point, Price};
+use super::cost::{Costs, Point};
 use super::viewer::Viewer;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2};
 
@@ -25,14 +25,14 @@ pub fn show(ui: &mut Ui, viewer: &Viewer) {
         let Some(drawing) = viewer.drawing(*side) else { continue };
         let style = viewer.state.style(*side).name();
         ui.strong(format!("{style}: {:.1} ms a frame", drawing.frame_ms));
-        let Some(priced) = viewer.price.sides.iter().find(|priced| priced.side == *side) else {
+        let Some(side_cost) = viewer.costs.sides.iter().find(|side_cost| side_cost.side == *side) else {
             ui.label("timing the passes");
             continue;
         };
-        for pass in &priced.passes {
+        for pass in &side_cost.passes {
             ui.label(format!("{}  {:.2} ms", pass.name, pass.cpu_ms));
         }
-        match &priced.error {
+        match &side_cost.error {
             Some(error) => {
                 let distance = error.ink_to_reference_px.map_or("-".to_owned(), |[mean, _]| format!("{mean:.2} px"));
                 ui.label(format!(
@@ -42,18 +42,18 @@ pub fn show(ui: &mut Ui, viewer: &Viewer) {
                     error.precision * 100.0
                 ));
             }
-            None if !priced.has_lines => drop(ui.label("draws no lines")),
-            None if viewer.price.is_measuring() => drop(ui.label("finding the exact lines")),
+            None if !side_cost.has_lines => drop(ui.label("draws no lines")),
+            None if viewer.costs.is_measuring() => drop(ui.label("finding the exact lines")),
             None => {}
         }
     }
-    if !viewer.price.history.is_empty() {
-        plot(ui, &viewer.price);
+    if !viewer.costs.history.is_empty() {
+        plot(ui, &viewer.costs);
     }
 }
 
 /// Error over time, a point for each style measured in this view.
-fn plot(ui: &mut Ui, price: &Price) {
+fn plot(ui: &mut Ui, costs: &Costs) {
     let (response, painter) = ui.allocate_painter(SIZE, egui::Sense::hover());
     let area = response.rect.shrink(MARGIN);
     let axis = Stroke::new(1.0, Color32::GRAY);
@@ -61,21 +61,21 @@ fn plot(ui: &mut Ui, price: &Price) {
     painter.line_segment([area.left_bottom(), area.right_bottom()], axis);
     let font = FontId::proportional(10.0);
     let color = ui.visuals().text_color();
-    let slowest = price.history.iter().map(|point| point.ms).fold(f64::MIN_POSITIVE, f64::max);
-    let worst = price.history.iter().map(|point| point.error).fold(LEAST_RANGE, f64::max);
+    let slowest = costs.history.iter().map(|point| point.ms).fold(f64::MIN_POSITIVE, f64::max);
+    let worst = costs.history.iter().map(|point| point.error).fold(LEAST_RANGE, f64::max);
     let axis_labels = [
         (area.left_top(), Align2::LEFT_BOTTOM, format!("error (1 - F1): {worst:.2}")),
         (area.right_bottom(), Align2::RIGHT_TOP, format!("{slowest:.1} ms")),
     ];
-    let places: Vec<Pos2> = price.history.iter().map(|point| place(point, [slowest, worst], area)).collect();
+    let places: Vec<Pos2> = costs.history.iter().map(|point| place(point, [slowest, worst], area)).collect();
     let mut taken: Vec<Rect> = places.iter().map(|place| Rect::from_center_size(*place, Vec2::splat(7.0))).collect();
     taken.extend(axis_labels.map(|(place, align, text)| painter.text(place, align, text, font.clone(), color)));
     let last = places.len() - 1;
-    for (index, (point, place)) in price.history.iter().zip(&places).enumerate() {
+    for (index, (point, place)) in costs.history.iter().zip(&places).enumerate() {
         let fill = if index == last { Color32::from_rgb(220, 90, 60) } else { Color32::from_rgb(90, 140, 200) };
         painter.circle_filled(*place, 3.5, fill);
         // The last point of a style bears its name.
-        if price.history[index + 1..].iter().any(|later| later.style == point.style) {
+        if costs.history[index + 1..].iter().any(|later| later.style == point.style) {
             continue;
         }
         let text = painter.layout_no_wrap(point.style.to_owned(), font.clone(), color);

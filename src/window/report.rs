@@ -30,7 +30,7 @@ pub enum Report {
     /// A drawing thread's job cannot be done.
     NotDrawn(usize, Error),
     /// What a job costs, and the scene it draws.
-    Priced {
+    Cost {
         /// The scene.
         scene: Box<Scene>,
         /// A cost for each side.

@@ -1,7 +1,7 @@
 //! The viewer as a value: what is shown, from where, in which styles; and how events change it. No window here, no GL.
 
 use super::buffer::{Buffer, buffers};
-use super::dials;
+use super::controls;
 use super::event::{Effect, Layout, Save, Side, ViewerEvent};
 use super::orbit::Orbit;
 use crate::camera::View;
@@ -208,10 +208,10 @@ impl ViewerState {
             ViewerEvent::Projection => self.orbit.parallel = !self.orbit.parallel,
             ViewerEvent::Style(side, name) => self.choose_style(side, name.parse()?),
             ViewerEvent::Set(side, option, value) => {
-                dials::turn(self.style_mut(side), &option, &value)?;
+                controls::turn(self.style_mut(side), &option, &value)?;
             }
             ViewerEvent::Default(side, option) => {
-                dials::turn_back(self.style_mut(side), &option)?;
+                controls::turn_back(self.style_mut(side), &option)?;
             }
             ViewerEvent::Faithful(side) => *self.style_mut(side) = Style::named(self.chosen[side as usize]),
             ViewerEvent::Choose(side) => self.active = side,

@@ -1,7 +1,7 @@
 //! Tests of the viewer's state.
 
 use super::*;
-use crate::styles::{Cartoon, Charcoal, Recipe};
+use crate::styles::{Cartoon, Charcoal, CharcoalRecipe};
 
 fn after(events: impl IntoIterator<Item = ViewerEvent>) -> ViewerState {
     let mut state = ViewerState { models: vec!["a/bust.obj".to_owned()], ..ViewerState::default() };
@@ -129,9 +129,9 @@ fn a_preset_draws_in_the_viewer_what_it_draws_elsewhere() {
         state.update(ViewerEvent::OpenPreset(path.clone()));
         (state.style(Side::Left).clone(), state.message.unwrap_or_default())
     };
-    // A recipe is no dial, the view no setting of a style, and both may stand in a preset.
+    // A recipe is no control, the view no setting of a style, and both may stand in a preset.
     let (style, said) = open("style = \"charcoal\"\ncharcoal = \"darker\"\nview = \"front\"\ntones = 2\n");
-    assert_eq!((style, said.as_str()), (Style::Charcoal(Charcoal::recipe(Recipe::Darker)), ""));
+    assert_eq!((style, said.as_str()), (Style::Charcoal(Charcoal::recipe(CharcoalRecipe::Darker)), ""));
     for (text, words) in [
         ("tone = 2\n", "mine.toml: line 1: tone: there is no such option"),
         ("style = \"ink\"\ntones = \"many\"\n", "mine.toml: line 2: --tones many: give a whole number"),

@@ -206,7 +206,7 @@ fn divider(ui: &Ui, top: Pos2, area: Rect, events: &mut Vec<ViewerEvent>) {
     }
 }
 
-/// What lies over the panes: keys, prices, what is wrong, what is being read.
+/// What lies over the panes: keys, costs, what is wrong, what is being read.
 fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     let state = &viewer.state;
     let window = |title: &str| egui::Window::new(title.to_owned()).collapsible(false).resizable(false).movable(false);

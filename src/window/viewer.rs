@@ -5,11 +5,11 @@
 //! wish is always at most a picture away, and nothing is drawn while nothing changes.
 
 use super::compose::composed;
+use super::cost::Costs;
 use super::draw::{Drawing, Job};
-use super::drawers::{Drawers, Ended};
 use super::event::{Effect, Save, Side, ViewerEvent};
 use super::load::{LoadedModels, Loader, Stage};
-use super::price::Price;
+use super::render_threads::{Ended, RenderThreads};
 use super::report::{Report, Reporter};
 use super::save::{Surroundings, save};
 use super::state::ViewerState;
@@ -44,7 +44,7 @@ pub struct Viewer {
     /// What is shown.
     pub state: ViewerState,
     /// What the shown styles cost.
-    pub price: Price,
+    pub costs: Costs,
     /// What loading is doing, while it does.
     pub stage: Option<Stage>,
     /// A shader that was refused, with the driver's log.
@@ -63,7 +63,7 @@ pub struct Viewer {
     is_pricing: bool,
     reporter: Reporter,
     reports: Receiver<Report>,
-    drawers: Drawers,
+    render_threads: RenderThreads,
     /// Those that write files.
     saving_threads: Vec<JoinHandle<()>>,
     loader: Loader,
@@ -83,10 +83,10 @@ impl Viewer {
         let no_thread = |error: std::io::Error| Error::gl("starting the window's threads", error.to_string());
         let (sender, reports) = channel();
         let reporter = Reporter::new(sender, wake);
-        let mut drawers = Drawers::start(options.backend, reporter.clone()).map_err(no_thread)?;
+        let mut render_threads = RenderThreads::start(options.backend, reporter.clone()).map_err(no_thread)?;
         if let Some(folder) = &options.shaders {
             // One that has ended will say why.
-            let _ = drawers.replace_shaders(watch::shaders_in(folder));
+            let _ = render_threads.replace_shaders(watch::shaders_in(folder));
         }
         let watched = watch::start(options.shaders.clone(), reporter.clone()).map_err(no_thread)?;
         let loader = Loader::new(options.load.clone(), reporter.clone());
@@ -99,7 +99,7 @@ impl Viewer {
         };
         let mut viewer = Self {
             state: options.state,
-            price: Price::default(),
+            costs: Costs::default(),
             stage: None,
             shader_log: None,
             problem: None,
@@ -112,7 +112,7 @@ impl Viewer {
             is_pricing: false,
             reporter,
             reports,
-            drawers,
+            render_threads,
             saving_threads: Vec::new(),
             loader,
             watched,
@@ -176,23 +176,23 @@ impl Viewer {
         Ok(())
     }
 
-    /// Asks for the picture of the state, if it is not there, and for its price when it is. To be called after events.
+    /// Asks for the picture of the state, if it is not there, and for its cost when it is. To be called after events.
     pub fn ask(&mut self) {
         let Some(job) = self.job() else { return };
         if self.is_pricing {
             return;
         }
-        let newest = self.drawers.newest();
+        let newest = self.render_threads.newest();
         let is_asked = newest.or(self.drawn.as_ref()).is_some_and(|newest| newest.is_same(&job));
         let sent = if !is_asked {
             // Other models, and pictures of another size, come one by one.
             let is_moving = newest.zip(self.drawn.as_ref()).is_some_and(|(newest, drawn)| {
                 [newest, drawn].iter().all(|other| other.is_of_same_scene_and_size(&job))
             });
-            self.drawers.draw(job, is_moving)
-        } else if newest.is_none() && self.state.has_price && self.price.sides.is_empty() && self.problem.is_none() {
+            self.render_threads.draw(job, is_moving)
+        } else if newest.is_none() && self.state.has_price && self.costs.sides.is_empty() && self.problem.is_none() {
             self.is_pricing = true;
-            self.drawers.price(job)
+            self.render_threads.measure_cost(job)
         } else {
             Ok(())
         };
@@ -201,18 +201,18 @@ impl Viewer {
 
     /// Whether the picture of the state is there or being drawn.
     pub fn is_asked(&self) -> bool {
-        let newest = self.drawers.newest().or(self.drawn.as_ref());
+        let newest = self.render_threads.newest().or(self.drawn.as_ref());
         self.job().is_none_or(|job| newest.is_some_and(|newest| newest.is_same(&job)))
     }
 
     /// Whether a picture is being drawn.
     pub fn is_drawing(&self) -> bool {
-        self.drawers.newest().is_some()
+        self.render_threads.newest().is_some()
     }
 
     /// Whether nothing is being read, drawn or measured.
     pub fn is_at_rest(&self) -> bool {
-        self.loads_going_on == 0 && !self.is_drawing() && !self.is_pricing && !self.price.is_measuring()
+        self.loads_going_on == 0 && !self.is_drawing() && !self.is_pricing && !self.costs.is_measuring()
     }
 
     /// A side's picture.
@@ -301,11 +301,11 @@ impl Viewer {
     fn take(&mut self, report: Report) {
         match report {
             Report::Renderer(thread, context) => {
-                self.drawers.opened(thread, &context);
+                self.render_threads.opened(thread, &context);
                 self.surroundings.context.get_or_insert(context);
             }
             Report::NoRenderer(thread, error) => {
-                if !self.drawers.lost(thread) {
+                if !self.render_threads.lost(thread) {
                     self.gone = Some(error);
                 }
             }
@@ -324,11 +324,11 @@ impl Viewer {
                     self.problem = Some(error.to_string());
                 }
             }
-            Report::Priced { scene, costs } => {
+            Report::Cost { scene, costs } => {
                 self.is_pricing = false;
                 let is_current = self.job().zip(self.drawn.as_ref()).is_some_and(|(job, drawn)| job.is_same(drawn));
                 if is_current {
-                    self.price.take(*scene, costs, self.reporter.clone());
+                    self.costs.take(*scene, costs, self.reporter.clone());
                 }
             }
             Report::NotPriced(error) => {
@@ -356,10 +356,10 @@ impl Viewer {
             }
             // The picture is the same; only the next ones are faster.
             Report::Prepared => {}
-            Report::Measured(number, errors) => self.price.measured(number, errors),
+            Report::Measured(number, errors) => self.costs.measured(number, errors),
             Report::ModelChanged => self.open(self.state.models.clone()),
             Report::ShadersChanged(shaders) => {
-                let sent = self.drawers.replace_shaders(shaders);
+                let sent = self.render_threads.replace_shaders(shaders);
                 self.check(sent);
             }
             Report::Saved(text) => self.state.message = Some(text),
@@ -382,12 +382,12 @@ impl Viewer {
         self.surroundings.files = files;
         self.state.models = models;
         self.scene = Some(scene);
-        self.price.view_changed();
+        self.costs.view_changed();
     }
 
     /// The job that a thread has done, unless a later one is shown already.
     fn done(&mut self, thread: usize) -> Option<Job> {
-        let (number, job) = self.drawers.done(thread)?;
+        let (number, job) = self.render_threads.done(thread)?;
         let is_news = number > self.drawn_number;
         self.drawn_number = self.drawn_number.max(number);
         is_news.then_some(job)
@@ -399,8 +399,8 @@ impl Viewer {
             .as_ref()
             .is_some_and(|before| before.orbit == job.orbit && before.is_of_same_scene_and_size(&job));
         match is_same_view {
-            true => self.price.style_changed(),
-            false => self.price.view_changed(),
+            true => self.costs.style_changed(),
+            false => self.costs.view_changed(),
         }
         self.drawn = Some(job);
         self.drawings = drawings;
@@ -412,7 +412,7 @@ impl Viewer {
 impl Drop for Viewer {
     /// Waits for files that are being written.
     fn drop(&mut self) {
-        self.price.view_changed();
+        self.costs.view_changed();
         for thread in self.saving_threads.drain(..) {
             // One that has panicked has said so.
             let _ = thread.join();

@@ -1,7 +1,7 @@
 //! A worker's jobs in this process, with contexts that fail on purpose.
 
-use super::super::studio::Studio;
-use super::work::carry_out;
+use super::super::session::Session;
+use super::worker::carry_out;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use tinta::batch::{Job, Outcome, Status};
@@ -19,13 +19,13 @@ fn job(id: usize) -> Job {
     Job::parse(line.as_bytes()).unwrap()
 }
 
-/// Does jobs in a studio; their outcomes and their pictures' hashes.
+/// Does jobs in a session; their outcomes and their pictures' hashes.
 fn outcomes(open: fn(Backend) -> Result<Renderer>, jobs: usize) -> (Vec<Outcome>, usize) {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = tempfile::tempdir().unwrap();
-    let mut studio = Studio::for_many(open);
-    let outcomes = (0..jobs).map(|id| carry_out(&job(id), folder.path(), &mut studio)).collect();
-    let objects = studio.live_objects();
+    let mut session = Session::for_many(open);
+    let outcomes = (0..jobs).map(|id| carry_out(&job(id), folder.path(), &mut session)).collect();
+    let objects = session.live_objects();
     (outcomes, objects)
 }
 
@@ -72,7 +72,7 @@ fn hundreds_of_jobs_share_the_objects_of_one_context() {
     }
     let (few, after_few) = outcomes(open, 6);
     let (many, after_many) = outcomes(open, 300);
-    assert_eq!(OPENED.load(Ordering::Relaxed), 2, "one context for each studio");
+    assert_eq!(OPENED.load(Ordering::Relaxed), 2, "one context for each session");
     assert!(after_few > 0 && after_few == after_many, "{after_few} and {after_many} GL objects");
     let (few, many) = (hashes(&few), hashes(&many));
     assert_eq!((few.len(), many.len()), (6, 300));

@@ -1,4 +1,4 @@
-//! A made-up setting of a made-up style, at every door that is a loop over tables. The viewer's is tried beside its dials.
+//! A made-up setting of a made-up style, at every door that is a loop over tables. The viewer's is tried beside its controls.
 
 use super::super::{completions, man};
 use super::*;

@@ -1,8 +1,8 @@
 //! `tinta render` with an animation for its output: a turn around the models, or an animated model's frames.
 
-use super::super::library::Library;
+use super::super::model_cache::ModelCache;
 use super::super::progress::Progress;
-use super::super::studio::Studio;
+use super::super::session::Session;
 use super::{Arguments, Loaded, Verdict, load_scene, model_records, prune};
 use serde_json::json;
 use std::sync::Arc;
@@ -51,14 +51,14 @@ impl AnimationArguments {
 }
 
 /// Draws the animation that the arguments describe; encoding goes on beside the drawing.
-pub fn run(arguments: &Arguments, target: &AnimationTarget, studio: &mut Studio) -> Result<Verdict> {
+pub fn run(arguments: &Arguments, target: &AnimationTarget, session: &mut Session) -> Result<Verdict> {
     let start = Instant::now();
     refuse_what_is_for_one_picture(arguments)?;
     let style = arguments.styles.style(arguments.style_name())?;
-    let (scenes, load_ms) = scenes(arguments, &style, &studio.library)?;
+    let (scenes, load_ms) = scenes(arguments, &style, &session.model_cache)?;
     let delay_ms = arguments.animation.delay_ms(scenes.len());
     let context = Instant::now();
-    let renderer = studio.renderer(arguments.run.backend)?;
+    let renderer = session.renderer(arguments.run.backend)?;
     let context_ms = milliseconds_since(context);
 
     let progress = Progress::new("drawing", scenes.len() as u64);
@@ -119,7 +119,7 @@ fn refuse_what_is_for_one_picture(arguments: &Arguments) -> Result<()> {
 }
 
 /// A scene for each picture, and how long reading took, milliseconds.
-pub(super) fn scenes(arguments: &Arguments, style: &Style, library: &Library) -> Result<(Vec<Scene>, f64)> {
+pub(super) fn scenes(arguments: &Arguments, style: &Style, model_cache: &ModelCache) -> Result<(Vec<Scene>, f64)> {
     let settings = arguments.scene_settings()?;
     if let Some(movement) = &arguments.animation.animate {
         let start = Instant::now();
@@ -127,7 +127,7 @@ pub(super) fn scenes(arguments: &Arguments, style: &Style, library: &Library) ->
         let load_ms = milliseconds_since(start);
         return Ok((one_scene_a_frame(frames, &settings)?, load_ms));
     }
-    let Loaded { scene, load_ms, .. } = load_scene(arguments, &settings, style, library)?;
+    let Loaded { scene, load_ms, .. } = load_scene(arguments, &settings, style, model_cache)?;
     let Some(views) = arguments.animation.turntable else { return Ok((vec![scene], load_ms)) };
     if views >= WORTH_PREPARING && matches!(style, Style::Inking(_)) {
         scene.prepare_for_many_views();

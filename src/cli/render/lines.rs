@@ -1,6 +1,6 @@
 //! `tinta render` into an SVG or JSON file: exact lines. No OpenGL is opened.
 
-use super::super::library::Library;
+use super::super::model_cache::ModelCache;
 use super::super::models::load_with_files;
 use super::super::progress::Progress;
 use super::{Arguments, keep, model_records};
@@ -84,13 +84,13 @@ fn is_of_a_picture(extension: &str) -> bool {
 }
 
 /// Finds the lines and writes them.
-pub fn run(arguments: &Arguments, options: &Options, format: Format, library: &Library) -> Result<()> {
+pub fn run(arguments: &Arguments, options: &Options, format: Format, model_cache: &ModelCache) -> Result<()> {
     let target = TextTarget::check(&arguments.output)?;
     refuse_what_lines_have_not(arguments, format, &target)?;
     let settings = arguments.styles.line_settings()?;
     svg_settings(arguments, None)?.check()?;
     let start = Instant::now();
-    let (meshes, files) = load_with_files(library, &arguments.models, &arguments.model.settings()?)?;
+    let (meshes, files) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, &arguments.scene_settings()?)?;
     let lines = find(&scene, &settings)?;

@@ -6,7 +6,7 @@
 //! read and the plans made by the program's own functions.
 
 use super::super::{Arguments as Whole, Command, carry_out, parse};
-use super::{Arguments, Library, animate};
+use super::{Arguments, ModelCache, animate};
 use clap::CommandFactory;
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -124,7 +124,7 @@ fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
 /// One picture, or those of an animation.
 fn pictures(arguments: &Arguments, renderer: &mut Renderer) -> tinta::Result<Vec<Picture>> {
     let style = arguments.styles.style(arguments.style_name())?;
-    let (scenes, _) = animate::scenes(arguments, &style, &Library::for_one())?;
+    let (scenes, _) = animate::scenes(arguments, &style, &ModelCache::for_one())?;
     scenes.iter().map(|scene| renderer.draw(scene, &style.plan(scene, arguments.styles.show)?)).collect()
 }
 

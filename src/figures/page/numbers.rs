@@ -1,4 +1,4 @@
-//! The measured numbers as tables, the paper's beside ours, and why they differ.
+//! The measured numbers as tables, the article's beside ours, and why they differ.
 
 use crate::figures::measure::{Numbers, Series};
 use crate::figures::reasons::signed;
@@ -48,7 +48,7 @@ fn scenes(out: &mut String, numbers: &Numbers) -> Result {
     for (index, scene) in numbers.scenes.iter().enumerate() {
         let mix = &scene.mix;
         // The text prints the first scene's triangles and the last one's.
-        let is_printed = numbers.paper.triangles.contains(&mix.wanted);
+        let is_printed = numbers.article.triangles.contains(&mix.wanted);
         let mut row = vec![
             if is_printed { grouped(mix.wanted) } else { format!("({})", grouped(mix.wanted)) },
             grouped(mix.triangles),
@@ -78,7 +78,7 @@ fn filter(out: &mut String, numbers: &Numbers) -> Result {
     let mut rows: Vec<Vec<String>> =
         numbers.filters.iter().map(|row| vec![name(row.filter).to_owned(), rate(&row.series), String::new()]).collect();
     let gain = numbers.filter_gain_percent().map(signed).unwrap_or_default();
-    rows.push(vec!["gain".to_owned(), gain, signed(numbers.paper.filter_gain_percent)]);
+    rows.push(vec!["gain".to_owned(), gain, signed(numbers.article.filter_gain_percent)]);
     table(out, &["filter", "frames per second", "paper"], &rows)?;
     why(out, numbers, "filter")
 }
@@ -104,7 +104,7 @@ fn background(out: &mut String, numbers: &Numbers) -> Result {
     writeln!(
         out,
         "<p class=\"hint\">Frames per second of the bust; the paper: up to {}.</p>",
-        signed(numbers.paper.background_gain_percent)
+        signed(numbers.article.background_gain_percent)
     )?;
     why(out, numbers, "background")
 }
@@ -116,7 +116,7 @@ fn throughput(out: &mut String, numbers: &Numbers) -> Result {
     let rows: Vec<Vec<String>> = numbers
         .shaders
         .iter()
-        .map(|row| vec![row.name.to_owned(), number(row.paper_mpixels, 2), number(row.mpixels, 1)])
+        .map(|row| vec![row.name.to_owned(), number(row.article_mpixels, 2), number(row.mpixels, 1)])
         .collect();
     table(out, &["shader", "paper", "here"], &rows)?;
     why(out, numbers, "throughput")

@@ -1,7 +1,7 @@
 //! The sentences about made-up measurements.
 
 use super::*;
-use crate::figures::measure::{BackgroundRow, FilterRow, MixRow, PAPER, Series};
+use crate::figures::measure::{ARTICLE, BackgroundRow, FilterRow, MixRow, Series};
 use crate::figures::mix::Mix;
 use crate::gl::is_software;
 use crate::styles::Filter;
@@ -51,7 +51,7 @@ fn numbers(two_by_three: f64, per_triangle_ms: f64, without_ms: [f64; 2]) -> Num
     let shader = |square_ms: f64| ShaderRow {
         name: "",
         fragments: Vec::new(),
-        paper_mpixels: None,
+        article_mpixels: None,
         mpixels: (square_ms > 0.0).then(|| square_ms.recip()),
         square_ms,
         with_square: series(square_ms + 1.0),
@@ -65,7 +65,7 @@ fn numbers(two_by_three: f64, per_triangle_ms: f64, without_ms: [f64; 2]) -> Num
     };
     Numbers {
         host: Host { renderer: "llvmpipe".to_owned(), version: String::new(), threads: 2, is_software: true },
-        size: PAPER.size,
+        size: ARTICLE.size,
         empty: series(0.5),
         scenes: scenes.to_vec(),
         frames: frames.collect(),
@@ -74,7 +74,7 @@ fn numbers(two_by_three: f64, per_triangle_ms: f64, without_ms: [f64; 2]) -> Num
             .to_vec(),
         backgrounds: [(1.0, 0.5, without_ms[0]), (3.0, 0.1, without_ms[1])].map(background).to_vec(),
         shaders: [1.0, 2.0, 3.0, 4.0, 3.0, 6.0].map(shader).to_vec(),
-        paper: PAPER,
+        article: ARTICLE,
         reasons: Vec::new(),
     }
 }

@@ -168,7 +168,7 @@ pub(super) fn load_functions(
     };
     let (live_objects, lost) = (Cell::new(0), Cell::new(None));
     let gl = Gl { glow, legacy, info, live_objects, replaced_shaders: RefCell::default(), lost };
-    // A core profile answers the questions about alpha and lines with an error: it lacks what the papers use.
+    // A core profile answers the questions about alpha and lines with an error: it lacks what the articles use.
     gl.check("asking the context about itself").map_err(|error| match error {
         Error::ContextLost { what, .. } => format!("the context was lost at once ({what})"),
         _ => "it is not a compatibility context".to_owned(),

@@ -1,6 +1,6 @@
 //! Contexts take turns.
 
-use super::turns::{OF_EGL, OF_OSMESA, Turns};
+use super::context_lock::{ContextLock, OF_EGL, OF_OSMESA};
 use super::{Backend, Context};
 use std::sync::mpsc::channel;
 use std::sync::{Mutex, PoisonError};
@@ -13,7 +13,7 @@ fn open(backend: Backend) -> Context {
 }
 
 /// While one context is current, another of the same screen waits on its thread; when the first has ended, it goes on.
-fn take_turns(backend: Backend, turns: &'static Turns) {
+fn take_turns(backend: Backend, lock: &'static ContextLock) {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let first = open(backend);
     if !first.info().is_software() {
@@ -35,7 +35,7 @@ fn take_turns(backend: Backend, turns: &'static Turns) {
         is_opened.recv().unwrap();
         let current = first.enter().unwrap();
         ask.send(()).unwrap();
-        assert!(turns.is_taken());
+        assert!(lock.is_locked());
         // It may not have come as far as asking yet; if it could enter it would, sooner or later, before this has ended.
         for _ in 0..1000 {
             std::thread::yield_now();

@@ -24,7 +24,7 @@ fn what_a_driver_lacks_is_refused_by_the_option_that_asks_for_it() {
     let single = ContextInfo { draw_buffers: 1, ..able.clone() };
     let no_float = ContextInfo { float_targets: false, ..able.clone() };
     let mrt = Style::named(StyleName::Mrt);
-    let texture = cartoon(MapEncoding::Paper, MapTarget::Texture);
+    let texture = cartoon(MapEncoding::Published, MapTarget::Texture);
     let ink = Style::Ink(Ink { map_target: MapTarget::Texture, ..Ink::default() });
     let float = cartoon(MapEncoding::Float, MapTarget::Copy);
     for style in [&mrt, &texture, &ink, &float] {
@@ -57,7 +57,7 @@ fn one_texture_in_two_formats_is_an_error_and_leaves_nothing_behind() {
     };
     let context = Context::open(Backend::Auto).unwrap_or_else(|error| panic!("{error}"));
     let _current = context.enter().unwrap();
-    let mut plan = plan(&cartoon(MapEncoding::Paper, MapTarget::Texture));
+    let mut plan = plan(&cartoon(MapEncoding::Published, MapTarget::Texture));
     plan.passes[1].target = Target::Textures(&HALF);
     let mut targets = Targets::default();
     let size = Size { width: 8, height: 8 };

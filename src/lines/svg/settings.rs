@@ -28,7 +28,7 @@ pub struct SvgSettings {
     /// A rectangle behind everything, or nothing. Default white.
     pub background: Background,
     /// How large it is on paper. Default left to the program that shows it.
-    pub paper_size: PaperSize,
+    pub page_size: PageSize,
     /// Whether each path names its class, object, mesh edges and angles; then no point is left out. Default no.
     pub has_provenance: bool,
     /// Whether it is for a plotter: thin lines in an order that spares empty ways, dashes as lines of their own, no
@@ -47,7 +47,7 @@ impl Default for SvgSettings {
             line_width_px: 2.0,
             class_widths: ClassWidths::default(),
             background: Background::Color(Color([1.0; 3])),
-            paper_size: PaperSize::Unset,
+            page_size: PageSize::Unset,
             has_provenance: false,
             is_for_pen: false,
         }
@@ -74,9 +74,9 @@ impl SvgSettings {
             "MM",
             number(10.0, 1000.0),
             "Width on paper, millimetres; the height follows",
-            |svg: &Self| if let PaperSize::WidthMm(width) = svg.paper_size { width.text() } else { UNSET.to_owned() },
+            |svg: &Self| if let PageSize::WidthMm(width) = svg.page_size { width.text() } else { UNSET.to_owned() },
             |svg, text| {
-                svg.paper_size = if text == UNSET { PaperSize::Unset } else { PaperSize::WidthMm(f64::parse(text)?) };
+                svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::WidthMm(f64::parse(text)?) };
                 Ok(())
             },
         );
@@ -85,9 +85,9 @@ impl SvgSettings {
             "N",
             number(10.0, 1200.0),
             "Size on paper as so many pixels an inch",
-            |svg: &Self| if let PaperSize::Dpi(dpi) = svg.paper_size { dpi.text() } else { UNSET.to_owned() },
+            |svg: &Self| if let PageSize::Dpi(dpi) = svg.page_size { dpi.text() } else { UNSET.to_owned() },
             |svg, text| {
-                svg.paper_size = if text == UNSET { PaperSize::Unset } else { PaperSize::Dpi(f64::parse(text)?) };
+                svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::Dpi(f64::parse(text)?) };
                 Ok(())
             },
         );
@@ -151,7 +151,7 @@ impl Choice for Hidden {
 
 /// How large an SVG is on paper.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub enum PaperSize {
+pub enum PageSize {
     /// In pixels, whatever they are.
     #[default]
     Unset,
@@ -168,9 +168,9 @@ const LARGEST: f64 = 1e6;
 const SMALLEST: f64 = 1e-3;
 
 /// Decimals of a length on paper, which may be a small part of an inch.
-const PAPER_DECIMALS: u32 = 6;
+const PAGE_DECIMALS: u32 = 6;
 
-impl PaperSize {
+impl PageSize {
     /// Width and height as SVG writes them.
     pub(super) fn lengths(self, size: Size) -> [String; 2] {
         let (pixels, scale, unit) = match self {
@@ -179,7 +179,7 @@ impl PaperSize {
             Self::Dpi(dpi) => (dpi, 1.0, "in"),
         };
         [size.width, size.height]
-            .map(|length| super::text::decimal(f64::from(length) * scale / pixels, PAPER_DECIMALS) + unit)
+            .map(|length| super::text::decimal(f64::from(length) * scale / pixels, PAGE_DECIMALS) + unit)
     }
 }
 
@@ -246,12 +246,12 @@ impl SvgSettings {
             }
         }
         let is_sound = |value: f64| (SMALLEST..=LARGEST).contains(&value);
-        match self.paper_size {
-            PaperSize::WidthMm(width) if !is_sound(width) => Err(Error::setting(
+        match self.page_size {
+            PageSize::WidthMm(width) if !is_sound(width) => Err(Error::setting(
                 format!("--width-mm {width}"),
                 format!("a drawing is {SMALLEST} to {LARGEST} millimetres wide"),
             )),
-            PaperSize::Dpi(dpi) if !is_sound(dpi) => Err(Error::setting(
+            PageSize::Dpi(dpi) if !is_sound(dpi) => Err(Error::setting(
                 format!("--dpi {dpi}"),
                 format!("a resolution is {SMALLEST} to {LARGEST} pixels an inch; 96 is usual"),
             )),
@@ -285,18 +285,18 @@ mod tests {
             assert!(message(SvgSettings { class_widths, ..base() }).starts_with("--class-widths boundary="));
         }
         for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let with = |paper_size| message(SvgSettings { paper_size, ..base() });
-            assert!(with(PaperSize::WidthMm(value)).starts_with("--width-mm"));
-            assert!(with(PaperSize::Dpi(value)).starts_with("--dpi"));
+            let with = |page_size| message(SvgSettings { page_size, ..base() });
+            assert!(with(PageSize::WidthMm(value)).starts_with("--width-mm"));
+            assert!(with(PageSize::Dpi(value)).starts_with("--dpi"));
         }
         assert!(base().check().is_ok());
     }
 
     #[test]
-    fn sizes_on_paper_keep_the_pictures_shape() {
+    fn sizes_on_a_page_keep_the_pictures_shape() {
         let size = Size { width: 600, height: 400 };
-        assert_eq!(PaperSize::Unset.lengths(size), ["600", "400"]);
-        assert_eq!(PaperSize::WidthMm(210.0).lengths(size), ["210mm", "140mm"]);
-        assert_eq!(PaperSize::Dpi(96.0).lengths(size), ["6.25in", "4.166667in"]);
+        assert_eq!(PageSize::Unset.lengths(size), ["600", "400"]);
+        assert_eq!(PageSize::WidthMm(210.0).lengths(size), ["210mm", "140mm"]);
+        assert_eq!(PageSize::Dpi(96.0).lengths(size), ["6.25in", "4.166667in"]);
     }
 }

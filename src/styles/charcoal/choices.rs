@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 /// The text's ways to draw, in its conclusions.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Recipe {
+pub enum CharcoalRecipe {
     /// The default settings.
     #[default]
     Published,
@@ -15,7 +15,7 @@ pub enum Recipe {
     Closure,
 }
 
-impl Recipe {
+impl CharcoalRecipe {
     /// All of them, as the user writes them.
     pub const ALL: [(&'static str, Self); 3] =
         [("published", Self::Published), ("darker", Self::Darker), ("closure", Self::Closure)];
@@ -147,7 +147,7 @@ impl FromStr for Improvements {
     }
 }
 
-impl Choice for Recipe {
+impl Choice for CharcoalRecipe {
     const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
 }
 

@@ -14,7 +14,7 @@ fn fragments(charcoal: &Charcoal, show: Show) -> Vec<&'static str> {
 
 #[test]
 fn with_any_setting_that_is_a_uniform_the_listing_runs() {
-    for recipe in Recipe::ALL {
+    for recipe in CharcoalRecipe::ALL {
         let charcoal = Charcoal { cet_filter: CetFilter::Mipmap, seed: 3, ..Charcoal::recipe(recipe.1) };
         assert_eq!(fragments(&charcoal, Show::Final), ["valente/charcoal.frag"], "{}", recipe.0);
     }

@@ -1,4 +1,4 @@
-//! A turn by small steps: ink and tones may move, but not come and go.
+//! A turntable, by small steps: ink and tones may move, but not come and go.
 
 use super::{Case, Drawing, Group, Study};
 use crate::stress::Shape;

@@ -1,8 +1,8 @@
-//! Sheets: pictures side by side with titles above and lines of text with colour swatches below. The one file that knows
-//! the font, Noto Sans Mono as bitmaps, which needs no rasteriser and no file.
+//! Contact sheets: pictures side by side with titles above and lines of text with colour swatches below. The one file that
+//! knows the font, Noto Sans Mono as bitmaps, which needs no rasteriser and no file.
 //!
 //! ```
-//! use tinta::sheet::{Caption, Panel, sheet};
+//! use tinta::contact_sheet::{Caption, Panel, sheet};
 //! use tinta::{Picture, Size};
 //!
 //! let size = Size { width: 40, height: 30 };
@@ -39,7 +39,7 @@ pub struct Caption {
 /// Pixels around and between things.
 const MARGIN: u32 = 16;
 
-const PAPER: [u8; 4] = [255; 4];
+const BACKGROUND: [u8; 4] = [255; 4];
 const FRAME: [u8; 4] = [200, 200, 200, 255];
 const TEXT: [u8; 3] = [30, 30, 30];
 
@@ -63,7 +63,7 @@ pub fn sheet(panels: &[Panel], captions: &[Caption]) -> Picture {
         width: panels_width.max(captions_width) + MARGIN,
         height: captions_top + line_height * captions.len() as u32 + MARGIN,
     };
-    let mut canvas = Canvas { picture: Picture { size, pixels: PAPER.repeat(size.pixel_count()) } };
+    let mut canvas = Canvas { picture: Picture { size, pixels: BACKGROUND.repeat(size.pixel_count()) } };
     let mut left = MARGIN;
     for panel in panels {
         canvas.write(left, MARGIN, &panel.title, &font.title);
@@ -144,7 +144,7 @@ impl Canvas {
         }
     }
 
-    /// A transparent picture shows the sheet's paper.
+    /// A transparent picture shows the sheet's background.
     fn paste(&mut self, left: u32, top: u32, picture: &Picture) {
         for y in 0..picture.size.height {
             for x in 0..picture.size.width {
@@ -193,7 +193,7 @@ mod tests {
         assert_eq!(count([0, 114, 178, 255]), 10 * 10);
         let rightmost = (0..sheet.size.width)
             .rev()
-            .find(|x| (0..sheet.size.height).any(|y| sheet.pixel((*x).into(), y.into()) != PAPER));
+            .find(|x| (0..sheet.size.height).any(|y| sheet.pixel((*x).into(), y.into()) != BACKGROUND));
         assert!(rightmost.is_some_and(|x| x + 4 < sheet.size.width), "nothing reaches the rim: {rightmost:?}");
     }
 }

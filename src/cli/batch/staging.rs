@@ -1,4 +1,5 @@
-//! A measurement's folder, which fills row by row: it has another name until it is whole, and is gone on with after a kill.
+//! Staging of a measurement's folder, which fills row by row: it has another name until it is complete, and is resumed after a
+//! kill.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -7,15 +8,15 @@ use tinta::report::ROWS_FILE;
 use tinta::settings::OptionValue;
 use tinta::{Error, Result};
 
-/// A folder in the making.
-pub struct Making {
-    making: PathBuf,
+/// A folder that does not have its final name yet.
+pub struct StagedFolder {
+    staged: PathBuf,
     place: PathBuf,
     /// Rows of several files are put together quickly, and from the beginning.
     is_merge: bool,
 }
 
-impl Making {
+impl StagedFolder {
     /// Of a measurement; of other jobs none. A folder that is no measurement's is refused.
     pub fn of(job: &Job, folder: &Path) -> Result<Option<Self>> {
         let output = job.options.iter().find(|(key, _)| key == "output");
@@ -31,20 +32,20 @@ impl Making {
                 problem: "something that is no measurement lies here; name another folder".to_owned(),
             });
         }
-        let making = place.with_file_name(format!("{}{name}", prefix(job)));
+        let staged = place.with_file_name(format!("{}{name}", prefix(job)));
         let is_merge = job.options.iter().any(|(key, _)| key == "merge");
-        if is_merge && making.is_dir() {
-            std::fs::remove_dir_all(&making).map_err(|error| cannot(&making, &error))?;
+        if is_merge && staged.is_dir() {
+            std::fs::remove_dir_all(&staged).map_err(|error| cannot(&staged, &error))?;
         }
-        Ok(Some(Self { making, place, is_merge }))
+        Ok(Some(Self { staged, place, is_merge }))
     }
 
-    /// The job's words with the folder in the making, gone on with.
+    /// The job's arguments with the staged folder, resumed.
     pub fn words(&self, words: Vec<OsString>) -> Vec<OsString> {
         let is_output = |word: &OsString| word.to_string_lossy().starts_with("--output=");
         let mut words: Vec<OsString> = words.into_iter().filter(|word| !is_output(word)).collect();
         let mut output = OsString::from("--output=");
-        output.push(&self.making);
+        output.push(&self.staged);
         words.insert(2, output);
         if !self.is_merge && !words.iter().any(|word| word == "--resume") {
             words.insert(3, "--resume".into());
@@ -54,18 +55,18 @@ impl Making {
 
     /// Gives the folder, whole, its name; an older measurement there is gone then.
     pub fn put_in_place(&self) -> Result<()> {
-        let old = self.making.with_extension("old");
+        let old = self.staged.with_extension("old");
         let _ = std::fs::remove_dir_all(&old);
         if self.place.join(ROWS_FILE).is_file() {
             std::fs::rename(&self.place, &old).map_err(|error| cannot(&self.place, &error))?;
         }
-        std::fs::rename(&self.making, &self.place).map_err(|error| cannot(&self.place, &error))?;
+        std::fs::rename(&self.staged, &self.place).map_err(|error| cannot(&self.place, &error))?;
         let _ = std::fs::remove_dir_all(&old);
         Ok(())
     }
 }
 
-/// How the name of a job's folder begins while it is in the making: another one where the job has been changed.
+/// How the name of a job's folder begins while it is staged: another one where the job has been changed.
 pub fn prefix(job: &Job) -> String {
     format!(".tinta-{}-", job.sha256.get(..16).unwrap_or_default())
 }

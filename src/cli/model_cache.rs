@@ -1,4 +1,4 @@
-//! The models last read, so that jobs that follow one another do not read the same one again.
+//! A cache of the models last read, so that jobs that follow one another do not read the same one again.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -7,9 +7,9 @@ use tinta::mesh::load;
 use tinta::{LoadOptions, Mesh, Result};
 
 /// Reads models, and keeps them where there are many jobs.
-pub struct Library(Mutex<Models>);
+pub struct ModelCache(Mutex<Models>);
 
-impl Library {
+impl ModelCache {
     /// For one job: nothing is kept.
     pub fn for_one() -> Self {
         Self(Mutex::new(Models { keeps: false, kept: Vec::new() }))
@@ -115,30 +115,30 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.obj").to_str().unwrap().to_owned();
         std::fs::write(&path, TRIANGLE).unwrap();
-        let library = Library::for_many();
+        let model_cache = ModelCache::for_many();
         let options = LoadOptions::default();
-        let read = || library.read(&path, &options).unwrap();
+        let read = || model_cache.read(&path, &options).unwrap();
         let first = read();
         assert!(Arc::ptr_eq(&first.mesh, &read().mesh));
         let flat = LoadOptions { normals: tinta::mesh::Normals::Flat, ..options.clone() };
-        assert!(!Arc::ptr_eq(&first.mesh, &library.read(&path, &flat).unwrap().mesh));
+        assert!(!Arc::ptr_eq(&first.mesh, &model_cache.read(&path, &flat).unwrap().mesh));
         assert!(Arc::ptr_eq(&first.mesh, &read().mesh));
         std::fs::write(&path, format!("{TRIANGLE}f 3 2 1\n")).unwrap();
         assert_eq!(read().mesh.triangles.len(), 2);
-        let library = Library::for_one();
-        let read = || library.read(&path, &options).unwrap();
+        let model_cache = ModelCache::for_one();
+        let read = || model_cache.read(&path, &options).unwrap();
         assert!(!Arc::ptr_eq(&read().mesh, &read().mesh));
     }
 
     #[test]
     fn no_more_models_are_kept_than_there_is_room_for() {
         let folder = tempfile::tempdir().unwrap();
-        let library = Library::for_many();
+        let model_cache = ModelCache::for_many();
         for number in 0..100 {
             let path = folder.path().join(format!("{number}.obj"));
             std::fs::write(&path, TRIANGLE).unwrap();
-            library.read(path.to_str().unwrap(), &LoadOptions::default()).unwrap();
+            model_cache.read(path.to_str().unwrap(), &LoadOptions::default()).unwrap();
         }
-        assert_eq!(library.0.lock().unwrap().kept.len(), Models::COUNT);
+        assert_eq!(model_cache.0.lock().unwrap().kept.len(), Models::COUNT);
     }
 }

@@ -1,30 +1,30 @@
 //! What the jobs of one process share: contexts with their programs and textures, and the models last read.
 //!
-//! A command line opens what it needs and leaves it at its end; a batch's worker hands the same studio to every job. Contexts
+//! A command line opens what it needs and leaves it at its end; a batch's worker hands the same session to every job. Contexts
 //! belong to the thread that opened them.
 
-use super::library::Library;
+use super::model_cache::ModelCache;
 use tinta::{Backend, Renderer, Result};
 
 /// Contexts and models.
-pub struct Studio {
+pub struct Session {
     open: fn(Backend) -> Result<Renderer>,
     renderers: Vec<(Backend, Renderer)>,
     /// What the job at hand draws by.
     used: Option<Backend>,
     /// Also for other threads: models are read while the first context opens.
-    pub library: Library,
+    pub model_cache: ModelCache,
 }
 
-impl Studio {
+impl Session {
     /// For one job: nothing is kept that it does not need.
     pub fn for_one() -> Self {
-        Self { open: Renderer::new, renderers: Vec::new(), used: None, library: Library::for_one() }
+        Self { open: Renderer::new, renderers: Vec::new(), used: None, model_cache: ModelCache::for_one() }
     }
 
     /// For many jobs, with this way to open a context.
     pub fn for_many(open: fn(Backend) -> Result<Renderer>) -> Self {
-        Self { open, renderers: Vec::new(), used: None, library: Library::for_many() }
+        Self { open, renderers: Vec::new(), used: None, model_cache: ModelCache::for_many() }
     }
 
     /// Whether this way to OpenGL is open.
@@ -32,7 +32,7 @@ impl Studio {
         self.renderers.iter().any(|(known, _)| *known == backend)
     }
 
-    /// Opens a context that [`Studio::keep`] may be given.
+    /// Opens a context that [`Session::keep`] may be given.
     pub fn open(&self, backend: Backend) -> Result<Renderer> {
         (self.open)(backend)
     }

@@ -1,13 +1,13 @@
-//! What the program says: results to standard output, talk to standard error, or both to whoever asked for a job to be done.
+//! Messages: results to standard output, remarks to standard error, or both captured for the batch worker that does the job.
 
 use super::standard_output;
 use std::io::Write;
 use std::sync::{Mutex, PoisonError};
 use tinta::{Error, Result};
 
-/// What was said and printed while somebody listened.
+/// What was said and printed while it was captured.
 #[derive(Default)]
-pub struct Heard {
+pub struct Captured {
     /// Sentences for the person.
     pub said: Vec<String>,
     /// Results.
@@ -15,28 +15,28 @@ pub struct Heard {
 }
 
 /// Of the process: a job may speak from more than one thread.
-static HEARD: Mutex<Option<Heard>> = Mutex::new(None);
+static CAPTURED: Mutex<Option<Captured>> = Mutex::new(None);
 
 /// Keeps what is said from now on instead of saying it.
-pub fn listen() {
-    *HEARD.lock().unwrap_or_else(PoisonError::into_inner) = Some(Heard::default());
+pub fn capture() {
+    *CAPTURED.lock().unwrap_or_else(PoisonError::into_inner) = Some(Captured::default());
 }
 
-/// Ends that, and hands over what was heard.
-pub fn heard() -> Heard {
-    HEARD.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default()
+/// Ends that, and hands over what was captured.
+pub fn captured() -> Captured {
+    CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default()
 }
 
-/// Whether somebody listens.
-pub fn is_heard() -> bool {
-    HEARD.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+/// Whether messages are captured.
+pub fn is_captured() -> bool {
+    CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).is_some()
 }
 
 /// Says a line to the person, on standard error; nobody listening is no error.
 pub fn say(line: &str) {
     let line = plain(line);
-    match HEARD.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
-        Some(heard) => heard.said.push(line.strip_prefix("tinta: ").map(str::to_owned).unwrap_or(line)),
+    match CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+        Some(captured) => captured.said.push(line.strip_prefix("tinta: ").map(str::to_owned).unwrap_or(line)),
         None => drop(writeln!(std::io::stderr(), "{line}")),
     }
 }
@@ -53,8 +53,8 @@ pub fn plain(line: &str) -> String {
 
 /// Writes text to standard output; a reader that has heard enough (`| head`) is no error.
 pub fn print(text: &str) -> Result<()> {
-    if let Some(heard) = HEARD.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
-        heard.printed.push_str(text);
+    if let Some(captured) = CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+        captured.printed.push_str(text);
         return Ok(());
     }
     check_output(STANDARD_OUTPUT)?;

@@ -1,4 +1,4 @@
-//! Where a job may write: in the batch's own folder, whatever its line says.
+//! Output paths of jobs: inside the batch's own folder, whatever a job's line says.
 
 use std::path::{Component, Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! The threads that draw, and what each is at.
+//! The threads that render, and what each is doing.
 //!
 //! One draws, until the picture changes faster than it can: then, where drawing is the processor's work, a second one takes
 //! every other picture. Mesa's software drivers compute vertices on one core, so that a second core would wait for them. Two
@@ -19,7 +19,7 @@ const MOST: usize = 2;
 const SECOND: Backend = Backend::OsMesa;
 
 /// The threads.
-pub struct Drawers {
+pub struct RenderThreads {
     backend: Backend,
     /// What the first thread's context says about itself.
     first: Option<ContextInfo>,
@@ -42,17 +42,17 @@ struct Thread {
     job: Option<(u64, Job)>,
 }
 
-impl Drawers {
+impl RenderThreads {
     /// Starts the first.
     ///
     /// # Errors
     ///
     /// When there is no thread to be had.
     pub fn start(backend: Backend, reporter: Reporter) -> std::io::Result<Self> {
-        let mut drawers =
+        let mut started =
             Self { backend, first: None, reporter, threads: Vec::new(), shaders: None, may_grow: false, count: 0 };
-        drawers.add()?;
-        Ok(drawers)
+        started.add()?;
+        Ok(started)
     }
 
     fn add(&mut self) -> std::io::Result<()> {
@@ -116,8 +116,8 @@ impl Drawers {
     /// # Errors
     ///
     /// When it has ended.
-    pub fn price(&self, job: Job) -> Result<(), Ended> {
-        self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::Price(Box::new(job))))
+    pub fn measure_cost(&self, job: Job) -> Result<(), Ended> {
+        self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::MeasureCost(Box::new(job))))
     }
 
     /// Has shaders used from now on.
@@ -152,7 +152,7 @@ impl Thread {
     }
 }
 
-impl Drop for Drawers {
+impl Drop for RenderThreads {
     /// Waits for what is being drawn: a driver does not bear a program's end while it draws.
     fn drop(&mut self) {
         self.threads.iter_mut().for_each(|thread| thread.orders = None);

@@ -1,4 +1,4 @@
-//! Faces that GL's own culling throws away, found before their vertices are computed with.
+//! Back faces: those that GL's own culling discards, found before their vertices are computed with.
 //!
 //! GL decides by the sign of a face's area in window coordinates, whose vertices it has placed on sub-pixels. A face is left
 //! out where that sign is certain.

@@ -18,9 +18,9 @@ const TOLERANCE_PX: f64 = 2.0;
 
 /// What is known of the picture that is shown.
 #[derive(Debug, Default)]
-pub struct Price {
+pub struct Costs {
     /// Each side's style with the times of its passes and its lines' error, where they are known.
-    pub sides: Vec<Priced>,
+    pub sides: Vec<SideCost>,
     /// All that was measured in this view, for the plot.
     pub history: Vec<Point>,
     /// What is going on.
@@ -28,9 +28,9 @@ pub struct Price {
     number: u64,
 }
 
-/// A side's price.
+/// A side's cost.
 #[derive(Debug, Clone)]
-pub struct Priced {
+pub struct SideCost {
     /// Which side.
     pub side: Side,
     /// The style's name.
@@ -57,14 +57,14 @@ pub struct Point {
 /// Most points kept.
 const MOST_POINTS: usize = 64;
 
-impl Priced {
+impl SideCost {
     /// All passes together, milliseconds by the clock: drivers that draw on the processor answer timer queries too early.
     pub fn ms(&self) -> f64 {
         self.passes.iter().map(|pass| pass.cpu_ms).sum()
     }
 }
 
-impl Price {
+impl Costs {
     /// Forgets everything and gives up what is going on: the view has changed.
     pub fn view_changed(&mut self) {
         self.style_changed();
@@ -90,7 +90,7 @@ impl Price {
         self.style_changed();
         let mut inks = Vec::new();
         for Cost { side, style, passes, ink } in costs {
-            self.sides.push(Priced { side, style, passes, error: None, has_lines: ink.is_some() });
+            self.sides.push(SideCost { side, style, passes, error: None, has_lines: ink.is_some() });
             inks.extend(ink.map(|ink| (side, ink)));
         }
         if inks.is_empty() {
@@ -116,10 +116,10 @@ impl Price {
         }
         self.measuring = None;
         for (side, error) in errors {
-            if let Some(priced) = self.sides.iter_mut().find(|priced| priced.side == side) {
-                let point = Point { style: priced.style, ms: priced.ms(), error: 1.0 - error.f1 };
+            if let Some(side_cost) = self.sides.iter_mut().find(|side_cost| side_cost.side == side) {
+                let point = Point { style: side_cost.style, ms: side_cost.ms(), error: 1.0 - error.f1 };
                 self.history.push(point);
-                priced.error = Some(error);
+                side_cost.error = Some(error);
             }
         }
         let surplus = self.history.len().saturating_sub(MOST_POINTS);

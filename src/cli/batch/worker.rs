@@ -1,10 +1,10 @@
-//! A worker from inside: jobs from standard input, one after another, with one studio for all of them.
+//! Child side of a worker process: jobs from standard input, one after another, in one session.
 
 use super::super::preset::{Given, parse};
-use super::super::studio::Studio;
-use super::super::{Command, Stop, Verdict, compare, measure, render, speech};
-use super::whole::{self, Making};
-use super::{signals, words::words};
+use super::super::session::Session;
+use super::super::{Command, Stop, Verdict, compare, measure, messages, render};
+use super::staging::{self, StagedFolder};
+use super::{argv::argv, signals};
 use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,10 +24,10 @@ pub fn serve(folder: &Path) -> Result<()> {
         |error: std::io::Error| Error::Output { path: "-".to_owned(), problem: format!("the run is gone ({error})") };
     let is_busy = Arc::new(AtomicBool::new(false));
     let lines = lines(&is_busy).map_err(gone)?;
-    let mut studio = Studio::for_many(Renderer::new);
+    let mut session = Session::for_many(Renderer::new);
     for line in lines {
         let outcome = match Job::parse(&line) {
-            Ok(job) => carry_out(&job, folder, &mut studio),
+            Ok(job) => carry_out(&job, folder, &mut session),
             Err(problem) => Outcome::failed("command-line", problem),
         };
         let mut out = std::io::stdout().lock();
@@ -58,23 +58,23 @@ fn lines(is_busy: &Arc<AtomicBool>) -> std::io::Result<Receiver<Vec<u8>>> {
 }
 
 /// Does a job; a second time in new contexts where the first one's was lost.
-pub fn carry_out(job: &Job, folder: &Path, studio: &mut Studio) -> Outcome {
+pub fn carry_out(job: &Job, folder: &Path, session: &mut Session) -> Outcome {
     let start = Instant::now();
     let mut tries = 0;
-    let (result, heard) = loop {
+    let (result, captured) = loop {
         tries += 1;
-        speech::listen();
-        let result = once(job, folder, studio);
-        let heard = speech::heard();
+        messages::capture();
+        let result = once(job, folder, session);
+        let captured = messages::captured();
         match result {
-            Err(Error::ContextLost { .. }) if tries == 1 => studio.close(),
-            result => break (result, heard),
+            Err(Error::ContextLost { .. }) if tries == 1 => session.close(),
+            result => break (result, captured),
         }
     };
     // Named from the batch's folder, which is another one on another machine.
     let prefix = format!("{}{}", folder.display().to_string().trim_end_matches('/'), std::path::MAIN_SEPARATOR);
-    let making = whole::prefix(job);
-    let short = |sentence: String| speech::plain(&sentence).replace(&prefix, "").replace(&making, "");
+    let staged = staging::prefix(job);
+    let short = |sentence: String| messages::plain(&sentence).replace(&prefix, "").replace(&staged, "");
     let mut outcome = match result {
         Ok((Verdict::Good, _)) => Outcome { status: Status::Done, error: None, ..Outcome::failed("", "") },
         Ok((Verdict::Different | Verdict::Stopped { .. }, _)) => {
@@ -83,41 +83,41 @@ pub fn carry_out(job: &Job, folder: &Path, studio: &mut Studio) -> Outcome {
         Err(ref error) => Outcome::failed(error.kind(), short(error.to_string())),
     };
     if matches!(result, Err(Error::ContextLost { .. })) {
-        studio.close();
+        session.close();
     }
-    outcome.remarks = heard.said.into_iter().map(short).collect();
+    outcome.remarks = captured.said.into_iter().map(short).collect();
     if let Ok((_, gl)) = result {
         outcome.outputs = written(job, folder);
         outcome.run.gl = gl;
     }
-    let printed = (!heard.printed.is_empty()).then(|| heard.printed.replace(&making, ""));
+    let printed = (!captured.printed.is_empty()).then(|| captured.printed.replace(&staged, ""));
     outcome.run = Run { milliseconds: milliseconds_since(start), tries, printed, gl: outcome.run.gl };
     outcome
 }
 
 /// Does a job through the parser and the function that the command line has.
-fn once(job: &Job, folder: &Path, studio: &mut Studio) -> Result<(Verdict, Option<Driver>)> {
-    let as_given = words(job, folder)?;
+fn once(job: &Job, folder: &Path, session: &mut Session) -> Result<(Verdict, Option<Driver>)> {
+    let as_given = argv(job, folder)?;
     make_folders(job, folder)?;
-    let making = Making::of(job, folder)?;
-    let words = making.as_ref().map_or_else(|| as_given.clone(), |making| making.words(as_given.clone()));
-    studio.take_used();
+    let staged = StagedFolder::of(job, folder)?;
+    let words = staged.as_ref().map_or_else(|| as_given.clone(), |staged| staged.words(as_given.clone()));
+    session.take_used();
     let (parsed, mut given) = parse(words).map_err(|stop| match stop {
         Stop::Wrong(error) => error,
         Stop::Help(_) => Error::CommandLine { problem: "a job asks for help instead of work".to_owned() },
     })?;
     given.as_given = as_given.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
-    let verdict = command(parsed.command, &given, studio).map_err(|error| given.attributed(error))?;
-    making.map_or(Ok(()), |making| making.put_in_place())?;
-    let driver = studio.take_used().map(|renderer| Driver::new(renderer.context()));
+    let verdict = command(parsed.command, &given, session).map_err(|error| given.attributed(error))?;
+    staged.map_or(Ok(()), |staged| staged.put_in_place())?;
+    let driver = session.take_used().map(|renderer| Driver::new(renderer.context()));
     Ok((verdict, driver))
 }
 
-fn command(command: Command, given: &Given, studio: &mut Studio) -> Result<Verdict> {
+fn command(command: Command, given: &Given, session: &mut Session) -> Result<Verdict> {
     match command {
-        Command::Render(arguments) => render::run(&arguments, given, studio),
-        Command::Compare(arguments) => compare::run(&arguments, given, studio).map(|()| Verdict::Good),
-        Command::Measure(arguments) => measure::run(&arguments, given, studio).map(|()| Verdict::Good),
+        Command::Render(arguments) => render::run(&arguments, given, session),
+        Command::Compare(arguments) => compare::run(&arguments, given, session).map(|()| Verdict::Good),
+        Command::Measure(arguments) => measure::run(&arguments, given, session).map(|()| Verdict::Good),
         _ => Err(Error::CommandLine { problem: "a job is render, compare or measure".to_owned() }),
     }
 }

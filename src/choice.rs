@@ -1,4 +1,4 @@
-//! Settings that are one of a few names.
+//! Choices: settings that are one of a few names.
 
 /// A setting that is one of a few names: what stands in its table is read, written, listed in help and offered by shells.
 pub trait Choice: Copy + PartialEq + 'static {

@@ -1,4 +1,4 @@
-//! A file in the making, on the disk of its place to be: without a name where the system has such files.
+//! A temporary file on the target's file system: without a name where the system has such files.
 //!
 //! Linux makes files that no name leads to (`O_TMPFILE`) and lets them go when the process ends, however it ends. Such a
 //! file gets its name when it is whole. Elsewhere, and on file systems without them (NFS, FAT), it is called `.tinta-` and
@@ -10,7 +10,7 @@ use std::path::Path;
 use tempfile::NamedTempFile;
 
 /// Such a file. Dropped, it is gone.
-pub(super) enum Beside {
+pub(super) enum StagedFile {
     /// No name leads to it.
     #[cfg(target_os = "linux")]
     Unnamed(File),
@@ -18,7 +18,7 @@ pub(super) enum Beside {
     Named(NamedTempFile),
 }
 
-impl Beside {
+impl StagedFile {
     /// An empty file in the folder of `target`, with the permissions a new file there would get.
     pub(super) fn open(target: &Path) -> Result<Self> {
         #[cfg(target_os = "linux")]
@@ -112,13 +112,13 @@ mod tests {
 
     #[test]
     fn both_ways_make_and_replace_a_file_and_leave_nothing_beside_it() {
-        for open in [Beside::open, Beside::open_named] {
+        for open in [StagedFile::open, StagedFile::open_named] {
             let folder = tempfile::tempdir().unwrap();
             let target = folder.path().join("drawing.svg");
             for text in ["<svg/>", "<svg></svg>"] {
-                let mut beside = open(&target).unwrap();
-                beside.file().write_all(text.as_bytes()).unwrap();
-                beside.put_in_place(&target).unwrap();
+                let mut staged = open(&target).unwrap();
+                staged.file().write_all(text.as_bytes()).unwrap();
+                staged.put_in_place(&target).unwrap();
                 assert_eq!(std::fs::read_to_string(&target).unwrap(), text);
             }
             drop(open(&target).unwrap());
@@ -128,16 +128,16 @@ mod tests {
 
     #[test]
     fn both_ways_refuse_a_directory_and_a_folder_that_went_away_and_leave_nothing() {
-        for open in [Beside::open, Beside::open_named] {
+        for open in [StagedFile::open, StagedFile::open_named] {
             let folder = tempfile::tempdir().unwrap();
             let target = folder.path().join("taken");
             std::fs::create_dir(&target).unwrap();
             assert!(open(&target).unwrap().put_in_place(&target).is_err());
             assert_eq!(names(folder.path()), ["taken"]);
             let gone = folder.path().join("taken").join("a.svg");
-            let beside = open(&gone).unwrap();
+            let staged = open(&gone).unwrap();
             std::fs::remove_dir_all(&target).unwrap();
-            assert!(beside.put_in_place(&gone).is_err());
+            assert!(staged.put_in_place(&gone).is_err());
             assert!(names(folder.path()).is_empty());
         }
     }
@@ -146,19 +146,19 @@ mod tests {
     #[test]
     fn a_file_in_the_making_has_no_name() {
         let folder = tempfile::tempdir().unwrap();
-        let mut beside = Beside::open(&folder.path().join("drawing.svg")).unwrap();
-        beside.file().write_all(b"<svg/>").unwrap();
-        match beside {
-            Beside::Unnamed(_) => assert!(names(folder.path()).is_empty()),
+        let mut staged = StagedFile::open(&folder.path().join("drawing.svg")).unwrap();
+        staged.file().write_all(b"<svg/>").unwrap();
+        match staged {
+            StagedFile::Unnamed(_) => assert!(names(folder.path()).is_empty()),
             // A file system without such files, as the folder for temporary files may be on.
-            Beside::Named(_) => assert_eq!(names(folder.path()).len(), 1),
+            StagedFile::Named(_) => assert_eq!(names(folder.path()).len(), 1),
         }
     }
 
     #[cfg(target_os = "linux")]
     #[test]
     fn a_folder_that_takes_no_file_of_either_kind_is_refused() {
-        assert!(Beside::open(Path::new("/proc/no-such-folder/a.svg")).is_err());
-        assert!(Beside::open(Path::new("/proc/self/a.svg")).is_err());
+        assert!(StagedFile::open(Path::new("/proc/no-such-folder/a.svg")).is_err());
+        assert!(StagedFile::open(Path::new("/proc/self/a.svg")).is_err());
     }
 }

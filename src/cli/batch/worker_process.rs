@@ -1,4 +1,4 @@
-//! A worker from outside: a process of this program that is told jobs and tells what came of them, a line of JSON each.
+//! Parent side of a worker process: it is sent jobs and sends back what came of them, a line of JSON each.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -6,8 +6,8 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use tinta::batch::{Job, Outcome};
 use tinta::{Error, Result};
 
-/// A worker, which ends with this.
-pub struct Worker {
+/// A worker process, which ends with this.
+pub struct WorkerProcess {
     child: Child,
     /// Closed, it ends once its job has ended.
     jobs: Option<ChildStdin>,
@@ -17,7 +17,7 @@ pub struct Worker {
 /// Mesa's threads beside the one that draws, which it reads once when it starts.
 const RASTER_THREADS: &str = "LP_NUM_THREADS";
 
-impl Worker {
+impl WorkerProcess {
     /// The worker that is there, or a new one in its place.
     pub fn of<'w>(place: &'w mut Option<Self>, folder: &Path, workers: usize, cores: usize) -> Result<&'w mut Self> {
         // One that has lost its process takes no more jobs.
@@ -77,7 +77,7 @@ impl Worker {
     }
 }
 
-impl Drop for Worker {
+impl Drop for WorkerProcess {
     fn drop(&mut self) {
         self.jobs = None;
         let _ = self.child.wait();

@@ -1,6 +1,6 @@
-//! The settings of the styles as dials: which of them a panel has, and how they are read and turned.
+//! The settings of the styles as controls: which of them a panel has, and how they are read and set.
 //!
-//! Values are the texts that the command line takes, so that a dial, a recorded event and a command say the same thing in
+//! Values are the texts that the command line takes, so that a control, a recorded event and a command say the same thing in
 //! the same words. What there is to turn is declared beside the styles; nothing is listed here.
 
 use crate::error::Result;
@@ -17,27 +17,27 @@ fn published(style: &Style) -> Style {
     Style::named(style.style_name())
 }
 
-/// The dials of a style: all of its settings but those that have one value only, or stand for several others.
-pub fn of(style: &Style) -> Vec<Dial<Style>> {
+/// The controls of a style: all of its settings but those that have one value only, or stand for several others.
+pub fn of(style: &Style) -> Vec<Control<Style>> {
     of_table(Style::table(), style, &published(style))
 }
 
 /// The same for settings of any table.
-fn of_table<T: Clone + 'static>(table: &'static Table<T>, of: &T, published: &T) -> Vec<Dial<T>> {
+fn of_table<T: Clone + 'static>(table: &'static Table<T>, of: &T, published: &T) -> Vec<Control<T>> {
     let turns = |kind: &Kind| match kind {
         Kind::Choice(names) => names.len() > 1,
         Kind::Recipe(_) => false,
         _ => true,
     };
-    let dial = |setting: &'static Setting<T>| {
+    let control = |setting: &'static Setting<T>| {
         let (value, default) = (setting.value(of)?, setting.value(published).unwrap_or_default());
-        Some(Dial { setting, value, default })
+        Some(Control { setting, value, default })
     };
-    table.of(Some(of)).into_iter().filter(|setting| turns(&setting.kind)).filter_map(dial).collect()
+    table.of(Some(of)).into_iter().filter(|setting| turns(&setting.kind)).filter_map(control).collect()
 }
 
 /// A setting as a panel shows it.
-pub struct Dial<T: 'static> {
+pub struct Control<T: 'static> {
     /// The setting.
     pub setting: &'static Setting<T>,
     /// Its value.
@@ -46,7 +46,7 @@ pub struct Dial<T: 'static> {
     pub default: String,
 }
 
-impl<T: Clone + 'static> Dial<T> {
+impl<T: Clone + 'static> Control<T> {
     /// Its option, as events and the command line have it.
     pub fn option(&self) -> String {
         format!("--{}", self.setting.name)
@@ -58,7 +58,7 @@ impl<T: Clone + 'static> Dial<T> {
     }
 }
 
-/// Turns a style's dial; options may mean different things in different styles.
+/// Sets a style's control; options may mean different things in different styles.
 ///
 /// # Errors
 ///
@@ -74,7 +74,7 @@ pub fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result
     turned(setting.set(style, value))
 }
 
-/// Turns it back to what is published.
+/// Sets it back to what is published.
 ///
 /// # Errors
 ///
@@ -105,9 +105,9 @@ mod tests {
     }
 
     #[test]
-    fn every_style_has_dials_and_none_twice() {
+    fn every_style_has_controls_and_none_twice() {
         for style in styles() {
-            let options: Vec<String> = of(&style).iter().map(Dial::option).collect();
+            let options: Vec<String> = of(&style).iter().map(Control::option).collect();
             assert!(options.len() >= 3, "{}: {options:?}", style.name());
             let different: std::collections::HashSet<_> = options.iter().collect();
             assert_eq!(different.len(), options.len(), "{}: {options:?}", style.name());
@@ -118,15 +118,17 @@ mod tests {
     fn every_dial_turns_and_goes_back() {
         let mut count = 0;
         for style in styles() {
-            for dial in of(&style) {
+            for control in of(&style) {
                 let mut turned = style.clone();
-                turn(&mut turned, &dial.option(), &dial.value).unwrap();
-                assert_eq!(turned, style, "{} of {}", dial.option(), style.name());
-                for other in dial.setting.kind.samples(&dial.value).iter().filter(|sample| **sample != dial.value) {
-                    turn(&mut turned, &dial.option(), other).unwrap_or_else(|problem| panic!("{problem}"));
-                    assert!(!is_faithful(&turned), "{} {other}", dial.option());
-                    turn_back(&mut turned, &dial.option()).unwrap();
-                    assert!(is_faithful(&turned), "{} of {}", dial.option(), style.name());
+                turn(&mut turned, &control.option(), &control.value).unwrap();
+                assert_eq!(turned, style, "{} of {}", control.option(), style.name());
+                for other in
+                    control.setting.kind.samples(&control.value).iter().filter(|sample| **sample != control.value)
+                {
+                    turn(&mut turned, &control.option(), other).unwrap_or_else(|problem| panic!("{problem}"));
+                    assert!(!is_faithful(&turned), "{} {other}", control.option());
+                    turn_back(&mut turned, &control.option()).unwrap();
+                    assert!(is_faithful(&turned), "{} of {}", control.option(), style.name());
                     count += 1;
                 }
             }
@@ -145,19 +147,19 @@ mod tests {
             ],
             defaults: vec![2.0],
         }));
-        let dials = of_table(table, &3.5, &2.0);
-        let [dial] = &dials[..] else { panic!("one dial") };
-        assert_eq!((dial.option().as_str(), dial.setting.label().as_str()), ("--grain-size", "grain size"));
-        assert_eq!((dial.value.as_str(), dial.default.as_str(), dial.is_default()), ("3.5", "2", false));
+        let controls = of_table(table, &3.5, &2.0);
+        let [control] = &controls[..] else { panic!("one control") };
+        assert_eq!((control.option().as_str(), control.setting.label().as_str()), ("--grain-size", "grain size"));
+        assert_eq!((control.value.as_str(), control.default.as_str(), control.is_default()), ("3.5", "2", false));
     }
 
     #[test]
     fn nonsense_is_refused_in_a_sentence_that_names_the_option() {
         for style in styles() {
-            for dial in of(&style).iter().filter(|dial| dial.setting.kind != Kind::File) {
+            for control in of(&style).iter().filter(|control| control.setting.kind != Kind::File) {
                 for nonsense in ["", "much?", "NaN", "inf", "1,2,3,4,5,6"] {
-                    let problem = turn(&mut style.clone(), &dial.option(), nonsense).unwrap_err();
-                    assert!(problem.starts_with(&dial.option()), "{problem}");
+                    let problem = turn(&mut style.clone(), &control.option(), nonsense).unwrap_err();
+                    assert!(problem.starts_with(&control.option()), "{problem}");
                 }
             }
         }

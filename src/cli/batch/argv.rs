@@ -1,4 +1,4 @@
-//! A job as the words of a command line, so that its options are read and checked where all options are.
+//! A job as command-line arguments, so that its options are read and checked where all options are.
 
 use super::super::Arguments;
 use super::super::preset::words_of;
@@ -10,7 +10,7 @@ use tinta::preset::OptionValue;
 use tinta::{Error, Result};
 
 /// The command line of a job whose outputs lie in `folder`.
-pub fn words(job: &Job, folder: &Path) -> Result<Vec<OsString>> {
+pub fn argv(job: &Job, folder: &Path) -> Result<Vec<OsString>> {
     let whole = Arguments::command();
     let name = job.command.name();
     let refuse = |key: &str, problem: String| Error::Setting { setting: key.to_owned(), problem };
