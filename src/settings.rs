@@ -213,7 +213,11 @@ impl<T: Clone + 'static> Setting<T> {
     ) -> Self {
         let get = move |of: &T| field(&mut of.clone()).as_ref().map_or(open.to_owned(), V::text);
         let set = move |of: &mut T, text: &str| {
-            *field(of) = if text == open { None } else { Some(V::parse(text)?) };
+            let parsed = || match V::parse(text) {
+                Err(Problem::Text(problem)) if !open.is_empty() => Err(format!("{problem}, or {open}").into()),
+                parsed => parsed,
+            };
+            *field(of) = if text == open { None } else { Some(parsed()?) };
             Ok(())
         };
         let kind = match V::kind() {

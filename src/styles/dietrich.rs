@@ -5,7 +5,7 @@ use super::{ALL_STYLES, Show, cull, no_borders};
 use crate::error::{Error, Result};
 use crate::plan::{Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::{Background, Color, Scene};
-use crate::settings::{Setting, under};
+use crate::settings::{Setting, Value as _, under};
 
 /// Settings of `dietrich`.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +42,18 @@ impl Dietrich {
             ),
             cull(|dietrich: &mut Self| &mut dietrich.cull_back_faces),
         ];
+        let color = Setting::of(
+            "ink-color",
+            "COLOUR",
+            Color::kind(),
+            "The ink's colour: a CSS name, #rrggbb or rgb(r,g,b)",
+            |dietrich: &Self| dietrich.ink.text(),
+            |dietrich, text| {
+                // Recordings of earlier versions have red, green and blue from 0 to 1.
+                dietrich.ink = <[f32; 3]>::parse(text).map(Color).or_else(|_| Color::parse(text))?;
+                Ok(())
+            },
+        );
         let own = vec![
             Setting::field(
                 "ink-threshold",
@@ -50,13 +62,7 @@ impl Dietrich {
                 |dietrich: &mut Self| &mut dietrich.threshold,
             )
             .range(0.0, 1.0, 3),
-            Setting::field(
-                "ink-color",
-                "R,G,B",
-                "Red, green and blue of the ink, each from 0 to 1",
-                |dietrich: &mut Self| &mut dietrich.ink.0,
-            )
-            .labelled("ink colour"),
+            color.said("black").labelled("ink colour"),
         ];
         under(ALL_STYLES, common).chain(under("Style dietrich", own)).collect()
     }
