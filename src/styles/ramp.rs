@@ -230,21 +230,22 @@ const TONES_FROM: [f32; 2] = [0.45, 0.82];
 
 fn built_in() -> Picture {
     let size = Size { width: 256, height: 64 };
-    let color = |x: u32, y: u32| {
-        let base = BASES[(y * ROWS / size.height) as usize];
+    let pixel = |base: &[f32; 3], x: u32| {
         let light = (x as f32 + 0.5) / size.width as f32;
         let tone = |channel: f32| match light {
             light if light < TONES_FROM[0] => channel * 0.62,
             light if light < TONES_FROM[1] => channel,
             _ => channel + (1.0 - channel) * 0.55,
         };
-        base.map(|channel| (tone(channel) * 255.0).round() as u8)
-    };
-    let pixels = (0..size.height).flat_map(|y| (0..size.width).map(move |x| (x, y))).flat_map(|(x, y)| {
-        let [red, green, blue] = color(x, y);
+        let [red, green, blue] = base.map(|channel| (tone(channel) * 255.0).round() as u8);
         [red, green, blue, u8::MAX]
-    });
-    Picture { size, pixels: pixels.collect() }
+    };
+    // All lines of a gradient are the same.
+    let gradient = |base| -> Vec<u8> {
+        let line: Vec<u8> = (0..size.width).flat_map(|x| pixel(base, x)).collect();
+        line.repeat((size.height / ROWS) as usize)
+    };
+    Picture { size, pixels: BASES.iter().flat_map(gradient).collect() }
 }
 
 #[cfg(test)]
