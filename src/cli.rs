@@ -34,6 +34,7 @@ pub use preset::Stop;
 use session::Session;
 use std::ffi::OsString;
 use std::path::Path;
+use std::process::ExitCode;
 use std::time::Instant;
 use tinta::{Error, Result};
 
@@ -98,8 +99,31 @@ pub enum Verdict {
     },
 }
 
-/// Parses the command line and does what it says.
-pub fn run() -> Result<Verdict> {
+/// Parses the command line, does what it says, prints the error and chooses the exit code.
+pub fn main() -> ExitCode {
+    outlive_the_limit_on_files();
+    match run() {
+        Ok(Verdict::Good) => ExitCode::SUCCESS,
+        Ok(Verdict::Different) => ExitCode::FAILURE,
+        // As a shell says it of a program that a signal has ended.
+        Ok(Verdict::Stopped { signal }) => ExitCode::from(128 + signal),
+        Err(error) => {
+            say(&format!("tinta: {error}"));
+            // EX_TEMPFAIL of sysexits.h: the same will go later.
+            ExitCode::from(if matches!(error, Error::Busy { .. }) { 75 } else { 2 })
+        }
+    }
+}
+
+/// Lets a write beyond the limit on files' sizes (`ulimit -f`) fail like any other, whoever writes, the GL driver too: by
+/// default it ends the program by a signal. A handler that does nothing is the safe way to ignore it.
+fn outlive_the_limit_on_files() {
+    // Where it cannot be had the program is as it would be without.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
+}
+
+fn run() -> Result<Verdict> {
     let started = Instant::now();
     let (arguments, given) = match parse(std::env::args_os()) {
         Ok(parsed) => parsed,

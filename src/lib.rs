@@ -71,16 +71,27 @@ pub mod record;
 
 // What it is worth.
 pub mod compare;
+#[cfg(feature = "measuring")]
 pub mod contact_sheet;
+#[cfg(feature = "measuring")]
 pub mod measure;
+#[cfg(feature = "measuring")]
 pub mod report;
+#[cfg(feature = "measuring")]
 pub mod figures;
+#[cfg(feature = "measuring")]
 pub mod stress;
 
-// Many at once, and by hand.
+// Many at once, by hand, and by the command line, which speaks of the library as any program does.
+#[cfg(feature = "cli")]
 pub mod batch;
 #[cfg(feature = "window")]
 pub mod window;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod cli;
+#[cfg(feature = "cli")]
+extern crate self as tinta;
 
 pub use animation::{AnimationTarget, AnimationWriter};
 pub use camera::{Camera, CameraSettings, View};

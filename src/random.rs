@@ -25,11 +25,13 @@ impl Random {
     }
 
     /// A number from -1 up to but not 1, with all the digits an f64 has there.
+    #[cfg(feature = "measuring")]
     pub fn signed_f64(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
     /// A number below `count`, which is at least 1.
+    #[cfg(feature = "measuring")]
     pub fn below(&mut self, count: usize) -> usize {
         (self.bits() % count as u64) as usize
     }

@@ -360,6 +360,7 @@ impl Object {
     }
 
     /// Another mesh in this object's place.
+    #[cfg(feature = "measuring")]
     pub(crate) fn with_mesh(&self, mesh: Arc<Mesh>) -> Self {
         Self { offset: self.offset, ..Self::at_home(mesh) }
     }

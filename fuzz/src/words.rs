@@ -1,14 +1,7 @@
 //! The command line out of any bytes: one word a line.
 
-/// The program's own source, of which only the parsing runs here.
-#[expect(dead_code, reason = "only the parsing of the program's own source is run here")]
-#[path = "../../src"]
-mod program {
-    pub mod cli;
-}
-
-use program::cli;
 use std::ffi::OsString;
+use tinta::cli;
 
 /// Parses the words; what is wrong with them is one line.
 pub fn command_line(bytes: &[u8]) {
