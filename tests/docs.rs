@@ -289,7 +289,8 @@ fn every_option_named_in_the_documents_exists() {
                 let option = option.trim_end_matches([',', '.', ';', ':', ')']);
                 let named = option.split('=').next().unwrap_or(option);
                 let is_cargos =
-                    ["--no-default-features", "--locked", "--release", "--example", "--bench"].contains(&named);
+                    ["--no-default-features", "--features", "--locked", "--release", "--example", "--bench"]
+                        .contains(&named);
                 assert!(
                     known.contains(named) || named == "--help" || is_cargos,
                     "{}: {named} in {line:?}",

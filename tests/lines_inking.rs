@@ -52,13 +52,12 @@ fn the_svg_of_public_models_has_the_ink_that_gl_draws() {
     assert!(failures.is_empty(), "below {SHARE}; see {}: {failures:#?}", failure_folder().display());
 }
 
+/// Of scenes without T-junctions, which GL draws as they are.
 #[test]
 fn no_outline_that_gl_draws_of_flat_faces_along_an_axis_is_missing() {
     let mut renderer = renderer(BACKENDS[0]);
     let mut failures = Vec::new();
-    for (name, make) in
-        FAMILIES.iter().filter(|(name, _)| ["regular prisms", "bars in one plane", "stairs"].contains(name))
-    {
+    for (name, make) in FAMILIES.iter().filter(|(name, _)| ["regular prisms", "bars in one plane"].contains(name)) {
         for seed in 1..=12 {
             let scene = with_normals(&make(&mut Random::seeded(seed)));
             let [_, of_gl] = shares_of(&mut renderer, &scene, &format!("{name} {seed}"));

@@ -122,9 +122,11 @@ fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<(Mesh, Vec<u32>)>
             let place = (point - start).dot(along) / along.length_squared();
             let distance = (start + along * place).distance(point);
             let length = along.length();
-            // What is nearer to an end is the end: welding has seen to that.
             let from_end = place.min(1.0 - place) * length;
-            let is_on_it = distance <= CONTACT * length && from_end > weld;
+            // So near an end it may as well lie on another rim from there, unless it is exactly on this one. What is nearer
+            // still is the end: welding has seen to that.
+            let touching = if from_end > CONTACT * length { CONTACT * length } else { weld };
+            let is_on_it = distance <= touching && from_end > weld;
             let corners = mesh.triangles[edges.faces(rim)[0] as usize];
             if is_on_it && !corners.contains(&vertex) {
                 junctions.entry(rim).or_default().push((place, vertex));
