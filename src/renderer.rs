@@ -45,6 +45,13 @@ pub struct Renderer {
     pixels: Vec<u8>,
 }
 
+impl std::fmt::Debug for Renderer {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        // What GL holds has no text.
+        out.debug_struct("Renderer").field("surface", &self.surface).finish_non_exhaustive()
+    }
+}
+
 /// How long one pass takes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PassTime {

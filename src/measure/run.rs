@@ -26,6 +26,7 @@ pub struct Setting {
 }
 
 /// A scene with what its pictures are measured against.
+#[derive(Debug)]
 pub struct Subject {
     /// The model as the user named it.
     pub model: String,
@@ -42,6 +43,7 @@ pub struct Subject {
 }
 
 /// A measured setting.
+#[derive(Debug)]
 pub struct Measured {
     /// The numbers.
     pub row: Row,
