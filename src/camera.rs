@@ -20,7 +20,7 @@
 //! # }
 //! ```
 
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::settings::{Kind, Problem, Setting, Value, under};
 use crate::tolerances::{
     CAMERA_ALIGNMENT, DEPTH_MARGIN, FRAME_FILL, LARGEST_COORDINATE, LARGEST_DISTANCE, NEAREST_FRACTION, SAME_POINT,
@@ -132,9 +132,9 @@ fn exact_sin_cos(degrees: f64) -> (f64, f64) {
 }
 
 impl FromStr for View {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         let named = Self::NAMED.iter().find(|(name, ..)| *name == text);
         if let Some(&(_, azimuth_degrees, elevation_degrees)) = named {
             return Ok(Self { azimuth_degrees, elevation_degrees });
@@ -147,10 +147,10 @@ impl FromStr for View {
         let (azimuth, elevation) = text.split_once(',').ok_or_else(usage)?;
         let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
         let (Some(azimuth_degrees), Some(elevation_degrees)) = (number(azimuth), number(elevation)) else {
-            return Err(usage());
+            return Err(usage().into());
         };
         if !(-90.0..=90.0).contains(&elevation_degrees) {
-            return Err(usage());
+            return Err(usage().into());
         }
         Ok(Self { azimuth_degrees, elevation_degrees })
     }

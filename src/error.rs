@@ -12,6 +12,23 @@
 /// The result of anything in this crate that can fail.
 pub type Result<T> = std::result::Result<T, Error>;
 
+/// Why a text is no value of a type: what it would have to be, without the text itself.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct ParseError(pub String);
+
+impl From<String> for ParseError {
+    fn from(problem: String) -> Self {
+        Self(problem)
+    }
+}
+
+impl From<ParseError> for String {
+    fn from(ParseError(problem): ParseError) -> Self {
+        problem
+    }
+}
+
 /// Why tinta could not do what was asked.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -50,6 +67,9 @@ pub enum Error {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// A text is no value of the type it was to be read as.
+    #[error(transparent)]
+    Text(#[from] ParseError),
     /// A preset cannot be read, or sets what cannot be set so.
     #[error("{path}{}: {problem}", line.map(|line| format!(": line {line}")).unwrap_or_default())]
     Preset {
@@ -188,6 +208,7 @@ impl Error {
             Self::Strict { .. } => "strict",
             Self::Setting { .. } => "setting",
             Self::CommandLine { .. } => "command-line",
+            Self::Text(_) => "text",
             Self::Preset { .. } => "preset",
             Self::Output { .. } => "output",
             Self::DiskFull { .. } => "disk-full",

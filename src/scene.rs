@@ -180,13 +180,14 @@ const LARGEST_COPIES: u32 = 10_000;
 const FITTED_POINTS: usize = 4_000_000;
 
 impl Scene {
-    /// Puts meshes together, each at its own coordinates, and fits the camera to them.
+    /// Puts meshes together, each at its own coordinates, and fits the camera to them; takes meshes and shared ones alike.
     ///
     /// # Errors
     ///
     /// [`Error::Setting`] for what cannot be drawn: no mesh, no copy, a size of 0, a nonsensical camera, planes so far apart that
     /// depth cannot tell what is in front, a scene whose coordinates are beyond [`SCENE_RADIUS`].
-    pub fn new(meshes: Vec<Arc<Mesh>>, settings: &SceneSettings) -> Result<Self> {
+    pub fn new(meshes: impl IntoIterator<Item: Into<Arc<Mesh>>>, settings: &SceneSettings) -> Result<Self> {
+        let meshes: Vec<Arc<Mesh>> = meshes.into_iter().map(Into::into).collect();
         if meshes.is_empty() || !(1..=LARGEST_COPIES).contains(&settings.copies) {
             return Err(Error::setting(
                 format!("--copies {}", settings.copies),

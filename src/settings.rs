@@ -29,7 +29,7 @@ mod value;
 pub use crate::names::Choice;
 pub use value::{Value, names_of};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::{Debug, Formatter};
@@ -144,6 +144,12 @@ pub enum Problem {
 
 impl From<String> for Problem {
     fn from(problem: String) -> Self {
+        Self::Text(problem)
+    }
+}
+
+impl From<ParseError> for Problem {
+    fn from(ParseError(problem): ParseError) -> Self {
         Self::Text(problem)
     }
 }
@@ -274,6 +280,7 @@ impl<T: Clone + 'static> Setting<T> {
     }
 
     /// With the numbers that a panel offers, and how many decimals of them are worth showing.
+    #[must_use]
     pub fn range(mut self, low: f64, high: f64, decimals: usize) -> Self {
         let count = if let Kind::Numbers { count, .. } = self.kind { count } else { 1 };
         self.kind = Kind::Numbers { count, range: [low, high], decimals };
@@ -281,24 +288,28 @@ impl<T: Clone + 'static> Setting<T> {
     }
 
     /// With texts that a shell and a panel offer.
+    #[must_use]
     pub fn offering(mut self, texts: &[&'static str]) -> Self {
         self.kind = Kind::Choice(texts.to_vec());
         self
     }
 
     /// With this text for a value that is left open.
+    #[must_use]
     pub fn open(mut self, text: &'static str) -> Self {
         self.open = Some(text);
         self
     }
 
     /// With other words for the default.
+    #[must_use]
     pub fn said(mut self, default: &'static str) -> Self {
         self.said_default = Some(default);
         self
     }
 
     /// With another name in a panel than its own.
+    #[must_use]
     pub fn labelled(mut self, label: &'static str) -> Self {
         self.label = Some(label);
         self

@@ -1,6 +1,6 @@
 //! Which frame of an animated model is read: a number, between two frames also, or a name.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::settings::{Kind, Problem, Value};
 use std::{fmt, str::FromStr};
 
@@ -29,13 +29,13 @@ impl fmt::Display for ModelFrame {
 }
 
 impl FromStr for ModelFrame {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         match text.parse::<f64>() {
-            Ok(number) if number < 0.0 => Err("frames are counted from 0".to_owned()),
+            Ok(number) if number < 0.0 => Err("frames are counted from 0".to_owned().into()),
             Ok(number) if number.is_finite() => Ok(Self::Number(number)),
-            _ if text.is_empty() => Err("give a frame's number or name".to_owned()),
+            _ if text.is_empty() => Err("give a frame's number or name".to_owned().into()),
             _ => Ok(Self::Name(text.to_owned())),
         }
     }

@@ -227,6 +227,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
 
 /// What is being done while a model is read, in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LoadStage {
     /// Its bytes come from the disk.
     Reading,

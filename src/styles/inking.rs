@@ -6,7 +6,7 @@
 
 use super::{ALL_STYLES, INKING, Ramp, RampRow, Show, cull, no_borders, ramp};
 use crate::edges::{Class, ClassSet, CreaseAngle, Side, SilhouetteRule, side_of_face};
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::plan::{
     Depth, Draw, EdgeRun, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
     Texture,
@@ -269,9 +269,9 @@ impl Value for ClassColors {
 }
 
 impl FromStr for ClassColors {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         match text {
             "figure-6" => return Ok(Self::figure_6()),
             "black" => return Ok(Self::default()),

@@ -28,7 +28,7 @@ impl FromStr for StyleChoice {
         if text == "lines" {
             return Ok(Self::Lines);
         }
-        text.parse().map(Self::Picture).map_err(|error: String| format!("{error}, lines"))
+        text.parse().map(Self::Picture).map_err(|error: tinta::ParseError| format!("{error}, lines"))
     }
 }
 

@@ -1,7 +1,7 @@
 //! What an SVG of lines can be asked for.
 
 use crate::edges::Class;
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::scene::{Background, Color, Size};
 use crate::settings::{Choice, HasSettings, Kind, Problem, Setting, Table, Value, under};
 use crate::styles::{ClassColors, line_width};
@@ -205,9 +205,9 @@ impl Value for ClassWidths {
 }
 
 impl FromStr for ClassWidths {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         let mut widths = Self::default();
         if text == UNSET {
             return Ok(widths);
