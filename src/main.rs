@@ -12,7 +12,7 @@ fn main() -> ExitCode {
         // As a shell says it of a program that a signal has ended.
         Ok(cli::Verdict::Stopped { signal }) => ExitCode::from(128 + signal),
         Err(error) => {
-            cli::say(&format!("tinta: {error}"));
+            cli::say(&format!("tinta: {}", error.with_dashes()));
             // EX_TEMPFAIL of sysexits.h: the same will go later.
             ExitCode::from(if matches!(error, tinta::Error::Busy { .. }) { 75 } else { 2 })
         }

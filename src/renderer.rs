@@ -215,7 +215,7 @@ impl Renderer {
     /// As [`Renderer::draw`].
     pub fn time_passes(&mut self, scene: &Scene, plan: &Plan, frames: usize) -> Result<Vec<PassTime>> {
         if frames == 0 {
-            return Err(Error::setting("--frames 0", "at least one frame is needed to time one"));
+            return Err(Error::value("frames", "0", "at least one frame is needed to time one"));
         }
         let has_timers = self.context.info().timer_queries;
         self.with_context(scene, plan, |frame| {
@@ -342,7 +342,7 @@ impl Renderer {
                 "{} draws {limit} pixels at most, which is {largest} with this; ask for a smaller --size or less of it",
                 self.context.info().renderer
             );
-            return Err(Error::setting(format!("--supersample {supersample}"), problem));
+            return Err(Error::value("supersample", supersample, problem));
         }
         self.context.resize(surface)?;
         let bytes = surface.pixel_count() * 4;

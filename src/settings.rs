@@ -345,7 +345,7 @@ impl<T: Clone + 'static> Setting<T> {
             return Ok(());
         }
         (self.set)(of, text).map_err(|problem| match problem {
-            Problem::Text(problem) => Error::setting(format!("--{} {text}", self.name), problem),
+            Problem::Text(problem) => Error::value(self.name, text, problem),
             Problem::Refused(error) => error,
         })
     }
@@ -460,7 +460,7 @@ impl<T: Clone + 'static> Table<T> {
                 continue;
             }
             let text = setting.text_of(value);
-            setting.set(to, &text.map_err(|problem| Error::setting(format!("--{}", setting.name), problem))?)?;
+            setting.set(to, &text.map_err(|problem| Error::setting(setting.name, problem))?)?;
         }
         Ok(())
     }
@@ -477,18 +477,17 @@ impl<T: Clone + 'static> Table<T> {
             if setting.value(default).as_ref() == Some(&value) {
                 continue;
             }
-            let option = || format!("--{}", setting.name);
             // A name that was no text has lost something.
             if setting.kind == Kind::File && value.contains(char::REPLACEMENT_CHARACTER) {
                 let problem = "this name is no text that could be kept; rename the file";
-                return Err(Error::setting(format!("{} {value}", option()), problem));
+                return Err(Error::value(setting.name, value, problem));
             }
             if value.is_empty() {
                 let problem = match setting.kind {
                     Kind::File => "this is from no file, so it cannot be kept; leave it as it is by default",
                     _ => "nothing is chosen; choose one at least",
                 };
-                return Err(Error::setting(option(), problem));
+                return Err(Error::setting(setting.name, problem));
             }
             let value = match setting.kind {
                 Kind::Flag => OptionValue::Switch(value == "on"),

@@ -161,10 +161,10 @@ impl Style {
         let name = match options.get("style") {
             None => StyleName::ThreePass,
             Some(OptionValue::Text(name)) => {
-                name.parse().map_err(|ParseError(problem)| Error::setting(format!("--style {name}"), problem))?
+                name.parse().map_err(|ParseError(problem)| Error::value("style", name, problem))?
             }
             Some(_) => {
-                return Err(Error::setting("--style", "this takes one value (STYLE), not true, false or several"));
+                return Err(Error::setting("style", "this takes one value (STYLE), not true, false or several"));
             }
         };
         Self::with_options(name, options)
@@ -573,10 +573,10 @@ picture: the framebuffer
             let scene = scene(Background::Transparent);
             Style::ThreePass(cartoon).plan(&scene, Show::Final).unwrap_err().to_string()
         };
-        assert!(refused(&|cartoon| cartoon.tones.count = 4).starts_with("--tones 4"));
-        assert!(refused(&|cartoon| cartoon.tones.levels[1] = 1.5).starts_with("--tone-levels"));
-        assert!(refused(&|cartoon| cartoon.tones.diffuse_threshold = f32::NAN).starts_with("--tone-thresholds"));
+        assert!(refused(&|cartoon| cartoon.tones.count = 4).starts_with("tones 4"));
+        assert!(refused(&|cartoon| cartoon.tones.levels[1] = 1.5).starts_with("tone-levels"));
+        assert!(refused(&|cartoon| cartoon.tones.diffuse_threshold = f32::NAN).starts_with("tone-thresholds"));
         let infinite = Some(Border { detection_factor: f32::INFINITY, ..Border::default() });
-        assert!(refused(&|cartoon| cartoon.border = infinite).starts_with("--detection-factor"));
+        assert!(refused(&|cartoon| cartoon.border = infinite).starts_with("detection-factor"));
     }
 }

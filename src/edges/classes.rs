@@ -169,7 +169,7 @@ impl CreaseAngle {
             let is_the_listings = (cosine - listing.cosine).abs() <= 4.0 * f64::EPSILON;
             return Ok(if is_the_listings { listing } else { Self { cosine } });
         }
-        Err(Error::setting(format!("--crease-angle {degrees}"), "the angle is between 0 and 180 degrees"))
+        Err(Error::value("crease-angle", degrees, "the angle is between 0 and 180 degrees"))
     }
 
     /// The shortest number of degrees that is read back as this angle, or the nearest one where none is.
