@@ -43,7 +43,7 @@ fn main() {
             let view = format!("{},15", 30 + 3 * frame).parse().expect("a view");
             let camera = CameraSettings { view, ..CameraSettings::default() };
             let turned = Scene::new(
-                base.objects.iter().map(|object| object.mesh.clone()).collect(),
+                base.objects.iter().map(|object| object.mesh.clone()),
                 &SceneSettings { camera, ..SceneSettings::default() },
             );
             Scene { camera: turned.expect("a scene").camera, ..base.clone() }

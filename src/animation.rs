@@ -108,6 +108,7 @@ fn extension(path: &Path) -> String {
 }
 
 /// Takes the pictures of an animation. Dropped before the last one came, it leaves no GIF or APNG.
+#[derive(Debug)]
 pub struct AnimationWriter {
     target: AnimationTarget,
     frames: u32,

@@ -20,7 +20,7 @@
 //! # }
 //! ```
 
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::settings::{Kind, Problem, Setting, Value, under};
 use crate::tolerances::{
     CAMERA_ALIGNMENT, DEPTH_MARGIN, FRAME_FILL, LARGEST_COORDINATE, LARGEST_DISTANCE, NEAREST_FRACTION, SAME_POINT,
@@ -132,9 +132,9 @@ fn exact_sin_cos(degrees: f64) -> (f64, f64) {
 }
 
 impl FromStr for View {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         let named = Self::NAMED.iter().find(|(name, ..)| *name == text);
         if let Some(&(_, azimuth_degrees, elevation_degrees)) = named {
             return Ok(Self { azimuth_degrees, elevation_degrees });
@@ -147,10 +147,10 @@ impl FromStr for View {
         let (azimuth, elevation) = text.split_once(',').ok_or_else(usage)?;
         let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
         let (Some(azimuth_degrees), Some(elevation_degrees)) = (number(azimuth), number(elevation)) else {
-            return Err(usage());
+            return Err(usage().into());
         };
         if !(-90.0..=90.0).contains(&elevation_degrees) {
-            return Err(usage());
+            return Err(usage().into());
         }
         Ok(Self { azimuth_degrees, elevation_degrees })
     }
@@ -298,7 +298,7 @@ impl CameraSettings {
         };
         let scale = self.eye.map_or(1.0, |eye| eye.abs().max_element().max(target.abs().max_element()));
         let Some(back) = towards_eye.try_normalize().filter(|_| towards_eye.length() > scale * SAME_POINT) else {
-            return Err(Error::setting("--eye and --target", "they are the same point; move one of them"));
+            return Err(Error::settings(&["eye", "target"], "they are the same point; move one of them"));
         };
         let up = self.up_for(back)?;
         let right = up.cross(back).normalize();
@@ -325,8 +325,9 @@ impl CameraSettings {
             }
         };
         if self.eye.is_none() && distance.is_nan() | (distance > LARGEST_DISTANCE * radius) {
-            return Err(Error::setting(
-                format!("--fov {}", self.fov_y_degrees),
+            return Err(Error::value(
+                "fov",
+                self.fov_y_degrees,
                 "so small an angle puts the eye too far away for GL's numbers; use --parallel instead",
             ));
         }
@@ -337,24 +338,25 @@ impl CameraSettings {
 
     fn check_numbers(&self) -> Result<()> {
         if !(self.fov_y_degrees > 0.0 && self.fov_y_degrees < 180.0) {
-            return Err(Error::setting(
-                format!("--fov {}", self.fov_y_degrees),
+            return Err(Error::value(
+                "fov",
+                self.fov_y_degrees,
                 "the field of view is an angle between 0 and 180 degrees, both excluded",
             ));
         }
-        for (name, vector) in [("--eye", self.eye), ("--target", self.target), ("--up", self.up)] {
+        for (name, vector) in [("eye", self.eye), ("target", self.target), ("up", self.up)] {
             let within = |vector: DVec3| vector.is_finite() && vector.abs().max_element() <= LARGEST_COORDINATE;
             if vector.is_some_and(|vector| !within(vector)) {
                 return Err(Error::setting(name, format!("its three numbers must lie within {LARGEST_COORDINATE:e}")));
             }
         }
         if self.height.is_some_and(|height| !(height > 0.0 && height <= LARGEST_COORDINATE)) {
-            return Err(Error::setting("--height", format!("a height is above 0 and at most {LARGEST_COORDINATE:e}")));
+            return Err(Error::setting("height", format!("a height is above 0 and at most {LARGEST_COORDINATE:e}")));
         }
         if self.height.is_some() && !self.parallel {
-            return Err(Error::setting("--height", "only a parallel projection has one; give --parallel too"));
+            return Err(Error::setting("height", "only a parallel projection has one; give --parallel too"));
         }
-        for (name, distance) in [("--near", self.near), ("--far", self.far)] {
+        for (name, distance) in [("near", self.near), ("far", self.far)] {
             if distance.is_some_and(|distance| !(distance > 0.0 && distance.is_finite())) {
                 return Err(Error::setting(name, "the distance of a plane from the eye is a finite number above 0"));
             }
@@ -366,9 +368,9 @@ impl CameraSettings {
     fn up_for(&self, back: DVec3) -> Result<DVec3> {
         let is_along_view = |up: DVec3| up.cross(back).length() < CAMERA_ALIGNMENT;
         match self.up.map(DVec3::try_normalize) {
-            Some(None) => Err(Error::setting("--up", "a vector of length 0 points nowhere")),
+            Some(None) => Err(Error::setting("up", "a vector of length 0 points nowhere")),
             Some(Some(up)) if is_along_view(up) => {
-                Err(Error::setting("--up", "it points along the view; choose another direction"))
+                Err(Error::setting("up", "it points along the view; choose another direction"))
             }
             Some(Some(up)) => Ok(up),
             None if is_along_view(DVec3::Y) => Ok(if back.y > 0.0 { DVec3::NEG_Z } else { DVec3::Z }),
@@ -388,9 +390,9 @@ impl CameraSettings {
         let fitted_near = (nearest - margin).max(least_near);
         let near = self.near.unwrap_or(if fitted_near < far { fitted_near } else { far * 0.5 });
         if near >= far {
-            return Err(Error::setting(
-                format!("--near {near} --far {far}"),
-                "the near plane must be nearer to the eye than the far plane",
+            return Err(Error::settings(
+                &["near", "far"],
+                format!("the near plane must be nearer to the eye than the far plane; they are {near} and {far} away"),
             ));
         }
         Ok((near, far))
@@ -457,15 +459,15 @@ mod tests {
         assert!(refused(CameraSettings { eye, target: eye, ..base() }).contains("same point"));
         assert!(refused(CameraSettings { eye, up: Some(DVec3::Z), ..base() }).contains("along the view"));
         for length in [0.0, 1e-200, 1e200, f64::NAN] {
-            assert!(refused(CameraSettings { up: Some(DVec3::X * length), ..base() }).contains("--up"), "{length}");
+            assert!(refused(CameraSettings { up: Some(DVec3::X * length), ..base() }).contains("up"), "{length}");
         }
-        assert!(refused(CameraSettings { eye: Some(DVec3::Z * 1e200), ..base() }).contains("--eye"));
+        assert!(refused(CameraSettings { eye: Some(DVec3::Z * 1e200), ..base() }).contains("eye"));
         for fov_y_degrees in [0.0, -1.0, 180.0, f64::NAN] {
-            assert!(refused(CameraSettings { fov_y_degrees, ..base() }).contains("--fov"));
+            assert!(refused(CameraSettings { fov_y_degrees, ..base() }).contains("fov"));
         }
-        assert!(refused(CameraSettings { near: Some(3.0), far: Some(3.0), ..base() }).contains("--near 3 --far 3"));
-        assert!(refused(CameraSettings { near: Some(-1.0), ..base() }).contains("--near"));
-        assert!(refused(CameraSettings { eye: Some(DVec3::NAN), ..base() }).contains("--eye"));
+        assert!(refused(CameraSettings { near: Some(3.0), far: Some(3.0), ..base() }).contains("near and far: "));
+        assert!(refused(CameraSettings { near: Some(-1.0), ..base() }).contains("near"));
+        assert!(refused(CameraSettings { eye: Some(DVec3::NAN), ..base() }).contains("eye"));
         for view in ["sideways", "1", "1,2,3", "0,91", "nan,0"] {
             assert!(view.parse::<View>().is_err(), "{view}");
         }

@@ -28,9 +28,9 @@ mod view;
 
 use clap::{Parser, Subcommand};
 use messages::print;
-pub use messages::{plain, say};
+pub(crate) use messages::{plain, say};
 use preset::Given;
-pub use preset::Stop;
+pub(crate) use preset::Stop;
 use session::Session;
 use std::ffi::OsString;
 use std::path::Path;
@@ -62,7 +62,7 @@ Examples:
   tinta man -o man                               manual pages
 
 Exit codes: 0 done, 1 a check found a difference or a job of a batch failed, 2 could not be done; the reason is one sentence on standard error.")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
@@ -87,7 +87,7 @@ enum Command {
 
 /// How something that was done came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
+pub(crate) enum Verdict {
     /// Well.
     Good,
     /// Two pictures that should be equal differ, a case did not end as it must, or a job of a batch failed.
@@ -108,7 +108,7 @@ pub fn main() -> ExitCode {
         // As a shell says it of a program that a signal has ended.
         Ok(Verdict::Stopped { signal }) => ExitCode::from(128 + signal),
         Err(error) => {
-            say(&format!("tinta: {error}"));
+            say(&format!("tinta: {}", error.with_dashes()));
             // EX_TEMPFAIL of sysexits.h: the same will go later.
             ExitCode::from(if matches!(error, Error::Busy { .. }) { 75 } else { 2 })
         }
@@ -155,8 +155,22 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
     .map(|()| Verdict::Good)
 }
 
+/// Parses a command line, the program's name first, and does nothing with it: help's text where it asks for that, or one
+/// sentence of what is wrong.
+///
+/// # Errors
+///
+/// That sentence, as the program prints it.
+pub fn check(words: impl IntoIterator<Item = OsString>) -> std::result::Result<Option<String>, String> {
+    match parse(words) {
+        Ok(_) => Ok(None),
+        Err(Stop::Help(help)) => Ok(Some(help.to_string())),
+        Err(Stop::Wrong(error)) => Err(plain(&error.with_dashes().to_string())),
+    }
+}
+
 /// What the words say, the program's name first, with the preset that they name.
-pub fn parse(words: impl IntoIterator<Item = OsString>) -> std::result::Result<(Arguments, Given), Stop> {
+fn parse(words: impl IntoIterator<Item = OsString>) -> std::result::Result<(Arguments, Given), Stop> {
     preset::parse(words.into_iter().collect())
 }
 

@@ -12,6 +12,23 @@
 /// The result of anything in this crate that can fail.
 pub type Result<T> = std::result::Result<T, Error>;
 
+/// Why a text is no value of a type: what it would have to be, without the text itself.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct ParseError(pub String);
+
+impl From<String> for ParseError {
+    fn from(problem: String) -> Self {
+        Self(problem)
+    }
+}
+
+impl From<ParseError> for String {
+    fn from(ParseError(problem): ParseError) -> Self {
+        problem
+    }
+}
+
 /// Why tinta could not do what was asked.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -35,21 +52,40 @@ pub enum Error {
         problem: String,
     },
     /// A model has defects and `--strict` was asked for.
-    #[error("{path}: {defects}; mend the model, or leave out --strict to draw it without them")]
+    #[error("{path}: {defects}; mend the model, or leave out strict to draw it without them")]
     Strict {
         /// The file as the user named it.
         path: String,
         /// The defects with their counts, in words.
         defects: String,
     },
-    /// A setting is nonsense by itself or together with another.
-    #[error("{setting}: {problem}")]
+    /// A setting is nonsense.
+    #[error("{name}{}: {problem}", value.as_ref().map(|value| format!(" {value}")).unwrap_or_default())]
     Setting {
-        /// The option as the user writes it.
-        setting: String,
+        /// The setting's name, without dashes: a key of presets and jobs, and with dashes an option.
+        name: String,
+        /// Its value, as a user writes it; `None` where it is no matter of the value, or is too long to say.
+        value: Option<String>,
         /// What is wrong and what to do.
         problem: String,
     },
+    /// Settings are nonsense together.
+    #[error("{}: {problem}", in_a_row(names))]
+    Settings {
+        /// Their names, without dashes.
+        names: Vec<String>,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// Exact lines that were computed cannot be written: a fault of this library.
+    #[error("{problem}")]
+    Lines {
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// A text is no value of the type it was to be read as.
+    #[error(transparent)]
+    Text(#[from] ParseError),
     /// A preset cannot be read, or sets what cannot be set so.
     #[error("{path}{}: {problem}", line.map(|line| format!(": line {line}")).unwrap_or_default())]
     Preset {
@@ -103,7 +139,7 @@ pub enum Error {
         problem: String,
     },
     /// Another run is at work on the same slice of a batch.
-    #[error("{path}: another run is at work on this; wait for its end, or take another --slice")]
+    #[error("{path}: another run is at work on this; wait for its end, or take another slice")]
     Busy {
         /// The slice's file.
         path: String,
@@ -130,7 +166,7 @@ pub enum Error {
     },
     /// The picture is larger than the context can draw.
     #[error(
-        "--size {width}x{height}: the largest picture {renderer} can draw is {limit_width}x{limit_height}; ask for a smaller one, or see `tinta info` for a --backend that draws larger ones"
+        "size {width}x{height}: the largest picture {renderer} can draw is {limit_width}x{limit_height}; ask for a smaller one, or see `tinta info` for a backend that draws larger ones"
     )]
     PictureTooLarge {
         /// Width asked for, pixels.
@@ -160,7 +196,7 @@ pub enum Error {
         log: String,
     },
     /// GL reported an error after a plan, or lost what it was given.
-    #[error("the GL driver failed in {during} ({what}); try --backend osmesa, or a smaller --size")]
+    #[error("the GL driver failed in {during} ({what}); try the backend osmesa, or a smaller size")]
     Gl {
         /// The pass or call.
         during: String,
@@ -169,7 +205,7 @@ pub enum Error {
     },
     /// The driver has taken the GL context away, as it does when a device hangs or its driver is replaced.
     #[error(
-        "the GL context was lost in {during} ({what}): the driver has reset its device; draw again, and if that fails too, try --backend osmesa or a smaller --size"
+        "the GL context was lost in {during} ({what}): the driver has reset its device; draw again, and if that fails too, try the backend osmesa or a smaller size"
     )]
     ContextLost {
         /// The pass or call.
@@ -179,6 +215,21 @@ pub enum Error {
     },
 }
 
+/// What [`Error::PictureTooLarge`] ends with.
+const BACKEND_FOR_LARGER: &str = "a backend that draws larger ones";
+
+/// What [`Error::Gl`] and [`Error::ContextLost`] advise.
+const ANOTHER_BACKEND: &str = "the backend osmesa";
+
+/// Names as a sentence has them: `a`, `a and b`, `a, b and c`.
+fn in_a_row(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
 impl Error {
     /// What kind of error this is, in a word: for records, where the sentence would say too much.
     pub fn kind(&self) -> &'static str {
@@ -186,8 +237,10 @@ impl Error {
             Self::Model { .. } => "model",
             Self::Picture { .. } => "picture",
             Self::Strict { .. } => "strict",
-            Self::Setting { .. } => "setting",
+            Self::Setting { .. } | Self::Settings { .. } => "setting",
+            Self::Lines { .. } => "lines",
             Self::CommandLine { .. } => "command-line",
+            Self::Text(_) => "text",
             Self::Preset { .. } => "preset",
             Self::Output { .. } => "output",
             Self::DiskFull { .. } => "disk-full",
@@ -225,13 +278,105 @@ impl Error {
         Self::Picture { path: path.display().to_string(), problem: problem.into() }
     }
 
-    /// A setting error.
-    pub(crate) fn setting(setting: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self::Setting { setting: setting.into(), problem: problem.into() }
+    /// A setting is nonsense, whatever its value.
+    pub fn setting(name: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Setting { name: name.into(), value: None, problem: problem.into() }
+    }
+
+    /// A setting's value is nonsense.
+    pub fn value(name: impl Into<String>, value: impl ToString, problem: impl Into<String>) -> Self {
+        Self::Setting { name: name.into(), value: Some(value.to_string()), problem: problem.into() }
+    }
+
+    /// Settings are nonsense together.
+    pub(crate) fn settings(names: &[&str], problem: impl Into<String>) -> Self {
+        Self::Settings { names: names.iter().map(|name| (*name).to_owned()).collect(), problem: problem.into() }
+    }
+
+    /// The sentence for a command line, where settings are options: `--tones 4`. The error's own text has no dashes.
+    pub fn with_dashes(&self) -> String {
+        let sentence = self.to_string();
+        let dash = |name: &str| if name.len() == 1 { format!("-{name}") } else { format!("--{name}") };
+        match self {
+            Self::Setting { name, .. } => sentence.replacen(name.as_str(), &dash(name), 1),
+            Self::Settings { names, problem } => {
+                format!("{}: {problem}", in_a_row(&names.iter().map(|name| dash(name)).collect::<Vec<_>>()))
+            }
+            Self::Strict { path, defects } => {
+                format!("{path}: {defects}; mend the model, or leave out --strict to draw it without them")
+            }
+            Self::Busy { path } => {
+                format!("{path}: another run is at work on this; wait for its end, or take another --slice")
+            }
+            Self::PictureTooLarge { .. } => {
+                let sentence = sentence.replacen("size", "--size", 1);
+                sentence
+                    .strip_suffix(BACKEND_FOR_LARGER)
+                    .map_or_else(|| sentence.clone(), |start| format!("{start}a --backend that draws larger ones"))
+            }
+            Self::Gl { .. } | Self::ContextLost { .. } => match sentence.rsplit_once(ANOTHER_BACKEND) {
+                Some((start, end)) => format!("{start}--backend osmesa{}", end.replacen("size", "--size", 1)),
+                None => sentence,
+            },
+            _ => sentence,
+        }
     }
 
     /// A GL error.
     pub(crate) fn gl(during: impl Into<String>, what: impl Into<String>) -> Self {
         Self::Gl { during: during.into(), what: what.into() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_command_line_speaks_of_dashes() {
+        let too_large = Error::PictureTooLarge {
+            width: 9000,
+            height: 10,
+            limit_width: 4096,
+            limit_height: 4096,
+            renderer: "Voodoo 2".to_owned(),
+        };
+        let strict = Error::Strict { path: "a.obj".into(), defects: "2 empty faces".to_owned() };
+        let lost = Error::ContextLost { during: "drawing".to_owned(), what: "GL_OUT_OF_MEMORY".to_owned() };
+        for (error, plain, dashed) in [
+            (Error::value("tones", 4, "too many"), "tones 4: too many", "--tones 4: too many"),
+            (Error::setting("o", "it is taken"), "o: it is taken", "-o: it is taken"),
+            (
+                Error::settings(&["fov", "near", "far"], "wrong"),
+                "fov, near and far: wrong",
+                "--fov, --near and --far: wrong",
+            ),
+            (
+                too_large,
+                "size 9000x10: the largest picture Voodoo 2 can draw is 4096x4096; ask for a smaller one, or see `tinta info` \
+                 for a backend that draws larger ones",
+                "--size 9000x10: the largest picture Voodoo 2 can draw is 4096x4096; ask for a smaller one, or see `tinta info` \
+                 for a --backend that draws larger ones",
+            ),
+            (
+                strict,
+                "a.obj: 2 empty faces; mend the model, or leave out strict to draw it without them",
+                "a.obj: 2 empty faces; mend the model, or leave out --strict to draw it without them",
+            ),
+            (
+                Error::gl("drawing", "GL_SIZE"),
+                "the GL driver failed in drawing (GL_SIZE); try the backend osmesa, or a smaller size",
+                "the GL driver failed in drawing (GL_SIZE); try --backend osmesa, or a smaller --size",
+            ),
+            (
+                lost,
+                "the GL context was lost in drawing (GL_OUT_OF_MEMORY): the driver has reset its device; draw again, and if \
+                 that fails too, try the backend osmesa or a smaller size",
+                "the GL context was lost in drawing (GL_OUT_OF_MEMORY): the driver has reset its device; draw again, and if \
+                 that fails too, try --backend osmesa or a smaller --size",
+            ),
+        ] {
+            assert_eq!((error.to_string(), error.with_dashes()), (plain.to_owned(), dashed.to_owned()));
+        }
     }
 }

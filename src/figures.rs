@@ -169,8 +169,9 @@ pub fn figures(size: Size) -> Vec<Figure> {
 pub fn only(figures: Vec<Figure>, ids: &[String]) -> Result<Vec<Figure>> {
     let known: Vec<&str> = figures.iter().map(|figure| figure.id).collect();
     if let Some(unknown) = ids.iter().find(|id| !known.contains(&id.as_str())) {
-        return Err(Error::setting(
-            format!("--only {unknown}"),
+        return Err(Error::value(
+            "only",
+            unknown,
             format!("there is no such figure; choose from {}", known.join(", ")),
         ));
     }

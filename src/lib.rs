@@ -13,15 +13,13 @@
 //! Everything else is tested without a context, a window or a clock.
 //!
 //! ```no_run
-//! use std::sync::Arc;
-//! use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Style, StyleName, Target, load};
+//! use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Style, StyleName, load};
 //!
 //! # fn main() -> tinta::Result<()> {
 //! let bust = load("builtin:bust", &LoadOptions::default())?.mesh;
-//! let scene = Scene::new(vec![Arc::new(bust)], &SceneSettings::default())?;
+//! let scene = Scene::new([bust], &SceneSettings::default())?;
 //! let style = Style::named(StyleName::ThreePass);
-//! let picture = Renderer::new(Backend::Auto)?.render(&scene, &style)?;
-//! Target::check("bust.png", false)?.write(&picture)
+//! Renderer::new(Backend::Auto)?.render(&scene, &style)?.save("bust.png")
 //! # }
 //! ```
 
@@ -96,8 +94,10 @@ extern crate self as tinta;
 pub use animation::{AnimationTarget, AnimationWriter};
 pub use camera::{Camera, CameraSettings, View};
 pub use edges::EdgeList;
-pub use error::{Error, Result};
+pub use error::{Error, ParseError, Result};
 pub use gl::Backend;
+/// The vectors and matrices that the public types are made of.
+pub use glam;
 pub use lines::{LineSettings, SvgSettings, VisibleLines};
 pub use mesh::{LoadOptions, Mesh, load};
 pub use output::TextTarget;

@@ -106,8 +106,9 @@ impl LineSettings {
             |_: &Self| SilhouetteRule::Exact.text(),
             |_, text| match SilhouetteRule::parse(text)? {
                 SilhouetteRule::Exact => Ok(()),
-                SilhouetteRule::Published => Err(Error::setting(
-                    "--silhouette paper",
+                SilhouetteRule::Published => Err(Error::value(
+                    "silhouette",
+                    "paper",
                     "style lines finds silhouettes exactly; leave it out, or draw --style inking into a .png",
                 )
                 .into()),
@@ -218,11 +219,11 @@ impl VisibleLines {
     /// As there, and [`Error::Cancelled`] after [`Progress::cancel`].
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
         if settings.classes.is_empty() {
-            return Err(Error::setting("--classes", "name at least one class of lines"));
+            return Err(Error::setting("classes", "name at least one class of lines"));
         }
         let all_positions: usize = scene.objects.iter().map(|object| object.mesh.positions.len()).sum();
         if scene.triangle_count().max(all_positions) > u32::MAX as usize / 4 {
-            return Err(Error::setting("--copies", "the scene has too many faces to find its lines; ask for fewer"));
+            return Err(Error::setting("copies", "the scene has too many faces to find its lines; ask for fewer"));
         }
         let clock = Instant::now();
         let space = Space::of(scene);

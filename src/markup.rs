@@ -24,6 +24,17 @@ pub(crate) fn escaped(text: &str) -> String {
     escaped
 }
 
+/// What stands before a recipe in an SVG's metadata.
+pub(crate) const RECIPE_BEGIN: &str = "<tinta:recipe xmlns:tinta=\"urn:tinta:recipe\">";
+
+/// What stands behind it.
+pub(crate) const RECIPE_END: &str = "</tinta:recipe>";
+
+/// A recipe, JSON, as an element of an SVG's metadata, with a line end; nothing for no recipe.
+pub(crate) fn recipe_element(json: &str) -> String {
+    if json.is_empty() { String::new() } else { format!("{RECIPE_BEGIN}{}{RECIPE_END}\n", escaped(json)) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::escaped;
@@ -34,15 +45,4 @@ mod tests {
         assert_eq!(escaped("é→🖋 \u{1}\u{0}\t]]>"), "é→🖋 \u{fffd}\u{fffd}&#9;]]&gt;");
         assert_eq!(escaped("1\n2\u{7}3\u{ffff}"), "1&#10;2\u{fffd}3\u{fffd}");
     }
-}
-
-/// What stands before a recipe in an SVG's metadata.
-pub(crate) const RECIPE_BEGIN: &str = "<tinta:recipe xmlns:tinta=\"urn:tinta:recipe\">";
-
-/// What stands behind it.
-pub(crate) const RECIPE_END: &str = "</tinta:recipe>";
-
-/// A recipe, JSON, as an element of an SVG's metadata, with a line end; nothing for no recipe.
-pub(crate) fn recipe_element(json: &str) -> String {
-    if json.is_empty() { String::new() } else { format!("{RECIPE_BEGIN}{}{RECIPE_END}\n", escaped(json)) }
 }

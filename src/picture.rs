@@ -2,13 +2,13 @@
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
-//! use tinta::{Picture, Size, Target};
+//! use tinta::{Picture, Size};
 //!
 //! let folder = tempfile::tempdir().expect("a folder");
-//! let name = folder.path().join("red.png").display().to_string();
+//! let name = folder.path().join("red.png");
 //! let red = Picture { size: Size { width: 2, height: 1 }, pixels: [255, 0, 0, 255].repeat(2) };
-//! Target::check(&name, false)?.write(&red)?;
-//! assert_eq!(Picture::read_png(name.as_ref())?, red);
+//! red.save(&name)?;
+//! assert_eq!(Picture::read_png(&name)?, red);
 //! # Ok(())
 //! # }
 //! ```
@@ -36,6 +36,7 @@ pub struct Picture {
 
 impl Picture {
     /// A picture from GL's rows, bottom row first.
+    #[must_use]
     pub fn from_bottom_up(size: Size, pixels: &[u8]) -> Self {
         let row = size.width as usize * 4;
         Self { size, pixels: pixels.chunks_exact(row).rev().flatten().copied().collect() }
@@ -50,12 +51,14 @@ impl Picture {
     }
 
     /// The same colours without transparency.
+    #[must_use]
     pub fn opaque(mut self) -> Self {
         self.pixels.chunks_exact_mut(4).for_each(|pixel| pixel[3] = u8::MAX);
         self
     }
 
     /// Alpha as an opaque grey.
+    #[must_use]
     pub fn alpha_as_grey(mut self) -> Self {
         self.pixels.chunks_exact_mut(4).for_each(|pixel| {
             let alpha = pixel[3];
@@ -70,6 +73,7 @@ impl Picture {
     }
 
     /// The largest difference of any byte between two pictures of one size, and how many pixels differ at all.
+    #[must_use]
     pub fn difference(&self, other: &Self) -> Option<Difference> {
         if self.size != other.size {
             return None;
@@ -108,6 +112,17 @@ impl Picture {
         }
     }
 
+    /// Writes the picture to a file, in the format that the name's extension says. The file appears complete or stays as it
+    /// was. [`Target::check`] finds what keeps it from being written before the work.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Output`] for an unknown extension, a directory, a folder that is missing or may not be written, and for a
+    /// picture that is not opaque in a format without transparency; [`Error::DiskFull`].
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        Target::file(path.as_ref(), !self.is_opaque())?.write(self)
+    }
+
     /// Reads a PNG file, for comparisons.
     ///
     /// # Errors
@@ -134,6 +149,7 @@ pub struct Difference {
 
 /// The file formats written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum PictureFormat {
     /// Portable Network Graphics, with alpha where the picture has any.
     Png,
@@ -189,16 +205,19 @@ impl Target {
     ///
     /// [`Error::Output`] for an unknown extension, a directory, a folder that is missing or may not be written.
     pub fn check(path: &str, transparent: bool) -> Result<Self> {
-        let refuse = |problem: String| Error::Output { path: path.to_owned(), problem };
-        if path == "-" {
-            return Ok(Self::Stdout);
+        match path {
+            "-" => Ok(Self::Stdout),
+            _ => Self::file(Path::new(path), transparent),
         }
-        let file = PathBuf::from(path);
+    }
+
+    fn file(file: &Path, transparent: bool) -> Result<Self> {
+        let refuse = |problem: String| Error::Output { path: file.display().to_string(), problem };
         if file.is_dir() {
             return Err(refuse("this is a directory; name a file in it".to_owned()));
         }
         let known = || PictureFormat::EXTENSIONS.map(|(extension, _)| extension).join(", ");
-        let format = match (PictureFormat::of(&file), file.extension()) {
+        let format = match (PictureFormat::of(file), file.extension()) {
             (Some(format), _) => format,
             (None, Some(extension)) => {
                 let extension = extension.to_string_lossy().to_ascii_lowercase();
@@ -209,8 +228,8 @@ impl Target {
         if transparent && !format.has_alpha() {
             return Err(refuse("this format has no transparency; write .png, or leave out --transparent".to_owned()));
         }
-        check_file(&file)?;
-        Ok(Self::File { path: file, format })
+        check_file(file)?;
+        Ok(Self::File { path: file.to_owned(), format })
     }
 
     /// Writes the picture; a file appears complete or stays as it was.
@@ -396,6 +415,9 @@ mod tests {
         assert!(message("drawing", false).contains("no extension"));
         assert!(message("drawing.jpg", true).contains("no transparency"));
         assert!(message("no/such/folder/a.png", false).contains("folder no/such/folder is not there"));
+        let see_through = Picture { size: Size { width: 1, height: 1 }, pixels: vec![0; 4] };
+        assert!(see_through.save("drawing.jpg").unwrap_err().to_string().contains("no transparency"));
+        assert!(see_through.save("-").unwrap_err().to_string().contains("no extension"));
         let folder = tempfile::Builder::new().suffix(".png").tempdir().unwrap();
         assert!(message(folder.path().to_str().unwrap(), false).contains("directory"));
     }

@@ -70,6 +70,7 @@ pub struct Pass {
 /// One thing for GL to do.
 #[expect(clippy::large_enum_variant, reason = "most steps draw, and a plan has about ten: a box would save nothing")]
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Step {
     /// Clear colour and depth.
     Clear {
@@ -160,6 +161,7 @@ impl Draw {
 
 /// What can be drawn.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Geometry {
     /// All objects of the scene.
     Objects(Paint),
@@ -273,6 +275,7 @@ pub enum Value {
 
 /// The textures a plan can read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Texture {
     /// The framebuffer as the last [`Step::CopyFramebuffer`] left it; NEAREST, CLAMP_TO_EDGE (errata E12).
     BorderMap,

@@ -141,13 +141,13 @@ impl Preset {
     /// An error about an option that the preset gave, with the preset's name and line; `used` are the options of it that count,
     /// by their names on the command line and in the preset.
     pub fn attributed(&self, error: Error, used: &[(String, String)]) -> Error {
-        let Error::Setting { setting, problem } = &error else { return error };
-        let is_named = |option: &str| {
-            let mut words = setting.split([' ', ',', '=']);
-            words.any(|word| word.strip_prefix("--") == Some(option))
+        let names = match &error {
+            Error::Setting { name, .. } => std::slice::from_ref(name),
+            Error::Settings { names, .. } => names,
+            _ => return error,
         };
-        match used.iter().find(|(option, _)| is_named(option)) {
-            Some((_, key)) => self.refuse(key, format!("{setting}: {problem}")),
+        match used.iter().find(|(option, _)| names.contains(option)) {
+            Some((_, key)) => self.refuse(key, error.to_string()),
             None => error,
         }
     }

@@ -46,6 +46,13 @@ pub struct Renderer {
     pixels: Vec<u8>,
 }
 
+impl std::fmt::Debug for Renderer {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        // What GL holds has no text.
+        out.debug_struct("Renderer").field("surface", &self.surface).finish_non_exhaustive()
+    }
+}
+
 /// How long one pass takes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PassTime {
@@ -209,7 +216,7 @@ impl Renderer {
     /// As [`Renderer::draw`].
     pub fn time_passes(&mut self, scene: &Scene, plan: &Plan, frames: usize) -> Result<Vec<PassTime>> {
         if frames == 0 {
-            return Err(Error::setting("--frames 0", "at least one frame is needed to time one"));
+            return Err(Error::value("frames", "0", "at least one frame is needed to time one"));
         }
         let has_timers = self.context.info().timer_queries;
         self.with_context(scene, plan, |frame| {
@@ -336,7 +343,7 @@ impl Renderer {
                 "{} draws {limit} pixels at most, which is {largest} with this; ask for a smaller --size or less of it",
                 self.context.info().renderer
             );
-            return Err(Error::setting(format!("--supersample {supersample}"), problem));
+            return Err(Error::value("supersample", supersample, problem));
         }
         self.context.resize(surface)?;
         let bytes = surface.pixel_count() * 4;

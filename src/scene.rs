@@ -179,16 +179,18 @@ const LARGEST_COPIES: u32 = 10_000;
 const FITTED_POINTS: usize = 4_000_000;
 
 impl Scene {
-    /// Puts meshes together, each at its own coordinates, and fits the camera to them.
+    /// Puts meshes together, each at its own coordinates, and fits the camera to them; takes meshes and shared ones alike.
     ///
     /// # Errors
     ///
     /// [`Error::Setting`] for what cannot be drawn: no mesh, no copy, a size of 0, a nonsensical camera, planes so far apart that
     /// depth cannot tell what is in front, a scene whose coordinates are beyond [`SCENE_RADIUS`].
-    pub fn new(meshes: Vec<Arc<Mesh>>, settings: &SceneSettings) -> Result<Self> {
+    pub fn new(meshes: impl IntoIterator<Item: Into<Arc<Mesh>>>, settings: &SceneSettings) -> Result<Self> {
+        let meshes: Vec<Arc<Mesh>> = meshes.into_iter().map(Into::into).collect();
         if meshes.is_empty() || !(1..=LARGEST_COPIES).contains(&settings.copies) {
-            return Err(Error::setting(
-                format!("--copies {}", settings.copies),
+            return Err(Error::value(
+                "copies",
+                settings.copies,
                 format!("a scene has at least one model and 1 to {LARGEST_COPIES} copies of it"),
             ));
         }
@@ -198,8 +200,8 @@ impl Scene {
         let (low, high) = bounds(&corners);
         let (centre, radius) = (low * 0.5 + high * 0.5, (high * 0.5 - low * 0.5).length());
         if !SCENE_RADIUS.contains(&radius) {
-            return Err(Error::setting(
-                objects[0].mesh.name.clone(),
+            return Err(Error::model(
+                &objects[0].mesh.name,
                 format!(
                     "the scene's radius is {radius:e}; scale the model to between {:e} and {:e} units",
                     SCENE_RADIUS.start(),
@@ -376,7 +378,7 @@ impl Object {
 
 fn check_size(size: Size) -> Result<()> {
     match size.pixel_count() {
-        0 => Err(Error::setting(format!("--size {size}"), "a picture has at least one pixel")),
+        0 => Err(Error::value("size", size, "a picture has at least one pixel")),
         _ => Ok(()),
     }
 }
@@ -481,9 +483,9 @@ mod tests {
         };
         let base = CameraSettings::default;
         for fov_y_degrees in [1e-320, 1e-160, 1e-15] {
-            assert!(refused(CameraSettings { fov_y_degrees, ..base() }).contains("--fov"));
+            assert!(refused(CameraSettings { fov_y_degrees, ..base() }).contains("fov"));
         }
         assert!(refused(CameraSettings { fov_y_degrees: 1e-6, ..base() }).contains("--parallel"));
-        assert!(refused(CameraSettings { eye: Some(DVec3::Z * 1e30), ..base() }).contains("--eye"));
+        assert!(refused(CameraSettings { eye: Some(DVec3::Z * 1e30), ..base() }).contains("eye"));
     }
 }

@@ -29,7 +29,7 @@ mod value;
 pub use crate::choice::Choice;
 pub use value::{Value, names_of};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::{Debug, Formatter};
@@ -144,6 +144,12 @@ pub enum Problem {
 
 impl From<String> for Problem {
     fn from(problem: String) -> Self {
+        Self::Text(problem)
+    }
+}
+
+impl From<ParseError> for Problem {
+    fn from(ParseError(problem): ParseError) -> Self {
         Self::Text(problem)
     }
 }
@@ -278,6 +284,7 @@ impl<T: Clone + 'static> Setting<T> {
     }
 
     /// With the numbers that a panel offers, and how many decimals of them are worth showing.
+    #[must_use]
     pub fn range(mut self, low: f64, high: f64, decimals: usize) -> Self {
         let count = if let Kind::Numbers { count, .. } = self.kind { count } else { 1 };
         self.kind = Kind::Numbers { count, range: [low, high], decimals };
@@ -285,24 +292,28 @@ impl<T: Clone + 'static> Setting<T> {
     }
 
     /// With texts that a shell and a panel offer.
+    #[must_use]
     pub fn offering(mut self, texts: &[&'static str]) -> Self {
         self.kind = Kind::Choice(texts.to_vec());
         self
     }
 
     /// With this text for a value that is left open.
+    #[must_use]
     pub fn open(mut self, text: &'static str) -> Self {
         self.open = Some(text);
         self
     }
 
     /// With other words for the default.
+    #[must_use]
     pub fn said(mut self, default: &'static str) -> Self {
         self.said_default = Some(default);
         self
     }
 
     /// With another name in a panel than its own.
+    #[must_use]
     pub fn labelled(mut self, label: &'static str) -> Self {
         self.label = Some(label);
         self
@@ -338,7 +349,7 @@ impl<T: Clone + 'static> Setting<T> {
             return Ok(());
         }
         (self.set)(of, text).map_err(|problem| match problem {
-            Problem::Text(problem) => Error::setting(format!("--{} {text}", self.name), problem),
+            Problem::Text(problem) => Error::value(self.name, text, problem),
             Problem::Refused(error) => error,
         })
     }
@@ -453,7 +464,7 @@ impl<T: Clone + 'static> Table<T> {
                 continue;
             }
             let text = setting.text_of(value);
-            setting.set(to, &text.map_err(|problem| Error::setting(format!("--{}", setting.name), problem))?)?;
+            setting.set(to, &text.map_err(|problem| Error::setting(setting.name, problem))?)?;
         }
         Ok(())
     }
@@ -470,18 +481,17 @@ impl<T: Clone + 'static> Table<T> {
             if setting.value(default).as_ref() == Some(&value) {
                 continue;
             }
-            let option = || format!("--{}", setting.name);
             // A name that was no text has lost something.
             if setting.kind == Kind::File && value.contains(char::REPLACEMENT_CHARACTER) {
                 let problem = "this name is no text that could be kept; rename the file";
-                return Err(Error::setting(format!("{} {value}", option()), problem));
+                return Err(Error::value(setting.name, value, problem));
             }
             if value.is_empty() {
                 let problem = match setting.kind {
                     Kind::File => "this is from no file, so it cannot be kept; leave it as it is by default",
                     _ => "nothing is chosen; choose one at least",
                 };
-                return Err(Error::setting(option(), problem));
+                return Err(Error::setting(setting.name, problem));
             }
             let value = match setting.kind {
                 Kind::Flag => OptionValue::Switch(value == "on"),

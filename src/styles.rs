@@ -62,7 +62,7 @@ pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
 
 use crate::choice::find;
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::settings::{HasSettings, OptionValue, Options, Setting, Table, within};
@@ -73,6 +73,7 @@ use std::sync::LazyLock;
 
 /// A style with its settings.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Style {
     /// Smooth shading per pixel.
     Phong(Phong),
@@ -97,6 +98,7 @@ pub enum Style {
 /// Which of a style's pictures is wanted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Show {
     /// The finished picture.
     #[default]
@@ -123,6 +125,7 @@ pub enum Show {
 
 impl Style {
     /// The style of this name with the published settings.
+    #[must_use]
     pub fn named(name: StyleName) -> Self {
         (name.info().published)()
     }
@@ -143,6 +146,7 @@ impl Style {
     }
 
     /// The style's name as the user writes it.
+    #[must_use]
     pub fn name(&self) -> &'static str {
         self.style_name().name()
     }
@@ -157,10 +161,10 @@ impl Style {
         let name = match options.get("style") {
             None => StyleName::ThreePass,
             Some(OptionValue::Text(name)) => {
-                name.parse().map_err(|problem: String| Error::setting(format!("--style {name}"), problem))?
+                name.parse().map_err(|ParseError(problem)| Error::value("style", name, problem))?
             }
             Some(_) => {
-                return Err(Error::setting("--style", "this takes one value (STYLE), not true, false or several"));
+                return Err(Error::setting("style", "this takes one value (STYLE), not true, false or several"));
             }
         };
         Self::with_options(name, options)
@@ -289,6 +293,7 @@ fn cull<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
 
 /// The styles' names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum StyleName {
     /// `phong`
     Phong,
@@ -426,10 +431,10 @@ impl StyleName {
 }
 
 impl FromStr for StyleName {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
+        Ok(find(&Self::ALL, text)?)
     }
 }
 
@@ -461,10 +466,10 @@ impl Show {
 }
 
 impl FromStr for Show {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
+        Ok(find(&Self::ALL, text)?)
     }
 }
 
@@ -568,10 +573,10 @@ picture: the framebuffer
             let scene = scene(Background::Transparent);
             Style::ThreePass(cartoon).plan(&scene, Show::Final).unwrap_err().to_string()
         };
-        assert!(refused(&|cartoon| cartoon.tones.count = 4).starts_with("--tones 4"));
-        assert!(refused(&|cartoon| cartoon.tones.levels[1] = 1.5).starts_with("--tone-levels"));
-        assert!(refused(&|cartoon| cartoon.tones.diffuse_threshold = f32::NAN).starts_with("--tone-thresholds"));
+        assert!(refused(&|cartoon| cartoon.tones.count = 4).starts_with("tones 4"));
+        assert!(refused(&|cartoon| cartoon.tones.levels[1] = 1.5).starts_with("tone-levels"));
+        assert!(refused(&|cartoon| cartoon.tones.diffuse_threshold = f32::NAN).starts_with("tone-thresholds"));
         let infinite = Some(Border { detection_factor: f32::INFINITY, ..Border::default() });
-        assert!(refused(&|cartoon| cartoon.border = infinite).starts_with("--detection-factor"));
+        assert!(refused(&|cartoon| cartoon.border = infinite).starts_with("detection-factor"));
     }
 }

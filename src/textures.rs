@@ -42,7 +42,7 @@ fn check_size(size: Size) -> Result<()> {
     if fits(size.width) && fits(size.height) {
         return Ok(());
     }
-    Err(Error::setting(format!("--size {size}"), format!("a texture has 1 to {LARGEST_SIDE_PX} pixels on each side")))
+    Err(Error::value("size", size, format!("a texture has 1 to {LARGEST_SIDE_PX} pixels on each side")))
 }
 
 /// An opaque picture of these colours, row by row from the top.

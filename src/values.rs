@@ -1,5 +1,6 @@
 //! The plain values a scene is described with, as a user writes them: picture size, colour, background.
 
+use crate::error::ParseError;
 use serde::Serialize;
 use std::fmt;
 use std::str::FromStr;
@@ -20,6 +21,7 @@ impl Size {
     }
 
     /// A size this many times as wide and high.
+    #[must_use]
     pub fn times(self, factor: u32) -> Self {
         Self { width: self.width.saturating_mul(factor), height: self.height.saturating_mul(factor) }
     }
@@ -37,13 +39,13 @@ impl fmt::Display for Size {
 }
 
 impl FromStr for Size {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         let (width, height) = text.split_once(['x', 'X']).unwrap_or((text, text));
         match (width.parse(), height.parse()) {
             (Ok(width), Ok(height)) if width > 0 && height > 0 => Ok(Self { width, height }),
-            _ => Err("a size is WIDTHxHEIGHT in pixels, each at least 1, or one number for both".to_owned()),
+            _ => Err("a size is WIDTHxHEIGHT in pixels, each at least 1, or one number for both".to_owned().into()),
         }
     }
 }
@@ -63,6 +65,7 @@ pub struct Rectangle {
 
 impl Rectangle {
     /// This and so many pixels more on every side, within a surface of this size.
+    #[must_use]
     pub fn grown(self, pixels: u32, surface: Size) -> Self {
         let (x, y) = (self.x.saturating_sub(pixels), self.y.saturating_sub(pixels));
         Self {
@@ -74,6 +77,7 @@ impl Rectangle {
     }
 
     /// The least rectangle around this and another.
+    #[must_use]
     pub fn around(self, other: Self) -> Self {
         let (x, y) = (self.x.min(other.x), self.y.min(other.y));
         Self {
@@ -95,14 +99,16 @@ impl Rectangle {
 pub struct Color(pub [f32; 3]);
 
 impl FromStr for Color {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         let [red, green, blue, alpha] = csscolorparser::parse(text)
             .map(|color| color.to_array())
             .map_err(|_| "a colour is a CSS name or #rrggbb, for example tan or #d2b48c".to_owned())?;
         if alpha != 1.0 {
-            return Err("this colour is see-through; give an opaque one, or --transparent for no background".to_owned());
+            return Err("this colour is see-through; give an opaque one, or --transparent for no background"
+                .to_owned()
+                .into());
         }
         Ok(Self([red, green, blue]))
     }

@@ -136,7 +136,7 @@ fn nonsensical_settings_are_refused_by_name() {
     render(&["--eye", "0,0,9", "--target", "0,0,0", "--up", "0,0,1"], &["--up", "along the view"]);
     render(&["--fov", "180"], &["--fov 180"]);
     render(&["--fov", "-1"], &["--fov -1"]);
-    render(&["--near", "5", "--far", "4"], &["--near 5 --far 4"]);
+    render(&["--near", "5", "--far", "4"], &["--near and --far", "5 and 4 away"]);
     render(&["--near", "0"], &["--near"]);
     render(&["--tones", "4"], &["--tones 4"]);
     render(&["--tone-levels", "1,2"], &["--tone-levels", "3 numbers"]);

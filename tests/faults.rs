@@ -25,7 +25,7 @@ fn draw(renderer: &mut Renderer, scene: &Scene, style: &Style) -> tinta::Result<
 #[test]
 fn a_context_that_is_refused_is_reported_with_every_attempt() {
     for (backend, attempts) in [(Backend::Egl, 1), (Backend::OsMesa, 1), (Backend::Auto, 2)] {
-        let error = Renderer::with_fault(backend, Fault::ContextRefused).err().expect("no driver has OpenGL 9.9");
+        let error = Renderer::with_fault(backend, Fault::ContextRefused).expect_err("no driver has OpenGL 9.9");
         let message = error.to_string();
         assert!(message.starts_with("no OpenGL 2.1 context could be made (tried "), "{message}");
         let refusals = message.matches("making a GL 9.9 context failed").count();

@@ -209,7 +209,7 @@ fn copies_are_seen_as_the_same_mesh_at_other_places() {
         let positions = mesh.positions.iter().map(|point| *point + object.offset).collect();
         Arc::new(Mesh { positions, ..(*mesh).clone() })
     });
-    let actual = lines(&Scene::new(apart.collect(), &SceneSettings::default()).unwrap());
+    let actual = lines(&Scene::new(apart, &SceneSettings::default()).unwrap());
     assert_same_sums(&expected, &actual, 1e-6, "four gears");
     assert_eq!(expected.edges.boundary, actual.edges.boundary);
 }

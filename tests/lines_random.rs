@@ -2,7 +2,6 @@
 
 use crate::shapes::{Random, cuboid, icosphere, mesh};
 use glam::{DMat3, DVec3};
-use std::sync::Arc;
 use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
 
 /// A vector with components from -1 to 1.
@@ -66,7 +65,7 @@ fn random_meshes(kind: u32, random: &mut Random) -> Vec<Mesh> {
 
 /// A scene seen from anywhere, now and then from within.
 pub fn random_scene(kind: u32, random: &mut Random) -> Scene {
-    let meshes = random_meshes(kind, random).into_iter().map(Arc::new).collect();
+    let meshes = random_meshes(kind, random);
     let distance = if random.number() < 0.4 { random.number() } else { 1.5 + 3.0 * random.number() };
     let camera = CameraSettings {
         eye: Some(random.direction() * distance),

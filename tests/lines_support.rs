@@ -1,7 +1,6 @@
 //! What the tests of the visible lines share: scenes of meshes, projections of their own, sums of lengths.
 
 use glam::{DVec2, DVec3};
-use std::sync::Arc;
 use tinta::edges::{Class, ClassSet};
 use tinta::lines::{LineSegment, LineSettings, VisibleLines};
 use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
@@ -9,7 +8,7 @@ use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
 /// A square picture of meshes, 512 pixels.
 pub fn scene_of(meshes: Vec<Mesh>, camera: CameraSettings) -> Scene {
     let settings = SceneSettings { camera, size: Size { width: 512, height: 512 }, ..SceneSettings::default() };
-    Scene::new(meshes.into_iter().map(Arc::new).collect(), &settings).unwrap()
+    Scene::new(meshes, &settings).unwrap()
 }
 
 /// A named view or one by angles, in either projection.

@@ -1,6 +1,7 @@
 //! Tests that need a GL context or the finished program. One binary, so that it links once.
 
 mod animation;
+mod api;
 mod assimp;
 mod batch;
 mod batch_killed;

@@ -16,7 +16,7 @@ const SIZE: u32 = 100;
 fn triangle() -> Scene {
     let camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..CameraSettings::default() };
     let settings = SceneSettings { size: Size { width: SIZE, height: SIZE }, camera, ..SceneSettings::default() };
-    Scene::new(vec![Mesh::triangle().into()], &settings).unwrap()
+    Scene::new([Mesh::triangle()], &settings).unwrap()
 }
 
 fn reference(scene: &Scene) -> Reference {

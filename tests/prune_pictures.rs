@@ -35,7 +35,7 @@ fn random_view(scene: &Scene, dice: &mut Dice) -> Scene {
         },
         ..SceneSettings::default()
     };
-    let meshes = scene.objects.iter().map(|object| object.mesh.clone()).collect();
+    let meshes = scene.objects.iter().map(|object| object.mesh.clone());
     let fitted = Scene::new(meshes, &settings).unwrap();
     let mut scene = Scene { camera: fitted.camera, size: fitted.size, ..scene.clone() };
     if dice.roll() < 0.3 {

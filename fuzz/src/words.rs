@@ -6,13 +6,9 @@ use tinta::cli;
 /// Parses the words; what is wrong with them is one line.
 pub fn command_line(bytes: &[u8]) {
     let words = bytes.split(|byte| *byte == b'\n').map(word);
-    match cli::parse(std::iter::once(OsString::from("tinta")).chain(words)) {
-        Ok(_) => {}
-        Err(cli::Stop::Wrong(error)) => {
-            let said = cli::plain(&error.to_string());
-            assert!(said.len() > 8 && !said.contains(char::is_control), "{said}");
-        }
-        Err(cli::Stop::Help(help)) => assert!(!help.to_string().is_empty()),
+    match cli::check(std::iter::once(OsString::from("tinta")).chain(words)) {
+        Ok(help) => assert!(help.is_none_or(|help| !help.is_empty())),
+        Err(said) => assert!(said.len() > 8 && !said.contains(char::is_control), "{said}"),
     }
 }
 

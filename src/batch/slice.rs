@@ -1,5 +1,6 @@
 //! Which of a list's jobs are whose.
 
+use crate::error::ParseError;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
@@ -39,13 +40,13 @@ impl Slice {
 }
 
 impl FromStr for Slice {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, ParseError> {
         let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
         match numbers {
             Some((number, count)) if (1..=count).contains(&number) && count <= Self::MOST => Ok(Self { count, number }),
-            _ => Err(format!("give K/N, such as 3/8, with K from 1 to N and N up to {}", Self::MOST)),
+            _ => Err(format!("give K/N, such as 3/8, with K from 1 to N and N up to {}", Self::MOST).into()),
         }
     }
 }

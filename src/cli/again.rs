@@ -92,7 +92,7 @@ fn failed(path: &Path, error: &std::io::Error) -> Error {
 
 /// The models to draw, which must be where they are said to be.
 fn models(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<String>> {
-    let refuse = |setting: &str, problem: String| Err(Error::Setting { setting: setting.to_owned(), problem });
+    let refuse = |setting: &str, problem: String| Err(Error::setting(setting, problem));
     if !arguments.model.is_empty() && arguments.model.len() != recipe.models.len() {
         let problem = format!(
             "the picture has {} models ({}) and {} are given; give each, in this order",
@@ -100,7 +100,7 @@ fn models(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<String>> {
             recipe.models.join(", "),
             arguments.model.len()
         );
-        return refuse("--model", problem);
+        return refuse("model", problem);
     }
     let models = if arguments.model.is_empty() { &recipe.models } else { &arguments.model };
     match models.iter().find(|model| !model.starts_with("builtin:") && !Path::new(model).exists()) {

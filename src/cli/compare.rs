@@ -79,29 +79,21 @@ pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Resul
     inputs.keep_in(Path::new(&arguments.output), NAMES)?;
     let output = Output::check(&arguments.output)?;
     if arguments.json && matches!(output, Output::File(Target::Stdout)) {
-        return Err(Error::Setting {
-            setting: "-o -".to_owned(),
-            problem: "the sheet and --json cannot share standard output; name a file".to_owned(),
-        });
+        return Err(Error::value("o", "-", "the sheet and --json cannot share standard output; name a file"));
     }
     if arguments.styles.are_without_borders() {
-        return Err(Error::Setting {
-            setting: "--no-borders".to_owned(),
-            problem: "it is lines that are compared; leave it out".to_owned(),
-        });
+        return Err(Error::setting("no-borders", "it is lines that are compared; leave it out"));
     }
     if arguments.styles.show != Show::Final {
-        return Err(Error::Setting {
-            setting: "--show".to_owned(),
-            problem: "a comparison shows finished pictures; leave it out".to_owned(),
-        });
+        return Err(Error::setting("show", "a comparison shows finished pictures; leave it out"));
     }
-    for (option, name) in [("--left", arguments.left), ("--right", arguments.right)] {
+    for (option, name) in [("left", arguments.left), ("right", arguments.right)] {
         if !name.has_lines() {
-            return Err(Error::Setting {
-                setting: format!("{option} {}", name.name()),
-                problem: format!("this style has no lines to compare; choose one of {}", StyleName::list_with_lines()),
-            });
+            return Err(Error::value(
+                option,
+                name.name(),
+                format!("this style has no lines to compare; choose one of {}", StyleName::list_with_lines()),
+            ));
         }
     }
     let styles = [arguments.left, arguments.right].map(|name| arguments.styles.style(name));
@@ -132,10 +124,8 @@ pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Resul
         Ok(Drawing { picture, ink, record })
     };
     let [left, right] = [draw(&styles[0])?, draw(&styles[1])?];
-    let agreement = Agreement::of(&left.ink, &right.ink, arguments.tolerance).ok_or_else(|| Error::Setting {
-        setting: "--size".to_owned(),
-        problem: "the two pictures came out in different sizes; try another".to_owned(),
-    })?;
+    let agreement = Agreement::of(&left.ink, &right.ink, arguments.tolerance)
+        .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; try another"))?;
     let map = agreement.picture(scene.size);
     let models: Vec<ModelRecord> = scene.objects[..count].iter().map(|object| ModelRecord::new(&object.mesh)).collect();
     let record = ComparisonRecord {

@@ -135,11 +135,11 @@ impl Arguments {
         let mesh = load_meshes(&ModelCache::for_one(), std::slice::from_ref(path), &options)?.pop();
         match mesh {
             Some(mesh) if mesh.materials.iter().any(|material| material.has_texture()) => Ok(Some(mesh)),
-            _ => Err(Error::Setting {
-                setting: format!("--model {path}"),
-                problem: "no picture for it was found, and these figures draw with a model's own; name one with --skin"
-                    .to_owned(),
-            }),
+            _ => Err(Error::value(
+                "model",
+                path,
+                "no picture for it was found, and these figures draw with a model's own; name one with --skin",
+            )),
         }
     }
 

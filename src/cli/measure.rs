@@ -190,10 +190,7 @@ pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Resul
     }
     drop(progress);
     if rows.is_empty() {
-        return Err(Error::Setting {
-            setting: "--styles".to_owned(),
-            problem: "none of these settings can be drawn with these models; choose others".to_owned(),
-        });
+        return Err(Error::setting("styles", "none of these settings can be drawn with these models; choose others"));
     }
     report(arguments, given, &rows, pictures)
 }
@@ -250,10 +247,7 @@ fn tolerance(arguments: &Arguments) -> Result<f64> {
     if arguments.tolerance > 0.0 && arguments.tolerance <= 1000.0 {
         return Ok(arguments.tolerance);
     }
-    Err(Error::Setting {
-        setting: format!("--tolerance {}", arguments.tolerance),
-        problem: "it is a number of pixels above 0 and at most 1000".to_owned(),
-    })
+    Err(Error::value("tolerance", arguments.tolerance, "it is a number of pixels above 0 and at most 1000"))
 }
 
 /// A model at a size.

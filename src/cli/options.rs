@@ -57,9 +57,7 @@ impl<S: Selection> Chosen<S> {
     /// Refuses the first of them that is given.
     pub fn refuse(&self, problem: &str) -> Result<()> {
         match Self::all().find(|setting| self.options.contains_key(setting.name)) {
-            Some(setting) => {
-                Err(Error::Setting { setting: format!("--{}", setting.name), problem: problem.to_owned() })
-            }
+            Some(setting) => Err(Error::setting(setting.name, problem)),
             None => Ok(()),
         }
     }

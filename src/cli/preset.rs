@@ -68,7 +68,7 @@ impl Given {
     /// An error about an option that the preset gave, with the preset's name and line.
     pub fn attributed(&self, error: Error) -> Error {
         match (&self.preset, &error) {
-            (Some(preset), Error::Setting { .. }) => preset.attributed(error, &self.used),
+            (Some(preset), Error::Setting { .. } | Error::Settings { .. }) => preset.attributed(error, &self.used),
             _ => error,
         }
     }

@@ -154,10 +154,11 @@ fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Resu
     }
     let target = Target::check(&arguments.output, arguments.scene.is_transparent())?;
     if target == Target::Stdout && (arguments.run.json || arguments.run.explain) {
-        return Err(Error::Setting {
-            setting: "-o -".to_owned(),
-            problem: "the picture and --json or --explain cannot share standard output; name a file".to_owned(),
-        });
+        return Err(Error::value(
+            "o",
+            "-",
+            "the picture and --json or --explain cannot share standard output; name a file",
+        ));
     }
     make_dump_folder(arguments)?;
     let style = arguments.styles.style(arguments.style_name())?;

@@ -76,12 +76,9 @@ impl Selection for OfView {
 
 /// Opens the window and returns when it is closed.
 pub fn run(arguments: &Arguments, started: Instant) -> Result<()> {
-    for (option, folder) in [("--glsl", arguments.glsl.as_ref()), ("--folder", Some(&arguments.folder))] {
+    for (option, folder) in [("glsl", arguments.glsl.as_ref()), ("folder", Some(&arguments.folder))] {
         if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-            return Err(Error::Setting {
-                setting: format!("{option} {}", folder.display()),
-                problem: "there is no such folder; name one".to_owned(),
-            });
+            return Err(Error::value(option, folder.display(), "there is no such folder; name one"));
         }
     }
     // What is broken in a file is said in the window; a name that is nothing at all need not open one.

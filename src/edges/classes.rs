@@ -2,7 +2,7 @@
 
 use super::{EdgeList, Incidence};
 use crate::choice::find;
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::settings::{Kind, Problem, Setting, Value};
 use crate::threads::{filled, in_parallel, threads_for};
@@ -54,10 +54,10 @@ impl Class {
 }
 
 impl FromStr for Class {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
+        Ok(find(&Self::ALL, text)?)
     }
 }
 
@@ -94,11 +94,13 @@ impl ClassSet {
     }
 
     /// The classes in both.
+    #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
 
     /// The classes in either.
+    #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
@@ -126,7 +128,7 @@ impl ClassSet {
              intersection, with commas between, or all",
             move |of: &T| field(&mut of.clone()).classes().map(Class::name).collect::<Vec<_>>().join(","),
             move |of: &mut T, text: &str| {
-                let named = || -> std::result::Result<Vec<Class>, String> {
+                let named = || -> std::result::Result<Vec<Class>, ParseError> {
                     text.split(',').map(|name| name.trim().parse()).collect()
                 };
                 *field(of) = match text {
@@ -167,7 +169,7 @@ impl CreaseAngle {
             let is_the_listings = (cosine - listing.cosine).abs() <= 4.0 * f64::EPSILON;
             return Ok(if is_the_listings { listing } else { Self { cosine } });
         }
-        Err(Error::setting(format!("--crease-angle {degrees}"), "the angle is between 0 and 180 degrees"))
+        Err(Error::value("crease-angle", degrees, "the angle is between 0 and 180 degrees"))
     }
 
     /// The shortest number of degrees that is read back as this angle, or the nearest one where none is.

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Draws panels; reads each built-in model once.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub struct Artist {
     builtin: HashMap<&'static str, Arc<Mesh>>,
     textured: Option<Arc<Mesh>>,

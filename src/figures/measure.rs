@@ -258,7 +258,7 @@ pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut
 
     let large = Size { width: how.size.width * 2, height: how.size.height * 2 };
     let square = Scene::new(
-        smallest.objects.iter().map(|object| object.mesh.clone()).collect(),
+        smallest.objects.iter().map(|object| object.mesh.clone()),
         &SceneSettings { size: large, ..settings },
     )?;
     let mut squares = throughput::contestants(&Arc::new(square))?;
@@ -321,7 +321,7 @@ fn from(scene: &Scene, distance: f64, size: Size) -> Result<Scene> {
     let camera = scene.camera;
     let eye = Some(camera.target + (camera.eye - camera.target) * distance);
     let camera = crate::CameraSettings { eye, target: Some(camera.target), ..crate::CameraSettings::default() };
-    let meshes = scene.objects.iter().map(|object| object.mesh.clone()).collect();
+    let meshes = scene.objects.iter().map(|object| object.mesh.clone());
     Scene::new(meshes, &SceneSettings { camera, size, ..SceneSettings::default() })
 }
 

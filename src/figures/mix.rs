@@ -47,7 +47,9 @@ impl Kit {
     ///
     /// As [`load`], which does not fail for built-in models.
     pub fn new() -> Result<Self> {
-        let model = |name: &str| Ok(of_one_size(load(&format!("builtin:{name}"), &LoadOptions::default())?.mesh));
+        let model = |name: &str| -> Result<Mesh> {
+            Ok(of_one_size(load(&format!("builtin:{name}"), &LoadOptions::default())?.mesh))
+        };
         let [gear, ant, bust] = CYCLE.map(model);
         Ok(Self { models: [gear?, ant?, bust?], open_box: model("open-box")? })
     }

@@ -12,7 +12,7 @@ pub(crate) mod window;
 use super::Gl;
 use super::faults::{self, Fault, Faults};
 use crate::choice::find;
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::scene::Size;
 use context_lock::{ContextGuard, ContextLock};
 use info::load_functions;
@@ -32,6 +32,7 @@ const NO_VERSION: (u8, u8) = (9, 9);
 /// Which way to take.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Backend {
     /// EGL, then OSMesa: the first that works.
     #[default]
@@ -48,10 +49,10 @@ impl Backend {
 }
 
 impl FromStr for Backend {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        find(&Self::ALL, text)
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
+        Ok(find(&Self::ALL, text)?)
     }
 }
 

@@ -101,7 +101,7 @@ fn refused(info: &ContextInfo, attachments: &Attachments, lack: &str) -> Error {
     let Attachments { asked_by, instead, .. } = attachments;
     let draws = attachments.instead_draws.map(|what| format!(", which draws {what}")).unwrap_or_default();
     let problem = format!("{} {lack}; use --{} {}{draws}", info.renderer, instead.setting, instead.value);
-    Error::setting(format!("--{} {}", asked_by.setting, asked_by.value), problem)
+    Error::value(asked_by.setting, asked_by.value, problem)
 }
 
 /// A texture copied from a framebuffer of this size.

@@ -1,6 +1,7 @@
 //! The colours of lines by their classes, and how wide they are: what drawings by GL and by SVG have in common.
 
 use crate::edges::Class;
+use crate::error::ParseError;
 use crate::settings::{Kind, Problem, Setting, Value};
 use crate::values::Color;
 use std::str::FromStr;
@@ -55,9 +56,9 @@ impl Value for ClassColors {
 }
 
 impl FromStr for ClassColors {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         match text {
             "figure-6" => return Ok(Self::figure_6()),
             "black" => return Ok(Self::default()),

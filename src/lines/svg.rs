@@ -37,7 +37,8 @@ const PEN_DASHES: [f64; 2] = [1.0 / 128.0, 1.0 / 170.0];
 ///
 /// # Errors
 ///
-/// [`Error::Setting`] for settings that [`SvgSettings::check`] refuses, and for lines that are not finite or leave the picture.
+/// [`Error::Setting`] for settings that [`SvgSettings::check`] refuses, [`Error::Lines`] for lines that are not finite or leave the
+/// picture.
 pub fn svg(lines: &VisibleLines, settings: &SvgSettings) -> Result<String> {
     svg_of_paths(lines, chain(&lines.segments), settings)
 }
@@ -78,10 +79,12 @@ impl VisibleLines {
             let is_drawable = points.all(|point| is_inside(point.x, limits[0]) && is_inside(point.y, limits[1]));
             if !is_drawable || segment.angle_degrees.is_some_and(|angle| !angle.is_finite()) {
                 let [a, b] = segment.ends_px;
-                return Err(Error::setting(
-                    format!("line {number} from {a} to {b}"),
-                    "it is not a number or leaves the picture; this is tinta's fault: report it with the model",
-                ));
+                return Err(Error::Lines {
+                    problem: format!(
+                        "line {number} from {a} to {b}: it is not a number or leaves the picture; this is tinta's fault: \
+                         report it with the model"
+                    ),
+                });
             }
         }
         Ok(())

@@ -15,6 +15,7 @@ const STEP_PX: f64 = 0.125;
 pub const SOFT_CREASE_DEGREES: f64 = 20.0;
 
 /// The visible lines of a scene.
+#[derive(Debug)]
 pub struct Reference {
     /// The picture's size.
     pub size: Size,

@@ -26,6 +26,7 @@ pub struct Setting {
 }
 
 /// A scene with what its pictures are measured against.
+#[derive(Debug)]
 pub struct Subject {
     /// The model as the user named it.
     pub model: String,
@@ -42,6 +43,7 @@ pub struct Subject {
 }
 
 /// A measured setting.
+#[derive(Debug)]
 pub struct Measured {
     /// The numbers.
     pub row: Row,
@@ -118,8 +120,9 @@ pub fn measure(
     for setting in settings {
         match contestant(renderer, subject, setting, how) {
             Ok(contestant) => contestants.push(contestant),
-            Err(Error::Setting { setting: option, problem }) => {
-                left_out.push(format!("{}: {} is left out ({option}: {problem})", subject.model, setting.options));
+            Err(error @ (Error::Setting { .. } | Error::Settings { .. })) => {
+                let reason = error.with_dashes();
+                left_out.push(format!("{}: {} is left out ({reason})", subject.model, setting.options));
             }
             Err(error) => return Err(error),
         }

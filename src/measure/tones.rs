@@ -24,6 +24,7 @@ const LIGHT: DVec3 = DVec3::ONE;
 const ROUNDING: f64 = 1.5;
 
 /// What is seen at each pixel.
+#[derive(Debug)]
 pub struct ReferenceLight {
     /// Row by row from the top.
     surfaces: Vec<Option<Surface>>,

@@ -1,6 +1,6 @@
 //! Which frame of an animated model is read: a number, between two frames also, or a name.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::settings::{Kind, Problem, Value};
 use std::{fmt, str::FromStr};
 
@@ -29,13 +29,13 @@ impl fmt::Display for ModelFrame {
 }
 
 impl FromStr for ModelFrame {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         match text.parse::<f64>() {
-            Ok(number) if number < 0.0 => Err("frames are counted from 0".to_owned()),
+            Ok(number) if number < 0.0 => Err("frames are counted from 0".to_owned().into()),
             Ok(number) if number.is_finite() => Ok(Self::Number(number)),
-            _ if text.is_empty() => Err("give a frame's number or name".to_owned()),
+            _ if text.is_empty() => Err("give a frame's number or name".to_owned().into()),
             _ => Ok(Self::Name(text.to_owned())),
         }
     }
@@ -67,7 +67,7 @@ impl ModelFrame {
     /// Finds the frame among those of a file, named in order; there is at least one.
     pub(super) fn find(&self, names: &[String], path: &str) -> Result<Between> {
         let last = names.len().saturating_sub(1);
-        let refused = |problem: String| Error::setting(format!("--model-frame {self}"), problem);
+        let refused = |problem: String| Error::value("model-frame", self, problem);
         let number = match self {
             Self::Number(number) => *number,
             Self::Name(wanted) => match names.iter().position(|name| name.eq_ignore_ascii_case(wanted)) {
@@ -88,8 +88,9 @@ impl ModelFrame {
         if *self == Self::default() {
             return Ok(());
         }
-        Err(Error::setting(
-            format!("--model-frame {self}"),
+        Err(Error::value(
+            "model-frame",
+            self,
             format!("{path} has no frames; leave the option out, or name an MD2 model"),
         ))
     }
@@ -131,11 +132,11 @@ mod tests {
     fn frames_that_are_not_there_are_refused_with_those_that_are() {
         assert_eq!(
             find("3.5").unwrap_err(),
-            "--model-frame 3.5: a.md2 has 4 frames; give a number from 0 to 3, or a name"
+            "model-frame 3.5: a.md2 has 4 frames; give a number from 0 to 3, or a name"
         );
         assert_eq!(
             find("jump").unwrap_err(),
-            "--model-frame jump: a.md2 has no frame of that name; it has stand01, run1 and others"
+            "model-frame jump: a.md2 has no frame of that name; it has stand01, run1 and others"
         );
         assert!(find("-1").unwrap_err().contains("counted from 0"));
         assert!(find("").is_err() && find("nan").unwrap_err().contains("no frame of that name"));

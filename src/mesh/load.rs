@@ -227,6 +227,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
 
 /// What is being done while a model is read, in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LoadStage {
     /// Its bytes come from the disk.
     Reading,
@@ -296,14 +297,16 @@ fn made(mut soup: Soup, path: &str, options: &LoadOptions, mut remarks: Vec<Stri
 
 pub(super) fn check(options: &LoadOptions) -> Result<()> {
     if !(0.0..=LARGEST_WELD).contains(&options.weld) {
-        return Err(Error::setting(
-            format!("--weld {}", options.weld),
+        return Err(Error::value(
+            "weld",
+            options.weld,
             format!("the tolerance is a share of the model's size from 0 to {LARGEST_WELD}"),
         ));
     }
     if !(0.0..=180.0).contains(&options.smooth_angle_degrees) {
-        return Err(Error::setting(
-            format!("--smooth-angle {}", options.smooth_angle_degrees),
+        return Err(Error::value(
+            "smooth-angle",
+            options.smooth_angle_degrees,
             "the angle is between 0 and 180 degrees",
         ));
     }

@@ -119,8 +119,9 @@ pub fn check(skin: &Path) -> Result<()> {
 /// Makes a picture the texture of every material; faces without one get one.
 pub fn put_on(soup: &mut Soup, skin: &Path, path: &str) -> Result<()> {
     if soup.corners.iter().all(|corner| corner.texture == NONE) {
-        return Err(Error::setting(
-            format!("--skin {}", skin.display()),
+        return Err(Error::value(
+            "skin",
+            skin.display(),
             format!("{path} has no texture coordinates; export it with them, or leave the option out"),
         ));
     }
@@ -203,7 +204,7 @@ mod tests {
         assert!(soup.materials.iter().all(|material| material.texture.as_deref() == Some(Path::new("a.png"))));
         soup.corners.iter_mut().for_each(|corner| corner.texture = NONE);
         let message = put_on(&mut soup, Path::new("a.png"), "a.obj").unwrap_err().to_string();
-        assert!(message.starts_with("--skin a.png: a.obj has no texture coordinates"), "{message}");
+        assert!(message.starts_with("skin a.png: a.obj has no texture coordinates"), "{message}");
     }
 
     #[test]

@@ -15,6 +15,7 @@ mod shaders;
 
 use super::{Draw, Geometry, Plan, Step};
 use crate::choice::find;
+use crate::error::ParseError;
 use crate::scene::{Rectangle, Scene, Size};
 use serde::Serialize;
 use std::cell::OnceCell;
@@ -24,6 +25,7 @@ use std::str::FromStr;
 /// A kind of thing that can be left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Rule {
     /// Draws that add nothing: the border's square where its filter is multiplied by 0.
     Border,
@@ -63,6 +65,7 @@ impl Rule {
     ];
 
     /// As the user writes it.
+    #[must_use]
     pub fn name(self) -> &'static str {
         Self::ALL[self as usize].0
     }
@@ -85,10 +88,10 @@ impl Rule {
 }
 
 impl FromStr for Rule {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
-        find(&Self::ALL, text)
+    fn from_str(text: &str) -> Result<Self, ParseError> {
+        Ok(find(&Self::ALL, text)?)
     }
 }
 

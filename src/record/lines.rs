@@ -109,7 +109,7 @@ struct SegmentRecord {
 ///
 /// # Errors
 ///
-/// [`Error::Setting`] for lines that are not finite or leave the picture.
+/// [`Error::Lines`] for lines that are not finite or leave the picture.
 pub fn lines_json(lines: &VisibleLines, scene: &Scene) -> Result<String> {
     lines.check()?;
     let mut text = format!("{{\"size\": {},\n", json(&lines.size)?);
@@ -134,5 +134,5 @@ pub fn lines_json(lines: &VisibleLines, scene: &Scene) -> Result<String> {
 
 fn json(value: &impl Serialize) -> Result<String> {
     serde_json::to_string(value)
-        .map_err(|error| Error::setting("-o", format!("the lines cannot be written as JSON ({error}); write .svg")))
+        .map_err(|error| Error::Lines { problem: format!("the lines cannot be written as JSON ({error}); write .svg") })
 }

@@ -19,6 +19,12 @@ pub struct Column {
     source: Source,
 }
 
+impl std::fmt::Debug for Column {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("Column").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
 /// What stands in a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {

@@ -10,8 +10,8 @@ impl Scene {
     pub(super) fn check_precision(&self) -> Result<()> {
         let distance = (self.camera.eye - self.centre).length() / self.radius;
         if distance > LARGEST_DISTANCE || !self.clip_from_view().is_finite() {
-            return Err(Error::setting(
-                "--fov, --eye, --near and --far",
+            return Err(Error::settings(
+                &["fov", "eye", "near", "far"],
                 format!(
                     "the eye is {distance:.3e} scene radii away, more than the {LARGEST_DISTANCE:e} GL can resolve, or the \
                      planes are too far apart; use --parallel, or bring them closer"
@@ -36,10 +36,10 @@ impl Scene {
         };
         let steps = share * f64::from(1u32 << 24);
         if steps < LEAST_DEPTH_STEPS {
-            return Err(Error::setting(
-                format!("--near {near} --far {far}"),
+            return Err(Error::settings(
+                &["near", "far"],
                 format!(
-                    "the planes are so far apart that {steps:.0} of the depth buffer's 16777216 steps are left for the scene, \
+                    "the planes, {near} and {far} away, are so far apart that {steps:.0} of the depth buffer's 16777216 steps are left for the scene, \
                      which is {nearest:.3} to {farthest:.3} away; leave the options out, or bring the planes closer to that"
                 ),
             ));

@@ -22,7 +22,7 @@ impl Scene {
     /// [`Error::Setting`] for no view, and as [`Scene::new`] for a nonsensical camera.
     pub fn turntable(&self, settings: &CameraSettings, views: u32) -> Result<Vec<Camera>> {
         if views == 0 {
-            return Err(Error::setting("--turntable 0", "a turn has at least one view"));
+            return Err(Error::value("turntable", "0", "a turn has at least one view"));
         }
         let axis = settings.up.and_then(DVec3::try_normalize).unwrap_or(DVec3::Y);
         let (across, _) = axis.any_orthonormal_pair();

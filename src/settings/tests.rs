@@ -89,14 +89,14 @@ fn what_is_no_value_is_refused_by_the_settings_name() {
     let refused = |name: &str, value: &str| {
         Style::with_options(StyleName::ThreePass, &options(&[(name, value)])).unwrap_err().to_string()
     };
-    assert_eq!(refused("tones", "many"), "--tones many: give a whole number from 0 to 255");
-    assert!(refused("filter", "sharp").starts_with("--filter sharp: choose one of laplacian4, "));
-    assert!(refused("tone-levels", "1,2").starts_with("--tone-levels 1,2: give 3 numbers"));
+    assert_eq!(refused("tones", "many"), "tones many: give a whole number from 0 to 255");
+    assert!(refused("filter", "sharp").starts_with("filter sharp: choose one of laplacian4, "));
+    assert!(refused("tone-levels", "1,2").starts_with("tone-levels 1,2: give 3 numbers"));
     let switch = |name: &str, value| {
         let options = Options::from([(name.to_owned(), OptionValue::Switch(value))]);
         Style::with_options(StyleName::ThreePass, &options)
     };
-    assert!(switch("tones", true).unwrap_err().to_string().contains("--tones: this takes a value (N), not true"));
+    assert!(switch("tones", true).unwrap_err().to_string().contains("tones: this takes a value (N), not true"));
     assert_eq!(
         switch("slope-threshold", true).unwrap().to_options().unwrap()["slope-threshold"],
         OptionValue::text("on")
@@ -105,9 +105,9 @@ fn what_is_no_value_is_refused_by_the_settings_name() {
     let flag = Style::with_options(StyleName::ThreePass, &options(&[("no-borders", "on")]));
     assert!(flag.unwrap_err().to_string().contains("write true or false"));
     let mrt = Style::with_options(StyleName::Mrt, &options(&[("map-encoding", "float")])).unwrap_err();
-    assert!(mrt.to_string().starts_with("--map-encoding: style mrt keeps its map as published"));
+    assert!(mrt.to_string().starts_with("map-encoding: style mrt keeps its map as published"));
     let lines = LineSettings::from_options(&options(&[("silhouette", "paper")])).unwrap_err();
-    assert!(lines.to_string().starts_with("--silhouette paper: style lines finds silhouettes exactly"));
+    assert!(lines.to_string().starts_with("silhouette paper: style lines finds silhouettes exactly"));
 }
 
 #[test]
@@ -118,12 +118,12 @@ fn what_no_text_says_is_not_written() {
         change(&mut inking);
         refused(Style::Inking(inking))
     };
-    assert!(inking(&|inking| inking.classes = ClassSet::default()).starts_with("--classes: nothing is chosen"));
+    assert!(inking(&|inking| inking.classes = ClassSet::default()).starts_with("classes: nothing is chosen"));
     let ramp = |path: Option<&str>| Ramp { path: path.map(Into::into), ..other_ramp() };
-    assert!(inking(&|inking| inking.ramp = ramp(None)).starts_with("--ramp: this is from no file"));
+    assert!(inking(&|inking| inking.ramp = ramp(None)).starts_with("ramp: this is from no file"));
     assert!(inking(&|inking| inking.ramp = ramp(Some("a\u{fffd}.png"))).contains("rename the file"));
     let paper = Paper::File { path: "\u{fffd}".into(), picture: other_ramp().picture };
-    assert!(refused(Style::Sand(Charcoal { paper, ..Charcoal::default() })).starts_with("--paper \u{fffd}: this name"));
+    assert!(refused(Style::Sand(Charcoal { paper, ..Charcoal::default() })).starts_with("paper \u{fffd}: this name"));
 }
 
 fn other_ramp() -> Ramp {

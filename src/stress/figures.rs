@@ -21,6 +21,7 @@ const SEEN: u8 = 8;
 const MOVED_PX: u32 = 1;
 
 /// A scene with what is exact about it.
+#[derive(Debug)]
 pub struct Exact {
     /// The scene.
     pub scene: Scene,

@@ -41,8 +41,9 @@ impl StressSettings {
         chosen.retain(|case| group(case) == *only || (!only.is_empty() && case.name.contains(only.as_str())));
         match chosen.is_empty() {
             false => Ok(chosen),
-            true => Err(Error::setting(
-                format!("--only {only}"),
+            true => Err(Error::value(
+                "only",
+                only,
                 "no case has this in its name; give some of a name, or a group: scale, depth, topology, thresholds, pictures, \
                  mixes, turns, files or faults",
             )),
@@ -123,7 +124,7 @@ pub(super) enum Outcome {
 
 impl Outcome {
     pub fn refused(error: &Error) -> Self {
-        Self::Refused { kind: error.kind(), sentence: error.to_string() }
+        Self::Refused { kind: error.kind(), sentence: error.with_dashes() }
     }
 
     fn verdict(&self) -> String {

@@ -109,8 +109,7 @@ impl Border {
 
     pub(super) fn check(&self) -> Result<()> {
         if !self.detection_factor.is_finite() {
-            let setting = format!("--detection-factor {}", self.detection_factor);
-            return Err(Error::setting(setting, "it must be a finite number"));
+            return Err(Error::value("detection-factor", self.detection_factor, "it must be a finite number"));
         }
         check_width(self.width_px)
     }
@@ -206,8 +205,9 @@ impl Border {
 /// Refuses widths no filter can draw.
 pub(super) fn check_width(width_px: Option<u32>) -> Result<()> {
     match width_px {
-        Some(width) if !(1..=WIDEST).contains(&width) => Err(Error::setting(
-            format!("--border-width {width}"),
+        Some(width) if !(1..=WIDEST).contains(&width) => Err(Error::value(
+            "border-width",
+            width,
             format!("a border is 1 to {WIDEST} pixels wide; --style inking draws wider lines"),
         )),
         _ => Ok(()),

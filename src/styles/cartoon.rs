@@ -116,7 +116,7 @@ impl Cartoon {
         };
         if scene.background == Background::Transparent && self.background_square {
             return Err(Error::setting(
-                "--transparent",
+                "transparent",
                 "two-pass draws its outer borders on an opaque background square; use --style three-pass, or \
                  --background-quad off and lose them",
             ));
@@ -151,7 +151,7 @@ impl Cartoon {
     pub(super) fn check(&self, scene: &Scene, show: Show) -> Result<()> {
         if show.is_of_charcoal() {
             return Err(Error::setting(
-                "--show",
+                "show",
                 "diffuse, cem, cet and paper are pictures of the styles charcoal and sand; show final, normals, depth, map, \
                  borders or tones",
             ));
@@ -160,15 +160,16 @@ impl Cartoon {
         match self.border {
             Some(border) => border.check()?,
             None if show == Show::Borders => {
-                return Err(Error::setting(
-                    "--show borders",
+                return Err(Error::value(
+                    "show",
+                    "borders",
                     "there are none with --no-borders; leave out one of the two",
                 ));
             }
             None => {}
         }
         if scene.background == Background::Transparent && matches!(show, Show::Normals | Show::Depth) {
-            return Err(Error::setting("--transparent", "normals and depth are opaque pictures; leave it out here"));
+            return Err(Error::setting("transparent", "normals and depth are opaque pictures; leave it out here"));
         }
         Ok(())
     }

@@ -263,8 +263,9 @@ impl Charcoal {
             !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.has_texture())
         };
         if let Some(object) = scene.objects.iter().find(|object| !has_texture(&object.mesh)) {
-            return Err(Error::setting(
-                "--style sand",
+            return Err(Error::value(
+                "style",
+                "sand",
                 format!(
                     "it draws with a model's own texture, and {} has no texture coordinates with a picture for them; give \
                      it one with --skin, or use --style charcoal",
@@ -409,18 +410,20 @@ impl Charcoal {
     fn check(&self, show: Show, is_sand: bool) -> Result<()> {
         let above_zero = |x: f32| x > 0.0 && x.is_finite();
         if !above_zero(self.contrast_exponent) {
-            return Err(Error::setting(
-                format!("--contrast-exponent {}", self.contrast_exponent),
+            return Err(Error::value(
+                "contrast-exponent",
+                self.contrast_exponent,
                 "the exponent is a finite number above 0; below 1 it lightens",
             ));
         }
         if !(self.saturation >= 0.0 && self.saturation.is_finite()) {
-            return Err(Error::setting(
-                format!("--saturation {}", self.saturation),
+            return Err(Error::value(
+                "saturation",
+                self.saturation,
                 "the saturation is a finite number of at least 0; 1 changes nothing",
             ));
         }
-        for (light, option) in self.lights.iter().zip(["--light-1", "--light-2"]) {
+        for (light, option) in self.lights.iter().zip(["light-1", "light-2"]) {
             let is_direction = light.iter().all(|x| x.is_finite()) && light.iter().any(|x| *x != 0.0);
             if !is_direction {
                 return Err(Error::setting(option, "a light's direction is three finite numbers, not all 0"));
@@ -429,7 +432,7 @@ impl Charcoal {
         if matches!(show, Show::Normals | Show::Depth | Show::Map | Show::Borders | Show::Tones) {
             let name = if is_sand { "sand" } else { "charcoal" };
             return Err(Error::setting(
-                "--show",
+                "show",
                 format!("the style {name} has no map, lines or tones; show final, diffuse, cem, cet or paper"),
             ));
         }

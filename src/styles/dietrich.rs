@@ -70,8 +70,9 @@ impl Dietrich {
     /// One pass: clear and draw.
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
         if !(0.0..=1.0).contains(&self.threshold) {
-            return Err(Error::setting(
-                format!("--ink-threshold {}", self.threshold),
+            return Err(Error::value(
+                "ink-threshold",
+                self.threshold,
                 "the threshold is the cosine of an angle, from 0 to 1",
             ));
         }
@@ -83,7 +84,7 @@ impl Dietrich {
             Show::Borders => (Paint::Uniform([1.0; 4]), [1.0; 4], self.threshold),
             _ => {
                 return Err(Error::setting(
-                    "--show",
+                    "show",
                     "the style dietrich has no map, light or paper; show final, borders or tones",
                 ));
             }

@@ -164,10 +164,10 @@ impl Ink {
 
     fn check(&self, show: Show) -> Result<()> {
         if !matches!(show, Show::Final | Show::Tones | Show::Borders | Show::Map) {
-            return Err(Error::setting("--show", "the style ink has final, tones, borders and map; show one of these"));
+            return Err(Error::setting("show", "the style ink has final, tones, borders and map; show one of these"));
         }
         if !self.is_inked && matches!(show, Show::Borders | Show::Map) {
-            return Err(Error::setting("--show", "there is no ink with --no-borders; leave out one of the two"));
+            return Err(Error::setting("show", "there is no ink with --no-borders; leave out one of the two"));
         }
         check_width(Some(self.line_width_px))?;
         self.tones.check()

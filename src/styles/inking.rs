@@ -245,33 +245,36 @@ impl Inking {
 
     fn check(&self, scene: &Scene, show: Show) -> Result<()> {
         if !(self.line_width_px > 0.0 && self.line_width_px <= WIDEST_LINE) {
-            return Err(Error::setting(
-                format!("--line-width {}", self.line_width_px),
+            return Err(Error::value(
+                "line-width",
+                self.line_width_px,
                 format!("a line's width is a number of pixels above 0 and at most {WIDEST_LINE}"),
             ));
         }
         if self.classes.contains(Class::Intersection) {
-            return Err(Error::setting(
-                "--classes intersection",
+            return Err(Error::value(
+                "classes",
+                "intersection",
                 "only style lines finds where faces pass through one another; leave it out, or write a .svg",
             ));
         }
         if self.polygon_offset.iter().any(|number| !number.is_finite()) {
-            return Err(Error::setting("--polygon-offset", "its two numbers must be finite"));
+            return Err(Error::setting("polygon-offset", "its two numbers must be finite"));
         }
         if !matches!(show, Show::Final | Show::Borders | Show::Tones) {
             return Err(Error::setting(
-                "--show",
+                "show",
                 "the style inking has no map, light or paper; show final, borders or tones",
             ));
         }
         if show == Show::Borders && !self.is_inked {
-            return Err(Error::setting("--show borders", "there are none with --no-borders; leave out one of the two"));
+            return Err(Error::value("show", "borders", "there are none with --no-borders; leave out one of the two"));
         }
         let has_picture = |material: &crate::mesh::Material| material.has_texture();
         if self.has_texture && !scene.objects.iter().any(|object| object.mesh.materials.iter().any(has_picture)) {
-            return Err(Error::setting(
-                "--texture on",
+            return Err(Error::value(
+                "texture",
+                "on",
                 "no model of this scene has a picture on it; name one with --skin, or leave out --texture",
             ));
         }

@@ -67,7 +67,7 @@ impl Mrt {
             |_, text| match MapEncoding::parse(text)? {
                 MapEncoding::Published => Ok(()),
                 _ => Err(Error::setting(
-                    "--map-encoding",
+                    "map-encoding",
                     "style mrt keeps its map as published; leave it out, or draw --style three-pass",
                 )
                 .into()),

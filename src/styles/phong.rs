@@ -58,7 +58,7 @@ impl Phong {
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
         if show != Show::Final {
             return Err(Error::setting(
-                "--show",
+                "show",
                 "the style phong has no lines, tones or map; choose another style, or show final",
             ));
         }

@@ -1,6 +1,6 @@
 //! The ramp texture of the text's section "Painting": gradients of a few flat tones, one a row, looked up by the light.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::mesh::VertexArrays;
 use crate::picture::Picture;
 use crate::scene::{Color, Object, Scene, Size};
@@ -145,9 +145,9 @@ pub enum RampRow {
 }
 
 impl FromStr for RampRow {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         match text {
             "material" => Ok(Self::Material),
             "object" => Ok(Self::Object),
@@ -156,7 +156,7 @@ impl FromStr for RampRow {
                 .ok()
                 .filter(|row| u32::from(*row) < ROWS)
                 .map(Self::Row)
-                .ok_or_else(|| format!("choose material, object, or a row from 0 to {}", ROWS - 1)),
+                .ok_or_else(|| format!("choose material, object, or a row from 0 to {}", ROWS - 1).into()),
         }
     }
 }

@@ -106,13 +106,13 @@ impl Tones {
 
     pub(super) fn check(&self) -> Result<()> {
         if !(1..=3).contains(&self.count) {
-            return Err(Error::setting(format!("--tones {}", self.count), "there are 1, 2 or 3 tones"));
+            return Err(Error::value("tones", self.count, "there are 1, 2 or 3 tones"));
         }
         if [self.diffuse_threshold, self.specular_threshold].iter().any(|threshold| !threshold.is_finite()) {
-            return Err(Error::setting("--tone-thresholds", "its numbers must be finite"));
+            return Err(Error::setting("tone-thresholds", "its numbers must be finite"));
         }
         if self.levels.iter().any(|level| !(0.0..=1.0).contains(level)) {
-            return Err(Error::setting("--tone-levels", "a level is a share of the colour from 0 to 1"));
+            return Err(Error::setting("tone-levels", "a level is a share of the colour from 0 to 1"));
         }
         Ok(())
     }

@@ -140,20 +140,23 @@ impl ContrastTexture {
     fn check(&self) -> Result<()> {
         check_size(self.size)?;
         if !(0.0..=100.0).contains(&self.density_percent) {
-            return Err(Error::setting(
-                format!("--density {}", self.density_percent),
+            return Err(Error::value(
+                "density",
+                self.density_percent,
                 "the density is a percentage of pixels, from 0 to 100",
             ));
         }
         if !(self.exponent >= 1.0 && self.exponent.is_finite()) {
-            return Err(Error::setting(
-                format!("--cet-exponent {}", self.exponent),
+            return Err(Error::value(
+                "cet-exponent",
+                self.exponent,
                 "the exponent is a finite number of at least 1, which moves nothing",
             ));
         }
         if !(0.0..=LARGEST_BLUR_PX).contains(&self.blur_px) {
-            return Err(Error::setting(
-                format!("--cet-blur {}", self.blur_px),
+            return Err(Error::value(
+                "cet-blur",
+                self.blur_px,
                 format!("the blur is a number of pixels from 0 to {LARGEST_BLUR_PX}"),
             ));
         }
@@ -250,17 +253,17 @@ mod tests {
         let base = ContrastTexture::default;
         let refused = |texture: ContrastTexture| texture.picture().unwrap_err().to_string();
         for density_percent in [-1.0, 100.5, f64::NAN] {
-            assert!(refused(ContrastTexture { density_percent, ..base() }).starts_with("--density "));
+            assert!(refused(ContrastTexture { density_percent, ..base() }).starts_with("density "));
         }
         for exponent in [0.5, f64::INFINITY, f64::NAN] {
-            assert!(refused(ContrastTexture { exponent, ..base() }).starts_with("--cet-exponent "));
+            assert!(refused(ContrastTexture { exponent, ..base() }).starts_with("cet-exponent "));
         }
         for blur_px in [-0.1, 1e9, f64::NAN] {
-            assert!(refused(ContrastTexture { blur_px, ..base() }).starts_with("--cet-blur "));
+            assert!(refused(ContrastTexture { blur_px, ..base() }).starts_with("cet-blur "));
         }
         for (width, height) in [(0, 5), (5, 0), (4097, 5)] {
             let size = Size { width, height };
-            assert!(refused(ContrastTexture { size, ..base() }).starts_with("--size "));
+            assert!(refused(ContrastTexture { size, ..base() }).starts_with("size "));
         }
     }
 }

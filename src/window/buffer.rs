@@ -2,6 +2,7 @@
 
 use crate::choice::find;
 use crate::edges::{Class, ClassSet};
+use crate::error::ParseError;
 use crate::scene::Color;
 use crate::styles::{ClassColors, Inking, PaintMode, Show, Style, StyleName};
 use std::str::FromStr;
@@ -44,12 +45,12 @@ impl Buffer {
 }
 
 impl FromStr for Buffer {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, ParseError> {
         match text {
             EDGE_CLASSES => Ok(Self::EdgeClasses),
-            _ => find(&Show::ALL, text).map(Self::Show).map_err(|problem| format!("{problem}, {EDGE_CLASSES}")),
+            _ => Ok(find(&Show::ALL, text).map(Self::Show).map_err(|problem| format!("{problem}, {EDGE_CLASSES}"))?),
         }
     }
 }
@@ -107,6 +108,6 @@ mod tests {
                 assert_eq!(buffer.name().parse(), Ok(buffer));
             }
         }
-        assert!("bumps".parse::<Buffer>().unwrap_err().contains("edge-classes"));
+        assert!("bumps".parse::<Buffer>().unwrap_err().0.contains("edge-classes"));
     }
 }

@@ -86,7 +86,7 @@ pub fn turn_back(style: &mut Style, option: &str) -> std::result::Result<(), Str
 }
 
 fn turned(result: Result<()>) -> std::result::Result<(), String> {
-    result.map_err(|error| error.to_string())
+    result.map_err(|error| error.with_dashes())
 }
 
 /// Recordings of earlier versions name options that the command line did not have without dashes.

@@ -72,6 +72,7 @@ pub enum Order {
 const TIMED_FRAMES: usize = 5;
 
 /// What draws: a renderer and shaders that may have been replaced.
+#[derive(Debug)]
 pub struct Drawer {
     renderer: Renderer,
     shaders: HashMap<String, String>,

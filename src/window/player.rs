@@ -76,7 +76,7 @@ impl Player {
     }
 
     fn refused(frame: u64, problem: String) -> Error {
-        Error::setting(format!("--replay, frame {frame}"), problem)
+        Error::setting("replay", format!("frame {frame}: {problem}"))
     }
 
     /// Plays the next frame; whether it was the last.

@@ -53,18 +53,17 @@ impl Replay {
     ///
     /// [`Error::Setting`] with the line that cannot be understood.
     pub fn read(path: &Path) -> Result<Self> {
-        let setting = || format!("--replay {}", path.display());
+        let refused = |problem: String| Error::value("replay", path.display(), problem);
         let metadata = std::fs::metadata(path);
         let text = match metadata {
             Ok(file) if file.len() > LONGEST => {
-                return Err(Error::setting(setting(), format!("it is longer than {LONGEST} bytes; cut it")));
+                return Err(refused(format!("it is longer than {LONGEST} bytes; cut it")));
             }
-            Ok(file) if !file.is_file() => return Err(Error::setting(setting(), "this is no file; name a recording")),
+            Ok(file) if !file.is_file() => return Err(refused("this is no file; name a recording".to_owned())),
             _ => std::fs::read_to_string(path),
         };
-        let text =
-            text.map_err(|error| Error::setting(setting(), format!("it cannot be read ({error}); check the name")))?;
-        Self::parse(&text).map_err(|problem| Error::setting(setting(), problem))
+        let text = text.map_err(|error| refused(format!("it cannot be read ({error}); check the name")))?;
+        Self::parse(&text).map_err(refused)
     }
 
     /// Reads a recording's text.

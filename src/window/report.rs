@@ -67,6 +67,12 @@ pub struct Reporter {
     wake: Arc<dyn Fn() + Send + Sync>,
 }
 
+impl std::fmt::Debug for Reporter {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("Reporter").finish_non_exhaustive()
+    }
+}
+
 impl Reporter {
     /// Sends reports here and calls `wake` after each.
     pub fn new(sender: Sender<Report>, wake: impl Fn() + Send + Sync + 'static) -> Self {

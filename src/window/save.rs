@@ -152,7 +152,7 @@ pub fn save(
     }
     Ok(match command {
         Ok(command) => format!("{name}; the same by {command}"),
-        Err(error) => format!("{name}; no command makes the same: {error}"),
+        Err(error) => format!("{name}; no command makes the same: {}", error.with_dashes()),
     })
 }
 

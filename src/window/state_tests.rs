@@ -134,10 +134,10 @@ fn a_preset_draws_in_the_viewer_what_it_draws_elsewhere() {
     assert_eq!((style, said.as_str()), (Style::Charcoal(Charcoal::recipe(CharcoalRecipe::Darker)), ""));
     for (text, words) in [
         ("tone = 2\n", "mine.toml: line 1: tone: there is no such option"),
-        ("style = \"ink\"\ntones = \"many\"\n", "mine.toml: line 2: --tones many: give a whole number"),
-        ("filter = \"sharp\"\n", "mine.toml: line 1: --filter sharp: choose one of laplacian4"),
-        ("smooth = 2\nstyle = \"inking\"\n", "mine.toml: line 1: --smooth 2: choose on or off"),
-        ("style = \"lines\"\n", "mine.toml: line 1: --style lines: choose one of phong"),
+        ("style = \"ink\"\ntones = \"many\"\n", "mine.toml: line 2: tones many: give a whole number"),
+        ("filter = \"sharp\"\n", "mine.toml: line 1: filter sharp: choose one of laplacian4"),
+        ("smooth = 2\nstyle = \"inking\"\n", "mine.toml: line 1: smooth 2: choose on or off"),
+        ("style = \"lines\"\n", "mine.toml: line 1: style lines: choose one of phong"),
     ] {
         let (style, said) = open(text);
         assert!(said.contains(words), "{text}: {said}");

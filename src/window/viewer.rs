@@ -73,6 +73,12 @@ pub struct Viewer {
     gone: Option<Error>,
 }
 
+impl std::fmt::Debug for Viewer {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("Viewer").field("state", &self.state).finish_non_exhaustive()
+    }
+}
+
 impl Viewer {
     /// Starts the threads and reads the models; `wake` is called from them when there is news.
     ///

@@ -13,7 +13,7 @@ use tinta::{Error, Result};
 pub fn argv(job: &Job, folder: &Path) -> Result<Vec<OsString>> {
     let whole = Arguments::command();
     let name = job.command.name();
-    let refuse = |key: &str, problem: String| Error::Setting { setting: key.to_owned(), problem };
+    let refuse = |key: &str, problem: String| Error::setting(key, problem);
     let command = whole
         .find_subcommand(name)
         .ok_or_else(|| refuse("command", "there is no such command; see tinta --help".to_owned()))?;
@@ -32,18 +32,18 @@ pub fn argv(job: &Job, folder: &Path) -> Result<Vec<OsString>> {
 
 fn unknown(command: &Command, key: &str) -> Error {
     let name = command.get_name();
-    Error::Setting {
-        // Long ones are no options anyway.
-        setting: key.chars().take(40).collect(),
-        problem: format!("there is no such option; keys are long names of tinta {name} --help, and id, command, model"),
-    }
+    // Long ones are no options anyway.
+    Error::setting(
+        key.chars().take(40).collect::<String>(),
+        format!("there is no such option; keys are long names of tinta {name} --help, and id, command, model"),
+    )
 }
 
 /// The values of an option: as many as are given where it may be repeated, otherwise one, with commas in it.
 fn values(arg: &Arg, key: &str, value: &OptionValue, folder: &Path) -> Result<Vec<OptionValue>> {
     let is_repeated = matches!(arg.get_action(), ArgAction::Append) && arg.get_value_delimiter().is_none();
     if OUTPUTS.contains(&key) {
-        let refuse = |problem: String| Error::Setting { setting: key.to_owned(), problem };
+        let refuse = |problem: String| Error::setting(key, problem);
         let OptionValue::Text(output) = value else {
             return Err(refuse("this is a text: the name of a file".to_owned()));
         };

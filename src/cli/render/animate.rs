@@ -108,12 +108,11 @@ pub fn run(arguments: &Arguments, target: &AnimationTarget, session: &mut Sessio
 
 fn refuse_what_is_for_one_picture(arguments: &Arguments) -> Result<()> {
     let run = &arguments.run;
-    let given = [("--explain", run.explain), ("--dump", run.dump.is_some()), ("--frames", run.frames != 1)];
+    let given = [("explain", run.explain), ("dump", run.dump.is_some()), ("frames", run.frames != 1)];
     match given.iter().find(|(_, is_given)| *is_given) {
-        Some((option, _)) => Err(Error::Setting {
-            setting: (*option).to_owned(),
-            problem: "this is for one picture; leave it out, or name a picture such as drawing.png".to_owned(),
-        }),
+        Some((option, _)) => {
+            Err(Error::setting(*option, "this is for one picture; leave it out, or name a picture such as drawing.png"))
+        }
         None => Ok(()),
     }
 }
@@ -155,10 +154,10 @@ fn model_frames(paths: &[String], options: &LoadOptions, movement: &str) -> Resu
         all.push(numbers_of(&first.frames, movement, path)?.into_iter().map(at).collect::<Result<_>>()?);
     }
     if !moves {
-        return Err(Error::Setting {
-            setting: "--animate".to_owned(),
-            problem: format!("{} has no frames; name an MD2 model, or use --turntable", paths.join(", ")),
-        });
+        return Err(Error::setting(
+            "animate",
+            format!("{} has no frames; name an MD2 model, or use --turntable", paths.join(", ")),
+        ));
     }
     let count = all.iter().map(Vec::len).max().unwrap_or(0);
     Ok((0..count).map(|frame| all.iter().map(|meshes| meshes[frame % meshes.len()].clone()).collect()).collect())
@@ -177,10 +176,10 @@ fn numbers_of(names: &[String], movement: &str, path: &str) -> Result<Vec<usize>
         let mut movements: Vec<String> = names.iter().map(|name| without_number(name)).collect();
         movements.dedup();
         movements.truncate(12);
-        return Err(Error::Setting {
-            setting: format!("--animate={movement}"),
-            problem: format!("{path} has no such movement; it has {}", movements.join(", ")),
-        });
+        return Err(Error::setting(
+            format!("animate={movement}"),
+            format!("{path} has no such movement; it has {}", movements.join(", ")),
+        ));
     }
     Ok(numbers)
 }
@@ -214,7 +213,7 @@ mod tests {
         assert_eq!(find("Run").unwrap(), [2, 3]);
         assert_eq!(find("death2").unwrap(), [5]);
         assert_eq!(find("death").unwrap(), [4, 5]);
-        let message = find("jump").unwrap_err().to_string();
+        let message = find("jump").unwrap_err().with_dashes();
         assert_eq!(message, "--animate=jump: a.md2 has no such movement; it has stand, run, death");
     }
 

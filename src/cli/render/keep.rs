@@ -28,9 +28,7 @@ impl KeepArguments {
     /// Where the preset goes, checked before the work.
     pub fn preset_target(&self, output: &str, inputs: &Inputs) -> Result<Option<TextTarget>> {
         let Some(path) = &self.save_preset else { return Ok(None) };
-        let refuse = |problem: &str| {
-            Err(Error::Setting { setting: format!("--save-preset {path}"), problem: problem.to_owned() })
-        };
+        let refuse = |problem: &str| Err(Error::value("save-preset", path, problem));
         if path.is_empty() {
             return refuse("a preset is a file; name one");
         }

@@ -28,13 +28,13 @@ impl FromStr for StyleChoice {
         if text == "lines" {
             return Ok(Self::Lines);
         }
-        text.parse().map(Self::Picture).map_err(|error: String| format!("{error}, lines"))
+        text.parse().map(Self::Picture).map_err(|error: tinta::ParseError| format!("{error}, lines"))
     }
 }
 
 fn refuse_given(given: &[(&str, bool)], problem: &str) -> Result<()> {
     match given.iter().find(|(_, is_given)| *is_given) {
-        Some((option, _)) => Err(Error::Setting { setting: (*option).to_owned(), problem: problem.to_owned() }),
+        Some((option, _)) => Err(Error::setting(*option, problem)),
         None => Ok(()),
     }
 }
@@ -185,17 +185,17 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &Te
     let run = &arguments.run;
     refuse_given(
         &[
-            ("--explain", run.explain),
-            ("--dump", run.dump.is_some()),
-            ("--frames", run.frames != 1),
-            ("--show", arguments.styles.show != Show::Final),
-            ("--turntable", arguments.animation.turntable.is_some()),
-            ("--animate", arguments.animation.animate.is_some()),
+            ("explain", run.explain),
+            ("dump", run.dump.is_some()),
+            ("frames", run.frames != 1),
+            ("show", arguments.styles.show != Show::Final),
+            ("turntable", arguments.animation.turntable.is_some()),
+            ("animate", arguments.animation.animate.is_some()),
         ],
         "style lines has no passes and no frames; leave it out, or name a picture such as drawing.png",
     )?;
     refuse_given(
-        &[("--no-borders", arguments.styles.are_without_borders())],
+        &[("no-borders", arguments.styles.are_without_borders())],
         "it is lines that are drawn; leave it out",
     )?;
     refuse_given(

@@ -50,12 +50,11 @@ impl PruneArguments {
 
     /// Refuses these options where there is no plan.
     pub fn refuse(&self) -> Result<()> {
-        let given = [("--full", self.full), ("--keep", !self.keep.is_empty()), ("--verify", self.verify)];
+        let given = [("full", self.full), ("keep", !self.keep.is_empty()), ("verify", self.verify)];
         match given.iter().find(|(_, is_given)| *is_given) {
-            Some((option, _)) => Err(Error::Setting {
-                setting: (*option).to_owned(),
-                problem: "style lines is computed, not drawn by passes; leave it out here".to_owned(),
-            }),
+            Some((option, _)) => {
+                Err(Error::setting(*option, "style lines is computed, not drawn by passes; leave it out here"))
+            }
             None => Ok(()),
         }
     }

@@ -34,15 +34,15 @@ fn what_a_driver_lacks_is_refused_by_the_option_that_asks_for_it() {
     let no_objects = "Voodoo 2 has no framebuffer objects (ARB_framebuffer_object); use";
     assert_eq!(
         refused(&old, &mrt),
-        format!("--style mrt: {no_objects} --style three-pass, which draws the same picture but for rounding")
+        format!("style mrt: {no_objects} --style three-pass, which draws the same picture but for rounding")
     );
     for style in [&texture, &ink] {
-        assert_eq!(refused(&old, style), format!("--map-target texture: {no_objects} --map-target copy"));
+        assert_eq!(refused(&old, style), format!("map-target texture: {no_objects} --map-target copy"));
         check(&single, &plan(style)).unwrap();
         check(&no_float, &plan(style)).unwrap();
     }
-    assert!(refused(&single, &mrt).starts_with("--style mrt: Voodoo 2 draws into 1 buffer at once, not 2"));
-    assert!(refused(&no_float, &float).starts_with("--map-encoding float: Voodoo 2 cannot draw into floating-point"));
+    assert!(refused(&single, &mrt).starts_with("style mrt: Voodoo 2 draws into 1 buffer at once, not 2"));
+    assert!(refused(&no_float, &float).starts_with("map-encoding float: Voodoo 2 cannot draw into floating-point"));
     check(&old, &plan(&Style::named(StyleName::ThreePass))).unwrap();
 }
 

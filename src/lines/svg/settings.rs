@@ -1,7 +1,7 @@
 //! What an SVG of lines can be asked for.
 
 use crate::edges::Class;
-use crate::error::{Error, Result};
+use crate::error::{Error, ParseError, Result};
 use crate::lines::{ClassColors, line_width};
 use crate::scene::{Background, Color, Size};
 use crate::settings::{Choice, HasSettings, Kind, Problem, Setting, Table, Value, under};
@@ -205,9 +205,9 @@ impl Value for ClassWidths {
 }
 
 impl FromStr for ClassWidths {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         let mut widths = Self::default();
         if text == UNSET {
             return Ok(widths);
@@ -232,27 +232,27 @@ impl SvgSettings {
     ///
     /// [`Error::Setting`] for a width, paper size or resolution that is none.
     pub fn check(&self) -> Result<()> {
-        let refuse_width = |setting: String| {
+        let refuse_width = |name: &str, value: String| {
             let limits = (WIDTHS.start(), WIDTHS.end());
             let problem = format!("a line's width is a number of pixels from {} to {}", limits.0, limits.1);
-            Err(Error::setting(setting, problem))
+            Err(Error::value(name, value, problem))
         };
         if !WIDTHS.contains(&self.line_width_px) {
-            return refuse_width(format!("--line-width {}", self.line_width_px));
+            return refuse_width("line-width", self.line_width_px.to_string());
         }
         for ((name, _), width) in Class::ALL.iter().zip(self.class_widths.0) {
             if let Some(width) = width.filter(|width| !WIDTHS.contains(width)) {
-                return refuse_width(format!("--class-widths {name}={width}"));
+                return refuse_width("class-widths", format!("{name}={width}"));
             }
         }
         let is_sound = |value: f64| (SMALLEST..=LARGEST).contains(&value);
         match self.page_size {
-            PageSize::WidthMm(width) if !is_sound(width) => Err(Error::setting(
-                format!("--width-mm {width}"),
-                format!("a drawing is {SMALLEST} to {LARGEST} millimetres wide"),
-            )),
-            PageSize::Dpi(dpi) if !is_sound(dpi) => Err(Error::setting(
-                format!("--dpi {dpi}"),
+            PageSize::WidthMm(width) if !is_sound(width) => {
+                Err(Error::value("width-mm", width, format!("a drawing is {SMALLEST} to {LARGEST} millimetres wide")))
+            }
+            PageSize::Dpi(dpi) if !is_sound(dpi) => Err(Error::value(
+                "dpi",
+                dpi,
                 format!("a resolution is {SMALLEST} to {LARGEST} pixels an inch; 96 is usual"),
             )),
             _ => Ok(()),
@@ -280,14 +280,14 @@ mod tests {
         let base = SvgSettings::default;
         let message = |settings: SvgSettings| settings.check().unwrap_err().to_string();
         for width in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-            assert!(message(SvgSettings { line_width_px: width, ..base() }).starts_with("--line-width"));
+            assert!(message(SvgSettings { line_width_px: width, ..base() }).starts_with("line-width"));
             let class_widths = ClassWidths([Some(width); Class::ALL.len()]);
-            assert!(message(SvgSettings { class_widths, ..base() }).starts_with("--class-widths boundary="));
+            assert!(message(SvgSettings { class_widths, ..base() }).starts_with("class-widths boundary="));
         }
         for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let with = |page_size| message(SvgSettings { page_size, ..base() });
-            assert!(with(PageSize::WidthMm(value)).starts_with("--width-mm"));
-            assert!(with(PageSize::Dpi(value)).starts_with("--dpi"));
+            assert!(with(PageSize::WidthMm(value)).starts_with("width-mm"));
+            assert!(with(PageSize::Dpi(value)).starts_with("dpi"));
         }
         assert!(base().check().is_ok());
     }

@@ -127,7 +127,7 @@ fn frames_are_taken_by_name_and_between_two_the_positions_lie_on_the_way() {
     assert_eq!(tip("0.25"), DVec3::new(0.0, 24.0, 100.5));
     assert_eq!(tip("1"), tip("run1"));
     let message = soup(&pyramid(), "1.5").unwrap_err().to_string();
-    assert!(message.contains("--model-frame 1.5: nowhere/test.md2 has 2 frames"), "{message}");
+    assert!(message.contains("model-frame 1.5: nowhere/test.md2 has 2 frames"), "{message}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The charcoal drawing's choices that have names.
 
+use crate::error::ParseError;
 use crate::settings::{Choice, Kind, Problem, Value};
 use std::str::FromStr;
 
@@ -129,9 +130,9 @@ impl Value for Improvements {
 }
 
 impl FromStr for Improvements {
-    type Err = String;
+    type Err = ParseError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, ParseError> {
         match text {
             "none" => return Ok(Self::default()),
             "all" => return Ok(Self::ALL),

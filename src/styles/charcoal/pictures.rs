@@ -93,8 +93,9 @@ impl CharcoalPictures {
     pub(super) fn of(&self, charcoal: &Charcoal) -> Result<Made> {
         let (size, seed) = (charcoal.texture_size, charcoal.seed);
         if size.width.max(size.height) > LARGEST_SIDE_PX {
-            return Err(Error::setting(
-                format!("--texture-size {size}"),
+            return Err(Error::value(
+                "texture-size",
+                size,
                 format!("a texture has 1 to {LARGEST_SIDE_PX} pixels on each side"),
             ));
         }
