@@ -106,7 +106,7 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
     let of = |id: &str| entries.iter().find(|entry| entry["id"] == id).unwrap_or_else(|| panic!("{id}"));
     for (id, kind, words) in [
         ("no-option", "setting", "sice: there is no such option"),
-        ("bad-value", "setting", "--tones 9: there are 1, 2 or 3 tones"),
+        ("bad-value", "setting", "tones 9: there are 1, 2 or 3 tones"),
         ("two-ways", "command-line", "cannot be used with"),
         ("no-text", "setting", "json: write true or false"),
         ("help", "setting", "help: there is no such option"),

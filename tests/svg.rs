@@ -248,7 +248,7 @@ fn sizes_on_paper_are_millimetres_or_inches() {
 #[test]
 fn nonsense_settings_are_refused_by_name() {
     let message = |settings: SvgSettings| svg(&drawing(), &settings).unwrap_err().to_string();
-    assert!(message(SvgSettings { line_width_px: 0.0, ..SvgSettings::default() }).starts_with("--line-width 0"));
+    assert!(message(SvgSettings { line_width_px: 0.0, ..SvgSettings::default() }).starts_with("line-width 0"));
     let page_size = PageSize::WidthMm(f64::NAN);
-    assert!(message(SvgSettings { page_size, ..SvgSettings::default() }).starts_with("--width-mm NaN"));
+    assert!(message(SvgSettings { page_size, ..SvgSettings::default() }).starts_with("width-mm NaN"));
 }

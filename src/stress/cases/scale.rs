@@ -21,7 +21,7 @@ pub(super) fn cases() -> Vec<Case> {
         let drawing = Drawing { shape: Shape::Cube, scale, ..compared() };
         all.push(rendered(format!("a cube {scale:e} times as large"), drawing).with("unit_differing", 0.0, ROUNDED));
     }
-    for (scale, kind, words) in [(1e-62, "setting", "radius"), (1e61, "model", "scale it down")] {
+    for (scale, kind, words) in [(1e-62, "model", "radius"), (1e61, "model", "scale it down")] {
         let drawing = Drawing { shape: Shape::Cube, scale, ..Drawing::default() };
         let name = format!("a cube {scale:e} times as large");
         all.push(Case::refused(Group::Scale, name, drawing, kind, words));
