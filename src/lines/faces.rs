@@ -5,7 +5,7 @@ use crate::bvh::{Box3, BoxTree, NO_FAMILY};
 use crate::mesh::Mesh;
 use crate::scene::Object;
 use crate::threads::{cores, filled, in_chunks};
-use crate::tolerances::{CONTACT, EDGE_ON, WELD};
+use crate::tolerances::{CONTACT, WELD};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -241,9 +241,9 @@ impl Sorted {
         let (area, distance) = (normal.length_squared(), to_eye.length_squared());
         let square = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
         let noise = 4.0 * space.noise;
-        if height * height <= (EDGE_ON * EDGE_ON * area + noise * noise * square) * distance {
+        if height * height <= (space.edge_on * space.edge_on * area + noise * noise * square) * distance {
             self.edge_on.push(number);
-            if height * height <= EDGE_ON * EDGE_ON * area * distance && area > (CONTACT * square).powi(2) {
+            if height * height <= space.edge_on * space.edge_on * area * distance && area > (CONTACT * square).powi(2) {
                 self.edge_on_for_sure.push(number);
             }
         }

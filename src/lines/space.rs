@@ -7,7 +7,7 @@
 
 use crate::camera::Projection;
 use crate::scene::Scene;
-use crate::tolerances::{COORDINATE_NOISE, TIE};
+use crate::tolerances::{COORDINATE_NOISE, EDGE_ON, TIE};
 use glam::{DMat3, DVec2, DVec3};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
@@ -24,6 +24,8 @@ pub(super) struct Space {
     pub far: f64,
     /// How far a coordinate may be off by the rounding of the world's own numbers, file units.
     pub noise: f64,
+    /// Sine of the angle to the view below which a face is edge-on: far from the origin rounding turns the view, too.
+    pub edge_on: f64,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +54,7 @@ impl Space {
             Projection::Parallel { height } => Lens::Parallel { px_per_unit: size.y / height },
         };
         let reach = scene.centre.abs().max_element() + scene.radius;
+        let noise = COORDINATE_NOISE * reach.max(camera.eye.abs().max_element());
         Self {
             rotation: DMat3::from_mat4(camera.view_from_world()),
             eye: camera.eye,
@@ -59,7 +62,8 @@ impl Space {
             size,
             near: camera.near,
             far: camera.far,
-            noise: COORDINATE_NOISE * reach.max(camera.eye.abs().max_element()),
+            noise,
+            edge_on: EDGE_ON + noise / camera.eye.distance(camera.target),
         }
     }
 
