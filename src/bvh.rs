@@ -73,11 +73,8 @@ impl BoxTree {
     /// Builds the hierarchy over boxes in time n log n, and returns it with the boxes' numbers in its own order: it speaks of
     /// things by their places in that order, so that whoever keeps them in it has neighbours together.
     pub fn new(boxes: &[Box3]) -> (Self, Vec<u32>) {
-        let count = boxes.len();
-        let numbers = (0..count as u32).collect();
-        let mut nodes =
-            PlocBuilder::with_capacity(count).build(PlocSearchDistance::Minimum, boxes, numbers, SortPrecision::U64, 0);
-        collapse(&mut nodes, LARGEST_LEAF, STEP_COST);
+        let mut groups: Vec<Bvh2> = groups(boxes).into_iter().map(|numbers| built(boxes, numbers)).collect();
+        let mut nodes = if groups.len() == 1 { groups.swap_remove(0) } else { joined(&groups) };
         nodes.parents = Vec::new();
         let order = std::mem::take(&mut nodes.primitive_indices);
         let leaves = (0..nodes.nodes.len() as u32).filter(|node| nodes.nodes[*node as usize].is_leaf()).collect();
@@ -178,6 +175,112 @@ impl BoxTree {
     }
 }
 
+/// Most things whose hierarchy is built at once. Building joins those that are nearest to one another; of a row in which each is
+/// nearest to the one before, as a railing seen from its end, only two find each other in a pass over all.
+const BUILT_AT_ONCE: usize = 8192;
+
+/// The things' numbers in groups of which none has more than [`BUILT_AT_ONCE`], neighbours together: halved in the middle of the
+/// longest side of where they lie.
+fn groups(boxes: &[Box3]) -> Vec<Vec<u32>> {
+    let middle = |number: &u32| boxes[*number as usize].0.center();
+    let mut open: Vec<Vec<u32>> = vec![(0..boxes.len() as u32).collect()];
+    let mut done = Vec::new();
+    while let Some(mut numbers) = open.pop() {
+        if numbers.len() <= BUILT_AT_ONCE {
+            done.push(numbers);
+            continue;
+        }
+        let (low, high) = numbers
+            .iter()
+            .map(middle)
+            .fold((Vec3A::INFINITY, Vec3A::NEG_INFINITY), |(low, high), middle| (low.min(middle), high.max(middle)));
+        let axis = (high - low).max_position();
+        let half = numbers.len() / 2;
+        numbers.select_nth_unstable_by(half, |a, b| middle(a)[axis].total_cmp(&middle(b)[axis]));
+        let rest = numbers.split_off(half);
+        open.extend([rest, numbers]);
+    }
+    done
+}
+
+/// The hierarchy of some of the things.
+fn built(boxes: &[Box3], numbers: Vec<u32>) -> Bvh2 {
+    let mut nodes = PlocBuilder::with_capacity(numbers.len()).build(
+        PlocSearchDistance::Minimum,
+        boxes,
+        numbers,
+        SortPrecision::U64,
+        0,
+    );
+    collapse(&mut nodes, LARGEST_LEAF, STEP_COST);
+    nodes
+}
+
+/// Hierarchies as one: a hierarchy of their roots, each of whose leaves is one of them.
+fn joined(groups: &[Bvh2]) -> Bvh2 {
+    let roots: Vec<Box3> = groups.iter().map(|group| Box3(*group.nodes[0].aabb())).collect();
+    let numbers = (0..roots.len() as u32).collect();
+    let mut whole = PlocBuilder::with_capacity(roots.len()).build(
+        PlocSearchDistance::Minimum,
+        &roots,
+        numbers,
+        SortPrecision::U64,
+        0,
+    );
+    let group_of = std::mem::take(&mut whole.primitive_indices);
+    for top in 0..whole.nodes.len() {
+        if !whole.nodes[top].is_leaf() {
+            continue;
+        }
+        let group = &groups[group_of[whole.nodes[top].first_index as usize] as usize];
+        // All but the group's root are put behind what there is.
+        let (first_node, first_thing) = (whole.nodes.len() as u32 - 1, whole.primitive_indices.len() as u32);
+        let mut moved = group.nodes.iter().map(|node| Bvh2Node {
+            first_index: node.first_index + if node.is_leaf() { first_thing } else { first_node },
+            ..*node
+        });
+        whole.nodes[top] = moved.next().unwrap_or_default();
+        whole.nodes.extend(moved);
+        whole.primitive_indices.extend_from_slice(&group.primitive_indices);
+    }
+    whole
+}
+
 fn range(first: u32, count: u32) -> std::ops::Range<usize> {
     first as usize..(first + count) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_box_of_a_long_row_is_found_and_each_pair_of_neighbours_once() {
+        // Each a little longer than the one before and touching the next.
+        let ends: Vec<f64> = (0..=40_000).map(|step| 1.000_1f64.powi(step)).collect();
+        let corner = |x: f64, side: f64| DVec3::new(x, side, side);
+        let boxes: Vec<Box3> =
+            ends.windows(2).map(|pair| Box3::new(corner(pair[0], -1.0), corner(pair[1], 1.0))).collect();
+        let (tree, order) = BoxTree::new(&boxes);
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert_eq!(sorted, (0..boxes.len() as u32).collect::<Vec<u32>>());
+        for wanted in (0..boxes.len()).step_by(997) {
+            let middle = corner((ends[wanted] + ends[wanted + 1]) * 0.5, 0.0);
+            let mut found = Vec::new();
+            tree.any(&Box3::around([middle]), |place| {
+                found.push(order[place as usize] as usize);
+                false
+            });
+            assert_eq!(found, [wanted]);
+        }
+        let mut pairs = Vec::new();
+        tree.pairs(0..tree.group_count(), |first, second| {
+            let [a, b] = [first, second].map(|place| order[place as usize]);
+            pairs.push((a.min(b), a.max(b)));
+            false
+        });
+        pairs.sort_unstable();
+        assert_eq!(pairs, (1..boxes.len() as u32).map(|next| (next - 1, next)).collect::<Vec<_>>());
+    }
 }

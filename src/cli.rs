@@ -1,4 +1,10 @@
 //! The commands, one file each. clap is known here and below, and nowhere else.
+//!
+//! ```
+//! let line = |words: &str| tinta::cli::check(words.split(' ').map(Into::into));
+//! assert_eq!(line("tinta render builtin:bust -o bust.png"), Ok(None));
+//! assert!(line("tinta render builtin:bust").unwrap_err().contains("--output"));
+//! ```
 
 mod again;
 mod batch;

@@ -65,10 +65,10 @@ pub mod animation;
 pub mod preset;
 pub mod shell;
 pub mod recipe;
+pub mod compare;
 pub mod record;
 
 // What it is worth.
-pub mod compare;
 #[cfg(feature = "measuring")]
 pub mod contact_sheet;
 #[cfg(feature = "measuring")]

@@ -235,7 +235,7 @@ fn sand_is_the_drawing_mixed_with_sepia_by_the_printed_weights_or_rec_709s() {
 fn sand_without_texture_coordinates_or_a_picture_is_refused_with_that_sentence() {
     let refused = Style::Sand(Charcoal::default()).plan(&scene("builtin:gear", 9, 9), Show::Final).unwrap_err();
     let refused = refused.to_string();
-    for words in ["--style sand", "builtin:gear has no texture coordinates", "--skin", "--style charcoal"] {
+    for words in ["style sand", "builtin:gear has no texture coordinates", "--skin", "--style charcoal"] {
         assert!(refused.contains(words), "{refused}");
     }
 }
@@ -274,5 +274,5 @@ fn recipes_are_overruled_by_options_and_nonsense_is_refused_by_name() {
         let line = ["render", "builtin:gear", "-o", &out, "--style", style, "--show", "cet"];
         refused_in_one_line(&line, &["--show"]);
     }
-    refused_in_one_line(&["render", "builtin:gear", "-o", &out, "--style", "sand"], &["--style sand", "--skin"]);
+    refused_in_one_line(&["render", "builtin:gear", "-o", &out, "--style", "sand"], &["style sand", "--skin"]);
 }

@@ -247,7 +247,7 @@ fn a_picture_too_large_to_be_supersampled_is_refused_by_the_options_name() {
     let scene = scene("builtin:open-box", limit.width / 4 + 1, 1);
     let style = Style::ThreePass(Cartoon { supersample: Supersample::Four, ..Cartoon::default() });
     let message = renderer.render(&scene, &style).unwrap_err().to_string();
-    assert!(message.starts_with("--supersample 4"), "{message}");
+    assert!(message.starts_with("supersample 4"), "{message}");
 }
 
 /// Ink at a pixel of the plane map, as `improved/plane-ink.frag` defines it but in f64, and whether rounding may decide.

@@ -340,13 +340,13 @@ fn nonsense_is_refused_by_the_options_name() {
     let refused = |style: Inking, show| Style::Inking(style).plan(&scene, show).unwrap_err().to_string();
     let base = Inking::default;
     for line_width_px in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-        assert!(refused(Inking { line_width_px, ..base() }, Show::Final).starts_with("--line-width"));
+        assert!(refused(Inking { line_width_px, ..base() }, Show::Final).starts_with("line-width"));
     }
-    assert!(refused(Inking { polygon_offset: [f32::NAN, 5.0], ..base() }, Show::Final).starts_with("--polygon-offset"));
-    assert!(refused(base(), Show::Map).starts_with("--show"));
-    assert!(refused(Inking { is_inked: false, ..base() }, Show::Borders).starts_with("--show borders"));
+    assert!(refused(Inking { polygon_offset: [f32::NAN, 5.0], ..base() }, Show::Final).starts_with("polygon-offset"));
+    assert!(refused(base(), Show::Map).starts_with("show"));
+    assert!(refused(Inking { is_inked: false, ..base() }, Show::Borders).starts_with("show borders"));
     let dietrich = Style::Dietrich(Dietrich { threshold: 1.5, ..Dietrich::default() });
-    assert!(dietrich.plan(&scene, Show::Final).unwrap_err().to_string().starts_with("--ink-threshold 1.5"));
+    assert!(dietrich.plan(&scene, Show::Final).unwrap_err().to_string().starts_with("ink-threshold 1.5"));
     assert!("silhouette".parse::<ClassColors>().is_err() && "edge=red".parse::<ClassColors>().is_err());
     let colors: ClassColors = "silhouette=red,crease=#0000ff".parse().unwrap();
     assert_eq!(colors.0[Class::Crease as usize], tinta::Color([0.0, 0.0, 1.0]));

@@ -26,7 +26,7 @@ fn a_triangle_seen_edge_on_is_the_lines_that_are_left_of_it() {
 fn no_class_wanted_is_refused_in_a_sentence() {
     let scene = scene_of(vec![Mesh::triangle()], view("front", false));
     let settings = LineSettings { classes: ClassSet::default(), ..LineSettings::default() };
-    assert!(VisibleLines::of(&scene, &settings).unwrap_err().to_string().contains("--classes"));
+    assert!(VisibleLines::of(&scene, &settings).unwrap_err().to_string().contains("classes"));
 }
 
 #[test]
