@@ -205,28 +205,23 @@ fn groups(boxes: &[Box3]) -> Vec<Vec<u32>> {
 
 /// The hierarchy of some of the things.
 fn built(boxes: &[Box3], numbers: Vec<u32>) -> Bvh2 {
-    let mut nodes = PlocBuilder::with_capacity(numbers.len()).build(
-        PlocSearchDistance::Minimum,
-        boxes,
-        numbers,
-        SortPrecision::U64,
-        0,
-    );
+    let own: Vec<Box3> = numbers.iter().map(|number| boxes[*number as usize]).collect();
+    let mut nodes = hierarchy(&own);
     collapse(&mut nodes, LARGEST_LEAF, STEP_COST);
+    // Up to here they were counted within the group.
+    nodes.primitive_indices.iter_mut().for_each(|place| *place = numbers[*place as usize]);
     nodes
+}
+
+fn hierarchy(boxes: &[Box3]) -> Bvh2 {
+    let numbers = (0..boxes.len() as u32).collect();
+    PlocBuilder::with_capacity(boxes.len()).build(PlocSearchDistance::Minimum, boxes, numbers, SortPrecision::U64, 0)
 }
 
 /// Hierarchies as one: a hierarchy of their roots, each of whose leaves is one of them.
 fn joined(groups: &[Bvh2]) -> Bvh2 {
     let roots: Vec<Box3> = groups.iter().map(|group| Box3(*group.nodes[0].aabb())).collect();
-    let numbers = (0..roots.len() as u32).collect();
-    let mut whole = PlocBuilder::with_capacity(roots.len()).build(
-        PlocSearchDistance::Minimum,
-        &roots,
-        numbers,
-        SortPrecision::U64,
-        0,
-    );
+    let mut whole = hierarchy(&roots);
     let group_of = std::mem::take(&mut whole.primitive_indices);
     for top in 0..whole.nodes.len() {
         if !whole.nodes[top].is_leaf() {
