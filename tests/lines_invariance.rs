@@ -16,7 +16,7 @@ fn seen(mesh: &Mesh, camera: &CameraSettings) -> Scene {
 }
 
 /// The fitted camera as settings.
-fn explicit(scene: &Scene, parallel: bool) -> CameraSettings {
+pub fn explicit(scene: &Scene, parallel: bool) -> CameraSettings {
     let camera = &scene.camera;
     CameraSettings {
         eye: Some(camera.eye),

@@ -5,7 +5,7 @@
 //! on one another, corners and faces that touch.
 
 use crate::lines_families::{FAMILIES, Family};
-use crate::lines_invariance::shuffled;
+use crate::lines_invariance::{explicit, shuffled};
 use crate::lines_support::{length, lines, px, scene_of};
 use crate::shapes::Random;
 use crate::support::{public_models, skip};
@@ -401,7 +401,8 @@ fn neither_order_nor_size_nor_place_nor_turning_inside_out_changes_what_is_seen(
             let scene = make(&mut random);
             let expected = seen(&scene);
             let all: f64 = expected.values().sum();
-            let camera = explicit(&scene);
+            let parallel = matches!(scene.camera.projection, Projection::Parallel { .. });
+            let camera = explicit(&scene, parallel);
             let mut compare = |what: &str, change: &mut dyn FnMut(&Mesh) -> Mesh, camera: CameraSettings| {
                 let meshes = scene.objects.iter().map(|object| change(&object.mesh)).collect();
                 let actual = seen(&scene_of(meshes, camera));
@@ -448,21 +449,6 @@ fn neither_order_nor_size_nor_place_nor_turning_inside_out_changes_what_is_seen(
         }
     }
     assert!(failures.is_empty(), "{failures:#?}");
-}
-
-/// The scene's camera in numbers.
-fn explicit(scene: &Scene) -> CameraSettings {
-    let camera = &scene.camera;
-    let parallel = matches!(camera.projection, Projection::Parallel { .. });
-    CameraSettings {
-        eye: Some(camera.eye),
-        target: Some(camera.target),
-        up: Some(camera.up),
-        near: Some(camera.near),
-        far: Some(camera.far),
-        parallel,
-        ..CameraSettings::default()
-    }
 }
 
 #[test]
