@@ -82,6 +82,10 @@ pub const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
 /// a surface may end, and those it shares with a face that is not edge-on are silhouette. One too many costs a ray.
 pub const EDGE_ON: f64 = 1e-9;
 
+/// Sine of the angle to straight across a line below which a face's side runs across it: a point moved aside from the line then
+/// stays on that side, which hides what is on either face at it.
+pub const ACROSS: f64 = 1e-9;
+
 /// How far a drawn line may pass by a point it leaves out, pixels: one step of the numbers in an SVG, which have three decimals.
 pub const STRAIGHT_PX: f64 = 1e-3;
 

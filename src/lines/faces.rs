@@ -5,7 +5,7 @@ use crate::bvh::{Box3, BoxTree, NO_FAMILY};
 use crate::mesh::Mesh;
 use crate::scene::Object;
 use crate::threads::{cores, filled, in_chunks};
-use crate::tolerances::{CONTACT, WELD};
+use crate::tolerances::{ACROSS, CONTACT, WELD};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -151,8 +151,6 @@ impl Faces {
     /// its image, moved to that side by as little as one likes, in the face's, and where the ray passes the face is not nearer
     /// than the near plane. The image lies on the face's rim if it is within `tie` file units of it: then the side decides.
     fn hides(&self, space: &Space, face: u32, probe: &Probe, tie: f64) -> [bool; 2] {
-        /// Sine of the angle below which a side of the face runs straight across the line, where moving aside stays on it.
-        const ACROSS: f64 = 1e-9;
         const NEITHER: [bool; 2] = [false; 2];
         let numbers = self.triangles[face as usize];
         let own_ends = match probe.own {
