@@ -1,9 +1,9 @@
-//! Makes the four built-in models: a portrait bust, an open box, an ant and a
-//! gear; and two small ones that pictures of options need.
+//! Makes the five built-in models: a portrait bust, an open box, an ant, a gear
+//! and a toy soldier; and two small ones that pictures of options need.
 //!
 //! `cargo run --release --example make-models -- [OUTDIR]` writes `bust.obj`,
 //! `open-box.obj`, `ant.obj`, `gear.obj` and the colours beside them
-//! (`*.mtl`), `pawn.obj`, `pawn.ppm` and `hop.md2` into OUTDIR, `models` by default. The files are the same byte
+//! (`*.mtl`), `soldier.md2` and its skin `soldier.pcx`, `pawn.obj`, `pawn.ppm` and `hop.md2` into OUTDIR, `models` by default. The files are the same byte
 //! for byte on every run; `SOURCES.md` says what each model is for.
 
 #[path = "make/ant.rs"]
@@ -22,16 +22,24 @@ mod field;
 mod gear;
 #[path = "make/hair.rs"]
 mod hair;
+#[path = "make/md2.rs"]
+mod md2;
 #[path = "make/mesh.rs"]
 mod mesh;
 #[path = "make/obj.rs"]
 mod obj;
 #[path = "make/open_box.rs"]
 mod open_box;
+#[path = "make/pcx.rs"]
+mod pcx;
 #[path = "make/polygonise.rs"]
 mod polygonise;
 #[path = "make/samples.rs"]
 mod samples;
+#[path = "make/soldier.rs"]
+mod soldier;
+#[path = "make/soldier_skin.rs"]
+mod soldier_skin;
 #[path = "make/sweep.rs"]
 mod sweep;
 #[path = "make/vector.rs"]
@@ -68,5 +76,6 @@ fn write_all(folder: &Path) -> Result<(), String> {
         obj::write(&model, folder)?;
         println!("{}.obj: {} triangles", model.name, model.triangle_count());
     }
+    soldier::write(folder)?;
     samples::write(folder)
 }

@@ -1,4 +1,4 @@
-//! Pictures one after another into an animation: GIF, APNG or numbered picture files.
+//! Writes a sequence of pictures as an animation: GIF, APNG or numbered picture files.
 //!
 //! In: a name, checked before the work, a delay, and finished [`Picture`]s one by one. Out: files that appear whole or not
 //! at all. A second thread encodes each picture while the caller draws the next.
@@ -73,7 +73,7 @@ impl AnimationTarget {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] for a name that means a single picture, and for whatever [`Target::check`] refuses.
+    /// [`Error::File`] for a name that means a single picture, and for whatever [`Target::check`] refuses.
     pub fn check(name: &str, transparent: bool) -> Result<Self> {
         let path = PathBuf::from(name);
         let format = if let Some(numbered) = NumberedName::parse(name) {
@@ -84,12 +84,11 @@ impl AnimationTarget {
                 "gif" => AnimationFormat::Gif,
                 "apng" => AnimationFormat::Apng,
                 _ => {
-                    return Err(Error::Output {
-                        path: name.to_owned(),
-                        problem: "this names one picture; an animation is a .gif or .apng file, or has numbered names \
-                                  such as frame-%04d.png"
-                            .to_owned(),
-                    });
+                    return Err(Error::output(
+                        name,
+                        "this names one picture; an animation is a .gif or .apng file, or has numbered names \
+                                  such as frame-%04d.png",
+                    ));
                 }
             };
             check_file(&path)?;
@@ -99,7 +98,7 @@ impl AnimationTarget {
     }
 
     fn error(&self, problem: String) -> Error {
-        Error::Output { path: self.name.clone(), problem }
+        Error::output(self.name.clone(), problem)
     }
 }
 
@@ -133,7 +132,7 @@ impl AnimationWriter {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] when there is no frame, or no thread to encode on.
+    /// [`Error::File`] when there is no frame, or no thread to encode on.
     pub fn new(target: AnimationTarget, frames: u32, delay_ms: u16) -> Result<Self> {
         if frames == 0 {
             return Err(target.error("an animation has at least one picture; ask for more".to_owned()));
@@ -144,7 +143,7 @@ impl AnimationWriter {
             .name("encoder".to_owned())
             .spawn(move || write(&to, &received, frames, delay_ms))
             .map_err(|error| {
-                target.error(format!("no thread can be had to encode on ({error}); end other programs"))
+                target.error(format!("no thread to encode on could be started ({error}); close other programs"))
             })?;
         Ok(Self { target, frames, added: 0, pictures: Some(pictures), worker: Some(worker) })
     }
@@ -153,7 +152,7 @@ impl AnimationWriter {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] for one picture too many, or for what stopped the encoder, such as a full disk or a picture of
+    /// [`Error::File`] for one picture too many, or for what stopped the encoder, such as a full disk or a picture of
     /// another size; the animation is then over.
     pub fn add(&mut self, picture: Picture) -> Result<()> {
         if self.added == self.frames {
@@ -170,7 +169,7 @@ impl AnimationWriter {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] when pictures are missing, cannot be encoded or cannot be written.
+    /// [`Error::File`] when pictures are missing, cannot be encoded or cannot be written.
     pub fn finish(mut self) -> Result<Written> {
         self.join()
     }
@@ -195,9 +194,9 @@ impl Encoder {
     fn new(target: &AnimationTarget, size: Size, frames: u32, delay_ms: u16) -> std::result::Result<Self, String> {
         let transparent = target.transparent;
         match &target.format {
-            AnimationFormat::Gif(_) if size.width.max(size.height) > LARGEST_GIF_SIDE_PX => {
-                Err(format!("a GIF has at most {LARGEST_GIF_SIDE_PX} pixels on a side; write .apng, or less"))
-            }
+            AnimationFormat::Gif(_) if size.width.max(size.height) > LARGEST_GIF_SIDE_PX => Err(format!(
+                "a GIF has at most {LARGEST_GIF_SIDE_PX} pixels on a side; write .apng, or a smaller picture"
+            )),
             AnimationFormat::Gif(_) => gif::GifEncoder::new(size, transparent, delay_ms).map(Self::Gif),
             AnimationFormat::Apng(_) => {
                 apng::ApngEncoder::new(size, transparent, frames, delay_ms).map(Box::new).map(Self::Apng)

@@ -1,4 +1,4 @@
-//! Many jobs, one list: what a job is, what is written down of each, and what all of that says together.
+//! Batches: the jobs of a list, the journal of their results, and the summary of all journals.
 //!
 //! A list of jobs comes in, a line of JSON each ([`List`]). A run, or one of N [`Slice`]s of it, appends an [`Entry`] to its
 //! own file for every job that has ended ([`Journal`]), whatever machine it runs on. All those files together give a

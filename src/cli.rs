@@ -13,10 +13,12 @@ mod completions;
 #[cfg(test)]
 mod documents;
 mod edges;
+#[cfg(feature = "measuring")]
 mod figures;
 mod info;
 mod inputs;
 mod man;
+#[cfg(feature = "measuring")]
 mod measure;
 mod messages;
 mod model_cache;
@@ -24,9 +26,11 @@ mod models;
 mod options;
 mod preset;
 mod progress;
+mod provenance;
 mod render;
 mod session;
 mod standard_output;
+#[cfg(feature = "measuring")]
 mod stress;
 mod textures;
 #[cfg(feature = "window")]
@@ -44,30 +48,36 @@ use std::process::ExitCode;
 use std::time::Instant;
 use tinta::{Error, Result};
 
-/// Cartoon drawings of 3D models, drawn the way a paper of 2005 drew them.
+/// Draw 3D models as cartoons, ink, charcoal and line art
 #[derive(Parser)]
 #[command(name = "tinta", version, arg_required_else_help = true, max_term_width = 100)]
 #[command(after_help = "\
 Examples:
-  tinta render builtin:bust -o bust.png          a drawing without any file of your own
-  tinta render cow.obj -o cow.png --style two-pass --tones 2
-  tinta render cow.obj -o cow.gif --turntable 60 a turn around it
+  tinta render cow.obj -o cow.png                draw a model
+  tinta render builtin:bust -o bust.png          draw a built-in model
+  tinta render cow.obj -o cow.png --style ink    choose a style
+  tinta render cow.obj -o cow.svg                write the exact visible lines
+  tinta render cow.obj -o cow.gif --turntable 60 turn the model once around
   tinta render cow.obj -o cow.png --preset mine.toml
-                                                 with options kept in a file
-  tinta view cow.obj                             in a window: turn it, compare styles, change every setting
-  tinta again cow.png -o again.png               a picture made anew by the recipe it carries
-  tinta compare builtin:gear -o both.png         two styles' lines, what both drew and what only one
-  tinta edges cow.obj                            its edges, counted by class
-  tinta measure cow.obj -o cow --quick           every style's error against its run time
-  tinta textures -o textures                     a charcoal drawing's grain, noise and paper
-  tinta figures -o figures                       the three texts' figures, drawn and measured again
-  tinta stress -o stress                         stiff and extreme cases, and what came of each
-  tinta batch jobs.jsonl -o pictures             many jobs, a line of JSON each
-  tinta info                                     which OpenGL is there
-  tinta completions bash                         a script with which bash completes all this; zsh and fish too
-  tinta man -o man                               manual pages
+                                                 read options from a file
+  tinta view cow.obj                             open a window to turn it and try styles
+  tinta again cow.png -o again.png               redraw a picture from its recipe
+  tinta compare builtin:gear -o both.png         compare the lines of two styles
+  tinta edges cow.obj                            count edges by class
+  tinta measure cow.obj -o cow --quick           measure every style's error and run time
+  tinta textures -o textures                     write charcoal's grain, noise and paper
+  tinta figures -o figures                       redraw and measure the figures of the texts
+  tinta stress -o stress                         test with extreme cases
+  tinta batch jobs.jsonl -o pictures             run many jobs, one line of JSON each
+  tinta provenance three-pass                    tell printed values from chosen ones
+  tinta info                                     list the OpenGL backends of this machine
+  tinta completions bash                         print a completion script (or zsh, fish)
+  tinta man -o man                               write the manual pages
 
-Exit codes: 0 done, 1 a check found a difference or a job of a batch failed, 2 could not be done; the reason is one sentence on standard error.")]
+Exit codes:
+  0  done
+  1  a check found a difference, or a job of a batch failed
+  2  not done; one sentence on standard error says why")]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -81,11 +91,15 @@ enum Command {
     Again(again::Arguments),
     Compare(Box<compare::Arguments>),
     Edges(Box<edges::Arguments>),
+    #[cfg(feature = "measuring")]
     Measure(Box<measure::Arguments>),
     Textures(textures::Arguments),
+    #[cfg(feature = "measuring")]
     Figures(figures::Arguments),
+    #[cfg(feature = "measuring")]
     Stress(stress::Arguments),
     Batch(batch::Arguments),
+    Provenance(provenance::Arguments),
     Info(info::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
@@ -149,11 +163,15 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
         Command::Again(arguments) => return again::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments, given, &mut Session::for_one()),
         Command::Edges(arguments) => edges::run(&arguments),
+        #[cfg(feature = "measuring")]
         Command::Measure(arguments) => measure::run(&arguments, given, &mut Session::for_one()),
         Command::Textures(arguments) => textures::run(&arguments),
+        #[cfg(feature = "measuring")]
         Command::Figures(arguments) => figures::run(&arguments),
+        #[cfg(feature = "measuring")]
         Command::Stress(arguments) => return stress::run(&arguments),
         Command::Batch(arguments) => return batch::run(&arguments),
+        Command::Provenance(arguments) => provenance::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
@@ -185,6 +203,9 @@ const LONGEST_SENTENCE: usize = 400;
 
 /// clap's message without its usage lines and hints, which `--help` has.
 fn in_one_sentence(error: &clap::Error) -> String {
+    if let Some(sentence) = without_output(error) {
+        return sentence;
+    }
     let text = error.to_string();
     let paragraph = text.split("\n\n").next().unwrap_or_default();
     let words: Vec<&str> = paragraph.split_whitespace().collect();
@@ -197,15 +218,31 @@ fn in_one_sentence(error: &clap::Error) -> String {
     }
 }
 
+/// What to type where nothing but the output is missing.
+fn without_output(error: &clap::Error) -> Option<String> {
+    use clap::error::{ContextKind, ContextValue, ErrorKind};
+    let (ErrorKind::MissingRequiredArgument, Some(ContextValue::Strings(missing))) =
+        (error.kind(), error.get(ContextKind::InvalidArg))
+    else {
+        return None;
+    };
+    let example = match missing.as_slice() {
+        [output] if output == "--output <DIR>" => "name the folder to write into: -o results",
+        [output] if output.starts_with("--output <FILE") => "name the picture to write: -o cow.png",
+        _ => return None,
+    };
+    Some(format!("--output is missing; {example}"))
+}
+
 /// Makes the folder that `-o` names, if it is not there.
 fn make_folder(folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder).map_err(|error| {
         let problem = if folder.is_file() {
             "this is a file; name a folder".to_owned()
         } else {
-            format!("the folder cannot be made ({error}); choose another")
+            format!("the folder cannot be created ({error}); choose another")
         };
-        Error::output(format!("-o {}", folder.display()), &error, problem)
+        Error::output(format!("-o {}", folder.display()), problem).because(&error)
     })
 }
 
@@ -216,9 +253,8 @@ fn print_json(value: &impl serde::Serialize) -> Result<()> {
 
 /// A value as JSON, a line to each of its parts.
 fn json_text(value: &impl serde::Serialize) -> Result<String> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| Error::Output {
-        path: "-".to_owned(),
-        problem: format!("the record cannot be written as JSON ({error}); leave out --json and report this"),
+    let text = serde_json::to_string_pretty(value).map_err(|error| {
+        Error::output("-", format!("the record cannot be written as JSON ({error}); leave out --json and report this"))
     })?;
     Ok(text + "\n")
 }

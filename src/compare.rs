@@ -1,4 +1,4 @@
-//! Two drawings' lines laid over each other: what both drew, what only one did.
+//! Compares the lines of two drawings: drawn by both, or by only one.
 //!
 //! In: two pictures of lines alone (dark on light, or ink by its alpha). Out: counts and a map of agreement. A pixel of ink
 //! counts as drawn by both where the other drawing has ink within a tolerance, for lines of different width and half a

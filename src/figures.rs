@@ -1,9 +1,9 @@
-//! The three texts' figures that show a result, drawn again: a list of them as plain data, and what draws, measures and
-//! shows them.
+//! Every figure of the three texts, drawn again or named with why not, and their claims: lists of plain data, and what draws,
+//! measures and shows them.
 //!
-//! In: a picture size and a renderer. Out: pictures, measured numbers ([`Numbers`]) and a page with both
-//! ([`page::page`]). The list knows neither GL nor clap: a panel is a scene's settings and a style, and beside them the
-//! words that make `tinta` draw the same, which a test holds against each other.
+//! In: a picture size and a renderer. Out: pictures, measured numbers ([`Numbers`]), what is found of each claim
+//! ([`ClaimRecord`]) and a page with all of it ([`page::page`]). The list knows neither GL nor clap: a panel is a scene's settings
+//! and a style, and beside them the words that make `tinta` draw the same, which a test holds against each other.
 //!
 //! ```
 //! use tinta::Size;
@@ -14,27 +14,35 @@
 //! assert_eq!(tones.panels().len(), 4, "Phong, one, two and three tones");
 //! ```
 
+mod claims;
 mod dachsbacher;
 mod draw;
 mod evangelista;
+mod filters;
 mod measure;
 mod mix;
+mod others;
 pub mod page;
+mod passes;
 pub mod plot;
 mod reasons;
 mod throughput;
 mod valente;
 
+pub use claims::{Claim, ClaimRecord, Finding, Number, Verdict, claims, markdown, measure_claims, tally};
 pub use draw::Artist;
+pub use filters::{Kernel, kernels};
 pub use measure::{
     ARTICLE, Article, BackgroundRow, FilterRow, FrameRow, HowToMeasure, MixRow, Numbers, Reason, measure, steps,
 };
 pub use mix::{Mix, TRIANGLES};
+pub use passes::{PassColumn, PassSteps, pass_columns};
 pub use reasons::Host;
 pub use throughput::{SHADERS, ShaderRow};
 
 use crate::camera::CameraSettings;
 use crate::error::{Error, Result};
+use crate::mesh::Normals;
 use crate::scene::Size;
 use crate::styles::{Show, Style};
 use crate::textures::ContrastTexture;
@@ -101,6 +109,12 @@ pub enum Content {
     Frames,
     /// The numbers the text prints outside its figures.
     OtherNumbers,
+    /// Figure 7: the passes as plans have them.
+    Passes,
+    /// The text's claims, measured.
+    Claims(Text),
+    /// Nothing, for this reason.
+    NotDrawn(&'static str),
 }
 
 /// One picture of a figure.
@@ -135,6 +149,8 @@ pub enum Drawing {
 pub struct SceneDrawing {
     /// What is drawn.
     pub model: Model,
+    /// By which rule its normals are made.
+    pub normals: Normals,
     /// How often.
     pub copies: u32,
     /// From where.
@@ -156,9 +172,14 @@ pub enum Model {
     Textured,
 }
 
-/// All figures, for pictures of this size.
+/// All figures, drawn or not, and each text's claims, for pictures of this size.
 pub fn figures(size: Size) -> Vec<Figure> {
-    [evangelista::figures(), valente::figures(size), dachsbacher::figures()].concat()
+    [
+        others::complete(Text::Evangelista, evangelista::figures()),
+        others::complete(Text::Valente, valente::figures(size)),
+        others::complete(Text::Dachsbacher, dachsbacher::figures()),
+    ]
+    .concat()
 }
 
 /// Those of these ids, in the list's order; all of them for none.
@@ -183,8 +204,30 @@ impl Figure {
     pub fn panels(&self) -> &[Panel] {
         match &self.content {
             Content::Pictures(panels) => panels,
-            Content::Frames | Content::OtherNumbers => &[],
+            Content::Frames | Content::OtherNumbers | Content::Passes | Content::Claims(_) | Content::NotDrawn(_) => {
+                &[]
+            }
         }
+    }
+
+    /// Whether section 5 of Evangelista et al. has to be measured for it.
+    pub fn needs_numbers(&self) -> bool {
+        matches!(self.content, Content::Frames | Content::OtherNumbers | Content::Claims(Text::Evangelista))
+    }
+
+    /// The claims it shows.
+    pub fn claims(&self) -> Vec<Claim> {
+        match self.content {
+            Content::Claims(text) => claims(text),
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl Claim {
+    /// The pictures that show it.
+    pub fn panels(&self) -> Vec<Panel> {
+        (self.panels)()
     }
 }
 
@@ -218,12 +261,13 @@ impl Model {
 
 /// Why panels that need a texture are left out.
 pub const NO_TEXTURED_MODEL: &str =
-    "it shows a game's character with its own texture, and no built-in model has one; name one with --model FILE";
+    "it shows a game's character with its own texture; name one with --model FILE, or builtin:soldier";
 
 /// A panel of a built-in model seen as `shot` says.
 fn panel(file: &str, label: &'static str, model: &'static str, shot: Shot, style: Style, options: &str) -> Panel {
     let shown = SceneDrawing {
         model: Model::Builtin(model),
+        normals: Normals::File,
         copies: 1,
         camera: shot.camera,
         style,

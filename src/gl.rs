@@ -1,6 +1,6 @@
 //! OpenGL 2.1: contexts without a window, the fixed-function calls glow lacks, objects with owners, plans carried out.
 //!
-//! With `src/mesh/assimp/library.rs` the only module with `unsafe` code. In: a [`crate::plan::Plan`] and a [`crate::scene::Scene`]. Out: pixels and times.
+//! With `crates/tinta-geometry/src/mesh/assimp/library.rs` the only module with `unsafe` code. In: a [`crate::plan::Plan`] and a [`crate::scene::Scene`]. Out: pixels and times.
 //! It knows no style. Every `unsafe` block here rests on two facts, which its comment names: the context these functions
 //! were loaded from is current on this thread, and the objects passed are alive.
 //!
@@ -19,13 +19,16 @@
 #![expect(unsafe_code, reason = "OpenGL is a C interface; this module wraps all of it")]
 
 pub mod context;
+mod display_lists;
 mod edges;
 pub(crate) mod execute;
 mod faults;
+mod immediate;
 mod legacy;
 mod meshes;
 mod objects;
 mod quads;
+mod squares;
 mod targets;
 mod textures;
 
@@ -34,6 +37,7 @@ pub use faults::Fault;
 
 use crate::error::{Error, Result};
 use glow::HasContext;
+use immediate::Immediate;
 use legacy::Legacy;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
@@ -42,6 +46,8 @@ use std::collections::HashMap;
 pub(crate) struct Gl {
     glow: glow::Context,
     legacy: Legacy,
+    /// What draws without buffers; else the name of the first function of it that the driver lacks.
+    immediate: std::result::Result<Immediate, String>,
     info: ContextInfo,
     live_objects: Cell<usize>,
     /// Shaders used instead of those built in, by their paths below `glsl/`.

@@ -1,16 +1,12 @@
-//! tinta: historical non-photorealistic pipelines as their authors published them, on OpenGL 2.1: the cartoon of
-//! Evangelista et al. 2005, ink and paint of Dachsbacher, charcoal of Valente 2007; and their error against their run time.
+//! Draws 3D models as cartoons, ink, charcoal and exact line art, the way texts of 2001 to 2007 published it, on OpenGL 2.1.
 //!
-//! Data flows one way, and every arrow is a plain value:
+//! The published programs run as they were printed: the cartoon of Evangelista et al. 2005, ink and paint of Dachsbacher, charcoal
+//! of Valente 2007. Beside them are mended versions, exact visible lines without OpenGL, and the error of every style against its
+//! run time.
 //!
-//! ```text
-//! model file ─► Mesh ─► EdgeList ─► Scene ─┬─► Style::plan ─► Plan ─► Renderer (gl::execute) ─► Picture ─┐
-//!                                          └─► VisibleLines (exact, f64) ─► SVG, reference ──────────────┴─► Row ─► report
-//! ```
+//! # A picture
 //!
-//! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`],
-//! but for what calls libassimp (cargo feature `assimp`) and a look at standard output before `main` (cargo feature `cli`).
-//! Everything else is tested without a context, a window or a clock.
+//! Load a model, put it into a scene, choose a style, and draw. No display is needed:
 //!
 //! ```no_run
 //! use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Style, StyleName, load};
@@ -22,54 +18,122 @@
 //! Renderer::new(Backend::Auto)?.render(&scene, &style)?.save("bust.png")
 //! # }
 //! ```
+//!
+//! # Exact lines
+//!
+//! The visible lines of a scene, computed in f64 without OpenGL, as SVG. The crate [`tinta_geometry`] has this part alone:
+//!
+//! ```
+//! use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, VisibleLines, lines, load};
+//!
+//! # fn main() -> tinta::Result<()> {
+//! let gear = load("builtin:gear", &LoadOptions::default())?.mesh;
+//! let scene = Scene::new([gear], &SceneSettings::default())?;
+//! let visible = VisibleLines::of(&scene, &LineSettings::default())?;
+//! let svg = lines::svg(&visible, &SvgSettings::default())?;
+//! assert!(svg.contains("<path"));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Settings
+//!
+//! Styles, scenes, reading, lines and SVG are structs with defaults: set a field, or read options by the names that the command
+//! line and presets use.
+//!
+//! ```
+//! use tinta::settings::{HasSettings, OptionValue, Options};
+//! use tinta::{SceneSettings, Style};
+//!
+//! # fn main() -> tinta::Result<()> {
+//! let options: Options = [("style", "inking"), ("line-width", "3")]
+//!     .map(|(name, value)| (name.to_owned(), OptionValue::text(value)))
+//!     .into();
+//! let style = Style::from_options(&options)?;
+//! assert_eq!(style.to_options()?, options);
+//!
+//! let mut scene = SceneSettings { copies: 4, ..SceneSettings::default() };
+//! scene.camera.fov_y_degrees = 30.0;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Where to look
+//!
+//! | for | see |
+//! |---|---|
+//! | reading models, or making one from triangles | [`mesh`], [`load()`], [`Mesh::of_triangles`] |
+//! | cameras and sizes | [`camera`], [`SceneSettings`], [`View`] |
+//! | edges by class, silhouettes | [`edges`], [`EdgeList`] |
+//! | exact lines, SVG, hidden lines | [`lines`], [`VisibleLines`] |
+//! | styles and their buffers | [`styles`], [`Style`], [`Show`] |
+//! | a style of your own | [`plan`], and `examples/own_style.rs` |
+//! | contexts, drawing, timing | [`gl`], [`renderer`], [`Renderer`] |
+//! | pictures and animations | [`picture`], [`animation`] |
+//! | presets, and pictures that can be made again | [`preset`], [`recipe`] |
+//! | error against run time | [`measure`], [`report`], [`figures`], [`stress`] |
+//!
+//! # How it is built
+//!
+//! Data flows one way, and every arrow is a plain value:
+//!
+//! ```text
+//! model file ─► Mesh ─► EdgeList ─► Scene ─┬─► Style::plan ─► Plan ─► Renderer (gl::execute) ─► Picture ─┐
+//!                                          └─► VisibleLines (exact, f64) ─► SVG, reference ──────────────┴─► Row ─► report
+//! ```
+//!
+//! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`], but for
+//! what calls libassimp (cargo feature `assimp`) and a look at standard output before `main` (cargo feature `cli`). Everything
+//! else is tested without a context, a window or a clock.
+//!
+//! # Cargo features
+//!
+//! `cli`, `measuring` and `window` are on by default. For the library alone turn them off with `default-features = false` and
+//! choose: `animation`, `formats` (glTF and JPEG), `presets`, `recipes`, `measuring`; `assimp` adds the formats that the system's
+//! libassimp reads.
+
+#![deny(unreachable_pub)]
 
 // Floors, from the ground up: a module uses those above it in this list and none below (`tests/floors.rs`).
 
-// What everything stands on.
-pub mod limits;
-pub mod tolerances;
-pub mod error;
-mod bytes;
-mod clock;
-mod choice;
-mod files;
-mod markup;
-mod random;
-mod threads;
-pub mod output;
-mod values;
-pub mod settings;
+// Geometry, without GL: from a file to the lines that are seen. A crate of its own, with its floors in its own list.
+#[cfg(any(feature = "measuring", feature = "recipes"))]
+use tinta_geometry::markup;
+#[cfg(feature = "measuring")]
+use tinta_geometry::threads;
+use tinta_geometry::{bytes, choice, clock, files, values};
+pub use tinta_geometry::{camera, edges, error, hiding, limits, lines, scene, settings, tolerances};
 
-// Geometry, without GL: from a file to the lines that are seen.
-pub mod picture;
-pub mod camera;
+mod random;
+pub mod output;
+mod builtin;
 pub mod mesh;
-pub mod edges;
-mod bvh;
-pub mod hiding;
-pub mod scene;
-pub mod lines;
+pub mod picture;
 
 // What to draw, as data.
 pub mod glsl;
 pub mod plan;
 pub mod textures;
 pub mod styles;
+pub mod provenance;
 
 // Drawing it.
 pub mod gl;
 pub mod renderer;
+#[cfg(feature = "animation")]
 pub mod animation;
 
 // How a picture is asked for again.
+#[cfg(feature = "presets")]
 pub mod preset;
 pub mod shell;
+#[cfg(feature = "recipes")]
 pub mod recipe;
 pub mod compare;
 pub mod record;
 
 // What it is worth.
-#[cfg(feature = "measuring")]
+#[cfg(any(feature = "cli", feature = "measuring"))]
 pub mod contact_sheet;
 #[cfg(feature = "measuring")]
 pub mod measure;
@@ -91,10 +155,11 @@ pub mod cli;
 #[cfg(feature = "cli")]
 extern crate self as tinta;
 
+#[cfg(feature = "animation")]
 pub use animation::{AnimationTarget, AnimationWriter};
 pub use camera::{Camera, CameraSettings, View};
 pub use edges::EdgeList;
-pub use error::{Error, ParseError, Result};
+pub use error::{Error, FileKind, ParseError, Result};
 pub use gl::Backend;
 /// The vectors and matrices that the public types are made of.
 pub use glam;
@@ -102,7 +167,9 @@ pub use lines::{LineSettings, SvgSettings, VisibleLines};
 pub use mesh::{LoadOptions, Mesh, load};
 pub use output::TextTarget;
 pub use picture::{Picture, Target};
+#[cfg(feature = "presets")]
 pub use preset::Preset;
+#[cfg(feature = "recipes")]
 pub use recipe::Recipe;
 pub use renderer::Renderer;
 pub use scene::{Background, Color, Scene, SceneSettings, Size};

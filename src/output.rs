@@ -1,4 +1,4 @@
-//! Whole files or none: checked before the work, written without a name, then put in their place.
+//! Atomic output: a path is checked before the work, written to a temporary file, then renamed into place.
 //!
 //! Pictures, animations and texts all go through here. Nothing half is left however the program ends, without handling
 //! signals: what is written is complete in memory first, and on the disk before it gets its name. The price is its size in
@@ -39,7 +39,7 @@ impl TextTarget {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] for a directory, a device, a folder that is missing or may not be written.
+    /// [`Error::File`] for a directory, a device, a folder that is missing or may not be written.
     pub fn check(path: &str) -> Result<Self> {
         if path == "-" {
             return Ok(Self::Stdout);
@@ -53,7 +53,7 @@ impl TextTarget {
     ///
     /// # Errors
     ///
-    /// [`Error::DiskFull`]; [`Error::Output`] when the folder is gone, the pipe closed.
+    /// [`Error::File`] when the disk is full, the folder gone, the pipe closed.
     pub fn write(&self, text: &str) -> Result<()> {
         match self {
             Self::Stdout => write_standard_output(text.as_bytes()),
@@ -65,21 +65,20 @@ impl TextTarget {
 /// Writes all of it to standard output.
 pub(crate) fn write_standard_output(bytes: &[u8]) -> Result<()> {
     let mut out = std::io::stdout().lock();
-    out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| Error::Output {
-        path: "-".to_owned(),
-        problem: format!("standard output cannot be written ({error}); check where it goes"),
+    out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| {
+        Error::output("-", format!("standard output cannot be written ({error}); check where it goes")).because(&error)
     })
 }
 
 /// Checks that a file of any kind can be written here.
 pub(crate) fn check_file(file: &Path) -> Result<()> {
-    let refuse = |problem: String| Error::Output { path: file.display().to_string(), problem };
+    let refuse = |problem: String| Error::output(file, problem);
     if file.is_dir() {
         return Err(refuse("this is a directory; name a file in it".to_owned()));
     }
     // A new file takes the old one's place, which must be a file: not a device, a pipe or a link to nowhere.
     if file.symlink_metadata().is_ok() && !file.is_file() {
-        return Err(refuse("this is no ordinary file; name another, or - for standard output".to_owned()));
+        return Err(refuse("this is not a regular file; name another, or - for standard output".to_owned()));
     }
     StagedFile::open(&resolved(file)).map(drop).map_err(|error| refused(file, &error))
 }
@@ -95,7 +94,7 @@ impl Staged {
     ///
     /// # Errors
     ///
-    /// [`Error::DiskFull`]; [`Error::Output`] when the folder is gone.
+    /// [`Error::File`] when the disk is full, or the folder gone.
     pub(crate) fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
         let mut staged = Self::begin(path)?;
         staged.add(bytes)?;
@@ -140,7 +139,7 @@ impl Staged {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] when the folder is gone.
+    /// [`Error::File`] when the folder is gone.
     pub(crate) fn put_in_place(self) -> Result<()> {
         self.temporary.put_in_place(&resolved(&self.path)).map_err(|error| refused(&self.path, &error))
     }
@@ -152,7 +151,7 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
 }
 
 fn refused(path: &Path, error: &std::io::Error) -> Error {
-    Error::output(path.display().to_string(), error, cannot_write(path, error))
+    Error::output(path, cannot_write(path, error)).because(error)
 }
 
 /// The file a link at `path` points to, so that the link stays.
@@ -168,17 +167,19 @@ fn cannot_write(path: &Path, error: &std::io::Error) -> String {
             format!("{} is a file, not a folder; name another", folder.display())
         }
         ErrorKind::NotFound | ErrorKind::NotADirectory if folder.is_dir() => {
-            format!("nothing can be written in the folder {}; choose another", folder.display())
+            format!("nothing can be written into the folder {}; choose another", folder.display())
         }
         ErrorKind::NotFound | ErrorKind::NotADirectory => {
-            format!("the folder {} is not there; make it first", folder.display())
+            format!("the folder {} does not exist; create it first", folder.display())
         }
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
-            format!("the folder {} may not be written; choose another", folder.display())
+            format!("there is no permission to write into the folder {}; choose another", folder.display())
         }
         ErrorKind::StorageFull => "the disk is full; free some space".to_owned(),
-        ErrorKind::QuotaExceeded => "your share of the disk is full; free some space".to_owned(),
-        ErrorKind::FileTooLarge => "it would be larger than files may be here (see ulimit -f); write less".to_owned(),
+        ErrorKind::QuotaExceeded => "your disk quota is used up; free some space".to_owned(),
+        ErrorKind::FileTooLarge => {
+            "it would exceed the limit on file sizes (see ulimit -f); raise the limit".to_owned()
+        }
         ErrorKind::IsADirectory => "this is a directory; name a file in it".to_owned(),
         _ => format!("it cannot be written ({error})"),
     }
@@ -205,6 +206,6 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let message = |path: &str| TextTarget::check(path).unwrap_err().to_string();
         assert!(message(folder.path().to_str().unwrap()).contains("directory"));
-        assert!(message("no/such/folder/a.svg").contains("folder no/such/folder is not there"));
+        assert!(message("no/such/folder/a.svg").contains("folder no/such/folder does not exist"));
     }
 }

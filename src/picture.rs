@@ -13,14 +13,21 @@
 //! # }
 //! ```
 
+mod materials;
 mod pcx;
 pub(crate) mod png_text;
 mod read;
+mod small;
+
+pub(crate) use materials::MaterialPictures;
+pub use materials::material_pictures;
 
 use crate::error::{Error, Result};
 use crate::output::{Staged, check_file, write_standard_output, write_whole};
 use crate::values::Size;
-use image::codecs::{bmp::BmpEncoder, jpeg::JpegEncoder, png, pnm, tga::TgaEncoder};
+#[cfg(feature = "formats")]
+use image::codecs::jpeg::JpegEncoder;
+use image::codecs::{bmp::BmpEncoder, png, pnm, tga::TgaEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -102,6 +109,7 @@ impl Picture {
                 let (compression, filter) = (png::CompressionType::Fast, png::FilterType::Adaptive);
                 png::PngEncoder::new_with_quality(out, compression, filter).write_image(pixels, width, height, color)
             }
+            #[cfg(feature = "formats")]
             PictureFormat::Jpeg => JpegEncoder::new_with_quality(out, 92).write_image(pixels, width, height, color),
             PictureFormat::Bmp => BmpEncoder::new(out).write_image(pixels, width, height, color),
             PictureFormat::Tga => TgaEncoder::new(out).write_image(pixels, width, height, color),
@@ -117,8 +125,8 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] for an unknown extension, a directory, a folder that is missing or may not be written, and for a
-    /// picture that is not opaque in a format without transparency; [`Error::DiskFull`].
+    /// [`Error::File`] for an unknown extension, a directory, a folder that is missing or may not be written, and for a
+    /// picture that is not opaque in a format without transparency; [`Error::File`].
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         Target::file(path.as_ref(), !self.is_opaque())?.write(self)
     }
@@ -127,11 +135,10 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] with the path when it is missing or no picture.
+    /// [`Error::File`] with the path when it is missing or no picture.
     pub fn read_png(path: &Path) -> Result<Self> {
-        let failed = |error: image::ImageError| Error::Output {
-            path: path.display().to_string(),
-            problem: format!("it cannot be read as a picture ({error}); make it again"),
+        let failed = |error: image::ImageError| {
+            Error::output(path, format!("it cannot be read as a picture ({error}); draw it again"))
         };
         let image = image::open(path).map_err(failed)?.into_rgba8();
         Ok(Self { size: Size { width: image.width(), height: image.height() }, pixels: image.into_raw() })
@@ -154,6 +161,7 @@ pub enum PictureFormat {
     /// Portable Network Graphics, with alpha where the picture has any.
     Png,
     /// JPEG, quality 92, no alpha.
+    #[cfg(feature = "formats")]
     Jpeg,
     /// Windows bitmap, no alpha.
     Bmp,
@@ -164,9 +172,11 @@ pub enum PictureFormat {
 }
 
 impl PictureFormat {
-    const EXTENSIONS: [(&'static str, Self); 6] = [
+    const EXTENSIONS: &[(&'static str, Self)] = &[
         ("png", Self::Png),
+        #[cfg(feature = "formats")]
         ("jpg", Self::Jpeg),
+        #[cfg(feature = "formats")]
         ("jpeg", Self::Jpeg),
         ("bmp", Self::Bmp),
         ("tga", Self::Tga),
@@ -203,7 +213,7 @@ impl Target {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] for an unknown extension, a directory, a folder that is missing or may not be written.
+    /// [`Error::File`] for an unknown extension, a directory, a folder that is missing or may not be written.
     pub fn check(path: &str, transparent: bool) -> Result<Self> {
         match path {
             "-" => Ok(Self::Stdout),
@@ -212,11 +222,11 @@ impl Target {
     }
 
     fn file(file: &Path, transparent: bool) -> Result<Self> {
-        let refuse = |problem: String| Error::Output { path: file.display().to_string(), problem };
+        let refuse = |problem: String| Error::output(file, problem);
         if file.is_dir() {
             return Err(refuse("this is a directory; name a file in it".to_owned()));
         }
-        let known = || PictureFormat::EXTENSIONS.map(|(extension, _)| extension).join(", ");
+        let known = || PictureFormat::EXTENSIONS.iter().map(|(extension, _)| *extension).collect::<Vec<_>>().join(", ");
         let format = match (PictureFormat::of(file), file.extension()) {
             (Some(format), _) => format,
             (None, Some(extension)) => {
@@ -236,7 +246,7 @@ impl Target {
     ///
     /// # Errors
     ///
-    /// [`Error::DiskFull`]; [`Error::Output`] when the folder is gone, the pipe closed.
+    /// [`Error::File`] when the disk is full, the folder gone, the pipe closed.
     pub fn write(&self, picture: &Picture) -> Result<()> {
         self.write_with(picture, None)
     }
@@ -258,12 +268,14 @@ impl Target {
             }
             None => picture.encode(format, false, &mut bytes).map_err(|error| error.to_string()),
         };
-        encoded.map_err(|error| Error::Output {
-            path: name,
-            problem: match self {
-                Self::Stdout => format!("the picture cannot be encoded ({error}); name a file"),
-                Self::File { .. } => format!("the picture cannot be encoded ({error}); try .png"),
-            },
+        encoded.map_err(|error| {
+            Error::output(
+                name,
+                match self {
+                    Self::Stdout => format!("the picture cannot be encoded ({error}); name a file"),
+                    Self::File { .. } => format!("the picture cannot be encoded ({error}); try .png"),
+                },
+            )
         })?;
         match self {
             Self::Stdout => write_standard_output(&bytes),
@@ -303,7 +315,7 @@ pub struct Note {
 ///
 /// # Errors
 ///
-/// [`Error::Output`] when the file cannot be written.
+/// [`Error::File`] when the file cannot be written.
 pub fn write_rgba_png(picture: &Picture, path: &Path) -> Result<()> {
     write_whole(path, &encoded(path, |out| picture.encode(PictureFormat::Png, true, out))?)
 }
@@ -311,10 +323,8 @@ pub fn write_rgba_png(picture: &Picture, path: &Path) -> Result<()> {
 /// A picture's file, in memory.
 fn encoded(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResult<()>) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    encode(&mut bytes).map_err(|error| Error::Output {
-        path: path.display().to_string(),
-        problem: format!("the picture cannot be encoded ({error}); try .png"),
-    })?;
+    encode(&mut bytes)
+        .map_err(|error| Error::output(path, format!("the picture cannot be encoded ({error}); try .png")))?;
     Ok(bytes)
 }
 
@@ -404,7 +414,7 @@ mod tests {
         symlink("/dev/null", at("device.png")).unwrap();
         for name in ["broken.png", "device.png"] {
             let message = Target::check(at(name).to_str().unwrap(), false).unwrap_err().to_string();
-            assert!(message.contains("no ordinary file"), "{message}");
+            assert!(message.contains("not a regular file"), "{message}");
         }
     }
 
@@ -414,7 +424,7 @@ mod tests {
         assert!(message("drawing.xyz", false).contains("not written as .xyz"));
         assert!(message("drawing", false).contains("no extension"));
         assert!(message("drawing.jpg", true).contains("no transparency"));
-        assert!(message("no/such/folder/a.png", false).contains("folder no/such/folder is not there"));
+        assert!(message("no/such/folder/a.png", false).contains("folder no/such/folder does not exist"));
         let see_through = Picture { size: Size { width: 1, height: 1 }, pixels: vec![0; 4] };
         assert!(see_through.save("drawing.jpg").unwrap_err().to_string().contains("no transparency"));
         assert!(see_through.save("-").unwrap_err().to_string().contains("no extension"));

@@ -26,16 +26,17 @@ mod check;
 mod display;
 mod facts;
 pub mod prune;
+mod submission;
 mod target;
 
 pub use check::Flaw;
 pub use facts::{Facts, Shorter, WhereEven};
+pub use submission::Submission;
 pub use target::{Attachment, Attachments, Drawn, Format, SettingValue, Target};
 
 use crate::mesh::Part;
 use crate::picture::Picture;
 use crate::scene::Rectangle;
-use crate::settings::Choice;
 use std::sync::Arc;
 
 /// The steps of one picture.
@@ -50,6 +51,8 @@ pub struct Plan {
     /// How many times as wide and high as the picture it is drawn, from 1. Above 1 the plan itself ends by drawing
     /// [`Geometry::PictureSquare`], which fills the picture.
     pub supersample: u32,
+    /// How its vertices are handed to GL.
+    pub submission: Submission,
     /// What of [`Plan::picture_target`] is the picture.
     pub output: Output,
 }
@@ -199,6 +202,8 @@ pub enum Paint {
     /// White, and for the first texture unit a coordinate for each vertex: one list an object, in the order of the scene's
     /// objects, one entry for each of [`crate::mesh::VertexArrays::vertices`].
     Coordinates(Arc<Vec<Arc<Vec<[f32; 2]>>>>),
+    /// A colour for each vertex, mixed across each face: red, green, blue, alpha, in lists like those of coordinates.
+    Colors(Arc<Vec<Arc<Vec<[f32; 4]>>>>),
 }
 
 /// Edges of one object in one colour.
@@ -238,9 +243,7 @@ impl LineDrawing {
     pub const ALL: [(&'static str, Self); 2] = [("gl", Self::Gl), ("quads", Self::Quads)];
 }
 
-impl Choice for LineDrawing {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
+tinta_geometry::choices!(LineDrawing);
 
 /// A vertex shader and the fragment shaders linked with it, by their paths below `glsl/`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -345,9 +348,10 @@ pub enum Output {
 }
 
 impl Plan {
-    /// A plan of these passes that reads neither tables nor pictures, drawn at its own size.
+    /// A plan of these passes that reads neither tables nor pictures, drawn from buffers at its own size.
     pub fn new(passes: Vec<Pass>) -> Self {
-        Self { passes, tables: Vec::new(), pictures: Vec::new(), supersample: 1, output: Output::Rgba }
+        let (tables, pictures) = (Vec::new(), Vec::new());
+        Self { passes, tables, pictures, supersample: 1, submission: Submission::Buffers, output: Output::Rgba }
     }
 
     /// All steps with the name of their pass.

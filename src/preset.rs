@@ -20,7 +20,7 @@ mod shipped;
 pub use crate::settings::{OptionValue, Options};
 pub use shipped::SHIPPED;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, FileKind, Result};
 use crate::files::shown;
 use crate::lines::{LineSettings, SvgSettings};
 use crate::mesh::LoadOptions;
@@ -54,34 +54,40 @@ impl Preset {
     ///
     /// # Errors
     ///
-    /// [`Error::Preset`] when it is missing, no ordinary file, longer than [`LARGEST_BYTES`], or no flat table of TOML; for
+    /// [`Error::File`] when it is missing, not a regular file, longer than [`LARGEST_BYTES`], or no flat table of TOML; for
     /// an unknown name with those there are.
     pub fn read(name: &str) -> Result<Self> {
         if name.starts_with(PREFIX) {
             let found = SHIPPED.iter().find(|(known, _)| *known == name);
             return match found {
                 Some((_, text)) => Self::parse(name, text),
-                None => Err(refused(name, format!("no preset of this name ships; there are {}", shipped_names()))),
+                None => Err(refused(
+                    name,
+                    format!("there is no shipped preset of this name; there are {}", shipped_names()),
+                )),
             };
         }
         let path = Path::new(name);
-        let cannot_read = |error: std::io::Error| match error.kind() {
-            std::io::ErrorKind::NotFound => {
-                refused(name, format!("there is no such file; name a preset, or one that ships: {}", shipped_names()))
-            }
-            _ => refused(name, format!("it cannot be read ({error}); check the file")),
+        let cannot_read = |error: std::io::Error| {
+            let problem = match error.kind() {
+                std::io::ErrorKind::NotFound => {
+                    format!("there is no such file; name a preset, or one that ships: {}", shipped_names())
+                }
+                _ => format!("it cannot be read ({error}); check the file"),
+            };
+            refused(name, problem).because(&error)
         };
         // Only files: a pipe or device would never end.
         if !path.metadata().map_err(cannot_read)?.is_file() {
-            return Err(refused(name, "this is no ordinary file; name a preset's file"));
+            return Err(refused(name, "this is not a regular file; name a preset file"));
         }
         let mut bytes = Vec::new();
         let file = std::fs::File::open(path).map_err(cannot_read)?;
         file.take(LARGEST_BYTES + 1).read_to_end(&mut bytes).map_err(cannot_read)?;
         if bytes.len() as u64 > LARGEST_BYTES {
-            return Err(refused(name, format!("it is longer than {LARGEST_BYTES} bytes, so it is hardly a preset")));
+            return Err(refused(name, format!("it is longer than {LARGEST_BYTES} bytes, the limit for a preset")));
         }
-        let text = String::from_utf8(bytes).map_err(|_| refused(name, "it is not UTF-8 text; save it as that"))?;
+        let text = String::from_utf8(bytes).map_err(|_| refused(name, "it is not UTF-8 text; save it as UTF-8"))?;
         Self::parse(name, &text)
     }
 
@@ -89,21 +95,18 @@ impl Preset {
     ///
     /// # Errors
     ///
-    /// [`Error::Preset`] with the line when it is no TOML, has a table within a table, or a value that no option takes.
+    /// [`Error::File`] with the line when it is no TOML, has a table within a table, or a value that no option takes.
     pub fn parse(name: &str, text: &str) -> Result<Self> {
         let line_of = |offset: usize| {
             let before = text.as_bytes().iter().take(offset);
             1 + before.filter(|byte| **byte == b'\n').count() as u64
         };
-        let at = |offset: usize, problem: String| Error::Preset {
-            path: name.to_owned(),
-            line: Some(line_of(offset)),
-            problem,
-        };
+        let at =
+            |offset: usize, problem: String| Error::file(FileKind::Preset, name, problem).at(Some(line_of(offset)));
         let table = DeTable::parse(text).map_err(|error| {
             let message = error.message().split_whitespace().collect::<Vec<_>>().join(" ");
             let offset = error.span().map_or(0, |span| span.start);
-            at(offset, format!("this is no TOML ({}); write lines such as line-width = 3", shown(&message)))
+            at(offset, format!("this is not TOML ({}); write lines such as line-width = 3", shown(&message)))
         })?;
         let mut preset = Self { name: name.to_owned(), options: Options::new(), lines: BTreeMap::new() };
         for (key, value) in table.into_inner() {
@@ -126,8 +129,8 @@ impl Preset {
     ///
     /// # Errors
     ///
-    /// [`Error::Preset`] with the line for an option that there is not and for a value that an option cannot have;
-    /// [`Error::Picture`] for a file that cannot be read.
+    /// [`Error::File`] with the line for an option that there is not and for a value that an option cannot have;
+    /// [`Error::File`] for a file that cannot be read.
     pub fn style(&self) -> Result<Style> {
         if let Some(key) = self.options.keys().find(|key| !is_known(key)) {
             return Err(
@@ -154,7 +157,7 @@ impl Preset {
 
     /// An error about one of its options.
     pub fn refuse(&self, option: &str, problem: impl Into<String>) -> Error {
-        Error::Preset { path: self.name.clone(), line: self.line_of(option), problem: problem.into() }
+        Error::file(FileKind::Preset, self.name.clone(), problem.into()).at(self.line_of(option))
     }
 }
 
@@ -197,7 +200,7 @@ pub fn to_toml(options: &Options, comment: &str) -> String {
 }
 
 fn refused(name: &str, problem: impl Into<String>) -> Error {
-    Error::Preset { path: name.to_owned(), line: None, problem: problem.into() }
+    Error::file(FileKind::Preset, name, problem.into())
 }
 
 /// A value of the file as an option takes it.
@@ -221,8 +224,8 @@ fn scalar(value: &DeValue<'_>) -> std::result::Result<String, String> {
             .map_err(|_| "this number is too long; write a shorter one".to_owned()),
         DeValue::Float(number) => Ok(number.as_str().trim_start_matches('+').to_owned()),
         _ => Err(
-            "write a text, a number, true or false, or several numbers or texts in brackets; a preset is one table \
-                  without others in it"
+            "write a text, a number, true or false, or several numbers or texts in brackets; a preset has no nested \
+             tables"
                 .to_owned(),
         ),
     }
@@ -290,13 +293,13 @@ mod tests {
     fn what_is_no_preset_is_refused_with_its_line() {
         let message = |text: &str| Preset::parse("a.toml", text).unwrap_err().to_string();
         for (text, start) in [
-            ("style = \"inking\"\ntones =\n", "a.toml: line 2: this is no TOML"),
-            ("tones = 1\ntones = 2\n", "a.toml: line 2: this is no TOML"),
+            ("style = \"inking\"\ntones =\n", "a.toml: line 2: this is not TOML"),
+            ("tones = 1\ntones = 2\n", "a.toml: line 2: this is not TOML"),
             ("\n\n[style]\ntones = 2\n", "a.toml: line 3: style: write a text"),
             ("tones = 1\nstyle.tones = 2\n", "a.toml: line 2: style: write a text"),
             ("size = 1979-05-27\n", "a.toml: line 1: size: write a text"),
             ("tone-levels = [[1, 2], 3]\n", "a.toml: line 1: tone-levels: write a text"),
-            ("\u{0}\u{ffff}", "a.toml: line 1: this is no TOML"),
+            ("\u{0}\u{ffff}", "a.toml: line 1: this is not TOML"),
         ] {
             let message = message(text);
             assert!(message.starts_with(start) && message.lines().count() == 1, "{message}");
@@ -307,7 +310,7 @@ mod tests {
     fn files_that_are_none_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let message = |name: &str| Preset::read(name).unwrap_err().to_string();
-        assert!(message(folder.path().to_str().unwrap()).contains("no ordinary file"));
+        assert!(message(folder.path().to_str().unwrap()).contains("not a regular file"));
         let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
         assert!(message(&at("none.toml")).contains("no such file"));
         std::fs::write(at("long.toml"), vec![b'#'; LARGEST_BYTES as usize + 1]).unwrap();

@@ -19,14 +19,14 @@
 //! assert!(recipe.command_line("cow.png").contains("'my cow.obj'"), "as a shell takes it");
 //! ```
 
-use crate::error::{Error, Result};
-use crate::files::shown;
+use crate::error::{Error, FileKind, Result};
+use crate::files::{Failure, shown};
 use crate::gl::ContextInfo;
 use crate::markup::{RECIPE_BEGIN, RECIPE_END};
 use crate::picture::{Note, png_text};
 use crate::preset::{OptionValue, Options};
 use crate::shell;
-use crate::styles::{Charcoal, Paper, Style};
+use crate::styles::Style;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fs::File;
@@ -129,8 +129,10 @@ impl FileRecord {
 pub fn files_of(style: &Style) -> Vec<PathBuf> {
     match style {
         Style::Inking(inking) => inking.ramp.path.iter().cloned().collect(),
-        Style::Charcoal(Charcoal { paper: Paper::File { path, .. }, .. })
-        | Style::Sand(Charcoal { paper: Paper::File { path, .. }, .. }) => vec![path.clone()],
+        Style::Charcoal(charcoal) | Style::Sand(charcoal) => {
+            let sources = [&charcoal.cet, &charcoal.noise_texture, &charcoal.paper];
+            sources.into_iter().filter_map(|source| source.path()).map(Path::to_path_buf).collect()
+        }
         _ => Vec::new(),
     }
 }
@@ -169,16 +171,14 @@ impl Recipe {
     ///
     /// # Errors
     ///
-    /// [`Error::Picture`] when the file cannot be read, is of another kind, or has no recipe that can be understood.
+    /// [`Error::File`] when the file cannot be read, is of another kind, or has no recipe that can be understood.
     pub fn read(path: &Path) -> Result<Self> {
         let failed = |problem: String| Error::picture(path, problem);
-        let cannot_read = |error: std::io::Error| match error.kind() {
-            std::io::ErrorKind::NotFound => failed("there is no such file; check the name".to_owned()),
-            _ => failed(format!("it cannot be read ({error}); check the file")),
-        };
+        let cannot_read =
+            |error: std::io::Error| Failure::System(error).into_error(FileKind::Picture, path, "a picture");
         // Only files: a pipe or device would never end.
         if !path.metadata().map_err(cannot_read)?.is_file() {
-            return Err(failed("this is no ordinary file; name a picture".to_owned()));
+            return Err(failed("this is not a regular file; name a picture".to_owned()));
         }
         let mut head = Vec::new();
         File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head)).map_err(cannot_read)?;
@@ -189,7 +189,7 @@ impl Recipe {
     ///
     /// # Errors
     ///
-    /// [`Error::Picture`] when it is of another kind, or has no recipe that can be understood.
+    /// [`Error::File`] when it is of another kind, or has no recipe that can be understood.
     pub fn of_bytes(bytes: &[u8], name: &str) -> Result<Self> {
         let head = &bytes[..bytes.len().min(HEAD_BYTES as usize)];
         Self::in_bytes(head).map_err(|problem| Error::picture(Path::new(name), problem))
@@ -204,7 +204,7 @@ impl Recipe {
         let none = "it carries no recipe; draw it without --no-recipe as .png or .svg with tinta";
         let json = json.ok_or_else(|| none.to_owned())?;
         if json.len() > LARGEST_BYTES {
-            return Err(format!("its recipe is longer than {LARGEST_BYTES} bytes, so it is hardly one"));
+            return Err(format!("its recipe is longer than {LARGEST_BYTES} bytes, the limit for one"));
         }
         serde_json::from_str(&json).map_err(|error| {
             format!("its recipe cannot be understood ({}); draw it again with tinta render", shown(&error.to_string()))

@@ -1,4 +1,4 @@
-//! What one rendering was and took, as one JSON object.
+//! The record of one rendering, its settings and times, as one JSON object.
 //!
 //! ```
 //! use tinta::record::Summary;
@@ -16,6 +16,7 @@ use crate::compare::AgreementNumbers;
 use crate::edges::{ClassCounts, ClassSet, SilhouetteRule};
 use crate::gl::ContextInfo;
 use crate::mesh::{Defects, LoadOptions, Mesh};
+use crate::plan::Submission;
 use crate::plan::prune::{Kept, Omission};
 use crate::renderer::{PassTime, median};
 use crate::scene::{Background, Color, Scene, Size};
@@ -55,6 +56,8 @@ pub struct Record {
     pub gl: ContextInfo,
     /// Each pass's median times.
     pub passes: Vec<PassTime>,
+    /// How vertices were handed to GL.
+    pub submission: Submission,
     /// What of the published plan was left out, and why.
     pub omissions: Vec<Omission>,
     /// What was not, and why.
@@ -222,6 +225,9 @@ impl CameraRecord {
         }
     }
 }
+
+/// The file of measured rows inside a report's folder.
+pub const ROWS_FILE: &str = "results.jsonl";
 
 /// Some times and their summary, milliseconds.
 #[derive(Debug, Clone, Serialize)]

@@ -340,7 +340,8 @@ impl Renderer {
         if supersample > 1 && (surface.width > limit.width || surface.height > limit.height) {
             let largest = Size { width: limit.width / supersample, height: limit.height / supersample };
             let problem = format!(
-                "{} draws {limit} pixels at most, which is {largest} with this; ask for a smaller --size or less of it",
+                "{} draws {limit} pixels at most, which leaves {largest} with this; ask for a smaller --size or less \
+                 of it",
                 self.context.info().renderer
             );
             return Err(Error::value("supersample", supersample, problem));

@@ -21,13 +21,14 @@ mod plot;
 mod ratios;
 mod settings;
 
+pub use crate::record::ROWS_FILE;
 pub use columns::{Column, columns};
 pub use html::html;
-pub use log::{ROWS_FILE, RowLog, read_rows, rows_of_bytes};
+pub use log::{RowLog, read_rows, rows_of_bytes};
 pub use plot::{Shape, plot};
 pub use settings::{Machine, Measure, Point, Points, machines, pareto, points};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, FileKind, Result};
 use crate::measure::Row;
 use crate::output::Staged;
 use columns::Value;
@@ -82,14 +83,10 @@ pub fn csv(rows: &[Row]) -> String {
 ///
 /// # Errors
 ///
-/// [`Error::Output`] when a file cannot be written; [`Error::Rows`] without any row.
+/// [`Error::File`] when a file cannot be written, and without any row.
 pub fn write(folder: &Path, rows: &[Row], info: &ReportInfo) -> Result<()> {
     if rows.is_empty() {
-        return Err(Error::Rows {
-            path: folder.display().to_string(),
-            line: None,
-            problem: "there is no row to report on; measure something first".to_owned(),
-        });
+        return Err(Error::file(FileKind::Rows, folder, "there is no row to report on; measure something first"));
     }
     // They belong together: none appears before all are on the disk.
     let stage = |name: &str, text: &str| Staged::new(&folder.join(name), text.as_bytes());

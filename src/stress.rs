@@ -1,4 +1,4 @@
-//! Stiff and extreme cases, each with what must come of it: the program attacks its own numbers and its own input.
+//! Extreme cases for numbers and input files, each with its expected outcome.
 //!
 //! In: [`cases`], plain values that say what is extreme, what must happen and which number shows it. Out: a [`Row`] for each
 //! case, style and backend with its verdict. What the figures mean, and what they were, stands in docs/stability.md.

@@ -1,16 +1,6 @@
 //! The styles: settings with the published values as defaults, and the plan each makes of a scene. No GL here.
 //!
-//! | style | source |
-//! |---|---|
-//! | `phong` | the realistic rendering the first article compares with |
-//! | `three-pass` | Evangelista et al. 2005, appendix 1 |
-//! | `two-pass` | Evangelista et al. 2005, section 4.2 and appendix 2 |
-//! | `mrt` | its future work, section 6: the three passes' picture with one pass over the geometry |
-//! | `inking` | Dachsbacher, edge list and painting |
-//! | `dietrich` | the hardware's outline that Dachsbacher names as the alternative |
-//! | `ink` | of this project: Evangelista's passes with a map and a filter that answer to geometry |
-//! | `charcoal` | Valente 2007 |
-//! | `sand` | Valente 2007, section 4 |
+//! Each style is a row of [`Style`]: its picture, source, name, settings, plan.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -35,6 +25,7 @@ mod border;
 mod cartoon;
 mod charcoal;
 mod dietrich;
+mod gradients;
 mod ink;
 mod inking;
 mod lens;
@@ -42,6 +33,8 @@ mod map;
 mod mrt;
 mod phong;
 mod ramp;
+mod row;
+mod shading;
 mod supersample;
 mod tones;
 
@@ -49,7 +42,8 @@ pub use crate::lines::ClassColors;
 pub use border::{Border, Filter};
 pub use cartoon::Cartoon;
 pub use charcoal::{
-    CetCoordinate, CetFilter, Charcoal, CharcoalPictures, CharcoalRecipe, ContrastOperator, Improvements, Noise, Paper,
+    CetCoordinate, CetFilter, Charcoal, CharcoalPictures, CharcoalRecipe, ContrastOperator, Improvements, Noise,
+    TextureSource,
 };
 pub use dietrich::Dietrich;
 pub use ink::{Ink, Quality};
@@ -58,42 +52,124 @@ pub use map::{MapEncoding, MapTarget};
 pub use mrt::Mrt;
 pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
+pub use row::{Mark, Origin, Outline, StyleInfo};
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
 
-use crate::choice::find;
+use crate::choice::Choice;
 use crate::error::{Error, ParseError, Result};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::settings::{HasSettings, OptionValue, Options, Setting, Table, within};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
-use std::str::FromStr;
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// A style with its settings.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Style {
-    /// Smooth shading per pixel.
-    Phong(Phong),
-    /// Map, tones, border blended on top.
-    ThreePass(Cartoon),
-    /// Map, then tones and border in one.
-    TwoPass(Cartoon),
-    /// Map and tones at once, border blended on top.
-    Mrt(Mrt),
-    /// Painted faces, lines from the edge list.
-    Inking(Inking),
-    /// Ink where the surface is seen at a grazing angle.
-    Dietrich(Dietrich),
-    /// Ink where the surface ends or turns, found by its planes.
-    Ink(Ink),
-    /// Grain by tone, on paper.
-    Charcoal(Charcoal),
-    /// The same mixed with the model's own texture in sepia.
-    Sand(Charcoal),
+row::styles! {
+    /// Smooth shading per pixel: the realistic rendering the first article compares with.
+    Phong(Phong) {
+        name: "phong",
+        plan: Phong::plan,
+        has_lines: |_| false,
+        shows: &[Show::Final],
+        origin: Origin::Named,
+        mark: Some(Mark { rgb: [128, 128, 128], outline: Outline::Circle }),
+    }
+
+    /// Map, tones, border blended on top: Evangelista et al. 2005, appendix 1.
+    ThreePass(Cartoon) {
+        name: "three-pass",
+        plan: Cartoon::three_pass,
+        has_lines: |cartoon| cartoon.border.is_some(),
+        shows: CARTOON_SHOWS,
+        origin: Origin::Published,
+        mark: Some(Mark { rgb: [31, 131, 201], outline: Outline::Polygon { corners: 4, turn: PI / 4.0 } }),
+    }
+
+    /// Map, then tones and border in one: Evangelista et al. 2005, section 4.2 and appendix 2.
+    TwoPass(Cartoon) {
+        name: "two-pass",
+        plan: Cartoon::two_pass,
+        has_lines: |cartoon| cartoon.border.is_some(),
+        shows: CARTOON_SHOWS,
+        origin: Origin::Published,
+        mark: Some(Mark { rgb: [213, 94, 0], outline: Outline::Polygon { corners: 3, turn: 0.0 } }),
+    }
+
+    /// Map and tones at once, border blended on top: that article's future work, section 6, the three passes' picture with one
+    /// pass over the geometry.
+    Mrt(Mrt) {
+        name: "mrt",
+        plan: Mrt::plan,
+        has_lines: |mrt| mrt.border.is_some(),
+        shows: CARTOON_SHOWS,
+        origin: Origin::Own,
+        mark: Some(Mark { rgb: [86, 180, 233], outline: Outline::Polygon { corners: 5, turn: PI } }),
+    }
+
+    /// Painted faces, lines from the edge list: Dachsbacher, edge list and painting.
+    Inking(Inking) {
+        name: "inking",
+        plan: Inking::plan,
+        has_lines: |inking| inking.is_inked,
+        shows: LINE_SHOWS,
+        origin: Origin::Published,
+        mark: Some(Mark { rgb: [0, 158, 115], outline: Outline::Polygon { corners: 4, turn: 0.0 } }),
+    }
+
+    /// Ink where the surface is seen at a grazing angle: the hardware's outline that Dachsbacher names as the alternative.
+    Dietrich(Dietrich) {
+        name: "dietrich",
+        plan: Dietrich::plan,
+        has_lines: |_| true,
+        shows: LINE_SHOWS,
+        origin: Origin::Named,
+        mark: Some(Mark { rgb: [204, 121, 167], outline: Outline::Polygon { corners: 3, turn: PI } }),
+    }
+
+    /// Ink where the surface ends or turns, found by its planes: Evangelista's passes with a map and a filter that answer to
+    /// geometry.
+    Ink(Ink) {
+        name: "ink",
+        plan: Ink::plan,
+        has_lines: |ink| ink.is_inked,
+        shows: &[Show::Final, Show::Map, Show::Borders, Show::Tones],
+        origin: Origin::Own,
+        mark: None,
+    }
+
+    /// Grain by tone, on paper: Valente 2007.
+    Charcoal(Charcoal) {
+        name: "charcoal",
+        plan: Charcoal::charcoal,
+        has_lines: |_| false,
+        shows: CHARCOAL_SHOWS,
+        origin: Origin::Published,
+        mark: Some(Mark { rgb: [140, 109, 90], outline: Outline::Polygon { corners: 5, turn: 0.0 } }),
+    }
+
+    /// The same mixed with the model's own texture in sepia: Valente 2007, section 4.
+    Sand(Charcoal) {
+        name: "sand",
+        plan: Charcoal::sand,
+        has_lines: |_| false,
+        shows: CHARCOAL_SHOWS,
+        origin: Origin::Published,
+        mark: Some(Mark { rgb: [184, 137, 11], outline: Outline::Polygon { corners: 6, turn: 0.0 } }),
+    }
+
+    // A new style's row comes here: docs/adding-a-style.md.
 }
+
+/// Pictures of the styles that filter a map.
+const CARTOON_SHOWS: &[Show] = &[Show::Final, Show::Map, Show::Normals, Show::Depth, Show::Borders, Show::Tones];
+
+/// Pictures of those whose lines are from edges or grazing views.
+const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
+
+/// Pictures of the drawings in charcoal and sand.
+const CHARCOAL_SHOWS: &[Show] = &[Show::Final, Show::Diffuse, Show::Cem, Show::Cet, Show::Paper];
 
 /// Which of a style's pictures is wanted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -130,21 +206,6 @@ impl Style {
         (name.info().published)()
     }
 
-    /// Which style it is.
-    pub fn style_name(&self) -> StyleName {
-        match self {
-            Self::Phong(_) => StyleName::Phong,
-            Self::ThreePass(_) => StyleName::ThreePass,
-            Self::TwoPass(_) => StyleName::TwoPass,
-            Self::Mrt(_) => StyleName::Mrt,
-            Self::Inking(_) => StyleName::Inking,
-            Self::Dietrich(_) => StyleName::Dietrich,
-            Self::Ink(_) => StyleName::Ink,
-            Self::Charcoal(_) => StyleName::Charcoal,
-            Self::Sand(_) => StyleName::Sand,
-        }
-    }
-
     /// The style's name as the user writes it.
     #[must_use]
     pub fn name(&self) -> &'static str {
@@ -156,7 +217,7 @@ impl Style {
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for a style or value that there is not, [`crate::Error::Picture`] for a file that cannot be read.
+    /// [`crate::Error::Setting`] for a style or value that there is not, [`crate::Error::File`] for a file that cannot be read.
     pub fn from_options(options: &Options) -> Result<Self> {
         let name = match options.get("style") {
             None => StyleName::ThreePass,
@@ -193,40 +254,17 @@ impl Style {
         Ok(options)
     }
 
-    /// Whether it draws lines that can be shown by themselves.
-    pub fn has_lines(&self) -> bool {
+    /// What is to be known of this scene's pictures in this style, a sentence each.
+    pub fn remarks(&self, scene: &Scene) -> Vec<String> {
         match self {
-            Self::ThreePass(cartoon) | Self::TwoPass(cartoon) => cartoon.border.is_some(),
-            Self::Mrt(mrt) => mrt.border.is_some(),
-            Self::Inking(inking) => inking.is_inked,
-            Self::Ink(ink) => ink.is_inked,
-            Self::Dietrich(_) => true,
-            Self::Phong(_) | Self::Charcoal(_) | Self::Sand(_) => false,
+            Self::Charcoal(charcoal) | Self::Sand(charcoal) => charcoal.remarks(scene),
+            _ => Vec::new(),
         }
     }
 
     /// Whether its tones can be shown by themselves.
     pub fn has_tones(&self) -> bool {
         self.style_name().info().shows.contains(&Show::Tones)
-    }
-
-    /// What GL has to do for this scene.
-    ///
-    /// # Errors
-    ///
-    /// [`crate::Error::Setting`] when a setting is nonsense, by itself or with this scene or `show`.
-    pub fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
-        match self {
-            Self::Phong(phong) => phong.plan(scene, show),
-            Self::ThreePass(cartoon) => cartoon.three_pass(scene, show),
-            Self::TwoPass(cartoon) => cartoon.two_pass(scene, show),
-            Self::Mrt(mrt) => mrt.plan(scene, show),
-            Self::Inking(inking) => inking.plan(scene, show),
-            Self::Dietrich(dietrich) => dietrich.plan(scene, show),
-            Self::Ink(ink) => ink.plan(scene, show),
-            Self::Charcoal(charcoal) => charcoal.charcoal(scene, show),
-            Self::Sand(charcoal) => charcoal.sand(scene, show),
-        }
     }
 }
 
@@ -252,28 +290,18 @@ impl Serialize for Style {
 }
 
 /// What the settings are listed under, in this order.
-const HEADINGS: [&str; 5] = [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE];
+const HEADINGS: [&str; 7] = [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, CHARCOAL];
 const ALL_STYLES: &str = "All styles";
 const CARTOON: &str = "Styles three-pass, two-pass and mrt (the defaults are the paper's)";
 const INKING: &str = "Style inking: lines from the model's edges (the defaults are the text's)";
 const IMAGE_SPACE: &str = "Styles three-pass, two-pass, mrt and ink";
+const INK: &str = "Style ink (tones as three-pass, --crease-angle as inking)";
+const CHARCOAL: &str = "Styles charcoal and sand (the defaults are the text's where it gives them)";
 
-/// The settings of all styles, each declared beside its struct.
+/// The settings of all styles, each declared beside its struct; those of a heading begin with the styles that have lines.
 fn settings() -> Vec<Setting<Style>> {
-    let mut settings: Vec<Setting<Style>> = within(Cartoon::settings(), |style| match style {
-        Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => Some(cartoon),
-        _ => None,
-    })
-    .chain(within(Mrt::settings(), |style| if let Style::Mrt(mrt) = style { Some(mrt) } else { None }))
-    .chain(within(Inking::settings(), |style| if let Style::Inking(inking) = style { Some(inking) } else { None }))
-    .chain(within(Dietrich::settings(), |style| if let Style::Dietrich(it) = style { Some(it) } else { None }))
-    .chain(within(Ink::settings(), |style| if let Style::Ink(ink) = style { Some(ink) } else { None }))
-    .chain(within(Charcoal::settings(), |style| match style {
-        Style::Charcoal(charcoal) | Style::Sand(charcoal) => Some(charcoal),
-        _ => None,
-    }))
-    .chain(within(Phong::settings(), |style| if let Style::Phong(phong) = style { Some(phong) } else { None }))
-    .collect();
+    let mut settings: Vec<Setting<Style>> =
+        StyleName::lines_first().into_iter().flat_map(|style| (style.info().settings)()).collect();
     let rank = |heading: &str| HEADINGS.iter().position(|known| *known == heading).unwrap_or(HEADINGS.len());
     settings.sort_by_key(|setting| rank(setting.heading));
     settings
@@ -281,127 +309,19 @@ fn settings() -> Vec<Setting<Style>> {
 
 /// The setting whether lines are left out.
 fn no_borders<T: Clone + 'static>(get: fn(&T) -> bool, set: fn(&mut T, bool)) -> Setting<T> {
-    Setting::flag("no-borders", "No lines, tones or paint alone", get, set).labelled("no lines")
+    Setting::flag("no-borders", "Leave out the lines: draw tones or paint alone", get, set)
+        .deduced("E and D draw their figures with lines, and some without")
+        .labelled("no lines")
 }
 
 /// The setting whether faces turned away are left out.
 fn cull<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
-    let help = "Leave out faces turned away: none, back; faster, and nearly the same picture of closed models (inking: a few more \
-                pixels)";
+    let help = "Cull faces that point away: none, back; faster, and nearly the same picture for closed models";
     Setting::either("cull", "FACES", ["none", "back"], help, field)
+        .deduced("E, D and V leave face culling off, as GL has it by default")
 }
-
-/// The styles' names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum StyleName {
-    /// `phong`
-    Phong,
-    /// `three-pass`
-    ThreePass,
-    /// `two-pass`
-    TwoPass,
-    /// `mrt`
-    Mrt,
-    /// `inking`
-    Inking,
-    /// `dietrich`
-    Dietrich,
-    /// `ink`
-    Ink,
-    /// `charcoal`
-    Charcoal,
-    /// `sand`
-    Sand,
-}
-
-/// A style's row: what is known of it besides its settings, which stand beside its struct, and its plan.
-#[derive(Debug)]
-pub struct StyleInfo {
-    /// Which style.
-    pub style: StyleName,
-    /// Its name as the user writes it.
-    pub name: &'static str,
-    /// Its pictures, the finished one first.
-    pub shows: &'static [Show],
-    /// The style with the published settings.
-    published: fn() -> Style,
-}
-
-/// Pictures of the styles that filter a map.
-const CARTOON_SHOWS: &[Show] = &[Show::Final, Show::Map, Show::Normals, Show::Depth, Show::Borders, Show::Tones];
-
-/// Pictures of those whose lines are from edges or grazing views.
-const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
-
-/// Pictures of the drawings in charcoal and sand.
-const CHARCOAL_SHOWS: &[Show] = &[Show::Final, Show::Diffuse, Show::Cem, Show::Cet, Show::Paper];
-
-/// Every style, in the order in which they are listed.
-const STYLES: [StyleInfo; 9] = [
-    StyleInfo {
-        style: StyleName::Phong,
-        name: "phong",
-        shows: &[Show::Final],
-        published: || Style::Phong(Phong::default()),
-    },
-    StyleInfo {
-        style: StyleName::ThreePass,
-        name: "three-pass",
-        shows: CARTOON_SHOWS,
-        published: || Style::ThreePass(Cartoon::default()),
-    },
-    StyleInfo {
-        style: StyleName::TwoPass,
-        name: "two-pass",
-        shows: CARTOON_SHOWS,
-        published: || Style::TwoPass(Cartoon::default()),
-    },
-    StyleInfo { style: StyleName::Mrt, name: "mrt", shows: CARTOON_SHOWS, published: || Style::Mrt(Mrt::default()) },
-    StyleInfo {
-        style: StyleName::Inking,
-        name: "inking",
-        shows: LINE_SHOWS,
-        published: || Style::Inking(Inking::default()),
-    },
-    StyleInfo {
-        style: StyleName::Dietrich,
-        name: "dietrich",
-        shows: LINE_SHOWS,
-        published: || Style::Dietrich(Dietrich::default()),
-    },
-    StyleInfo {
-        style: StyleName::Ink,
-        name: "ink",
-        shows: &[Show::Final, Show::Map, Show::Borders, Show::Tones],
-        published: || Style::Ink(Ink::default()),
-    },
-    StyleInfo {
-        style: StyleName::Charcoal,
-        name: "charcoal",
-        shows: CHARCOAL_SHOWS,
-        published: || Style::Charcoal(Charcoal::default()),
-    },
-    StyleInfo {
-        style: StyleName::Sand,
-        name: "sand",
-        shows: CHARCOAL_SHOWS,
-        published: || Style::Sand(Charcoal::default()),
-    },
-];
 
 impl StyleName {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); STYLES.len()] = {
-        let mut all = [("", Self::Phong); STYLES.len()];
-        let mut index = 0;
-        while index < STYLES.len() {
-            all[index] = (STYLES[index].name, STYLES[index].style);
-            index += 1;
-        }
-        all
-    };
-
     /// All names, with commas between.
     pub fn list() -> String {
         Self::ALL.map(|(name, _)| name).join(", ")
@@ -413,10 +333,16 @@ impl StyleName {
         with_lines.map(|info| info.name).collect::<Vec<_>>().join(", ")
     }
 
+    /// All of them, those that draw lines first.
+    pub fn lines_first() -> [Self; Self::ALL.len()] {
+        let mut styles = Self::ALL.map(|(_, style)| style);
+        styles.sort_by_key(|style| !style.has_lines());
+        styles
+    }
+
     /// Its row.
     pub fn info(self) -> &'static StyleInfo {
-        static ROWS: [StyleInfo; STYLES.len()] = STYLES;
-        &ROWS[self as usize]
+        &STYLES[self as usize]
     }
 
     /// As the user writes it.
@@ -430,19 +356,13 @@ impl StyleName {
     }
 }
 
-impl FromStr for StyleName {
-    type Err = ParseError;
-
-    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
-        Ok(find(&Self::ALL, text)?)
-    }
-}
+tinta_geometry::choices!(StyleName);
 
 impl Show {
     /// The option that shows this picture; none for the finished one.
     pub fn to_options(self) -> Options {
-        let name = Self::ALL.iter().find(|(_, known)| *known == self && self != Self::Final);
-        name.map(|(name, _)| ("show".to_owned(), OptionValue::text(*name))).into_iter().collect()
+        let shown = (self != Self::Final).then(|| ("show".to_owned(), OptionValue::text(self.choice_name())));
+        shown.into_iter().collect()
     }
 
     /// Whether only charcoal and sand draw this picture.
@@ -465,13 +385,10 @@ impl Show {
     ];
 }
 
-impl FromStr for Show {
-    type Err = ParseError;
+tinta_geometry::choices!(Show);
 
-    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
-        Ok(find(&Self::ALL, text)?)
-    }
-}
+#[cfg(test)]
+mod settings_tests;
 
 #[cfg(test)]
 mod tests {
@@ -537,6 +454,22 @@ picture: the framebuffer
             both[3],
             "two-pass-settings.frag+tone-steps.frag+filter-sobel.frag+tap-next.frag+texel-map.frag+depth-as-filtered.frag"
         );
+    }
+
+    #[test]
+    fn a_filter_of_two_programs_is_two_blended_passes_and_no_part_of_a_joint_one() {
+        let border = Some(Border { filter: Filter::MitchellTwo, ..Border::default() });
+        let cartoon = Cartoon { border, ..Cartoon::default() };
+        let (two, mrt) = (Style::TwoPass(cartoon.clone()), Style::Mrt(Mrt { border, ..Mrt::default() }));
+        let whole = plan(&Style::ThreePass(cartoon), Show::Final);
+        assert_eq!(
+            whole.passes.iter().map(|pass| pass.name).collect::<Vec<_>>(),
+            ["map", "tones", "border-normals", "border-depth"]
+        );
+        assert_eq!(whole.steps().filter(|(_, step)| matches!(step, Step::Draw(draw) if draw.blend)).count(), 2);
+        assert_eq!(plan(&mrt, Show::Final).passes.len(), 3);
+        let refused = two.plan(&scene(Background::Color(Color([1.0; 3]))), Show::Final).unwrap_err().to_string();
+        assert!(refused.starts_with("filter mitchell-two: its two programs are blended"), "{refused}");
     }
 
     #[test]

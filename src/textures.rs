@@ -2,8 +2,8 @@
 //!
 //! In: settings with a size and a seed. Out: opaque [`Picture`]s whose edges meet where GL repeats them. No GL here.
 //!
-//! The same settings give the same bytes on every machine: the numbers come from a generator of our own instead of the
-//! text's `rand()` (errata V8), sums are done in a fixed order, and nothing that a platform's mathematics library
+//! The same settings give the same bytes on every machine: the numbers come from a generator of our own, or from a `rand()` that
+//! is the same everywhere, instead of that of the platform (errata V8), sums are done in a fixed order, and nothing that a platform's mathematics library
 //! rounds in its own way reaches a byte unrounded.
 //!
 //! ```
@@ -11,7 +11,7 @@
 //! use tinta::Size;
 //! use tinta::textures::NoiseTexture;
 //!
-//! let noise = NoiseTexture { size: Size { width: 32, height: 32 }, seed: 7 };
+//! let noise = NoiseTexture { size: Size { width: 32, height: 32 }, seed: 7, ..NoiseTexture::default() };
 //! assert_eq!(noise.picture()?, noise.clone().picture()?, "the same on every machine");
 //! assert_ne!(noise.picture()?, NoiseTexture { seed: 8, ..noise }.picture()?);
 //! # Ok(())
@@ -20,12 +20,14 @@
 
 mod blur;
 mod contrast;
+mod generator;
 mod noise;
 mod paper;
 
 pub use contrast::{ContrastTexture, Grains};
+pub use generator::Generator;
 pub use noise::NoiseTexture;
-pub use paper::PaperTexture;
+pub use paper::{PaperTexture, height_of};
 
 use crate::error::{Error, Result};
 use crate::picture::Picture;

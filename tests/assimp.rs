@@ -150,7 +150,7 @@ mod with_the_library {
     fn has_library() -> bool {
         let read = read_bytes(&dxf_file(), "box.dxf", b"", &LoadOptions::default());
         match read.map_err(|error| error.to_string()) {
-            Err(message) if message.contains("is read by libassimp, which is not there") => {
+            Err(message) if message.contains("is read by libassimp, which is not installed") => {
                 skip("libassimp: the library is not there; on Debian: apt-get install libassimp5");
                 false
             }
@@ -270,7 +270,7 @@ mod with_the_library {
         }
         for name in ["garbage.ms3d", "garbage.lwo", "garbage.x"] {
             let model = folder.file(name, b"v 0 0 0\nnothing of the kind\n");
-            refused(&tinta(&["edges", &model]), &[name, "libassimp does not read it (", "export it again"]);
+            refused(&tinta(&["edges", &model]), &[name, "libassimp cannot read it (", "export it again"]);
         }
     }
 }

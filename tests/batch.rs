@@ -198,19 +198,19 @@ fn lists_and_folders_that_are_wrong_are_refused_before_any_work() {
     };
     let (a, b) = (render("a", ""), render("b", ""));
     refuse(b"", &["wrong.jsonl: it holds no job"]);
-    refuse(format!("{a}\n{b}\nnonsense").as_bytes(), &["wrong.jsonl: line 3: this is no job"]);
-    refuse(format!("{a}\n\n{a}").as_bytes(), &["line 3: the id a is that of line 1 too"]);
+    refuse(format!("{a}\n{b}\nnonsense").as_bytes(), &["wrong.jsonl: line 3: this is not a job"]);
+    refuse(format!("{a}\n\n{a}").as_bytes(), &["line 3: the id a is already used by line 1"]);
     refuse(
         format!("{a}\n{}", a.replace("\"id\":\"a\"", "\"id\":\"c\"")).as_bytes(),
-        &["line 2: output: a.png is written by line 1 too"],
+        &["line 2: output: a.png is also written by line 1"],
     );
-    refuse(br#"{"id":"a","command":"view"}"#, &["line 1: command: view is none of render, compare, measure"]);
+    refuse(br#"{"id":"a","command":"view"}"#, &["line 1: command: view is not render, compare or measure"]);
     refuse(
         format!("{{\"id\":\"{}\",\"command\":\"render\"}}", "x".repeat(10_000)).as_bytes(),
         &["id: it has 10000 bytes"],
     );
-    refuse(b"{\"id\":\"\\u001b[2J\",\"command\":\"render\"}", &["holds a control character"]);
-    refuse(&[b"{\"id\":\"a\",\"x\":".as_slice(), &[b'['; 60_000]].concat(), &["line 1: this is no job"]);
+    refuse(b"{\"id\":\"\\u001b[2J\",\"command\":\"render\"}", &["contains a control character"]);
+    refuse(&[b"{\"id\":\"a\",\"x\":".as_slice(), &[b'['; 60_000]].concat(), &["line 1: this is not a job"]);
     refuse(&[0, 255, 10, 7], &["line 1: "]);
     refused_in_one_line(&["batch", "no-such.jsonl", "-o", &out], &["no-such.jsonl: there is no such file"]);
     refused_in_one_line(&["batch", "--summary", &folder.path("nothing")], &["batch-list.jsonl: there is no such file"]);
@@ -219,11 +219,14 @@ fn lists_and_folders_that_are_wrong_are_refused_before_any_work() {
     }
     let list = list(&folder, &[a, b.clone()]);
     assert_eq!(tinta(&["batch", &list, "-o", &out, "--slice", "1/2"]).status.code(), Some(0));
-    refused_in_one_line(&["batch", &list, "-o", &out], &["a batch was begun here", "--resume"]);
-    refused_in_one_line(&["batch", &list, "-o", &out, "--slice", "1/2"], &["a batch was begun here"]);
-    refused_in_one_line(&["batch", &list, "-o", &out, "--slice", "2/3"], &["a batch was begun here"]);
+    refused_in_one_line(&["batch", &list, "-o", &out], &["this folder holds a batch;", "--resume"]);
+    refused_in_one_line(&["batch", &list, "-o", &out, "--slice", "1/2"], &["this folder holds a batch;"]);
+    refused_in_one_line(&["batch", &list, "-o", &out, "--slice", "2/3"], &["this folder holds a batch;"]);
     let other = folder.file("other.jsonl", b.as_bytes());
-    refused_in_one_line(&["batch", &other, "-o", &out, "--slice", "2/2"], &["a batch of another list was begun here"]);
+    refused_in_one_line(
+        &["batch", &other, "-o", &out, "--slice", "2/2"],
+        &["this folder holds a batch of another list"],
+    );
     refused_in_one_line(&["batch", &other, "-o", &out, "--slice", "2/2", "--resume"], &["a batch of another list"]);
     assert_eq!(tinta(&["batch", &list, "-o", &out, "--slice", "2/2"]).status.code(), Some(0));
 }

@@ -132,7 +132,7 @@ fn a_killed_run_goes_on_and_does_nothing_twice() {
     let text = String::from_utf8(summary.stdout).unwrap();
     assert!(
         text.starts_with(&format!("{JOBS} jobs: {JOBS} done, 0 failed, 0 missing\n"))
-            && text.ends_with("1 entries of jobs that are not in the list any more\n"),
+            && text.ends_with("1 entries of jobs that are no longer in the list\n"),
         "{text}"
     );
 }
@@ -151,7 +151,7 @@ fn a_worker_that_is_killed_fails_its_job_alone_and_another_takes_its_place() {
     signal("KILL", workers[0]);
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-    assert!(said(&output).contains("tinta: line 2, endless: its worker ended (signal 9)"), "{}", said(&output));
+    assert!(said(&output).contains("tinta: line 2, endless: its worker process ended (signal 9)"), "{}", said(&output));
     let states: Vec<(String, String)> = rows(&journal)
         .iter()
         .map(|row| (row["id"].as_str().unwrap().to_owned(), row["status"].as_str().unwrap().to_owned()))

@@ -21,7 +21,7 @@ fn lists_whose_jobs_write_the_same_by_a_number_or_in_a_folder_are_refused_before
     let one = |id: &str, output: &str| job(id, "render", output, "");
     refuse(
         &[turn("a", "a-%d.png", 3), one("b", "./a-1.png")],
-        "line 2: output: ./a-1.png is written by line 1 too, as one of a-%d.png; name another",
+        "line 2: output: ./a-1.png is also written by line 1, as one of a-%d.png; name another",
     );
     refuse(
         &[one("b", "a-3.png"), one("c", "c.png"), turn("a", "a-%d.png", 3)],
@@ -33,7 +33,7 @@ fn lists_whose_jobs_write_the_same_by_a_number_or_in_a_folder_are_refused_before
     );
     refuse(
         &[turn("a", "%d0.png", 12), one("b", "110.png")],
-        "line 2: output: 110.png is written by line 1 too, as one",
+        "line 2: output: 110.png is also written by line 1, as one",
     );
     // How many there will be only the model knows.
     refuse(&[job("a", "render", "a-%d.png", r#","animate":true"#), one("b", "a-99.png")], "line 2: output: a-99.png");
@@ -101,7 +101,7 @@ fn a_job_that_finds_the_disk_full_stops_the_batch_and_is_done_when_there_is_room
     let said = std::fs::read_to_string(folder.path("said")).unwrap();
     let (listed, lines) = text.split_once("lines\n").unwrap();
     assert!(listed.starts_with("exit 2\n"), "{text}{said}");
-    assert!(said.contains("line 3, p2: p2.ppm: the disk is full; free some space; go on by --resume"), "{said}");
+    assert!(said.contains("line 3, p2: p2.ppm: the disk is full; free some space; continue with --resume"), "{said}");
     assert!(listed.contains("p1.ppm\n") && !listed.contains("p2.ppm"), "{listed}");
     assert!(lines.lines().count() == 2 && !lines.contains("failed"), "{lines}");
 }

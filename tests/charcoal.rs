@@ -2,12 +2,17 @@
 
 use crate::charcoal_twin::{ball, draw, variants};
 use crate::cli::{Folder, refused_in_one_line, tinta};
-use crate::support::{BACKENDS, renderer, scene, scene_with};
+use crate::support::{BACKENDS, full_sizes, renderer, scene, scene_with};
 use std::sync::Arc;
 use tinta::picture::Difference;
-use tinta::styles::{CetFilter, Charcoal, CharcoalRecipe, ContrastOperator, Improvements, Noise, Paper};
+use tinta::preset::OptionValue;
+use tinta::settings::HasSettings;
+use tinta::styles::{CetFilter, Charcoal, CharcoalRecipe, ContrastOperator, Improvements, Noise, TextureSource};
 use tinta::textures::PaperTexture;
-use tinta::{Background, CameraSettings, Color, LoadOptions, Picture, Scene, SceneSettings, Show, Size, Style, load};
+use tinta::{
+    Background, CameraSettings, Color, LoadOptions, Picture, Recipe, Scene, SceneSettings, Show, Size, Style, Target,
+    load,
+};
 
 const EQUAL: Difference = Difference { largest: 0, pixels: 0 };
 
@@ -16,17 +21,30 @@ fn channels(picture: &Picture) -> impl Iterator<Item = u8> + '_ {
     picture.pixels.chunks_exact(4).flat_map(|pixel| pixel[..3].iter().copied())
 }
 
+/// As published, on textures this many texels wide and high, which are made sooner; of the published size where full sizes are
+/// asked for.
+fn with_textures(side: u32) -> Charcoal {
+    let published = Charcoal::default();
+    let small = Size { width: side, height: side };
+    Charcoal { texture_size: if full_sizes() { published.texture_size } else { small }, ..published }
+}
+
+fn small() -> Charcoal {
+    with_textures(128)
+}
+
 fn mean(picture: &Picture) -> f64 {
     channels(picture).map(f64::from).sum::<f64>() / channels(picture).count() as f64
 }
 
 #[test]
 fn smudging_never_lightens_saturation_never_darkens_and_density_darkens_on_average() {
+    let common = small();
+    let base = || common.clone();
     for backend in BACKENDS {
         let mut renderer = renderer(backend);
         let scene = scene("builtin:bust", 200, 200);
         let mut picture = |charcoal: Charcoal| draw(&mut renderer, &scene, &charcoal, Show::Final);
-        let base = Charcoal::default;
         let plain = picture(base());
         let smudged = picture(Charcoal { smudge: true, ..base() });
         assert!(channels(&plain).zip(channels(&smudged)).all(|(plain, smudged)| smudged <= plain));
@@ -40,8 +58,8 @@ fn smudging_never_lightens_saturation_never_darkens_and_density_darkens_on_avera
         let means = [0.0, 20.0, 40.0, 60.0, 80.0, 100.0]
             .map(|density_percent| mean(&picture(Charcoal { density_percent, ..base() })));
         assert!(means.is_sorted_by(|a, b| a > b), "{means:?}");
-        let [darker, closure] =
-            [CharcoalRecipe::Darker, CharcoalRecipe::Closure].map(|r| mean(&picture(Charcoal::recipe(r))));
+        let [darker, closure] = [CharcoalRecipe::Darker, CharcoalRecipe::Closure]
+            .map(|recipe| mean(&picture(Charcoal { texture_size: common.texture_size, ..Charcoal::recipe(recipe) })));
         assert!(darker < means[3] && means[3] < closure, "{darker} {closure}");
     }
 }
@@ -54,7 +72,7 @@ fn the_listing_and_its_parts_draw_the_same_picture() {
         let mut renderer = renderer(backend);
         let scene = scene("builtin:bust", 256, 256);
         for smudge in [false, true] {
-            let listing = Charcoal { smudge, ..Charcoal::default() };
+            let listing = Charcoal { smudge, ..small() };
             let parts = Charcoal { improve, ..listing.clone() };
             let plans = [&listing, &parts].map(|c| Style::Charcoal(c.clone()).plan(&scene, Show::Final).unwrap());
             assert_ne!(plans[0].to_string(), plans[1].to_string(), "they run different shaders");
@@ -81,14 +99,16 @@ fn the_same_seed_gives_the_same_bytes_on_both_backends_and_another_seed_another_
 fn each_choice_changes_the_drawing_and_every_operator_is_its_formula() {
     let mut renderer = renderer(BACKENDS[0]);
     let scene = scene("builtin:bust", 160, 160);
-    let base = Charcoal::default;
+    let common = with_textures(160);
+    let base = || common.clone();
     let plain = draw(&mut renderer, &scene, &base(), Show::Final);
     for other in [
         Charcoal { cet_filter: CetFilter::Mipmap, ..base() },
         Charcoal { noise: Noise::Object, ..base() },
         Charcoal { operator: ContrastOperator::Sigmoid, ..base() },
         Charcoal { cet_exponent: 1.3, ..base() },
-        Charcoal { lights: [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], ..base() },
+        Charcoal { lights: [Some([0.0, 0.0, 1.0]), Some([1.0, 0.0, 0.0])], ..base() },
+        Charcoal { lights: [Some([0.26, 0.9, 0.35]), None], ..base() },
     ] {
         let picture = draw(&mut renderer, &scene, &other, Show::Final);
         assert!(picture.difference(&plain).unwrap().pixels > 1000, "{other:?}");
@@ -150,9 +170,9 @@ fn noise_on_the_object_moves_with_it_and_noise_on_the_screen_does_not() {
 fn specks_in_the_lights_come_from_wrapping_and_go_with_it() {
     let mut renderer = renderer(BACKENDS[0]);
     let scene = ball();
-    let lights = [[0.0, 0.5, 1.0], [0.3, 0.0, 1.0]];
+    let lights = [Some([0.0, 0.5, 1.0]), Some([0.3, 0.0, 1.0])];
     let mut dark = |improve| {
-        let charcoal = Charcoal { lights, improve, ..Charcoal::default() };
+        let charcoal = Charcoal { lights, improve, ..small() };
         let (cet, light) = (draw(&mut renderer, &scene, &charcoal, Show::Cet), Show::Diffuse);
         let light = draw(&mut renderer, &scene, &charcoal, light);
         let pairs = cet.pixels.chunks_exact(4).zip(light.pixels.chunks_exact(4));
@@ -169,7 +189,7 @@ fn paper_covers_the_background_unless_it_is_transparent_and_may_be_a_file() {
     let settings = SceneSettings { size, background: Background::Color(Color([1.0, 0.0, 0.0])), ..Default::default() };
     let charcoal = Charcoal { texture_size: size, ..Charcoal::default() };
     let paper = draw(&mut renderer, &scene_with("builtin:gear", settings.clone()), &charcoal, Show::Paper);
-    let sheet = PaperTexture { size, seed: 0 }.picture().unwrap();
+    let sheet = PaperTexture { size, ..PaperTexture::default() }.picture().unwrap();
     assert!(paper.difference(&sheet).unwrap().largest <= 1);
     let transparent = SceneSettings { background: Background::Transparent, ..settings.clone() };
     let picture = draw(&mut renderer, &scene_with("builtin:gear", transparent), &charcoal, Show::Final);
@@ -177,7 +197,7 @@ fn paper_covers_the_background_unless_it_is_transparent_and_may_be_a_file() {
     assert!(picture.pixels.chunks_exact(4).all(|pixel| [0, 255].contains(&pixel[3])));
     let file = tempfile::Builder::new().suffix(".ppm").tempfile().unwrap();
     std::fs::write(file.path(), b"P6 1 1 255\n\xc0\x80\x40").unwrap();
-    let charcoal = Charcoal { paper: Paper::read(file.path()).unwrap(), ..charcoal };
+    let charcoal = Charcoal { paper: TextureSource::read(file.path()).unwrap(), ..charcoal };
     let picture = draw(&mut renderer, &scene_with("builtin:gear", settings), &charcoal, Show::Final);
     assert_eq!(picture.pixel(0, 0), [0xc0, 0x80, 0x40, 255]);
     let brightest = picture.pixels.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]).max().unwrap();
@@ -185,7 +205,7 @@ fn paper_covers_the_background_unless_it_is_transparent_and_may_be_a_file() {
 }
 
 /// A square in the plane z = 0 with a picture of one colour on it, seen straight on.
-fn textured_square(ppm_color: [u8; 3]) -> Scene {
+fn textured_square(ppm_color: [u8; 3]) -> (tempfile::TempDir, Scene) {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     std::fs::write(at("one.ppm"), [b"P6 1 1 255\n".as_slice(), &ppm_color].concat()).unwrap();
@@ -196,14 +216,13 @@ fn textured_square(ppm_color: [u8; 3]) -> Scene {
     let mut settings = SceneSettings { size: Size { width: 100, height: 100 }, ..SceneSettings::default() };
     settings.camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..settings.camera };
     let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
-    // Read while the file is there.
-    scene.material_pictures(&scene.objects[0]).unwrap();
-    scene
+    // The picture is read when it is drawn with.
+    (folder, scene)
 }
 
 #[test]
 fn sand_is_the_drawing_mixed_with_sepia_by_the_printed_weights_or_rec_709s() {
-    let scene = textured_square([200, 100, 50]);
+    let (_folder, scene) = textured_square([200, 100, 50]);
     let color = [200.0, 100.0, 50.0].map(|value: f64| value / 255.0);
     let weighted = |weights: [f64; 3], alpha: f64| weights.iter().zip(color).map(|(w, c)| w * c).sum::<f64>() + alpha;
     let cases = [
@@ -213,7 +232,7 @@ fn sand_is_the_drawing_mixed_with_sepia_by_the_printed_weights_or_rec_709s() {
     for backend in BACKENDS {
         let mut renderer = renderer(backend);
         for (improve, luminance) in cases {
-            let charcoal = Charcoal { improve, ..Charcoal::default() };
+            let charcoal = Charcoal { improve, ..small() };
             let drawing = draw(&mut renderer, &scene, &charcoal, Show::Final);
             let plan = Style::Sand(charcoal).plan(&scene, Show::Final).unwrap();
             let sand = renderer.draw(&scene, &plan).unwrap();
@@ -275,4 +294,75 @@ fn recipes_are_overruled_by_options_and_nonsense_is_refused_by_name() {
         refused_in_one_line(&line, &["--show"]);
     }
     refused_in_one_line(&["render", "builtin:gear", "-o", &out, "--style", "sand"], &["style sand", "--skin"]);
+}
+
+#[test]
+fn the_recipes_old_name_is_read_wherever_it_stands_and_no_longer_written() {
+    let folder = Folder::new();
+    let drawn = |file: &str, options: &[&str]| {
+        let line = ["render", "builtin:gear", "-o", file, "--size", "32", "--texture-size", "16"];
+        let output = tinta(&[&line[..], options].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        std::fs::read(file).unwrap()
+    };
+    let [new, old] = ["plain", "published"].map(|name| {
+        let file = folder.path(&format!("{name}.png"));
+        drawn(&file, &["--style", "charcoal", "--charcoal", name])
+    });
+    assert!(new == old, "the same picture with the same recipe");
+    let picture = std::path::PathBuf::from(folder.path("published.png"));
+    let mut recipe = Recipe::read(&picture).unwrap();
+    assert_eq!(recipe.options["charcoal"], OptionValue::text("plain"));
+    // A preset of earlier versions.
+    let preset = folder.file("old.toml", b"style = \"charcoal\"\ncharcoal = \"published\"\n");
+    let saved = folder.path("new.toml");
+    assert!(new == drawn(&folder.path("by-preset.png"), &["--preset", &preset, "--save-preset", &saved]));
+    assert!(std::fs::read_to_string(saved).unwrap().contains("charcoal = \"plain\""));
+    // A picture of earlier versions.
+    recipe.options.insert("charcoal".to_owned(), OptionValue::text("published"));
+    let pixels = Picture::read_png(&picture).unwrap();
+    let (earlier, again) = (folder.path("earlier.png"), folder.path("again.png"));
+    Target::check(&earlier, false).unwrap().write_with(&pixels, recipe.note().as_ref()).unwrap();
+    assert_eq!(tinta(&["again", &earlier, "-o", &again]).status.code(), Some(0));
+    assert!(std::fs::read(again).unwrap() == new);
+    // A job.
+    let job = r#"{"id": 1, "command": "render", "model": "builtin:gear", "output": "a.png", "size": 32,
+        "texture-size": 16, "style": "charcoal", "charcoal": "published"}"#;
+    let list = folder.file("jobs.jsonl", job.replace('\n', "").as_bytes());
+    assert_eq!(tinta(&["batch", &list, "-o", &folder.path("batch")]).status.code(), Some(0));
+    assert!(std::fs::read(folder.path("batch/a.png")).unwrap() == new);
+    let offered = Style::table().settings.iter().filter(|setting| setting.name == "charcoal");
+    assert!(offered.flat_map(|setting| setting.kind.offered()).all(|name| name != "published"));
+}
+
+#[test]
+fn textures_of_ones_own_are_drawn_with_and_those_that_tinta_writes_draw_what_it_draws_without() {
+    let folder = Folder::new();
+    assert_eq!(
+        tinta(&["textures", "-o", &folder.path("textures"), "--size", "48", "--seed", "3"]).status.code(),
+        Some(0)
+    );
+    let [cet, noise, paper] = ["cet", "noise", "paper"].map(|name| folder.path(&format!("textures/{name}.png")));
+    let pixels = |file: &str, options: &[&str]| {
+        let out = folder.path(file);
+        let line = ["render", "builtin:gear", "-o", &out, "--size", "64", "--style", "charcoal", "--improve", "wrap"];
+        let output = tinta(&[&line[..], options].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        Picture::read_png(out.as_ref()).unwrap()
+    };
+    let made = pixels("made.png", &["--seed", "3", "--texture-size", "48"]);
+    let own = pixels("own.png", &["--cet", &cet, "--noise-texture", &noise, "--paper", &paper]);
+    assert_eq!(made.difference(&own), Some(EQUAL));
+    let recipe = Recipe::read(folder.path("own.png").as_ref()).unwrap();
+    let files: Vec<&str> = recipe.files.iter().map(|file| file.path.as_str()).collect();
+    assert_eq!(files, [&cet, &noise, &paper]);
+    // A grain without grains is the light alone.
+    let white = folder.file("white.ppm", b"P6 1 1 255\n\xff\xff\xff");
+    let none = pixels("none.png", &["--cet", &white, "--seed", "3", "--texture-size", "48"]);
+    let empty = pixels("empty.png", &["--density", "0", "--seed", "3", "--texture-size", "48"]);
+    assert_eq!(none.difference(&empty), Some(EQUAL));
+    let line = ["render", "builtin:gear", "-o", &folder.path("a.png"), "--style", "charcoal"];
+    for option in ["--cet", "--noise-texture"] {
+        refused_in_one_line(&[&line[..], &[option, "no/such.png"]].concat(), &["no/such.png"]);
+    }
 }

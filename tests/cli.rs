@@ -91,7 +91,10 @@ fn a_model_without_permission_is_refused() {
         skip("a model without permission: the super-user may read everything");
         return;
     }
-    refused_in_one_line(&["render", &model, "-o", &folder.path("out.png")], &["secret.obj: it may not be read"]);
+    refused_in_one_line(
+        &["render", &model, "-o", &folder.path("out.png")],
+        &["secret.obj: there is no permission to read it"],
+    );
 }
 
 #[test]
@@ -102,7 +105,7 @@ fn a_model_is_read_by_its_content_where_its_name_disagrees() {
     let model = folder.file("misnamed.obj", ply);
     let output = tinta(&["render", &model, "-o", &folder.path("out.png"), "--size", "32"]);
     assert_eq!(output.status.code(), Some(0));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("misnamed.obj: named OBJ but holds PLY"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("misnamed.obj: the name says OBJ but the content is PLY"));
 }
 
 #[test]
@@ -160,13 +163,16 @@ fn nonsensical_settings_are_refused_by_name() {
 
 #[test]
 fn command_lines_that_are_not_understood_are_answered_in_one_line() {
-    refused_in_one_line(&["render", "builtin:ant"], &["tinta: ", "--output", "--help"]);
+    refused_in_one_line(
+        &["render", "builtin:ant"],
+        &["tinta: --output is missing; name the picture to write: -o cow.png", "--help"],
+    );
     refused_in_one_line(&["render", "-o", "a.png"], &["<MODEL>"]);
     refused_in_one_line(&["paint"], &["paint"]);
     refused_in_one_line(&["render", "a\nb.obj", "-o", "a.png"], &["a\\nb.obj"]);
     refused_in_one_line(
         &["render", "/dev/zero", "-o", "a.png"],
-        &["/dev/zero: this is no ordinary file but a pipe or a device"],
+        &["/dev/zero: this is a pipe or a device, not a regular file"],
     );
 }
 
@@ -176,7 +182,7 @@ fn outputs_are_checked_before_the_work_and_kept_when_it_fails() {
     refused_in_one_line(&["render", "no-such.obj", "-o", "drawing.xyz"], &["drawing.xyz: nothing is written as .xyz"]);
     refused_in_one_line(
         &["render", "builtin:ant", "-o", "no/such/a.png"],
-        &["no/such/a.png: the folder no/such is not there"],
+        &["no/such/a.png: the folder no/such does not exist"],
     );
     refused_in_one_line(&["render", "builtin:ant", "-o", "a.jpg", "--transparent"], &["a.jpg", "no transparency"]);
     let kept = folder.file("kept.png", b"what was there");

@@ -66,7 +66,7 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse(&svg, &["--style", "three-pass"], &["a.svg: style three-pass draws pixels", ".png"]);
     refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "sand, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
-    refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such is not there"]);
+    refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
     for options in [
         &["--explain"][..],
         &["--dump", "steps"],
@@ -137,10 +137,10 @@ fn lines_need_no_driver() {
 fn a_model_is_not_written_over_and_an_empty_drawing_is_said() {
     let folder = Folder::new();
     let model = folder.file("model.svg", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    refused_in_one_line(&["render", &model, "-o", &model], &["model.svg", "the model itself"]);
+    refused_in_one_line(&["render", &model, "-o", &model], &["model.svg", "this would overwrite the model;"]);
     assert!(std::fs::read_to_string(&model).unwrap().starts_with("v 0 0 0"));
     let output = tinta(&["render", &model, "-o", &folder.path("empty.svg"), "--classes", "crease"]);
     assert_eq!(output.status.code(), Some(0));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("no line of these classes is seen"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no line of these classes is visible"));
     refused_in_one_line(&["render", &model, "-o", &folder.path("a.svgz")], &[".svgz", ".svg or .json for lines"]);
 }

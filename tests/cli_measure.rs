@@ -107,7 +107,7 @@ fn what_cannot_be_measured_is_refused() {
         (&["measure", "--suite", "everything", "-o", &out], &["everything", "papers"]),
         (&["measure", "--merge", &file, "-o", &out], &["file", "line 1"]),
         (&["measure", "--merge", "no-such.jsonl", "-o", &out], &["no-such.jsonl"]),
-        (&["measure", "--merge", "/dev/null", "-o", &out], &["/dev/null", "no ordinary file"]),
+        (&["measure", "--merge", "/dev/null", "-o", &out], &["/dev/null", "not a regular file"]),
         (&["measure", "builtin:gear", "--merge", &file, "-o", &out], &["--merge"]),
     ] {
         refused_in_one_line(arguments, words);

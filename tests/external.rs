@@ -35,10 +35,7 @@ fn material_files_outside_the_models_folder_are_followed_only_when_asked_to() {
     for name in ["../secret.mtl", &absolute, "link.mtl", "up/secret.mtl", "art/../../secret.mtl"] {
         let (color, remarks) = with(name, false);
         assert_eq!((color, remarks.len()), (None, 1), "{name}: {remarks:?}");
-        assert!(
-            remarks[0].contains("lies outside its folder") && remarks[0].contains("--allow-external"),
-            "{remarks:?}"
-        );
+        assert!(remarks[0].contains("is outside its folder") && remarks[0].contains("--allow-external"), "{remarks:?}");
         assert_eq!(with(name, true), (Some([1.0, 0.0, 0.0]), vec![]), "{name}");
     }
     for name in ["art/inside.mtl", "../model/art/inside.mtl", "./art/../art/inside.mtl"] {
@@ -56,16 +53,13 @@ fn pictures_outside_the_models_folder_are_followed_only_when_asked_to() {
         let model = folder.file("model/a.obj", text.as_bytes());
         let loaded = load(&model, &LoadOptions { allow_external, ..LoadOptions::default() }).unwrap();
         let scene = scene(loaded.mesh);
-        let pictures = scene.material_pictures(&scene.objects[0]).unwrap();
+        let pictures = tinta::picture::material_pictures(&scene.objects[0].mesh.materials).unwrap();
         (pictures[0].is_some(), loaded.remarks)
     };
     for name in ["../secret.png", &absolute, "link.png", "up/secret.png", "..\\secret.png"] {
         let (is_there, remarks) = with(name, false);
         assert!(!is_there && remarks.len() == 1, "{name}: {remarks:?}");
-        assert!(
-            remarks[0].contains("lies outside its folder") && remarks[0].contains("--allow-external"),
-            "{remarks:?}"
-        );
+        assert!(remarks[0].contains("is outside its folder") && remarks[0].contains("--allow-external"), "{remarks:?}");
         assert_eq!(with(name, true), (true, vec![]), "{name}");
     }
     for name in ["art/inside.png", "inside-link.png", "../model/art/inside.png"] {
@@ -84,10 +78,12 @@ fn a_picture_exchanged_for_a_link_after_the_model_was_read_is_not_opened() {
         std::fs::remove_file(folder.path("model/art/inside.png")).unwrap();
         std::os::unix::fs::symlink(folder.path("secret.png"), folder.path("model/art/inside.png")).unwrap();
         let scene = scene(mesh);
-        scene.material_pictures(&scene.objects[0]).map(<[_]>::len).map_err(|error| error.to_string())
+        tinta::picture::material_pictures(&scene.objects[0].mesh.materials)
+            .map(|pictures| pictures.len())
+            .map_err(|error| error.to_string())
     };
     let message = exchanged(false).unwrap_err();
-    assert!(message.contains("inside.png: it lies outside the model's folder; --allow-external"), "{message}");
+    assert!(message.contains("inside.png: it is outside the model's folder; --allow-external"), "{message}");
     assert_eq!(exchanged(true), Ok(1));
 }
 
@@ -98,10 +94,10 @@ fn a_skin_that_the_user_names_may_lie_anywhere_and_the_option_is_the_programs_to
     let model = folder.file("model/a.obj", text.as_bytes());
     let skin = Some(folder.path("secret.png").into());
     let scene = scene(load(&model, &LoadOptions { skin, ..LoadOptions::default() }).unwrap().mesh);
-    assert!(scene.material_pictures(&scene.objects[0]).unwrap().iter().all(Option::is_some));
+    assert!(tinta::picture::material_pictures(&scene.objects[0].mesh.materials).unwrap().iter().all(Option::is_some));
 
     let output = tinta(&["edges", &model]);
-    one_line(&String::from_utf8(output.stderr).unwrap(), &["secret.mtl lies outside", "--allow-external follows it"]);
+    one_line(&String::from_utf8(output.stderr).unwrap(), &["secret.mtl is outside", "--allow-external reads it"]);
     refused(&tinta(&["edges", &model, "--strict"]), &["1 missing material"]);
     let output = tinta(&["edges", &model, "--strict", "--allow-external"]);
     assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));

@@ -1,12 +1,12 @@
-//! The floors of the library: `src/lib.rs` lists its modules from the ground up, and each uses only those before it.
+//! The floors of both libraries: their `lib.rs` list the modules from the ground up, and each uses only those before it.
 
 use crate::support::root;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The modules in the order of `src/lib.rs`, and of each name it re-exports the module it is of.
-fn floors() -> (Vec<String>, BTreeMap<String, String>) {
-    let text = std::fs::read_to_string(root().join("src/lib.rs")).unwrap();
+/// The modules in the order of a library's `lib.rs`, and of each name it re-exports the module it is of.
+fn floors(library: &Path) -> (Vec<String>, BTreeMap<String, String>) {
+    let text = std::fs::read_to_string(library.join("lib.rs")).unwrap();
     let mut modules = Vec::new();
     let mut names = BTreeMap::new();
     // A re-export may go over several lines.
@@ -57,15 +57,16 @@ fn named(text: &str) -> Vec<String> {
     found
 }
 
-#[test]
-fn modules_use_only_those_below_them() {
-    let (modules, names) = floors();
-    assert!(modules.len() > 30 && names.contains_key("Renderer"), "src/lib.rs is read wrong: {modules:?} {names:?}");
+/// Asserts it of the library in this folder, which has at least so many modules and uses.
+fn check(folder: &str, least_modules: usize, least_uses: usize) {
+    let library = root().join(folder);
+    let (modules, names) = floors(&library);
+    assert!(modules.len() >= least_modules && names.len() > 10, "{folder}/lib.rs is read wrong: {modules:?} {names:?}");
     let floor = |module: &str| modules.iter().position(|known| known == module);
     let (mut seen, mut upwards) = (0, Vec::new());
     for (own, module) in modules.iter().enumerate() {
-        let mut files = vec![root().join(format!("src/{module}.rs"))];
-        sources(&root().join("src").join(module), &mut files);
+        let mut files = vec![library.join(format!("{module}.rs"))];
+        sources(&library.join(module), &mut files);
         for file in files {
             for name in named(&std::fs::read_to_string(&file).unwrap()) {
                 let used = names.get(&name).unwrap_or(&name);
@@ -77,6 +78,12 @@ fn modules_use_only_those_below_them() {
             }
         }
     }
-    assert!(seen > 500, "only {seen} uses found");
+    assert!(seen > least_uses, "only {seen} uses found in {folder}");
     assert!(upwards.is_empty(), "upwards: {upwards:#?}");
+}
+
+#[test]
+fn modules_use_only_those_below_them() {
+    check("src", 20, 150);
+    check("crates/tinta-geometry/src", 15, 100);
 }

@@ -262,7 +262,7 @@ fn skins_stand_in_their_joints_and_morphs_as_far_as_their_weights_say() {
     file.push("animations", json!({"channels": [], "samplers": []}));
     let loaded = file.load().unwrap();
     assert_eq!(loaded.mesh.positions[0], dvec3(2.0, 0.0, 2.0));
-    assert_eq!(loaded.remarks, ["file.gltf: not drawn: 1 animation (it is drawn as it rests)"]);
+    assert_eq!(loaded.remarks, ["file.gltf: not drawn: 1 animation (drawn in its rest pose)"]);
 }
 
 #[test]

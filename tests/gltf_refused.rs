@@ -27,11 +27,11 @@ fn data_and_pictures_outside_the_models_folder_are_followed_only_when_asked_to()
     }
     let loaded = load(&folder.file("model/box.glb", &file.binary()), &LoadOptions::default()).unwrap();
     assert!(!loaded.mesh.materials[0].has_texture());
-    one_line(&format!("{}\n", loaded.remarks.join(" ")), &["the picture ../skin.png lies outside", "--allow-external"]);
+    one_line(&format!("{}\n", loaded.remarks.join(" ")), &["the picture ../skin.png is outside", "--allow-external"]);
     for (uri, sentence) in [
-        ("https://example.org/box.bin", "it names https://example.org/box.bin, and only files are read"),
+        ("https://example.org/box.bin", "it refers to https://example.org/box.bin, but only files are read"),
         ("file:///etc/passwd", "only files are read"),
-        ("no-such.bin", "its data file no-such.bin is not there"),
+        ("no-such.bin", "its data file no-such.bin is missing"),
         ("data:;base64,!!!!", "broken base64"),
     ] {
         refused(&tinta(&["edges", &folder.file("model/box.gltf", &file.with_buffer(Some(uri)))]), &[sentence]);
@@ -39,7 +39,7 @@ fn data_and_pictures_outside_the_models_folder_are_followed_only_when_asked_to()
     // Out of memory no file is read at all.
     let bytes = file.with_buffer(Some(&absolute));
     let message = read_bytes(&bytes, "m.gltf", b"", &LoadOptions { allow_external: true, ..LoadOptions::default() });
-    assert!(message.unwrap_err().to_string().contains("which is not read from here; export it as GLB"));
+    assert!(message.unwrap_err().to_string().contains("which is not read; export it as GLB"));
 }
 
 #[test]
@@ -82,38 +82,38 @@ fn files_that_lie_about_themselves_are_refused_in_a_sentence() {
     };
     let huge = json!(u64::MAX);
     change("/asset/version", json!("1.0"), "glTF 1.0; only glTF 2 is read");
-    change("/meshes/0/primitives/0/mode", json!(99), "primitives that glTF does not have");
-    change("/meshes/0/primitives/0/material", json!(7), "materials that are not in it");
-    change("/meshes/0/primitives/0/indices", json!(99), "its accessor 99 is not in it");
+    change("/meshes/0/primitives/0/mode", json!(99), "primitives of an unknown kind");
+    change("/meshes/0/primitives/0/material", json!(7), "materials that do not exist");
+    change("/meshes/0/primitives/0/indices", json!(99), "its accessor 99 does not exist");
     change("/meshes/0/primitives/0/attributes", json!({"NORMAL": 1}), "triangles without positions");
-    change("/meshes/0/primitives/0/attributes/NORMAL", json!(3), "numbers an element where 3 are needed");
+    change("/meshes/0/primitives/0/attributes/NORMAL", json!(3), "numbers per element where 3 are needed");
     change("/accessors/0/count", huge.clone(), "take more than 20 times");
     change("/accessors/0/count", json!(25), "its accessor 0 reaches beyond its buffer view");
     change("/accessors/1/count", json!(23), "has 23 elements where 24 are needed");
     change("/accessors/0/byteOffset", huge.clone(), "its accessor 0 reaches beyond");
-    change("/accessors/0/componentType", json!(1), "numbers of a kind that glTF does not have");
-    change("/accessors/0/type", json!("VEC9"), "numbers of a kind that glTF does not have");
+    change("/accessors/0/componentType", json!(1), "its accessor 0 has an unknown type");
+    change("/accessors/0/type", json!("VEC9"), "its accessor 0 has an unknown type");
     change("/accessors/3/count", huge.clone(), "take more than 20 times");
     change("/bufferViews/0/byteLength", huge.clone(), "its buffer view 0 reaches beyond");
     change("/bufferViews/0/byteOffset", huge.clone(), "its buffer view 0 reaches beyond");
     change("/bufferViews/0/byteStride", json!(0), "its accessor 0 reaches beyond");
     change("/bufferViews/0/byteStride", json!(11), "its accessor 0 reaches beyond");
     change("/bufferViews/0/byteStride", huge, "its accessor 0 reaches beyond");
-    change("/bufferViews/0/buffer", json!(9), "its buffer 9 is not in it");
-    change("/nodes/0/mesh", json!(9), "its mesh 9 is not in it");
-    change("/nodes/0/children", json!([0]), "go round in a circle");
-    change("/nodes/0/children", json!([9]), "its node 9 is not in it");
-    change("/nodes", json!([{"children": [2]}, {"children": [2]}, {"mesh": 0}]), "its node 2 lies below two others");
-    change("/nodes", json!([{"mesh": 0}, {"children": [2]}, {"children": [1]}]), "go round in a circle");
-    change("/nodes/0/skin", json!(9), "its skin 9 is not in it");
-    change("/skins/0/joints", json!([9]), "not in it");
-    change("/scene", json!(9), "its scene 9 is not in it");
-    change("/scenes/0/nodes", json!([9]), "its node 9 is not in it");
-    change("/textures/0/source", json!(9), "its picture 9 is not in it");
+    change("/bufferViews/0/buffer", json!(9), "its buffer 9 does not exist");
+    change("/nodes/0/mesh", json!(9), "its mesh 9 does not exist");
+    change("/nodes/0/children", json!([0]), "form a cycle");
+    change("/nodes/0/children", json!([9]), "its node 9 does not exist");
+    change("/nodes", json!([{"children": [2]}, {"children": [2]}, {"mesh": 0}]), "its node 2 has two parents");
+    change("/nodes", json!([{"mesh": 0}, {"children": [2]}, {"children": [1]}]), "form a cycle");
+    change("/nodes/0/skin", json!(9), "its skin 9 does not exist");
+    change("/skins/0/joints", json!([9]), "its node 9 does not exist");
+    change("/scene", json!(9), "its scene 9 does not exist");
+    change("/scenes/0/nodes", json!([9]), "its node 9 does not exist");
+    change("/textures/0/source", json!(9), "its picture 9 does not exist");
     change("/images", json!([{}]), "its picture 0 is neither in it nor beside it");
-    change("/materials/0/pbrMetallicRoughness/baseColorTexture/index", json!(9), "its texture 9 is not in it");
-    change("/meshes", json!("none"), "its JSON is not glTF's");
-    change("/nodes", json!([]), "its node 0 is not in it");
+    change("/materials/0/pbrMetallicRoughness/baseColorTexture/index", json!(9), "its texture 9 does not exist");
+    change("/meshes", json!("none"), "its JSON is not valid glTF");
+    change("/nodes", json!([]), "its node 0 does not exist");
 }
 
 #[test]
@@ -132,7 +132,7 @@ fn glb_that_is_cut_off_anywhere_or_lies_about_its_length_is_refused() {
         bytes[place..place + 4].copy_from_slice(&number.to_le_bytes());
         message(&bytes)
     };
-    assert!(with(4, 1).contains("GLB of version 1"));
+    assert!(with(4, 1).contains("GLB version 1"));
     for length in [0, 11, u32::MAX] {
         assert!(with(8, length).contains(&format!("its header promises {length} bytes")), "{length}");
     }

@@ -1,6 +1,7 @@
-//! Pictures that were looked at once and must stay as they are.
+//! Pictures that were looked at once and must stay as they are: one test for each, its name the picture's.
 //!
-//! `TINTA_UPDATE_GOLDENS=1 cargo test goldens` writes them anew and then fails, so that nobody does so unnoticed.
+//! `TINTA_UPDATE_GOLDENS=1 cargo test goldens::bust_phong` draws that one anew and then fails, so that nobody does so
+//! unnoticed; with `goldens` alone it draws them all.
 
 use crate::support::{BACKENDS, failure_folder, renderer, root, scene_with, side_by_side};
 use tinta::edges::SilhouetteRule;
@@ -16,67 +17,10 @@ const LARGEST_DIFFERENCE: u8 = 3;
 /// Share of pixels that may be different: edges fall on other pixels where another driver rasterises differently.
 const DIFFERENT_SHARE: f64 = 0.005;
 
-struct Case {
-    name: &'static str,
-    model: &'static str,
-    style: Style,
-    show: Show,
-}
-
-fn cases() -> Vec<Case> {
-    let three = |cartoon| Style::ThreePass(cartoon);
-    let paper = Cartoon::default;
-    let tones = |count| three(Cartoon { tones: Tones { count, ..Tones::default() }, border: None, ..paper() });
-    let filter = |filter| three(Cartoon { border: Some(Border { filter, ..Border::default() }), ..paper() });
-    let exact_flat =
-        Inking { silhouette: SilhouetteRule::Exact, paint: PaintMode::Flat, is_smooth: false, ..Inking::default() };
-    let class_colors =
-        Inking { colors: ClassColors::figure_6(), paint: PaintMode::None, line_width_px: 3.0, ..Inking::default() };
-    // As large as the picture, so that every driver reads noise and paper in the middle of their texels.
-    let texture_size = Size { width: 160, height: 160 };
-    let charcoal = |recipe| Style::Charcoal(Charcoal { texture_size, ..Charcoal::recipe(recipe) });
-    let encoded = |map_encoding, slope_threshold| {
-        three(Cartoon { map_encoding, border: Some(Border { slope_threshold, ..Border::default() }), ..paper() })
-    };
-    let wide = three(Cartoon { border: Some(Border { width_px: Some(5), ..Border::default() }), ..paper() });
-    let best = Ink { quality: Quality::Best, ..Ink::default() };
-    let case = |name, model, style, show| Case { name, model, style, show };
-    let (bust, gear, ant, open_box) = ("builtin:bust", "builtin:gear", "builtin:ant", "builtin:open-box");
-    vec![
-        case("bust-phong", bust, Style::named(StyleName::Phong), Show::Final),
-        case("bust-three-pass", bust, three(paper()), Show::Final),
-        case("bust-two-pass", bust, Style::TwoPass(paper()), Show::Final),
-        case("bust-one-tone", bust, tones(1), Show::Final),
-        case("bust-two-tones", bust, tones(2), Show::Final),
-        case("bust-normals", bust, three(paper()), Show::Normals),
-        case("bust-depth", bust, three(paper()), Show::Depth),
-        case("bust-borders", bust, three(paper()), Show::Borders),
-        case("gear-three-pass", gear, three(paper()), Show::Final),
-        case("gear-laplacian8", gear, filter(Filter::Laplacian8), Show::Final),
-        case("gear-sobel", gear, filter(Filter::Sobel), Show::Final),
-        case("gear-roberts", gear, filter(Filter::Roberts), Show::Final),
-        case("gear-mitchell", gear, filter(Filter::Mitchell), Show::Final),
-        case("ant-three-pass", ant, three(paper()), Show::Final),
-        case("open-box-three-pass", open_box, three(paper()), Show::Final),
-        case("bust-inking", bust, Style::named(StyleName::Inking), Show::Final),
-        case("bust-inking-ink", bust, Style::named(StyleName::Inking), Show::Borders),
-        case("bust-inking-paint", bust, Style::named(StyleName::Inking), Show::Tones),
-        case("ant-inking-exact-flat", ant, Style::Inking(exact_flat), Show::Final),
-        case("open-box-class-colors", open_box, Style::Inking(class_colors), Show::Final),
-        case("bust-charcoal", bust, charcoal(CharcoalRecipe::Published), Show::Final),
-        case("bust-charcoal-darker", bust, charcoal(CharcoalRecipe::Darker), Show::Final),
-        case("bust-charcoal-closure", bust, charcoal(CharcoalRecipe::Closure), Show::Final),
-        case("gear-charcoal-cet", gear, charcoal(CharcoalRecipe::Published), Show::Cet),
-        case("gear-biased", gear, encoded(MapEncoding::Biased, false), Show::Borders),
-        case("gear-slope-threshold", gear, encoded(MapEncoding::DepthTexture, true), Show::Borders),
-        case("gear-float", gear, encoded(MapEncoding::Float, false), Show::Borders),
-        case("gear-wide", gear, wide, Show::Borders),
-        case("bust-ink", bust, Style::named(StyleName::Ink), Show::Final),
-        case("open-box-ink", open_box, Style::named(StyleName::Ink), Show::Borders),
-        case("ant-ink-best", ant, Style::Ink(best), Show::Final),
-        case("bust-dietrich", bust, Style::named(StyleName::Dietrich), Show::Final),
-    ]
-}
+const BUST: &str = "builtin:bust";
+const GEAR: &str = "builtin:gear";
+const ANT: &str = "builtin:ant";
+const OPEN_BOX: &str = "builtin:open-box";
 
 /// Share of pixels that differ by more than the tolerance.
 fn different_share(expected: &Picture, actual: &Picture) -> f64 {
@@ -88,46 +32,265 @@ fn different_share(expected: &Picture, actual: &Picture) -> f64 {
     different as f64 / expected.size.pixel_count() as f64
 }
 
-#[test]
-fn goldens_are_drawn_on_both_backends() {
-    let update = std::env::var_os("TINTA_UPDATE_GOLDENS").is_some();
-    let folder = root().join("tests/goldens");
-    let mut failures = Vec::new();
-    for backend in BACKENDS {
-        let mut renderer = renderer(backend);
-        for case in cases() {
-            let settings = SceneSettings { size: Size { width: 160, height: 160 }, ..SceneSettings::default() };
-            let scene = scene_with(case.model, settings);
-            let actual = renderer.draw(&scene, &case.style.plan(&scene, case.show).unwrap()).unwrap();
-            let path = folder.join(format!("{}.png", case.name));
-            if update {
-                std::fs::create_dir_all(&folder).unwrap();
-                write_rgba_png(&actual, &path).unwrap();
-                continue;
-            }
-            let Ok(expected) = Picture::read_png(&path) else {
-                failures.push(format!("{}: the golden is missing", case.name));
-                continue;
-            };
-            let share = different_share(&expected, &actual);
-            if share > DIFFERENT_SHARE {
-                let sheet = failure_folder().join(format!("{}-{backend:?}.png", case.name));
-                write_rgba_png(&side_by_side(&expected, &actual), &sheet).unwrap();
-                failures.push(format!(
-                    "{} on {}: {:.2} % of pixels differ by more than {LARGEST_DIFFERENCE}/255, allowed {:.2} %; \
-                     expected | difference | actual: {}",
-                    case.name,
-                    renderer.context().renderer,
-                    share * 100.0,
-                    DIFFERENT_SHARE * 100.0,
-                    sheet.display()
-                ));
-            }
-        }
+/// Compares a picture with the golden of this name, or writes it; what is wrong, or nothing. `by` says what drew it.
+pub fn compare(name: &str, actual: &Picture, by: &str) -> Result<(), String> {
+    let path = root().join("tests/goldens").join(format!("{name}.png"));
+    if std::env::var_os("TINTA_UPDATE_GOLDENS").is_some() {
+        write_rgba_png(actual, &path).unwrap();
+        return Err(format!("{name} was drawn anew: look at it, then run without TINTA_UPDATE_GOLDENS"));
     }
-    assert!(!update, "goldens were written anew: look at them, then run without TINTA_UPDATE_GOLDENS");
-    let how = "if the change is wanted: TINTA_UPDATE_GOLDENS=1 cargo test goldens, and look at them";
+    let expected = Picture::read_png(&path).map_err(|error| format!("{name}: the golden is missing: {error}"))?;
+    let share = different_share(&expected, actual);
+    if share <= DIFFERENT_SHARE {
+        return Ok(());
+    }
+    let sheet = failure_folder().join(format!("{name}-{by}.png"));
+    write_rgba_png(&side_by_side(&expected, actual), &sheet).unwrap();
+    Err(format!(
+        "{name} by {by}: {:.2} % of the pixels differ by more than {LARGEST_DIFFERENCE}/255, allowed {:.2} %; \
+         expected | difference | actual: {}",
+        share * 100.0,
+        DIFFERENT_SHARE * 100.0,
+        sheet.display()
+    ))
+}
+
+/// How to accept what a test of this name has drawn.
+pub fn how_to_update(test: &str) -> String {
+    format!("if the change is wanted: TINTA_UPDATE_GOLDENS=1 cargo test {test}, and look at it")
+}
+
+/// Draws a model on both backends and compares each picture with the golden.
+fn golden(name: &str, model: &str, style: &Style, show: Show) {
+    let settings = SceneSettings { size: Size { width: 160, height: 160 }, ..SceneSettings::default() };
+    let scene = scene_with(model, settings);
+    let plan = style.plan(&scene, show).unwrap();
+    let failures: Vec<String> = BACKENDS
+        .iter()
+        .filter_map(|backend| {
+            let mut renderer = renderer(*backend);
+            let actual = renderer.draw(&scene, &plan).unwrap();
+            let by = format!("{backend:?}");
+            compare(name, &actual, &by).err().map(|what| format!("{what}; drawn by {}", renderer.context().renderer))
+        })
+        .collect();
+    let how = how_to_update(&format!("goldens::{}", name.replace('-', "_")));
     assert!(failures.is_empty(), "{}\n{how}", failures.join("\n"));
+}
+
+fn tones(count: u8) -> Style {
+    Style::ThreePass(Cartoon { tones: Tones { count, ..Tones::default() }, border: None, ..Cartoon::default() })
+}
+
+fn border(border: Border) -> Style {
+    Style::ThreePass(Cartoon { border: Some(border), ..Cartoon::default() })
+}
+
+fn filter(filter: Filter) -> Style {
+    border(Border { filter, ..Border::default() })
+}
+
+fn encoded(map_encoding: MapEncoding, slope_threshold: bool) -> Style {
+    let border = Some(Border { slope_threshold, ..Border::default() });
+    Style::ThreePass(Cartoon { map_encoding, border, ..Cartoon::default() })
+}
+
+fn charcoal(recipe: CharcoalRecipe) -> Style {
+    // As large as the picture, so that every driver reads noise and paper in the middle of their texels.
+    let texture_size = Size { width: 160, height: 160 };
+    Style::Charcoal(Charcoal { texture_size, ..Charcoal::recipe(recipe) })
+}
+
+#[test]
+fn bust_phong() {
+    golden("bust-phong", BUST, &Style::named(StyleName::Phong), Show::Final);
+}
+
+#[test]
+fn bust_three_pass() {
+    golden("bust-three-pass", BUST, &Style::named(StyleName::ThreePass), Show::Final);
+}
+
+#[test]
+fn bust_two_pass() {
+    golden("bust-two-pass", BUST, &Style::named(StyleName::TwoPass), Show::Final);
+}
+
+#[test]
+fn bust_one_tone() {
+    golden("bust-one-tone", BUST, &tones(1), Show::Final);
+}
+
+#[test]
+fn bust_two_tones() {
+    golden("bust-two-tones", BUST, &tones(2), Show::Final);
+}
+
+#[test]
+fn bust_normals() {
+    golden("bust-normals", BUST, &Style::named(StyleName::ThreePass), Show::Normals);
+}
+
+#[test]
+fn bust_depth() {
+    golden("bust-depth", BUST, &Style::named(StyleName::ThreePass), Show::Depth);
+}
+
+#[test]
+fn bust_borders() {
+    golden("bust-borders", BUST, &Style::named(StyleName::ThreePass), Show::Borders);
+}
+
+#[test]
+fn gear_three_pass() {
+    golden("gear-three-pass", GEAR, &Style::named(StyleName::ThreePass), Show::Final);
+}
+
+#[test]
+fn gear_laplacian8() {
+    golden("gear-laplacian8", GEAR, &filter(Filter::Laplacian8), Show::Final);
+}
+
+#[test]
+fn gear_sobel() {
+    golden("gear-sobel", GEAR, &filter(Filter::Sobel), Show::Final);
+}
+
+#[test]
+fn gear_roberts() {
+    golden("gear-roberts", GEAR, &filter(Filter::Roberts), Show::Final);
+}
+
+#[test]
+fn gear_mitchell() {
+    golden("gear-mitchell", GEAR, &filter(Filter::Mitchell), Show::Final);
+}
+
+#[test]
+fn gear_mitchell_two() {
+    golden("gear-mitchell-two", GEAR, &filter(Filter::MitchellTwo), Show::Final);
+}
+
+#[test]
+fn gear_gaussian() {
+    golden("gear-gaussian", GEAR, &filter(Filter::Gaussian), Show::Final);
+}
+
+#[test]
+fn ant_three_pass() {
+    golden("ant-three-pass", ANT, &Style::named(StyleName::ThreePass), Show::Final);
+}
+
+#[test]
+fn open_box_three_pass() {
+    golden("open-box-three-pass", OPEN_BOX, &Style::named(StyleName::ThreePass), Show::Final);
+}
+
+#[test]
+fn bust_inking() {
+    golden("bust-inking", BUST, &Style::named(StyleName::Inking), Show::Final);
+}
+
+#[test]
+fn bust_inking_ink() {
+    golden("bust-inking-ink", BUST, &Style::named(StyleName::Inking), Show::Borders);
+}
+
+#[test]
+fn bust_inking_paint() {
+    golden("bust-inking-paint", BUST, &Style::named(StyleName::Inking), Show::Tones);
+}
+
+#[test]
+fn ant_inking_exact_flat() {
+    let flat =
+        Inking { silhouette: SilhouetteRule::Exact, paint: PaintMode::Flat, is_smooth: false, ..Inking::default() };
+    golden("ant-inking-exact-flat", ANT, &Style::Inking(flat), Show::Final);
+}
+
+#[test]
+fn open_box_class_colors() {
+    let lines =
+        Inking { colors: ClassColors::figure_6(), paint: PaintMode::None, line_width_px: 3.0, ..Inking::default() };
+    golden("open-box-class-colors", OPEN_BOX, &Style::Inking(lines), Show::Final);
+}
+
+#[test]
+fn bust_charcoal() {
+    golden("bust-charcoal", BUST, &charcoal(CharcoalRecipe::Plain), Show::Final);
+}
+
+#[test]
+fn bust_charcoal_darker() {
+    golden("bust-charcoal-darker", BUST, &charcoal(CharcoalRecipe::Darker), Show::Final);
+}
+
+#[test]
+fn bust_charcoal_closure() {
+    golden("bust-charcoal-closure", BUST, &charcoal(CharcoalRecipe::Closure), Show::Final);
+}
+
+#[test]
+fn gear_charcoal_cet() {
+    golden("gear-charcoal-cet", GEAR, &charcoal(CharcoalRecipe::Plain), Show::Cet);
+}
+
+#[test]
+fn gear_biased() {
+    golden("gear-biased", GEAR, &encoded(MapEncoding::Biased, false), Show::Borders);
+}
+
+#[test]
+fn gear_slope_threshold() {
+    golden("gear-slope-threshold", GEAR, &encoded(MapEncoding::DepthTexture, true), Show::Borders);
+}
+
+#[test]
+fn gear_float() {
+    golden("gear-float", GEAR, &encoded(MapEncoding::Float, false), Show::Borders);
+}
+
+#[test]
+fn gear_wide() {
+    golden("gear-wide", GEAR, &border(Border { width_px: Some(5), ..Border::default() }), Show::Borders);
+}
+
+#[test]
+fn bust_ink() {
+    golden("bust-ink", BUST, &Style::named(StyleName::Ink), Show::Final);
+}
+
+#[test]
+fn open_box_ink() {
+    golden("open-box-ink", OPEN_BOX, &Style::named(StyleName::Ink), Show::Borders);
+}
+
+#[test]
+fn ant_ink_best() {
+    golden("ant-ink-best", ANT, &Style::Ink(Ink { quality: Quality::Best, ..Ink::default() }), Show::Final);
+}
+
+#[test]
+fn bust_dietrich() {
+    golden("bust-dietrich", BUST, &Style::named(StyleName::Dietrich), Show::Final);
+}
+
+/// The goldens of the window, or all others.
+pub fn names(of_the_window: bool) -> Vec<String> {
+    let files = std::fs::read_dir(root().join("tests/goldens")).unwrap().map(|file| file.unwrap().path());
+    let names = files.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned());
+    names.filter(|name| name.starts_with("window-") == of_the_window).collect()
+}
+
+#[test]
+fn every_golden_has_its_test() {
+    let names = names(false);
+    let tests = include_str!("goldens.rs");
+    for name in &names {
+        let test = format!("\nfn {}() {{\n", name.replace('-', "_"));
+        assert!(tests.contains(&test) && tests.contains(&format!("golden(\"{name}\", ")), "{name}.png has no test");
+    }
+    assert_eq!(tests.matches("\n    golden(\"").count(), names.len(), "two tests draw one golden");
 }
 
 #[test]

@@ -86,7 +86,7 @@ fn bash_completes_commands_options_names_models_and_files() {
         check("bash", typed, &answers(&words), expected, not);
     }
     assert_eq!(answers(&["tinta", "render", "builtin", ":", "b"]), ["bust"]);
-    assert_eq!(answers(&["tinta", "render", "builtin", ":"]).len(), 4);
+    assert_eq!(answers(&["tinta", "render", "builtin", ":"]).len(), tinta::mesh::BUILTINS.len());
     assert_eq!(answers(&["tinta", "view", "--preset", "paper", ":", "valente"]), ["valente-charcoal", "valente-sand"]);
     let mut files = answers(&["tinta", "render", "--fov", ""]);
     files.sort_unstable();

@@ -11,8 +11,8 @@ const ALLOWED_KIB: u64 = 2048;
 /// Held by each test here, so that none counts another's memory.
 static ALONE: Mutex<()> = Mutex::new(());
 
-#[test]
-fn a_thousand_frames_leave_memory_and_objects_as_they_were() {
+/// Draws so many frames of each style at a time, and looks at memory so often before and after.
+fn check_frames(frames_at_once: usize, looks: usize) {
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let mesh = load("builtin:ant", &LoadOptions::default()).unwrap().mesh;
     let settings = SceneSettings { size: Size { width: 64, height: 64 }, ..SceneSettings::default() };
@@ -36,23 +36,34 @@ fn a_thousand_frames_leave_memory_and_objects_as_they_were() {
         };
         // Until the driver has compiled all, and the allocator settled.
         (0..6).for_each(|_| {
-            frames(30);
+            frames(frames_at_once);
         });
         let objects = frames(5);
         assert!(objects > 0);
         // The least of many looks is what is held.
         let mut least = || {
             let look = |_| {
-                assert_eq!(frames(30), objects);
+                assert_eq!(frames(frames_at_once), objects);
                 resident_kib()
             };
-            (0..10).map(look).min().unwrap()
+            (0..looks).map(look).min().unwrap()
         };
         let memory = least();
         let grown = least().saturating_sub(memory);
         println!("{backend:?}, {} styles: grown by {grown} KiB", styles.len());
-        assert!(grown < ALLOWED_KIB, "{backend:?}: 300 frames in each style grew the process by {grown} KiB");
+        assert!(grown < ALLOWED_KIB, "{backend:?}: frames of each style grew the process by {grown} KiB");
     }
+}
+
+#[test]
+fn a_few_frames_leave_memory_and_objects_as_they_were() {
+    check_frames(3, 5);
+}
+
+#[test]
+#[ignore = "exhaustive: hundreds of frames in each style by both backends"]
+fn a_thousand_frames_leave_memory_and_objects_as_they_were() {
+    check_frames(30, 10);
 }
 
 #[test]
@@ -96,8 +107,7 @@ fn a_renderer_deletes_every_object_it_made() {
 }
 
 #[cfg(feature = "window")]
-#[test]
-fn a_thousand_style_switches_and_model_reloads_leave_memory_and_objects_as_they_were() {
+fn check_switches(at_once: usize, looks: [usize; 2]) {
     use tinta::window::{Drawer, Job, Orbit, Side};
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let mut drawer = Drawer::new(Backend::Egl).unwrap_or_else(|error| panic!("{error}"));
@@ -123,27 +133,43 @@ fn a_thousand_style_switches_and_model_reloads_leave_memory_and_objects_as_they_
         drawer.live_objects()
     };
     (0..4).for_each(|_| {
-        switches(160);
+        switches(2 * at_once);
     });
-    let objects = switches(80);
+    let objects = switches(at_once);
     assert!(objects > 0);
     // Charcoal's textures find another place in the allocator each time: the least of many looks is what is held.
     let mut least = |rounds: usize| {
         let look = |_| {
-            assert_eq!(switches(80), objects);
+            assert_eq!(switches(at_once), objects);
             resident_kib()
         };
         (0..rounds).map(look).min().unwrap()
     };
-    let memory = least(6);
-    let grown = least(13).saturating_sub(memory);
+    let memory = least(looks[0]);
+    let mut grown = least(looks[1]).saturating_sub(memory);
+    if grown >= ALLOWED_KIB {
+        // What leaks has grown further by then; what the allocator kept for a while has gone.
+        grown = least(2 * looks[1]).saturating_sub(memory);
+    }
     println!("grown by {grown} KiB");
-    assert!(grown < ALLOWED_KIB, "1,000 style switches and 100 reloads grew the process by {grown} KiB");
+    assert!(grown < ALLOWED_KIB, "style switches and reloads grew the process by {grown} KiB");
+}
+
+#[cfg(feature = "window")]
+#[test]
+fn a_hundred_style_switches_and_ten_model_reloads_leave_memory_and_objects_as_they_were() {
+    check_switches(20, [3, 3]);
+}
+
+#[cfg(feature = "window")]
+#[test]
+#[ignore = "exhaustive: a thousand switches"]
+fn a_thousand_style_switches_and_model_reloads_leave_memory_and_objects_as_they_were() {
+    check_switches(80, [6, 13]);
 }
 
 #[cfg(target_os = "linux")]
-#[test]
-fn a_worker_of_a_batch_does_hundreds_of_jobs_in_the_memory_of_the_first() {
+fn check_worker(looks: usize, has_charcoal: bool) {
     use std::io::{BufRead, BufReader, Write};
     use std::process::{Command, Stdio};
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
@@ -161,7 +187,8 @@ fn a_worker_of_a_batch_does_hundreds_of_jobs_in_the_memory_of_the_first() {
     let mut work = |count: usize| {
         for _ in 0..count {
             let style = StyleName::ALL[id % StyleName::ALL.len()].1;
-            let style = if style == StyleName::Sand { StyleName::Phong } else { style }.name();
+            let is_left_out = style == StyleName::Sand || style == StyleName::Charcoal && !has_charcoal;
+            let style = if is_left_out { StyleName::Phong } else { style }.name();
             let (model, size) = (["bust", "ant", "open-box", "gear"][id % 4], 24 + 8 * (id % 3));
             let job = format!(
                 r#"{{"id":{id},"command":"render","model":"builtin:{model}","output":"{}.png","size":{size},"style":"{style}"}}"#,
@@ -175,13 +202,26 @@ fn a_worker_of_a_batch_does_hundreds_of_jobs_in_the_memory_of_the_first() {
         resident_kib_of(&worker.id().to_string())
     };
     // Charcoal's textures, 3 MiB, find another place in the allocator each time: the least of many looks is what is held.
-    let mut least = || (0..8).map(|_| work(18)).min().unwrap();
+    let mut least = || (0..looks).map(|_| work(18)).min().unwrap();
     let (_, before, after) = (least(), least(), least());
     let grown = after.saturating_sub(before);
-    println!("144 jobs after 288: grown by {grown} KiB");
-    assert!(grown < ALLOWED_KIB, "144 jobs grew the worker by {grown} KiB");
+    println!("{looks} times 18 jobs after twice as many: grown by {grown} KiB");
+    assert!(grown < ALLOWED_KIB, "the last third of the jobs grew the worker by {grown} KiB");
     drop(jobs);
     assert!(worker.wait().unwrap().success());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_worker_of_a_batch_does_dozens_of_jobs_in_the_memory_of_the_first() {
+    check_worker(3, false);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+#[ignore = "exhaustive: 432 jobs, charcoal among them"]
+fn a_worker_of_a_batch_does_hundreds_of_jobs_in_the_memory_of_the_first() {
+    check_worker(8, true);
 }
 
 /// What needs objects of its own: drawn textures, a copy of the depth, a larger surface.

@@ -37,8 +37,29 @@ fn every_dependency_has_an_allowed_licence_and_comes_from_the_registry() {
         assert!(is_satisfied(licence, &allowed), "{name} has the licence {licence:?}");
         // A crate from the registry is named with its version only, any other with where it comes from.
         let elsewhere = name.contains("(/") || name.contains("://");
-        assert!(!elsewhere || name.starts_with("tinta "), "{name} does not come from the registry");
+        let own = name.starts_with("tinta ") || name.starts_with("tinta-geometry ");
+        assert!(!elsewhere || own, "{name} does not come from the registry");
     }
+}
+
+/// Most crates that may be resolved for the library without its features, the two of this workspace not counted.
+const MOST_CRATES_OF_THE_LIBRARY: usize = 60;
+
+#[test]
+fn the_library_alone_needs_few_crates() {
+    let output = Command::new(env!("CARGO"))
+        .args(["tree", "--offline", "--locked", "-p", "tinta", "--no-default-features", "--edges", "normal,build"])
+        .args(["--prefix", "none", "--no-dedupe", "--format", "{p}"])
+        .current_dir(root())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let crates: std::collections::BTreeSet<&str> =
+        text.lines().filter(|line| !line.is_empty() && !line.starts_with("tinta")).collect();
+    let names: Vec<&str> = crates.iter().filter_map(|name| name.split(' ').next()).collect();
+    assert!(names.contains(&"glow") && !names.contains(&"clap") && !names.contains(&"plotters"), "{names:?}");
+    assert!(names.len() <= MOST_CRATES_OF_THE_LIBRARY, "{} crates: {names:?}", names.len());
 }
 
 #[test]
@@ -48,4 +69,28 @@ fn the_licence_check_notices_what_is_not_allowed() {
     assert!(!is_satisfied("GPL-3.0-only", &allowed));
     assert!(!is_satisfied("MIT AND GPL-3.0-only", &allowed));
     assert!(!is_satisfied("none", &allowed));
+}
+
+#[test]
+fn every_crate_that_is_named_has_a_row_in_the_documents() {
+    let page = std::fs::read_to_string(root().join("docs/dependencies.md")).unwrap();
+    let cells: std::collections::BTreeSet<&str> = page
+        .lines()
+        .filter_map(|line| line.strip_prefix("| "))
+        .flat_map(|row| row.split(" |").next().unwrap_or_default().split(", "))
+        .collect();
+    for manifest in ["Cargo.toml", "crates/tinta-geometry/Cargo.toml"] {
+        let text = std::fs::read_to_string(root().join(manifest)).unwrap();
+        let mut is_list = false;
+        let mut found = 0;
+        for line in text.lines() {
+            if line.starts_with('[') {
+                is_list = line.ends_with("dependencies]");
+            } else if let Some((name, _)) = line.split_once(" = ").filter(|_| is_list) {
+                found += 1;
+                assert!(name == "tinta-geometry" || cells.contains(name), "docs/dependencies.md has no row for {name}");
+            }
+        }
+        assert!(found > 10, "{manifest} names {found} crates");
+    }
 }

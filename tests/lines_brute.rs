@@ -2,7 +2,7 @@
 //! formulas of their own in world space.
 
 use crate::lines_random::random_scene;
-use crate::lines_support::{length, lines, pierce, scene_of};
+use crate::lines_support::{length, lines, pierce, scene_of, scenes_wanted};
 use crate::shapes::Random;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use std::collections::BTreeMap;
@@ -356,10 +356,16 @@ fn check(kind: u32, seed: u64) -> Agreement {
     agreement
 }
 
-/// Checks the scenes of seeds 1 to 70, or of as many as `TINTA_LINE_SCENES` says.
-fn check_many(kind: u32) {
-    let wanted = std::env::var("TINTA_LINE_SCENES").ok();
-    let cases = wanted.map_or(70, |count| count.parse().expect("TINTA_LINE_SCENES is a number"));
+/// How many random scenes the quick tests draw of each kind.
+const FEW: u64 = 8;
+
+/// How many the exhaustive ones draw, or as many as `TINTA_LINE_SCENES` says.
+fn many() -> u64 {
+    scenes_wanted().unwrap_or(70)
+}
+
+/// Checks the scenes of seeds 1 to so many.
+fn check_many(kind: u32, cases: u64) {
     let mut all = Agreement::default();
     let mut failures = Vec::new();
     for seed in 1..=cases {
@@ -376,34 +382,55 @@ fn check_many(kind: u32) {
     }
     println!("kind {kind}: {all:?}");
     assert!(failures.is_empty(), "kind {kind}: {} of {cases} scenes fail: {failures:?}", failures.len());
-    assert!(all.segments > 500, "{all:?}");
+    assert!(all.segments as u64 > 7 * cases, "{all:?}");
 }
 
 #[test]
+fn what_is_seen_of_a_few_loose_triangles_is_what_rays_see() {
+    check_many(0, FEW);
+}
+
+#[test]
+#[ignore = "exhaustive: 70 random scenes"]
 fn what_is_seen_of_loose_triangles_is_what_rays_see() {
-    check_many(0);
+    check_many(0, many());
 }
 
 #[test]
+fn what_is_seen_of_a_few_boxes_through_one_another_is_what_rays_see() {
+    check_many(1, FEW);
+}
+
+#[test]
+#[ignore = "exhaustive: 70 random scenes"]
 fn what_is_seen_of_boxes_through_one_another_is_what_rays_see() {
-    check_many(1);
+    check_many(1, many());
 }
 
 #[test]
+fn what_is_seen_of_a_few_open_spheres_is_what_rays_see() {
+    check_many(2, FEW);
+}
+
+#[test]
+#[ignore = "exhaustive: 70 random scenes"]
 fn what_is_seen_of_open_spheres_is_what_rays_see() {
-    check_many(2);
+    check_many(2, many());
 }
 
 #[test]
+fn what_is_seen_of_a_few_faces_that_share_corners_anyhow_is_what_rays_see() {
+    check_many(3, FEW);
+}
+
+#[test]
+#[ignore = "exhaustive: 70 random scenes"]
 fn what_is_seen_of_faces_that_share_corners_anyhow_is_what_rays_see() {
-    check_many(3);
+    check_many(3, many());
 }
 
-#[test]
-fn what_is_seen_of_the_ant_and_the_gear_is_what_rays_see() {
-    for (name, view, parallel) in
-        [("ant", "33,17", false), ("ant", "33,17", true), ("gear", "30,15", false), ("gear", "front", false)]
-    {
+fn check_models(views: &[(&str, &str, bool)]) {
+    for &(name, view, parallel) in views {
         let mesh = load(&format!("builtin:{name}"), &LoadOptions::default()).unwrap().mesh;
         let scene = scene_of(vec![mesh], crate::lines_support::view(view, parallel));
         let found = lines(&scene);
@@ -421,6 +448,22 @@ fn what_is_seen_of_the_ant_and_the_gear_is_what_rays_see() {
         let share = agreement.wrong_px / agreement.length_px;
         assert!(agreement.longest_wrong_px <= 0.05 && share < 1e-3, "{name} {view} {parallel}: {agreement:?}");
     }
+}
+
+#[test]
+fn what_is_seen_of_the_gear_from_the_front_is_what_rays_see() {
+    check_models(&[("gear", "front", false)]);
+}
+
+#[test]
+#[ignore = "exhaustive: two models, two views of each"]
+fn what_is_seen_of_the_ant_and_the_gear_is_what_rays_see() {
+    check_models(&[
+        ("ant", "33,17", false),
+        ("ant", "33,17", true),
+        ("gear", "30,15", false),
+        ("gear", "front", false),
+    ]);
 }
 
 #[test]

@@ -116,6 +116,34 @@ fn lines_turn_with_their_camera() {
 }
 
 #[test]
+fn rolling_the_camera_in_an_axis_view_of_flat_faces_changes_no_line() {
+    for (name, mesh) in models().into_iter().filter(|(name, _)| !name.ends_with("bust") && !name.ends_with("sphere")) {
+        for direction in ["front", "right", "top"] {
+            for parallel in [false, true] {
+                let scene = seen(&mesh, &view(direction, parallel));
+                // From farther away, so that the corners stay in the picture.
+                let mut camera = explicit(&scene, parallel);
+                let away = scene.camera.eye - scene.camera.target;
+                camera.eye = Some(scene.camera.target + away * 2.0);
+                camera.far = None;
+                camera.near = None;
+                if parallel {
+                    camera.height = Some(scene.radius * 3.0);
+                }
+                let expected = lines(&seen(&mesh, &camera));
+                for degrees in [27.0, 45.0, 63.0, 90.0, 152.0f64] {
+                    let roll = DMat3::from_axis_angle(away.normalize(), degrees.to_radians());
+                    let rolled = CameraSettings { up: Some(roll * scene.camera.up), ..camera.clone() };
+                    let actual = lines(&seen(&mesh, &rolled));
+                    let what = format!("{name} from the {direction}, parallel {parallel}, rolled by {degrees} degrees");
+                    assert_same_sums(&expected, &actual, 1e-6, &what);
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn lines_of_any_size_are_the_same() {
     for (name, mesh) in models() {
         for parallel in [false, true] {

@@ -6,7 +6,7 @@
 
 use crate::lines_families::{FAMILIES, Family};
 use crate::lines_invariance::{explicit, shuffled};
-use crate::lines_support::{length, lines, px, scene_of};
+use crate::lines_support::{length, lines, px, scene_of, scenes_wanted};
 use crate::shapes::Random;
 use crate::support::{public_models, skip};
 use glam::{DVec2, DVec3};
@@ -323,10 +323,8 @@ impl Found {
     }
 }
 
-/// Checks as many scenes of a family as are asked for.
-fn check_family((name, make): &(&str, Family)) {
-    let wanted = std::env::var("TINTA_LINE_SCENES").ok();
-    let count: u64 = wanted.map_or(15, |count| count.parse().expect("TINTA_LINE_SCENES is a number"));
+/// Checks the scenes of a family of seeds 1 to so many.
+fn check_family((name, make): &(&str, Family), count: u64) {
     let (mut failures, mut samples, mut drawn) = (Vec::new(), 0, 0);
     for seed in 1..=count {
         let mut random = Random::seeded(seed);
@@ -344,9 +342,9 @@ fn check_family((name, make): &(&str, Family)) {
     assert!(drawn * 10 > samples && samples as u64 > 100 * count, "{name}: {drawn} of {samples} drawn");
 }
 
-/// The same over a mesh in the six named views.
-fn check_views(name: &str, mesh: &Mesh, failures: &mut Vec<String>) {
-    for view in ["front", "back", "left", "right", "top", "bottom"] {
+/// The same over a mesh in some of the named views.
+fn check_views(name: &str, mesh: &Mesh, views: &[&str], failures: &mut Vec<String>) {
+    for view in views {
         for parallel in [true, false] {
             let scene = scene_of(vec![mesh.clone()], crate::lines_support::view(view, parallel));
             let found = Sides::new(&scene).check(&lines(&scene), 1500, &mut Random(7));
@@ -358,17 +356,31 @@ fn check_views(name: &str, mesh: &Mesh, failures: &mut Vec<String>) {
     }
 }
 
-#[test]
-fn what_any_side_of_a_line_shows_is_drawn_of_the_models_that_ship() {
+const ALL_VIEWS: [&str; 6] = ["front", "back", "left", "right", "top", "bottom"];
+
+fn check_builtins(names: &[&str], views: &[&str]) {
     let mut failures = Vec::new();
-    for name in ["open-box", "gear", "ant", "bust"] {
+    for name in names {
         let mesh = load(&format!("builtin:{name}"), &LoadOptions::default()).unwrap().mesh;
-        check_views(name, &mesh, &mut failures);
+        check_views(name, &mesh, views, &mut failures);
     }
     assert!(failures.is_empty(), "{failures:#?}");
 }
 
 #[test]
+fn what_any_side_of_a_line_shows_is_drawn_of_a_box_and_a_gear() {
+    check_builtins(&["open-box"], &ALL_VIEWS);
+    check_builtins(&["gear"], &["front", "top"]);
+}
+
+#[test]
+#[ignore = "exhaustive: four models in six views"]
+fn what_any_side_of_a_line_shows_is_drawn_of_the_models_that_ship() {
+    check_builtins(&["open-box", "gear", "ant", "bust"], &ALL_VIEWS);
+}
+
+#[test]
+#[ignore = "exhaustive: six public models in six views"]
 fn what_any_side_of_a_line_shows_is_drawn_of_public_models_in_the_named_views() {
     let Some(folder) = public_models() else { return };
     let mut failures = Vec::new();
@@ -378,7 +390,12 @@ fn what_any_side_of_a_line_shows_is_drawn_of_public_models_in_the_named_views() 
             skip(&format!("{file}: not in {}", folder.display()));
             continue;
         }
-        check_views(file, &load(path.to_str().unwrap(), &LoadOptions::default()).unwrap().mesh, &mut failures);
+        check_views(
+            file,
+            &load(path.to_str().unwrap(), &LoadOptions::default()).unwrap().mesh,
+            &ALL_VIEWS,
+            &mut failures,
+        );
     }
     assert!(failures.is_empty(), "{failures:#?}");
 }
@@ -392,11 +409,10 @@ fn seen(scene: &Scene) -> BTreeMap<Class, f64> {
     sums
 }
 
-#[test]
-fn neither_order_nor_size_nor_place_nor_turning_inside_out_changes_what_is_seen() {
+fn check_invariance(seeds: u64) {
     let mut failures = Vec::new();
     for (name, make) in &FAMILIES {
-        for seed in 1..=6 {
+        for seed in 1..=seeds {
             let mut random = Random::seeded(seed);
             let scene = make(&mut random);
             let expected = seen(&scene);
@@ -452,11 +468,32 @@ fn neither_order_nor_size_nor_place_nor_turning_inside_out_changes_what_is_seen(
 }
 
 #[test]
-fn what_any_side_of_a_line_shows_is_drawn_once_and_nothing_else() {
+fn neither_order_nor_size_nor_place_nor_turning_inside_out_changes_what_is_seen_of_one_scene_a_family() {
+    check_invariance(1);
+}
+
+#[test]
+#[ignore = "exhaustive: six scenes of each family"]
+fn neither_order_nor_size_nor_place_nor_turning_inside_out_changes_what_is_seen() {
+    check_invariance(6);
+}
+
+fn check_families(count: u64) {
     let failed: Vec<_> = FAMILIES
         .iter()
-        .filter(|family| std::panic::catch_unwind(|| check_family(family)).is_err())
+        .filter(|family| std::panic::catch_unwind(|| check_family(family, count)).is_err())
         .map(|(name, _)| name)
         .collect();
     assert!(failed.is_empty(), "{failed:?}");
+}
+
+#[test]
+fn what_any_side_of_a_line_shows_in_a_few_scenes_is_drawn_once_and_nothing_else() {
+    check_families(4);
+}
+
+#[test]
+#[ignore = "exhaustive: 15 scenes of each family"]
+fn what_any_side_of_a_line_shows_is_drawn_once_and_nothing_else() {
+    check_families(scenes_wanted().unwrap_or(15));
 }

@@ -5,6 +5,12 @@ use tinta::edges::{Class, ClassSet};
 use tinta::lines::{LineSegment, LineSettings, VisibleLines};
 use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
 
+/// How many random scenes `TINTA_LINE_SCENES` asks the exhaustive tests for, of each kind or family.
+pub fn scenes_wanted() -> Option<u64> {
+    let wanted = std::env::var("TINTA_LINE_SCENES").ok()?;
+    Some(wanted.parse().expect("TINTA_LINE_SCENES is a number"))
+}
+
 /// A square picture of meshes, 512 pixels.
 pub fn scene_of(meshes: Vec<Mesh>, camera: CameraSettings) -> Scene {
     let settings = SceneSettings { camera, size: Size { width: 512, height: 512 }, ..SceneSettings::default() };

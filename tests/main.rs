@@ -1,5 +1,6 @@
 //! Tests that need a GL context or the finished program. One binary, so that it links once.
 
+mod adding_a_style;
 mod animation;
 mod api;
 mod assimp;
@@ -7,6 +8,7 @@ mod batch;
 mod batch_killed;
 mod batch_places;
 mod charcoal;
+mod charcoal_beyond;
 mod charcoal_twin;
 mod cli;
 mod cli_ink;
@@ -26,6 +28,8 @@ mod gltf;
 mod gltf_files;
 mod gltf_refused;
 mod goldens;
+#[cfg(feature = "window")]
+mod goldens_window;
 mod hiding;
 mod hostile;
 mod improved;
@@ -60,6 +64,7 @@ mod shared_models;
 mod silhouettes;
 mod standard_output;
 mod stress;
+mod submission;
 mod support;
 mod svg;
 mod textures;

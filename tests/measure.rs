@@ -291,3 +291,28 @@ fn exact_inking_is_nearly_without_error_and_the_papers_rule_is_not_in_perspectiv
     let (exact, paper) = (f1(SilhouetteRule::Exact), f1(SilhouetteRule::Published));
     assert!(exact > paper && exact > 0.9, "{exact} {paper}");
 }
+
+#[test]
+fn recall_counts_length_and_not_pieces() {
+    let scene = scene_with(
+        "builtin:ant",
+        SceneSettings { size: Size { width: SIZE, height: SIZE }, ..SceneSettings::default() },
+    );
+    let reference = reference(&scene);
+    let is_inked = |middle: DVec2| middle.x < f64::from(SIZE) * 0.5;
+    let error = ink(is_inked).error(&reference, 2.0);
+
+    let middles = (0..SIZE * SIZE).map(|at| DVec2::new(f64::from(at % SIZE) + 0.5, f64::from(at / SIZE) + 0.5));
+    let inked: Vec<DVec2> = middles.filter(|middle| is_inked(*middle)).collect();
+    let is_found = |px: DVec2| inked.iter().any(|middle| middle.distance_squared(px) <= 4.0);
+    let share = |weight: fn(f64) -> f64| {
+        let sum = |found_only: bool| -> f64 {
+            let counted = reference.samples.iter().filter(|sample| !found_only || is_found(sample.px));
+            counted.map(|sample| weight(sample.length_px)).sum()
+        };
+        sum(true) / sum(false)
+    };
+    let [by_length, by_pieces] = [share(|length| length), share(|_| 1.0)];
+    assert!((error.recall - by_length).abs() < 1e-12, "{} {by_length}", error.recall);
+    assert!((by_length - by_pieces).abs() > 1e-3, "{by_length} {by_pieces}: pieces differ in length");
+}

@@ -2,8 +2,11 @@
 
 use crate::cli::{Folder, refused_in_one_line, tinta};
 use serde_json::Value;
+use tinta::LoadOptions;
 use tinta::measure::Row;
 use tinta::preset::{OptionValue, Preset, SHIPPED};
+use tinta::recipe::option_words;
+use tinta::settings::HasSettings;
 
 fn made(arguments: &[&str]) -> Vec<u8> {
     let output = tinta(arguments);
@@ -40,9 +43,15 @@ fn each_papers_preset_draws_what_its_style_draws_by_default() {
     let model = textured(&folder);
     let mut pictures = Vec::new();
     for (name, text) in SHIPPED {
-        let OptionValue::Text(style) = &Preset::parse(name, text).unwrap().options["style"] else { panic!("{name}") };
+        let options = Preset::parse(name, text).unwrap().options;
+        let OptionValue::Text(style) = &options["style"] else { panic!("{name}") };
         let by_preset = picture(&model, &["--preset", name]);
-        assert!(by_preset == picture(&model, &["--style", style]), "{name}");
+        // How models are read is no setting of a style: what the preset says of it is given beside the style.
+        let mut by_hand = vec!["--style".to_owned(), style.clone()];
+        let of_models = options.iter().filter(|(option, _)| LoadOptions::table().has(option));
+        by_hand.extend(of_models.flat_map(|(option, value)| option_words(option, value)));
+        let by_hand: Vec<&str> = by_hand.iter().map(String::as_str).collect();
+        assert!(by_preset == picture(&model, &by_hand), "{name}");
         assert!(
             text.starts_with("# ") && text.contains("20") || name.contains("dachsbacher"),
             "{name} names its source"
@@ -53,6 +62,19 @@ fn each_papers_preset_draws_what_its_style_draws_by_default() {
     for (index, picture) in pictures.iter().enumerate().skip(2) {
         assert!(pictures[..index].iter().all(|other| other != picture), "{}", SHIPPED[index].0);
     }
+}
+
+#[test]
+fn dachsbachers_preset_reads_models_by_his_rule_for_normals() {
+    let [preset, style, by_hand] = [
+        &["--preset", "paper:dachsbacher-inking"][..],
+        &["--style", "inking"],
+        &["--style", "inking", "--normals", "dachsbacher"],
+    ]
+    .map(|options| picture("builtin:gear", options));
+    assert!(preset == by_hand && preset != style);
+    // What the command line says counts more, as of any option.
+    assert!(picture("builtin:gear", &["--preset", "paper:dachsbacher-inking", "--normals", "file"]) == style);
 }
 
 #[test]
@@ -100,19 +122,19 @@ fn what_a_preset_gets_wrong_is_said_with_file_line_and_key() {
     refused("render", "[inking]\nline-width = 2\n", &["line 1: inking: write a text"]);
     for key in ["output = \"b.png\"", "json = true", "dump = \"d\"", "save-preset = \"p\"", "preset = \"q\""] {
         let name = key.split(' ').next().unwrap();
-        refused("render", key, &["line 1", name, "this is for one run"]);
+        refused("render", key, &["line 1", name, "this applies to one run"]);
     }
     refused(
         "compare",
         "hidden = \"dashed\"\n",
-        &["line 1: hidden: tinta compare has no such option, only tinta render"],
+        &["line 1: hidden: tinta compare does not have this option, only tinta render does"],
     );
     refused("compare", "style = \"charcoal\"\n", &["line 1: left charcoal"]);
-    refused("measure", "background = \"red\"\n", &["line 1: background: tinta measure has no such option"]);
+    refused("measure", "background = \"red\"\n", &["line 1: background: tinta measure does not have this option"]);
     refused("measure", "style = \"inking\"\nfilter = \"oil\"\n", &["line 2", "--filter"]);
     refused_in_one_line(
         &["render", "builtin:ant", "-o", &out, "--preset", "paper:monet"],
-        &["paper:monet: no preset of this name ships", "paper:dachsbacher-inking"],
+        &["paper:monet: there is no shipped preset of this name", "paper:dachsbacher-inking"],
     );
     refused_in_one_line(&["render", "builtin:ant", "-o", &out, "--preset", "none.toml"], &["none.toml: there is no"]);
     assert!(!std::path::Path::new(&out).exists());
@@ -162,7 +184,7 @@ fn settings_in_use_are_saved_and_draw_the_same() {
     };
     refused("-", &["--save-preset -", "a preset is a file"]);
     refused(&out, &["--save-preset", "the picture's file"]);
-    refused(&folder.path("no/such/a.toml"), &["folder", "is not there"]);
+    refused(&folder.path("no/such/a.toml"), &["folder", "does not exist"]);
     assert!(!std::path::Path::new(&out).exists());
 }
 

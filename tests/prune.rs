@@ -297,6 +297,7 @@ pub fn many_styles() -> Vec<Style> {
             styles.push(with(Box::new(move |cartoon| cartoon.map_encoding = encoding)));
         }
     }
+    styles.push(cartoon(Box::new(border(|border| border.filter = Filter::MitchellTwo))));
     styles.push(Style::Ink(Ink { cull_back_faces: true, supersample: Some(Supersample::Two), ..Ink::default() }));
     styles.push(Style::Dietrich(Dietrich { cull_back_faces: true, ..Dietrich::default() }));
     styles.push(Style::Inking(Inking { line_width_px: 7.0, ..Inking::default() }));

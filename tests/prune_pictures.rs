@@ -1,7 +1,7 @@
 //! Pictures of pruned plans beside those of full ones: the same bytes, whatever the model, the style, the view, the backend.
 
 use crate::prune::{beside, cartoon, many_styles};
-use crate::support::{BACKENDS, public_models, renderer, scene_with, skip};
+use crate::support::{BACKENDS, public_models, renderer, scene_with, skip, styles};
 use glam::DVec3;
 use std::sync::Arc;
 use tinta::plan::prune::{Pruning, prune};
@@ -51,11 +51,10 @@ fn random_view(scene: &Scene, dice: &mut Dice) -> Scene {
 fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
     let scene = Scene::new(vec![mesh.clone()], &SceneSettings::default()).unwrap();
     let has_skin = !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.has_texture());
-    let mut styles: Vec<Style> = StyleName::ALL
-        .iter()
-        .filter(|(name, _)| *name != "sand" || has_skin)
-        .map(|(_, style)| Style::named(*style))
-        .collect();
+    let mut styles: Vec<Style> = styles().into_iter().map(|(_, style)| style).collect();
+    if has_skin {
+        styles.push(Style::named(StyleName::Sand));
+    }
     styles.push(cartoon(|cartoon| (cartoon.cull_back_faces, cartoon.tones.count) = (true, 2)));
     let pruning = Pruning { pictures: u32::MAX, ..renderer.pruning(1) };
     let mut dice = Dice(mesh.triangles.len() as u64);
@@ -97,37 +96,45 @@ fn all_models() -> Vec<String> {
     models
 }
 
-fn verify_all(backend: Backend) {
+fn verify_all(backend: Backend, models: &[String], views: usize) {
     let mut renderer = renderer(backend);
-    for model in all_models() {
-        let mesh = Arc::new(load(&model, &LoadOptions::default()).unwrap().mesh);
-        verify(&mut renderer, &mesh, 50);
+    for model in models {
+        let mesh = Arc::new(load(model, &LoadOptions::default()).unwrap().mesh);
+        verify(&mut renderer, &mesh, views);
     }
 }
 
 #[test]
-fn fifty_views_of_every_model_in_every_style_are_the_same_bytes_by_egl() {
-    verify_all(Backend::Egl);
-}
-
-#[test]
-fn fifty_views_of_every_model_in_every_style_are_the_same_bytes_by_osmesa() {
-    verify_all(Backend::OsMesa);
-}
-
-#[test]
-fn every_setting_draws_the_same_bytes_pruned() {
+fn three_views_of_two_models_in_every_style_are_the_same_bytes_on_both_backends() {
     for backend in BACKENDS {
+        verify_all(backend, &["builtin:gear", "builtin:open-box"].map(str::to_owned), 3);
+    }
+}
+
+#[test]
+#[ignore = "exhaustive: every model from fifty views in every style"]
+fn fifty_views_of_every_model_in_every_style_are_the_same_bytes_by_egl() {
+    verify_all(Backend::Egl, &all_models(), 50);
+}
+
+#[test]
+#[ignore = "exhaustive: every model from fifty views in every style"]
+fn fifty_views_of_every_model_in_every_style_are_the_same_bytes_by_osmesa() {
+    verify_all(Backend::OsMesa, &all_models(), 50);
+}
+
+fn verify_settings(backends: &[Backend], backgrounds: &[Background], shows: &[Show]) {
+    let styles = many_styles();
+    for &backend in backends {
         let mut renderer = renderer(backend);
         let pruning = Pruning { pictures: u32::MAX, ..renderer.pruning(1) };
-        let grey = Background::Color(Color([0.5, 0.25, 0.125]));
-        for background in [Background::Color(Color([1.0; 3])), grey, Background::Transparent] {
+        for &background in backgrounds {
             let settings =
                 SceneSettings { background, copies: 2, size: Size { width: 150, height: 90 }, ..Default::default() };
             for scene in [scene_with("builtin:gear", settings.clone()), Scene { background, ..beside("builtin:bust") }]
             {
-                for style in many_styles() {
-                    for show in [Show::Final, Show::Tones, Show::Borders, Show::Map] {
+                for style in &styles {
+                    for &show in shows {
                         let Ok(plan) = style.plan(&scene, show) else { continue };
                         let short = prune(&plan, &scene, &pruning);
                         let full = renderer.draw(&scene, &plan).unwrap();
@@ -138,4 +145,17 @@ fn every_setting_draws_the_same_bytes_pruned() {
             }
         }
     }
+}
+
+#[test]
+fn every_setting_draws_the_same_final_bytes_pruned() {
+    verify_settings(&BACKENDS[..1], &[Background::Transparent], &[Show::Final]);
+}
+
+#[test]
+#[ignore = "exhaustive: every setting on three backgrounds, all its buffers, by both backends"]
+fn every_setting_draws_the_same_bytes_pruned() {
+    let grey = Background::Color(Color([0.5, 0.25, 0.125]));
+    let backgrounds = [Background::Color(Color([1.0; 3])), grey, Background::Transparent];
+    verify_settings(&BACKENDS, &backgrounds, &[Show::Final, Show::Tones, Show::Borders, Show::Map]);
 }

@@ -172,12 +172,12 @@ fn outputs_that_cannot_be_compared_are_refused() {
     made(&["render", "builtin:ant", "-o", &png, "--size", "16"]);
     made(&["render", "builtin:ant", "-o", &svg, "--size", "16"]);
     let before = std::fs::read(&png).unwrap();
-    refused_in_one_line(&["again", &png, "-o", &png], &["this is the picture itself"]);
+    refused_in_one_line(&["again", &png, "-o", &png], &["this is the picture to compare with"]);
     for out in ["b.jpg", "b.svg", "b", "-"] {
         refused_in_one_line(&["again", &png, "-o", out], &["name a .png file"]);
     }
     refused_in_one_line(&["again", &svg, "-o", &png], &["name a .svg file"]);
-    refused_in_one_line(&["again", &png, "-o", &folder.path("no/b.png")], &["folder", "is not there"]);
+    refused_in_one_line(&["again", &png, "-o", &folder.path("no/b.png")], &["folder", "does not exist"]);
     refused_in_one_line(&["again", "none.png", "-o", &svg], &["none.png: there is no such file"]);
     assert!(std::fs::read(&png).unwrap() == before);
 }
@@ -230,7 +230,7 @@ fn a_recipe_for_a_much_larger_picture_than_the_one_that_has_it_is_refused_before
     });
     refused_in_one_line(
         &["again", &picture, "-o", &out],
-        &["small.png: it is 64x48 pixels large and its recipe is for 16384x16384; it is not drawn"],
+        &["small.png: it has 64x48 pixels but its recipe is for 16384x16384; give the picture"],
     );
     assert!(!Path::new(&out).exists());
 }

@@ -197,7 +197,7 @@ fn a_line_that_is_no_row_is_named() {
     let mut file = std::fs::File::create(&path).unwrap();
     writeln!(file, "{sound}\n\n{{\"version\": 1}}\n{sound}").unwrap();
     let message = read_rows(&path).unwrap_err().to_string();
-    assert!(message.contains("results.jsonl: line 3: this is no row of this version"), "{message}");
+    assert!(message.contains("results.jsonl: line 3: this is not a row of this version"), "{message}");
     assert_eq!(message.lines().count(), 1);
     let missing = read_rows(&folder.path().join("none.jsonl")).unwrap_err().to_string();
     assert!(missing.contains("none.jsonl: there is no such file"), "{missing}");

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 use tinta::{Backend, LoadOptions, Picture, Renderer, Scene, SceneSettings, Size, Style, StyleName, load};
 
 /// Both ways to a context; each must work wherever the tests run.
@@ -91,9 +91,13 @@ pub fn ball(cuts: u32) -> Scene {
 }
 
 /// Every style with the published settings that can draw any model; sand cannot: it needs a model with a texture.
+/// Clones share charcoal's textures, which are then made once for all tests.
 pub fn styles() -> Vec<(&'static str, Style)> {
-    let of_any_model = StyleName::ALL.iter().filter(|(_, style)| *style != StyleName::Sand);
-    of_any_model.map(|(name, style)| (*name, Style::named(*style))).collect()
+    static STYLES: LazyLock<Vec<(&str, Style)>> = LazyLock::new(|| {
+        let of_any_model = StyleName::ALL.iter().filter(|(_, style)| *style != StyleName::Sand);
+        of_any_model.map(|(name, style)| (*name, Style::named(*style))).collect()
+    });
+    STYLES.clone()
 }
 
 /// Where pictures of failed comparisons go.
@@ -118,4 +122,9 @@ pub fn side_by_side(expected: &Picture, actual: &Picture) -> Picture {
         pixels.extend(left.iter().copied().chain(middle).chain(right.iter().copied()).flatten());
     }
     Picture { size, pixels }
+}
+
+/// Whether tests that draw less in the quick tier draw as much as they can: the variable `TINTA_FULL_SIZES` is set.
+pub fn full_sizes() -> bool {
+    std::env::var_os("TINTA_FULL_SIZES").is_some()
 }

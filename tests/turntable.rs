@@ -96,7 +96,7 @@ fn what_makes_no_animation_is_refused() {
     };
     refused("a.png", &["--turntable", "4"], &["a.png: this names one picture", ".gif or .apng", "frame-%04d.png"]);
     refused("-", &["--turntable", "4"], &["-: this names one picture"]);
-    refused("no/such/a.gif", &[], &["no/such/a.gif: the folder no/such is not there"]);
+    refused("no/such/a.gif", &[], &["no/such/a.gif: the folder no/such does not exist"]);
     refused(&folder.path("%d.jpg"), &["--transparent"], &["no transparency"]);
     refused(&out, &["--turntable", "0"], &["--turntable", "1..=10000"]);
     refused(&out, &["--turntable", "4", "--frame-delay", "5"], &["--frame-delay", "20..=60000"]);

@@ -1,10 +1,9 @@
 //! The viewer: its pictures without a window, and the window itself under Xvfb.
 
-use crate::support::{failure_folder, root, side_by_side, skip};
+use crate::support::{root, skip};
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
-use tinta::picture::write_rgba_png;
 use tinta::window::{Layout, Side, Viewer, ViewerEvent, ViewerOptions, ViewerState};
 use tinta::{Backend, LoadOptions, Picture, View};
 
@@ -233,14 +232,14 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
 }
 
 /// A display of one's own; ends with this.
-struct Display {
+pub struct Display {
     server: Child,
     name: String,
 }
 
 impl Display {
     /// Starts Xvfb; says so where there is none.
-    fn start() -> Option<Self> {
+    pub fn start() -> Option<Self> {
         let started = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "1280x720x24", "-nolisten", "tcp"])
             .stdout(Stdio::piped())
@@ -255,7 +254,8 @@ impl Display {
         Some(Self { server, name: format!(":{}", number.trim()) })
     }
 
-    fn view(&self, arguments: &[&str]) -> Output {
+    /// Runs `tinta view` on it.
+    pub fn view(&self, arguments: &[&str]) -> Output {
         view(&[("DISPLAY", &self.name)], arguments)
     }
 }
@@ -277,57 +277,6 @@ fn view(environment: &[(&str, &str)], arguments: &[&str]) -> Output {
         .envs(environment.iter().copied())
         .output()
         .unwrap()
-}
-
-/// A pixel counts as different beyond this, in 1/255, and this share of them may be: as in the other goldens.
-const TOLERANCE: (u8, f64) = (3, 0.005);
-
-#[test]
-fn recorded_events_lead_to_the_pictures_they_led_to() {
-    let Some(display) = Display::start() else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let goldens = root().join("tests/goldens");
-    let recording = std::fs::read_to_string(root().join("tests/recordings/tour.jsonl")).unwrap();
-    let here = |name: &str| folder.path().join(name).display().to_string();
-    std::fs::write(here("tour.jsonl"), recording.replace("OUT/", &format!("{}/", folder.path().display()))).unwrap();
-    let output = display.view(&["builtin:bust", "--replay", &here("tour.jsonl"), "--json"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert!(record["first_picture_ms"].as_f64().unwrap() > 0.0);
-    let pictures: Vec<PathBuf> = std::fs::read_dir(folder.path())
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "png"))
-        .collect();
-    let names: Vec<&str> = recording.split("OUT/").skip(1).filter_map(|rest| rest.split('"').next()).collect();
-    assert_eq!(pictures.len(), names.len(), "one for each in the recording");
-    assert!(names.len() >= 8, "{names:?}");
-    if std::env::var_os("TINTA_UPDATE_GOLDENS").is_some() {
-        for name in &names {
-            std::fs::copy(folder.path().join(name), goldens.join(format!("window-{name}"))).unwrap();
-        }
-        panic!("the goldens were written anew: look at them, then run without TINTA_UPDATE_GOLDENS");
-    }
-    let mut failures = Vec::new();
-    for name in &names {
-        let actual = Picture::read_png(&folder.path().join(name)).unwrap();
-        let golden = goldens.join(format!("window-{name}"));
-        let expected = Picture::read_png(&golden).unwrap_or_else(|error| panic!("{error}: the golden is missing"));
-        assert_eq!(actual.size, expected.size, "{name}");
-        let pairs = expected.pixels.chunks_exact(4).zip(actual.pixels.chunks_exact(4));
-        let different =
-            pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > TOLERANCE.0)).count() as f64;
-        if different / expected.size.pixel_count() as f64 > TOLERANCE.1 {
-            let sheet = failure_folder().join(format!("window-{name}"));
-            write_rgba_png(&side_by_side(&expected, &actual), &sheet).unwrap();
-            failures.push(format!("{name}: {different} pixels; expected | difference | actual: {}", sheet.display()));
-        }
-    }
-    assert!(failures.is_empty(), "{}\nTINTA_UPDATE_GOLDENS=1 cargo test window writes them anew", failures.join("\n"));
-    // Back at the first view and size after all that: the first picture again.
-    let read = |name: &str| Picture::read_png(&folder.path().join(name)).unwrap();
-    assert_eq!(read("first.png"), read("back.png"));
-    assert_ne!(read("first.png"), read("orbit.png"));
 }
 
 #[test]

@@ -54,8 +54,7 @@ pub fn load(bytes: &[u8]) {
     let Some((how, bytes)) = bytes.split_first() else { return };
     let options = LoadOptions {
         weld: if how & 1 == 0 { 0.0 } else { 0.05 },
-        normals: [tinta::mesh::Normals::File, tinta::mesh::Normals::Smooth, tinta::mesh::Normals::Flat]
-            [usize::from(how >> 1) % 3],
+        normals: tinta::mesh::Normals::ALL[usize::from(how >> 1) % tinta::mesh::Normals::ALL.len()].1,
         strict: how & 8 != 0,
         ..LoadOptions::default()
     };

@@ -1,5 +1,6 @@
 #version 120
-// Phong's equation with the light of the cartoon styles: ambient + diffuse + specular, without attenuation, as the paper leaves it out.
+// Phong's equation with the light of the cartoon styles: ambient + diffuse + specular, none of them weaker with the light's
+// distance. Weights and exponent are ours, for the paper prints none (errata E14).
 // In:  normalEye, positionEye, gl_Color; ambient, specular: weights; shininess: exponent.
 // Out: gl_FragColor, opaque.
 

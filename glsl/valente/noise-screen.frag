@@ -1,9 +1,10 @@
 #version 120
 // Noise by the paper's coordinate, as published: it stands still on the picture while the model turns.
-// In: the part paper-*. Out: the noise texture's coordinate.
+// In: the parts paper-* and spread-*. Out: the noise texture's coordinate.
 
 vec2 paperPlace();
+vec2 onNoise(vec2 place);
 
 vec2 noisePlace() {
-    return paperPlace();
+    return onNoise(paperPlace());
 }

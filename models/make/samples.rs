@@ -5,6 +5,7 @@
 //! written twice as texturing needs it; `pawn.ppm`, the picture; `hop.md2`,
 //! four frames of a movement called `hop`.
 
+use crate::md2::{Frame, Model};
 use crate::vector::sin_cos;
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -129,50 +130,27 @@ fn triangles() -> Vec<[u16; 3]> {
 }
 
 fn hop() -> Vec<u8> {
-    let (points, triangles) = (ball(), triangles());
-    const HEADER: usize = 17 * 4;
-    let frame_bytes = 40 + points.len() * 4;
-    let triangles_at = HEADER + 4;
-    let frames_at = triangles_at + triangles.len() * 12;
-    let end = frames_at + HOP.len() * frame_bytes;
-    let numbers = [
-        8,
-        1,
-        1,
-        frame_bytes,
-        0,
-        points.len(),
-        1,
-        triangles.len(),
-        0,
-        HOP.len(),
-        HEADER,
-        HEADER,
-        triangles_at,
-        frames_at,
-        end,
-        end,
-    ];
-    let mut bytes = b"IDP2".to_vec();
-    numbers.iter().for_each(|number| bytes.extend((*number as u32).to_le_bytes()));
-    // One texture coordinate for all corners.
-    bytes.extend([0; 4]);
-    for triangle in &triangles {
-        triangle.iter().chain(&[0; 3]).for_each(|index| bytes.extend(index.to_le_bytes()));
-    }
-    for (number, [height, width, lift]) in HOP.into_iter().enumerate() {
-        // Steps of 1/64 of a radius, from -2 up to almost 2; upwards from 0.
-        for value in [1.0f32 / 64.0, 1.0 / 64.0, 1.0 / 64.0, -2.0, -2.0, lift as f32] {
-            bytes.extend(value.to_le_bytes());
+    let points = ball();
+    let frames = HOP.into_iter().enumerate().map(|(number, [height, width, lift])| {
+        let step = |value: f64| (value * 64.0 + 0.5) as u8;
+        Frame {
+            name: format!("hop{}", number + 1),
+            // Steps of 1/64 of a radius, from -2 up to almost 2; upwards from 0.
+            scale: [1.0 / 64.0; 3],
+            translation: [-2.0, -2.0, lift as f32],
+            vertices: points
+                .iter()
+                .map(|[x, y, z]| [step(x * width + 2.0), step(y * width + 2.0), step(z * height)])
+                .collect(),
         }
-        let mut name = [0u8; 16];
-        let text = format!("hop{}", number + 1);
-        name[..text.len()].copy_from_slice(text.as_bytes());
-        bytes.extend(name);
-        for [x, y, z] in &points {
-            let step = |value: f64| (value * 64.0 + 0.5) as u8;
-            bytes.extend([step(x * width + 2.0), step(y * width + 2.0), step(z * height), 0]);
-        }
-    }
-    bytes
+    });
+    let model = Model {
+        skin: None,
+        skin_size: [1, 1],
+        // One texture coordinate for all corners.
+        texels: vec![[0, 0]],
+        triangles: triangles().into_iter().map(|[a, b, c]| [a, b, c, 0, 0, 0]).collect(),
+        frames: frames.collect(),
+    };
+    model.bytes()
 }

@@ -37,7 +37,7 @@ fn in_words(error: png::EncodingError) -> String {
 }
 
 impl ApngEncoder {
-    pub fn new(size: Size, transparent: bool, frames: u32, delay_ms: u16) -> Encoded<Self> {
+    pub(super) fn new(size: Size, transparent: bool, frames: u32, delay_ms: u16) -> Encoded<Self> {
         let file = Shared::default();
         let writer = || {
             let mut encoder = Encoder::new(file.clone(), size.width, size.height);
@@ -55,7 +55,7 @@ impl ApngEncoder {
     }
 
     /// Stores what changed since the picture before.
-    pub fn add(&mut self, picture: Picture) -> Encoded<()> {
+    pub(super) fn add(&mut self, picture: Picture) -> Encoded<()> {
         let picture = if self.transparent { picture } else { picture.opaque() };
         let part = if self.before.is_empty() {
             Rectangle::whole(self.size)
@@ -80,7 +80,7 @@ impl ApngEncoder {
         write().map_err(in_words)
     }
 
-    pub fn finish(self) -> Encoded<Vec<u8>> {
+    pub(super) fn finish(self) -> Encoded<Vec<u8>> {
         self.writer.finish().map_err(in_words)?;
         Ok(std::mem::take(&mut *self.file.0.lock().unwrap_or_else(PoisonError::into_inner)))
     }

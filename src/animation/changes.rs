@@ -12,7 +12,7 @@ pub(super) struct Rectangle {
 
 impl Rectangle {
     /// The smallest rectangle around all pixels, by their index, of which `is_wanted` is true; one pixel where none is.
-    pub fn around(size: Size, is_wanted: impl Fn(usize) -> bool) -> Self {
+    pub(super) fn around(size: Size, is_wanted: impl Fn(usize) -> bool) -> Self {
         let width = size.width as usize;
         let (mut left, mut right, mut top, mut bottom) = (width, 0, None, 0);
         for y in 0..size.height as usize {
@@ -29,17 +29,17 @@ impl Rectangle {
     }
 
     /// The whole picture.
-    pub fn whole(size: Size) -> Self {
+    pub(super) fn whole(size: Size) -> Self {
         Self { left: 0, top: 0, size }
     }
 
     /// What changes from one picture's RGBA pixels to another's of the same size.
-    pub fn changed(size: Size, before: &[u8], after: &[u8]) -> Self {
+    pub(super) fn changed(size: Size, before: &[u8], after: &[u8]) -> Self {
         Self::around(size, |index| before[index * 4..][..4] != after[index * 4..][..4])
     }
 
     /// Its rows as ranges of pixel indices in a picture of this width.
-    pub fn rows(self, width: u32) -> impl Iterator<Item = std::ops::Range<usize>> {
+    pub(super) fn rows(self, width: u32) -> impl Iterator<Item = std::ops::Range<usize>> {
         (0..self.size.height as usize).map(move |row| {
             let start = (self.top as usize + row) * width as usize + self.left as usize;
             start..start + self.size.width as usize

@@ -32,7 +32,7 @@ fn in_words(error: EncodingError) -> String {
 }
 
 impl GifEncoder {
-    pub fn new(size: Size, transparent: bool, delay_ms: u16) -> Encoded<Self> {
+    pub(super) fn new(size: Size, transparent: bool, delay_ms: u16) -> Encoded<Self> {
         let encoder = || {
             let mut encoder = Encoder::new(Vec::new(), size.width as u16, size.height as u16, &[])?;
             encoder.set_repeat(Repeat::Infinite)?;
@@ -51,7 +51,7 @@ impl GifEncoder {
     }
 
     /// Stores what changed since the picture before, or, if there are holes to make in it, all that is to be seen.
-    pub fn add(&mut self, picture: Picture) -> Encoded<()> {
+    pub(super) fn add(&mut self, picture: Picture) -> Encoded<()> {
         let picture = if self.transparent { with_hard_edges(picture) } else { picture.opaque() };
         self.palette.fit(&picture.pixels);
         let part = if self.transparent {
@@ -90,7 +90,7 @@ impl GifEncoder {
         delay as u16
     }
 
-    pub fn finish(self) -> Encoded<Vec<u8>> {
+    pub(super) fn finish(self) -> Encoded<Vec<u8>> {
         self.encoder.into_inner().map_err(in_words)
     }
 }

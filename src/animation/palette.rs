@@ -49,7 +49,7 @@ const FLAT_SHARE: f64 = 1.0 / 64.0;
 const MOST_KNOWN: usize = 1 << 20;
 
 impl Palette {
-    pub fn new(transparent: bool) -> Self {
+    pub(super) fn new(transparent: bool) -> Self {
         let mut palette = Self { transparent, colors: vec![], known: HashMap::default(), is_exact: true, error: 0.0 };
         palette.clear();
         palette
@@ -64,7 +64,7 @@ impl Palette {
     }
 
     /// Makes the palette serve these RGBA pixels, of which those with alpha 0 do not count.
-    pub fn fit(&mut self, pixels: &[u8]) {
+    pub(super) fn fit(&mut self, pixels: &[u8]) {
         let histogram = histogram(pixels);
         let room = 256 - usize::from(self.transparent);
         let new = histogram.iter().filter(|(color, _)| !self.known.contains_key(color)).count();
@@ -120,7 +120,7 @@ impl Palette {
     }
 
     /// Appends the indices of a row of pixels that begins at this place of the screen.
-    pub fn map_row<'a>(&self, pixels: impl Iterator<Item = &'a [u8]>, left: u32, y: u32, to: &mut Vec<u8>) {
+    pub(super) fn map_row<'a>(&self, pixels: impl Iterator<Item = &'a [u8]>, left: u32, y: u32, to: &mut Vec<u8>) {
         // Neighbours are often alike.
         let mut last = (Packed::MAX, Mix { first: TRANSPARENT, second: TRANSPARENT, share: 0 });
         for (x, pixel) in (left..).zip(pixels) {
@@ -138,7 +138,7 @@ impl Palette {
     }
 
     /// The table as red, green and blue bytes.
-    pub fn bytes(&self) -> Vec<u8> {
+    pub(super) fn bytes(&self) -> Vec<u8> {
         self.colors.iter().flat_map(|color| color.to_be_bytes().into_iter().skip(1)).collect()
     }
 }

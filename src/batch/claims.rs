@@ -1,4 +1,4 @@
-//! What jobs write, and whether two of them write the same: files, pictures with numbers in their names, folders.
+//! The outputs that jobs claim, and conflicts between them: files, pictures with numbers in their names, folders.
 //!
 //! Names are kept as hashes and sorted, so that a list of a million jobs is checked in seconds. What the hashes find is
 //! looked at again by name before anything is refused.
@@ -19,7 +19,7 @@ const DIGITS: usize = 9;
 
 /// What an option of a job names for it to write.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Claim {
+pub(super) struct Claim {
     /// The option.
     pub option: String,
     /// As the line has it.
@@ -40,7 +40,7 @@ enum Kind {
 
 impl Claim {
     /// All of a job that [`super::place_in`] does not refuse.
-    pub fn all(asked: &Asked) -> impl Iterator<Item = Self> {
+    pub(super) fn all(asked: &Asked) -> impl Iterator<Item = Self> {
         let turntable = asked.text("turntable").and_then(|count| count.parse().ok());
         asked.outputs().filter_map(move |(option, output)| {
             let place = same_place(output)?;
@@ -60,12 +60,12 @@ impl Claim {
     }
 
     /// Its place in the batch's folder, by which two that are the same are found.
-    pub fn place(&self) -> &str {
+    pub(super) fn place(&self) -> &str {
         &self.place
     }
 
     /// Whether it stands for this file, by its name in the batch's folder, as one of several with numbers.
-    pub fn has_numbered(&self, name: &str) -> bool {
+    pub(super) fn has_numbered(&self, name: &str) -> bool {
         let Kind::Numbered(numbered, count) = &self.kind else { return false };
         numbered.number_in(name).is_some_and(|number| (1..=*count).contains(&number))
     }
@@ -74,7 +74,7 @@ impl Claim {
     fn clash(&self, before: &Self, line: u32) -> Option<String> {
         let output = shown(&self.output);
         if self.place == before.place {
-            return Some(format!("{output} is written by line {line} too; name another"));
+            return Some(format!("{output} is also written by line {line}; name another"));
         }
         let is_in = |inner: &Self, outer: &Self| {
             let rest = inner.place.strip_prefix(&outer.place);
@@ -98,14 +98,14 @@ impl Claim {
         }?;
         let pattern = shown(&before.output);
         Some(match self.place == shared {
-            true => format!("{output} is written by line {line} too, as one of {pattern}; name another"),
+            true => format!("{output} is also written by line {line}, as one of {pattern}; name another"),
             false => format!("{output} writes {}, and so does line {line} by {pattern}; name another", shown(&shared)),
         })
     }
 }
 
 /// The beginning of a job's problem: what an option of it names, and why that cannot be.
-pub fn problem(asked: &Asked, before: &Asked, line: u32) -> Option<String> {
+pub(super) fn problem(asked: &Asked, before: &Asked, line: u32) -> Option<String> {
     let mut claims: Vec<Claim> = Claim::all(asked).collect();
     // The last one, where both stand in one line.
     claims.reverse();
@@ -116,10 +116,10 @@ pub fn problem(asked: &Asked, before: &Asked, line: u32) -> Option<String> {
 }
 
 /// Half of a SHA-256: no two of even a billion names share it by chance.
-pub type Key = [u8; 16];
+pub(super) type Key = [u8; 16];
 
 /// A name's.
-pub fn key(name: &str) -> Key {
+pub(super) fn key(name: &str) -> Key {
     half(&Sha256::digest(name.as_bytes()))
 }
 
@@ -130,11 +130,11 @@ fn half(hash: &[u8]) -> Key {
 }
 
 /// Two lines that may write the same: the later one, then the earlier one.
-pub type Lines = (u32, u32);
+pub(super) type Lines = (u32, u32);
 
 /// The folders and the numbered names of a list, and what else of it may be among them.
 #[derive(Default)]
-pub struct Shared {
+pub(super) struct Shared {
     folders: Vec<(Key, u32)>,
     numbered: Vec<Numbers>,
     /// Files with numbers in their names, as far as they may be among the numbered.
@@ -153,7 +153,7 @@ struct Numbers {
 
 impl Shared {
     /// Notes the folders and the numbered names of a line.
-    pub fn note(&mut self, claim: &Claim, line: u32) {
+    pub(super) fn note(&mut self, claim: &Claim, line: u32) {
         match &claim.kind {
             Kind::File => {}
             Kind::Folder => self.folders.push((key(&claim.place), line)),
@@ -162,18 +162,18 @@ impl Shared {
     }
 
     /// Whether there are any: otherwise there is nothing more to find.
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.folders.is_empty() && self.numbered.is_empty()
     }
 
     /// To be called once, before the list is looked through again.
-    pub fn sort(&mut self) {
+    pub(super) fn sort(&mut self) {
         self.folders.sort_unstable();
         self.numbered.sort_unstable();
     }
 
     /// Looks for what a line writes among them.
-    pub fn compare(&mut self, claim: &Claim, line: u32) {
+    pub(super) fn compare(&mut self, claim: &Claim, line: u32) {
         if !self.folders.is_empty() {
             let mut hash = Sha256::new();
             let mut names = claim.place.split('/').peekable();
@@ -199,7 +199,7 @@ impl Shared {
     }
 
     /// Pairs of lines that may write the same, those whose later line comes first at the beginning.
-    pub fn suspects(mut self) -> Vec<Lines> {
+    pub(super) fn suspects(mut self) -> Vec<Lines> {
         let mut suspects = self.inside;
         self.numbered.append(&mut self.files);
         self.numbered.sort_unstable();

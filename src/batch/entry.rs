@@ -1,4 +1,4 @@
-//! What is written down of a job that has ended.
+//! A journal entry: the result of one finished job.
 
 use super::claims::Claim;
 use super::job::{Asked, Job, JobCommand};

@@ -1,4 +1,4 @@
-//! A job: one line of a list, read without knowing what options there are.
+//! A job: one line of a list, read without knowledge of the options.
 
 use crate::files::shown;
 use crate::limits::{JOB_BYTES, JOB_ID_BYTES};
@@ -83,18 +83,18 @@ pub(super) struct Asked {
 
 impl Asked {
     /// What a job asks for.
-    pub fn of_job(job: &Job) -> Self {
+    pub(super) fn of_job(job: &Job) -> Self {
         let Job { id, command, options, .. } = job.clone();
         Self { id, command, models: Vec::new(), options }
     }
 
     /// Reads a line and refuses what [`Job::parse`] does.
-    pub fn of_line(line: &[u8]) -> Result<Self, String> {
+    pub(super) fn of_line(line: &[u8]) -> Result<Self, String> {
         Self::of_keys(keys(line)?)
     }
 
     /// The options that name what the job writes, with those names.
-    pub fn outputs(&self) -> impl Iterator<Item = (&str, &str)> {
+    pub(super) fn outputs(&self) -> impl Iterator<Item = (&str, &str)> {
         self.options.iter().filter_map(|(key, value)| match value {
             OptionValue::Text(output) if OUTPUTS.contains(&key.as_str()) => Some((key.as_str(), output.as_str())),
             _ => None,
@@ -102,7 +102,7 @@ impl Asked {
     }
 
     /// The text that an option is given.
-    pub fn text(&self, option: &str) -> Option<&str> {
+    pub(super) fn text(&self, option: &str) -> Option<&str> {
         self.options.iter().find_map(|(key, value)| match value {
             OptionValue::Text(text) if key == option => Some(text.as_str()),
             _ => None,
@@ -117,7 +117,7 @@ impl Asked {
         let id = match take("id") {
             Some(Value::String(id)) => id,
             Some(Value::Number(id)) if id.is_u64() || id.is_i64() => id.to_string(),
-            Some(_) => return Err("id: this is a text or a whole number".to_owned()),
+            Some(_) => return Err("id: write a text or a whole number".to_owned()),
             None => return Err("it has no id; give each job one of its own".to_owned()),
         };
         check_id(&id)?;
@@ -126,8 +126,8 @@ impl Asked {
                 .iter()
                 .find(|(known, _)| *known == name)
                 .map(|(_, command)| *command)
-                .ok_or_else(|| format!("command: {} is none of render, compare, measure", shown(&name)))?,
-            Some(_) => return Err("command: this is a text: render, compare or measure".to_owned()),
+                .ok_or_else(|| format!("command: {} is not render, compare or measure", shown(&name)))?,
+            Some(_) => return Err("command: write render, compare or measure".to_owned()),
             None => return Err("it has no command; write render, compare or measure".to_owned()),
         };
         let models = match take("model") {
@@ -154,13 +154,13 @@ impl Asked {
 /// A line's keys in their order.
 fn keys(line: &[u8]) -> Result<Vec<(String, Value)>, String> {
     if line.len() > JOB_BYTES {
-        return Err(format!("the line is longer than {JOB_BYTES} bytes, so it is hardly a job; make it shorter"));
+        return Err(format!("the line is longer than {JOB_BYTES} bytes, the limit for a job; make it shorter"));
     }
-    let text = std::str::from_utf8(line).map_err(|_| "it is not UTF-8 text; save the list as that".to_owned())?;
+    let text = std::str::from_utf8(line).map_err(|_| "it is not UTF-8 text; save the list as UTF-8".to_owned())?;
     let keys: Keys = serde_json::from_str(text).map_err(|error| {
         let said = error.to_string();
         let said = said.split(" at line ").next().unwrap_or(&said);
-        format!("this is no job ({}); write an object of JSON, a line each", shown(said))
+        format!("this is not a job ({}); write one JSON object per line", shown(said))
     })?;
     Ok(keys.0)
 }
@@ -171,7 +171,7 @@ fn check_id(id: &str) -> Result<(), String> {
         return Err(format!("id: it has {} bytes; give it 1 to {JOB_ID_BYTES}", id.len()));
     }
     match id.chars().any(char::is_control) {
-        true => Err(format!("id: {} holds a control character; leave it out", shown(id))),
+        true => Err(format!("id: {} contains a control character; remove it", shown(id))),
         false => Ok(()),
     }
 }
@@ -213,7 +213,7 @@ impl<'de> Deserialize<'de> for Keys {
                 let mut names: Vec<&str> = keys.iter().map(|(key, _)| key.as_str()).collect();
                 names.sort_unstable();
                 match names.windows(2).find(|pair| pair[0] == pair[1]) {
-                    Some(pair) => Err(serde::de::Error::custom(format!("the key {} is there twice", shown(pair[0])))),
+                    Some(pair) => Err(serde::de::Error::custom(format!("the key {} is given twice", shown(pair[0])))),
                     None => Ok(Keys(keys)),
                 }
             }
@@ -285,17 +285,17 @@ mod tests {
     #[test]
     fn lines_that_are_no_jobs_say_what_they_lack() {
         for (line, words) in [
-            ("", "this is no job (EOF"),
-            ("[1, 2]", "this is no job (invalid type: sequence, expected an object)"),
-            ("{} {}", "this is no job (trailing characters"),
+            ("", "this is not a job (EOF"),
+            ("[1, 2]", "this is not a job (invalid type: sequence, expected an object)"),
+            ("{} {}", "this is not a job (trailing characters"),
             (r#"{"id": "a"}"#, "it has no command"),
             (r#"{"command": "render"}"#, "it has no id"),
-            (r#"{"id": "a", "command": "view"}"#, "command: view is none of render, compare, measure"),
-            (r#"{"id": "a", "command": 3}"#, "command: this is a text"),
-            (r#"{"id": 1.5, "command": "render"}"#, "id: this is a text or a whole number"),
+            (r#"{"id": "a", "command": "view"}"#, "command: view is not render, compare or measure"),
+            (r#"{"id": "a", "command": 3}"#, "command: write render, compare or measure"),
+            (r#"{"id": 1.5, "command": "render"}"#, "id: write a text or a whole number"),
             (r#"{"id": "", "command": "render"}"#, "id: it has 0 bytes"),
-            (r#"{"id": "a\u0000b", "command": "render"}"#, "id: a\\u{0}b holds a control character"),
-            (r#"{"id": "a", "id": "b", "command": "render"}"#, "the key id is there twice"),
+            (r#"{"id": "a\u0000b", "command": "render"}"#, "id: a\\u{0}b contains a control character"),
+            (r#"{"id": "a", "id": "b", "command": "render"}"#, "the key id is given twice"),
             (r#"{"id": "a", "command": "render", "size": {"x": 1}}"#, "size: write a text"),
             (r#"{"id": "a", "command": "render", "size": null}"#, "size: write a text"),
             (r#"{"id": "a", "command": "render", "size": [[1]]}"#, "size: write a text"),
@@ -307,7 +307,7 @@ mod tests {
         assert!(
             refused(&format!(r#"{{"id": "{}", "command": "render"}}"#, "x".repeat(300))).contains("it has 300 bytes")
         );
-        assert!(refused(&"[".repeat(10_000)).contains("this is no job"));
+        assert!(refused(&"[".repeat(10_000)).contains("this is not a job"));
         assert!(refused(&" ".repeat(JOB_BYTES + 1)).contains("longer than"));
         assert!(Job::parse(b"{\"id\": \"\xff\"}").unwrap_err().contains("UTF-8"));
         let deep = format!(r#"{{"id": "a", "command": "render", "x": {}1{}}}"#, "[".repeat(200), "]".repeat(200));

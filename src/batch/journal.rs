@@ -1,4 +1,4 @@
-//! A slice's file: an entry a line, on its way to the disk as soon as its job has ended.
+//! The journal of a slice: one entry per line, written as soon as its job ends.
 //!
 //! A line is one write to the end of a file that only one run has open, so that a run that is killed leaves whole lines and at
 //! most one torn one, which the next run cuts off. A power cut may cost the last lines: their jobs are done again.
@@ -6,7 +6,7 @@
 use super::entry::{Entry, Status};
 use super::job::Job;
 use super::slice::Slice;
-use crate::error::{Error, Result};
+use crate::error::{Error, FileKind, Result};
 use crate::files;
 use crate::limits::BATCH_BYTES;
 use serde::Deserialize;
@@ -28,17 +28,18 @@ impl Journal {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] where it cannot be written, [`Error::Busy`] where another run has it open.
+    /// [`Error::File`] where it cannot be written, [`Error::Busy`] where another run has it open.
     pub fn open(folder: &Path, slice: Slice) -> Result<Self> {
         let path = folder.join(slice.file_name());
-        let refuse = |problem: String| Error::Output { path: path.display().to_string(), problem };
         if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
-            return Err(refuse("this is no ordinary file; name another folder".to_owned()));
+            return Err(Error::output(&path, "this is not a regular file; name another folder"));
         }
-        let cannot = |error: std::io::Error| refuse(format!("it cannot be written ({error}); choose another folder"));
+        let cannot = |error: std::io::Error| {
+            Error::output(&path, format!("it cannot be written ({error}); choose another folder")).because(&error)
+        };
         let mut file = OpenOptions::new().read(true).append(true).create(true).open(&path).map_err(cannot)?;
         if !is_alone(&file) {
-            return Err(Error::Busy { path: path.display().to_string() });
+            return Err(Error::Busy { path });
         }
         cut_torn(&mut file).map_err(cannot)?;
         Ok(Self { file, path })
@@ -48,9 +49,9 @@ impl Journal {
     ///
     /// # Errors
     ///
-    /// [`Error::DiskFull`], or [`Error::Output`] where it cannot be written for another cause: then nothing half is left.
+    /// [`Error::File`] where it cannot be written: then nothing half is left.
     pub fn append(&mut self, entry: &Entry) -> Result<()> {
-        let refuse = |problem: String| Error::Output { path: self.path.display().to_string(), problem };
+        let refuse = |problem: String| Error::output(&self.path, problem);
         let mut line = serde_json::to_string(entry).map_err(|error| refuse(format!("{error}; please report this")))?;
         line.push('\n');
         let length = self.file.metadata().map(|metadata| metadata.len());
@@ -58,8 +59,8 @@ impl Journal {
             if let Ok(length) = length {
                 let _ = self.file.set_len(length);
             }
-            let problem = format!("it cannot be written ({error}); free some space and go on by --resume");
-            Error::output(self.path.display().to_string(), &error, problem)
+            let problem = format!("it cannot be written ({error}); free some space and continue with --resume");
+            Error::output(&self.path, problem).because(&error)
         })
     }
 }
@@ -96,11 +97,7 @@ fn is_alone(_: &File) -> bool {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>> {
-    files::read(path, BATCH_BYTES).map_err(|failure| Error::Batch {
-        path: path.display().to_string(),
-        line: None,
-        problem: failure.problem("a batch's record"),
-    })
+    files::read(path, BATCH_BYTES).map_err(|failure| failure.into_error(FileKind::Batch, path, "a batch's record"))
 }
 
 /// The slices that have begun in a batch's folder, whose files are not read for that.
@@ -118,7 +115,7 @@ pub fn begun(folder: &Path) -> Vec<Slice> {
 ///
 /// # Errors
 ///
-/// [`Error::Batch`] for a file that cannot be read.
+/// [`Error::File`] for a file that cannot be read.
 pub fn done(folder: &Path, slice: Slice, jobs: &[Job]) -> Result<Vec<bool>> {
     /// As much of an entry as most of them need.
     #[derive(Deserialize)]
@@ -176,7 +173,7 @@ impl Entries {
     ///
     /// # Errors
     ///
-    /// [`Error::Batch`] for a file that cannot be read.
+    /// [`Error::File`] for a file that cannot be read.
     pub fn read(folder: &Path) -> Result<Self> {
         let mut entries = Self::default();
         for slice in begun(folder) {
@@ -276,7 +273,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let journal = Journal::open(folder.path(), Slice::WHOLE).unwrap();
         let busy = Journal::open(folder.path(), Slice::WHOLE).unwrap_err();
-        assert!(matches!(busy, Error::Busy { .. }) && busy.to_string().contains("another run is at work"), "{busy}");
+        assert!(matches!(busy, Error::Busy { .. }) && busy.to_string().contains("another run is working"), "{busy}");
         Journal::open(folder.path(), Slice { count: 2, number: 1 }).unwrap();
         drop(journal);
         Journal::open(folder.path(), Slice::WHOLE).unwrap();

@@ -1,4 +1,4 @@
-//! Which of a list's jobs are whose.
+//! Slices: which jobs of a list belong to which run.
 
 use crate::error::ParseError;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What came of a whole list, put together from what its slices wrote down.
+//! The summary of a whole list, from the journals of its slices.
 //!
 //! `batch-summary.jsonl` has a line for every job in the list's order and nothing in it that differs from run to run, so that
 //! the slices of many machines merge into the bytes that one machine would have given. What differs, times, drivers and
@@ -9,7 +9,7 @@ use super::job::{Job, JobCommand};
 use super::journal::Entries;
 use super::list::{LIST_FILE, List};
 use super::slice::Slice;
-use crate::error::{Error, Result};
+use crate::error::{Error, FileKind, Result};
 use crate::output::Staged;
 use crate::renderer::median;
 use serde::Serialize;
@@ -112,13 +112,11 @@ impl Summary {
     ///
     /// # Errors
     ///
-    /// [`Error::Batch`] where there is no batch, or what there is cannot be read; [`Error::Output`] when the files cannot be
+    /// [`Error::File`] where there is no batch, what there is cannot be read, or the files cannot be
     /// written.
     pub fn put_together(folder: &Path) -> Result<Self> {
-        let list = List::kept(folder)?.ok_or_else(|| Error::Batch {
-            path: folder.join(LIST_FILE).display().to_string(),
-            line: None,
-            problem: "there is no such file; name the folder of a batch".to_owned(),
+        let list = List::kept(folder)?.ok_or_else(|| {
+            Error::file(FileKind::Batch, folder.join(LIST_FILE), "there is no such file; name the folder of a batch")
         })?;
         let entries = Entries::read(folder)?;
         let mut files = [Staged::begin(&folder.join(SUMMARY_FILE))?, Staged::begin(&folder.join(TIMES_FILE))?];

@@ -1,4 +1,4 @@
-//! `tinta again`: a picture made anew by the recipe it carries, and compared with what it was.
+//! `tinta again`: redraws a picture from its recipe and compares the two.
 
 use super::preset::parse;
 use super::session::Session;
@@ -10,22 +10,22 @@ use tinta::preset::OptionValue;
 use tinta::recipe::option_words;
 use tinta::{Backend, Error, Picture, Recipe, Result, Size};
 
-/// Make a picture anew by the recipe it carries, and compare both
+/// Redraw a picture from its recipe, and compare the two
 #[derive(clap::Args)]
-pub struct Arguments {
+pub(super) struct Arguments {
     /// Picture that `tinta render` wrote, .png or .svg
     #[arg(value_name = "PICTURE")]
     picture: PathBuf,
 
-    /// File to write, of the same kind
+    /// File to write, in the same format
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
-    /// Where a model lies now, for each of several in their order [default: where it lay]
+    /// Path of the model now; with several models, once for each, in their order [default: where it was]
     #[arg(long, value_name = "FILE")]
     model: Vec<String>,
 
-    /// Read what a model names outside its folder, if the picture was made so too; a picture alone may not allow that [default: off]
+    /// Read files outside the model's folder, if the recipe does so too; a recipe alone cannot allow it [default: off]
     #[arg(long)]
     allow_external: bool,
 }
@@ -34,7 +34,7 @@ pub struct Arguments {
 const NOT_GRANTED: &str = "allow-external";
 
 /// Draws the picture again; exit code 1 if it comes out otherwise.
-pub fn run(arguments: &Arguments) -> Result<Verdict> {
+pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
     let recipe = Recipe::read(&arguments.picture)?;
     check_output(arguments)?;
     let models = models(arguments, &recipe)?;
@@ -56,12 +56,12 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
 
 /// What is compared afterwards must be of one kind, and the old picture still there.
 fn check_output(arguments: &Arguments) -> Result<()> {
-    let refuse = |problem: String| Err(Error::Output { path: arguments.output.display().to_string(), problem });
+    let refuse = |problem: String| Err(Error::output(&arguments.output, problem));
     let kind = |path: &Path| path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
     let wanted = if is_png(&arguments.picture)? { "png" } else { "svg" };
     if kind(&arguments.output).as_deref() != Some(wanted) {
         return refuse(format!(
-            "the picture is {}, and what is compared with it must be too; name a .{wanted} file",
+            "the picture is {}, so the new one must be too; name a .{wanted} file",
             wanted.to_uppercase()
         ));
     }
@@ -69,7 +69,7 @@ fn check_output(arguments: &Arguments) -> Result<()> {
         arguments.output.canonicalize().is_ok_and(|output| other.canonicalize().is_ok_and(|other| other == output))
     };
     match same(&arguments.picture) {
-        true => refuse("this is the picture itself, which is compared; name another file".to_owned()),
+        true => refuse("this is the picture to compare with; name another file".to_owned()),
         false => Ok(()),
     }
 }
@@ -87,7 +87,7 @@ fn is_png(path: &Path) -> Result<bool> {
 }
 
 fn failed(path: &Path, error: &std::io::Error) -> Error {
-    Error::Picture { path: path.display().to_string(), problem: format!("it cannot be read ({error}); check the file") }
+    Error::picture(path, format!("it cannot be read ({error}); check the file")).because(error)
 }
 
 /// The models to draw, which must be where they are said to be.
@@ -104,11 +104,9 @@ fn models(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<String>> {
     }
     let models = if arguments.model.is_empty() { &recipe.models } else { &arguments.model };
     match models.iter().find(|model| !model.starts_with("builtin:") && !Path::new(model).exists()) {
-        Some(model) => Err(Error::Model {
-            path: model.clone(),
-            line: None,
-            problem: "the picture's model is not there; say where it is now with --model FILE".to_owned(),
-        }),
+        Some(model) => {
+            Err(Error::model(model.clone(), "the picture's model is missing; say where it is now with --model FILE"))
+        }
         None => Ok(models.clone()),
     }
 }
@@ -116,10 +114,10 @@ fn models(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<String>> {
 /// Draws by the recipe. Its options pass through the same parser as a user's, and what is not part of a picture, such as a
 /// file to write, has no place among them: a recipe may come from anyone.
 fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()> {
-    let refuse = |problem: String| Error::Picture { path: arguments.picture.display().to_string(), problem };
+    let refuse = |problem: String| Error::picture(&arguments.picture, problem);
     if recipe.command != "render" {
         return Err(refuse(format!(
-            "its recipe is for tinta {}, which is not drawn again; use tinta render",
+            "its recipe is for tinta {}, which cannot be repeated here; use tinta render",
             recipe.command
         )));
     }
@@ -127,7 +125,7 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     for (name, value) in &recipe.options {
         if !super::preset::is_kept(name) || name.contains(['=', ' ']) {
             return Err(refuse(format!(
-                "its recipe has the option {name}, which is no part of a picture; it is not drawn"
+                "its recipe has the option {name}, which does not describe a picture; it is not drawn"
             )));
         }
         if name == NOT_GRANTED && !arguments.allow_external {
@@ -177,13 +175,10 @@ fn check_size(arguments: &Arguments, size: Size) -> Result<()> {
     let picture = Picture::read(&arguments.picture)?;
     match picture.size == size {
         true => Ok(()),
-        false => Err(Error::Picture {
-            path: arguments.picture.display().to_string(),
-            problem: format!(
-                "it is {} pixels large and its recipe is for {size}; it is not drawn, take the picture that tinta wrote",
-                picture.size
-            ),
-        }),
+        false => Err(Error::picture(
+            &arguments.picture,
+            format!("it has {} pixels but its recipe is for {size}; give the picture that tinta wrote", picture.size),
+        )),
     }
 }
 

@@ -1,4 +1,4 @@
-//! `tinta batch`: a list of jobs carried out on all cores, or a slice of it, and what came of all of them.
+//! `tinta batch`: runs a list of jobs, or a slice of it, on all cores, and summarises the results.
 //!
 //! The jobs are done by workers, processes of this program that take one job after another and keep their context, programs
 //! and models: a job that brings the driver down takes one worker with it and no other job. What a worker tells of a job is
@@ -23,37 +23,42 @@ use tinta::limits::REMARKS;
 use tinta::{Error, Result};
 use worker_process::WorkerProcess;
 
-/// Carry out a list of jobs, a line of JSON each, on all cores
+/// Run a list of jobs, one line of JSON each, on all cores
 #[derive(clap::Args)]
 #[command(after_help = "\
 A job: {\"id\": \"cow-1\", \"command\": \"render\", \"model\": \"cow.obj\", \"output\": \"cow-1.png\", \"view\": \"90,15\"}
-where command is render, compare or measure, model a text or several in brackets, and every further key the long name of an \
-option of that command. Outputs lie in DIR; everything that is read is named as on the command line. docs/batch.md has the rest.
+Its command is render, compare or measure. Its model is a text, or several in brackets. Every other key is the long name of an \
+option of that command. Outputs are written into DIR; files to read are named as on the command line. See docs/batch.md.
 
-Exit codes: 0 all done, 1 a job failed, 2 could not be done, 75 another run is at work on the same slice, 130 and 143 stopped by \
-Ctrl-C and by SIGTERM with jobs to do.")]
-pub struct Arguments {
-    /// List of jobs, a line of JSON each
+Exit codes:
+  0    all jobs done
+  1    a job failed
+  2    not done; one sentence on standard error says why
+  75   another run is working on the same slice
+  130  stopped by Ctrl-C with jobs left
+  143  stopped by SIGTERM with jobs left")]
+pub(super) struct Arguments {
+    /// List of jobs, one line of JSON each
     #[arg(value_name = "LIST", required_unless_present_any = ["summary", "worker"])]
     list: Option<PathBuf>,
 
-    /// Folder for what the jobs write and for the record of what came of each
+    /// Folder for the files that the jobs write, and for the record of their results
     #[arg(short, long, value_name = "DIR", required_unless_present = "summary")]
     output: Option<PathBuf>,
 
-    /// Do every N-th job only, beginning with the K-th: N such runs, on as many machines, do them all [default: 1/1]
+    /// Run only every N-th job, starting with the K-th, to share a list among N machines [default: 1/1]
     #[arg(long, value_name = "K/N", default_value = "1/1", hide_default_value = true)]
     slice: Slice,
 
-    /// Go on in the same folder: what is done and still there is not done again, what failed is tried again [default: off]
+    /// Continue in the same folder: skip finished jobs whose files exist, retry failed ones [default: off]
     #[arg(long)]
     resume: bool,
 
-    /// Jobs at once, each in a process of its own [default: one a processor]
+    /// Jobs to run at once, each in its own process [default: one per processor]
     #[arg(long, value_name = "J", value_parser = clap::value_parser!(u32).range(1..=1024))]
     jobs: Option<u32>,
 
-    /// Put together what all slices have done in DIR, print it, write batch-summary.jsonl and batch-times.jsonl there
+    /// Summarise what all slices did in DIR: print it, and write batch-summary.jsonl and batch-times.jsonl there
     #[arg(long, value_name = "DIR", conflicts_with_all = ["list", "output", "slice", "resume", "jobs"])]
     summary: Option<PathBuf>,
 
@@ -61,14 +66,14 @@ pub struct Arguments {
     #[arg(long, requires = "summary")]
     json: bool,
 
-    /// Take jobs from standard input: what tinta batch starts
+    /// Read jobs from standard input; tinta batch starts such workers
     #[arg(long, hide = true, conflicts_with_all = ["list", "summary"])]
     worker: bool,
 }
 
 /// Carries the list out, or sums up what was carried out; exit code 1 where a job failed or is missing, 128 and the signal's
 /// number where a signal ended it with jobs to do.
-pub fn run(arguments: &Arguments) -> Result<Verdict> {
+pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
     if let Some(folder) = &arguments.summary {
         return sum_up(folder, arguments.json);
     }
@@ -88,7 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict> {
     if counts.ended() < left.len() {
         let to_do = left.len() - counts.ended();
         say(&format!(
-            "tinta: {}: stopped by a signal with {to_do} of {jobs} jobs to do; go on by --resume",
+            "tinta: {}: stopped by a signal with {to_do} of {jobs} jobs left; continue with --resume",
             folder.display()
         ));
         return Ok(Verdict::Stopped { signal: stop.signal() });
@@ -108,18 +113,18 @@ struct Begun {
 /// Opens the slice's file, once it is known that this list and this folder belong together. Of the list only the jobs that
 /// are left stay in memory.
 fn begin(arguments: &Arguments, folder: &Path, list: List) -> Result<Begun> {
-    let refuse = |problem: String| Err(Error::Output { path: folder.display().to_string(), problem });
+    let refuse = |problem: String| Err(Error::output(folder, problem));
     let slice = arguments.slice;
     let has_begun = begun(folder).iter().any(|other| *other == slice || other.count != slice.count);
     if has_begun && !arguments.resume {
-        return refuse("a batch was begun here; go on with it by --resume, or name another folder".to_owned());
+        return refuse("this folder holds a batch; continue it with --resume, or name another folder".to_owned());
     }
     match list.is_kept(folder)? {
         Some(true) => {}
         Some(false) if !(arguments.resume && slice == Slice::WHOLE) => {
             return refuse(
-                "a batch of another list was begun here; name another folder, or give the changed list with --resume and \
-                 without --slice"
+                "this folder holds a batch of another list; name another folder, or give the changed list with \
+                 --resume and without --slice"
                     .to_owned(),
             );
         }
@@ -205,15 +210,16 @@ fn carry_out(
 /// is done when the run goes on.
 fn stop_on_full_disk(job: &Job, folder: &Path, outcome: Outcome) -> Result<Outcome> {
     match outcome.error {
-        Some(Failure { ref kind, ref problem }) if *kind == DISK_FULL => Err(Error::DiskFull {
-            path: format!("{}: line {}, {}", folder.display(), job.line, job.id),
-            problem: format!("{}; go on by --resume", problem.trim_end_matches(" and go on by --resume")),
-        }),
+        Some(Failure { ref kind, ref problem }) if *kind == DISK_FULL => Err(Error::output(
+            format!("{}: line {}, {}", folder.display(), job.line, job.id),
+            format!("{}; continue with --resume", problem.trim_end_matches(" and continue with --resume")),
+        )
+        .because(&std::io::ErrorKind::StorageFull.into())),
         _ => Ok(outcome),
     }
 }
 
-/// [`Error::kind`] of [`Error::DiskFull`].
+/// [`Error::kind`] of [`Error::File`].
 const DISK_FULL: &str = "disk-full";
 
 /// Counts a job and says why it failed, for the first few that do.
@@ -274,8 +280,7 @@ fn table(summary: &Summary) -> String {
             text += &format!("{what}: {} more, in batch-summary.jsonl\n", named.len() - REMARKS);
         }
     }
-    for (count, what) in
-        [(outdated, "of jobs that are not in the list any more"), (damaged, "that cannot be understood")]
+    for (count, what) in [(outdated, "of jobs that are no longer in the list"), (damaged, "that cannot be understood")]
     {
         if *count > 0 {
             text += &format!("{count} entries {what}\n");

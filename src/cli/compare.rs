@@ -1,4 +1,4 @@
-//! `tinta compare`: one scene in two styles, and their lines laid over each other.
+//! `tinta compare`: draws one scene in two styles and overlays their lines.
 
 use super::models::load_meshes;
 use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments, ignored};
@@ -14,12 +14,12 @@ use tinta::{Backend, Error, Picture, Result, Scene, Show, StyleName, Target};
 
 /// Draw one scene in two styles side by side, and show which lines both drew
 #[derive(clap::Args)]
-pub struct Arguments {
+pub(super) struct Arguments {
     /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models; several make one scene
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 
-    /// Sheet to write (.png .jpg .bmp .tga .ppm), or with a / at the end a folder for it and its three pictures
+    /// Sheet to write (.png .jpg .bmp .tga .ppm), or, ending in /, a folder for the sheet and its three pictures
     #[arg(short, long, value_name = "FILE|DIR")]
     output: String,
 
@@ -30,7 +30,7 @@ pub struct Arguments {
     #[arg(long, value_name = "STYLE", default_value = "inking", hide_default_value = true)]
     right: StyleName,
 
-    /// Distance within which two styles' ink is the same, pixels, up to 64 [default: 2]
+    /// Distance within which two styles' ink counts as the same, in pixels, up to 64 [default: 2]
     #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, value_parser = clap::value_parser!(u32).range(0..=64))]
     tolerance: u32,
 
@@ -72,7 +72,7 @@ struct Drawing {
     record: DrawingRecord,
 }
 
-pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<()> {
+pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<()> {
     super::messages::check_output(&arguments.output)?;
     let inputs = given.inputs(&arguments.models);
     inputs.keep(&arguments.output)?;
@@ -82,7 +82,7 @@ pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Resul
         return Err(Error::value("o", "-", "the sheet and --json cannot share standard output; name a file"));
     }
     if arguments.styles.are_without_borders() {
-        return Err(Error::setting("no-borders", "it is lines that are compared; leave it out"));
+        return Err(Error::setting("no-borders", "compare needs the lines; leave it out"));
     }
     if arguments.styles.show != Show::Final {
         return Err(Error::setting("show", "a comparison shows finished pictures; leave it out"));
@@ -125,7 +125,7 @@ pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Resul
     };
     let [left, right] = [draw(&styles[0])?, draw(&styles[1])?];
     let agreement = Agreement::of(&left.ink, &right.ink, arguments.tolerance)
-        .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; try another"))?;
+        .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; choose another"))?;
     let map = agreement.picture(scene.size);
     let models: Vec<ModelRecord> = scene.objects[..count].iter().map(|object| ModelRecord::new(&object.mesh)).collect();
     let record = ComparisonRecord {
@@ -194,7 +194,7 @@ impl Output {
             return Target::check(path, false).map(Self::File);
         }
         std::fs::create_dir_all(path).map_err(|error| {
-            Error::output(path, &error, format!("the folder cannot be made ({error}); choose another"))
+            Error::output(path, format!("the folder cannot be created ({error}); choose another")).because(&error)
         })?;
         let file = |name: &str| {
             let file: PathBuf = Path::new(path).join(name);

@@ -11,19 +11,21 @@ use tinta::Result;
 use tinta::mesh::BUILTINS;
 use tinta::preset::SHIPPED;
 #[cfg(test)]
-pub use values::of_table;
+pub(crate) use values::of_table;
 
-/// Print a script with which a shell completes tinta's commands, options, values and files
+/// Print a completion script for a shell: commands, options, values and files
 #[derive(clap::Args)]
-#[command(after_help = "\
-Once, for shells that start from then on:
-  tinta completions bash > ~/.local/share/bash-completion/completions/tinta
-  tinta completions zsh > ~/.zfunc/_tinta          with fpath+=~/.zfunc before compinit in ~/.zshrc
+#[command(after_help = "Run one of these once; it takes effect in new shells:
+  tinta completions bash > \
+~/.local/share/bash-completion/completions/tinta
+  tinta completions zsh > ~/.zfunc/_tinta          with \
+fpath+=~/.zfunc before compinit in ~/.zshrc
   tinta completions fish > ~/.config/fish/completions/tinta.fish
 
-The folders must be there: mkdir -p makes them. The Debian package brings these files along.")]
-pub struct Arguments {
-    /// Shell that the script is for
+The \
+folders must exist: mkdir -p creates them. The Debian package installs these files.")]
+pub(super) struct Arguments {
+    /// Shell to write the script for
     #[arg(value_name = "SHELL")]
     shell: Shell,
 }
@@ -36,7 +38,7 @@ enum Shell {
     Fish,
 }
 
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub(super) fn run(arguments: &Arguments) -> Result<()> {
     super::print(&script(arguments.shell))
 }
 

@@ -13,12 +13,12 @@ use tinta::{EdgeList, Error, Result, Scene, SceneSettings, Style, StyleName};
 
 /// Count a model's edges by class, and time how they are found
 #[derive(clap::Args)]
-pub struct Arguments {
+pub(super) struct Arguments {
     /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in model
     #[arg(value_name = "MODEL")]
     model: String,
 
-    /// How often to do everything, for the times [default: 1]
+    /// Repetitions to time [default: 1]
     #[arg(long, value_name = "N", default_value = "1", hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
 
@@ -47,7 +47,7 @@ impl Selection for OfEdges {
     }
 }
 
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let style = Style::with_options(StyleName::Inking, &arguments.crease.options)?;
     let Inking { crease_angle, silhouette: rule, .. } =
         if let Style::Inking(inking) = style { inking } else { Inking::default() };

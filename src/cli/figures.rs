@@ -1,4 +1,4 @@
-//! `tinta figures`: the three texts' figures as pictures and plots of ours, on a page.
+//! `tinta figures`: the three texts' figures as pictures and plots of ours, and their claims with what is measured, on a page.
 
 use super::model_cache::ModelCache;
 use super::models::load_meshes;
@@ -6,46 +6,47 @@ use super::progress::Progress;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tinta::figures::page::{FigureRecord, PictureRecord, page};
+use tinta::figures::page::{FigureRecord, PictureRecord, Shown, page, png_source, svg_source};
 use tinta::figures::plot::{PLOT_SIZE, plot, title};
 use tinta::figures::{
-    Artist, Content, Drawing, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel, TRIANGLES, figures, measure, only, steps,
+    Artist, Claim, ClaimRecord, Content, Drawing, Figure, Host, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel,
+    TRIANGLES, figures, markdown, measure, measure_claims, only, pass_columns, steps,
 };
 use tinta::shell::quoted;
 use tinta::{Backend, Error, LoadOptions, Mesh, Picture, Renderer, Result, Size, Target, TextTarget};
 
-/// Draw and measure the figures of the three texts again; pictures, plots and a page come out
+/// Draw and measure the figures and claims of the three texts again, as pictures, plots and a page
 #[derive(clap::Args)]
 #[command(after_help = "\
-Files: index.html, which needs nothing but the pictures beside it; figures.json with commands, settings and every raw time; a PNG
-for each picture and an SVG for each plot. Where figures need a model with its own texture and none is named with --model, they
-are left out, and that is said.")]
-pub struct Arguments {
-    /// Folder to write into; made if it is not there
+Files: index.html shows everything and needs no other file; its pictures have fewer colours than the files beside it. \
+figures.json holds commands, settings and every raw time; claims.md holds the claims as a table. Each picture is a PNG, each plot \
+an SVG.")]
+pub(super) struct Arguments {
+    /// Folder to write into; created if missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 
-    /// Figures with commas between, such as evangelista-5,dachsbacher-ants [default: all]
+    /// Figures to draw, separated by commas, such as evangelista-5,dachsbacher-ants [default: all]
     #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
     only: Vec<String>,
 
-    /// Size of the pictures, and of the frames that are timed [default: 512x512, the papers']
+    /// Size of the pictures and of the timed frames [default: 512x512, the papers']
     #[arg(long, value_name = "WxH", default_value = "512x512", hide_default_value = true)]
     size: Size,
 
-    /// Frames of each setting that are timed [default: 21, with --quick 3]
+    /// Frames to time for each setting [default: 21, with --quick 3]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     frames: Option<u32>,
 
-    /// Fewer frames, and the three smaller of figure 13's six scenes [default: off]
+    /// Time fewer frames, and only the three smaller of figure 13's six scenes [default: off]
     #[arg(long)]
     quick: bool,
 
-    /// Model with its own texture for the figures that need one (MD2, OBJ, 3DS, glTF) [default: those figures are left out]
+    /// Textured model for the figures of a game's character (MD2, OBJ, 3DS, glTF) [default: builtin:soldier]
     #[arg(long, value_name = "FILE")]
     model: Option<String>,
 
-    /// Picture for all surfaces of that model (PCX, PNG, TGA, BMP, JPEG, PPM) [default: what the model names, found beside it]
+    /// Picture for all surfaces of that model (PCX, PNG, TGA, BMP, JPEG, PPM) [default: the picture that the model names]
     #[arg(long, value_name = "FILE", requires = "model")]
     skin: Option<PathBuf>,
 
@@ -54,16 +55,19 @@ pub struct Arguments {
     backend: Backend,
 }
 
+/// The model of the figures that show a game's character with its own texture.
+const BUILTIN_CHARACTER: &str = "builtin:soldier";
+
 /// Tones of figure 13, a plot each.
 const PLOTS: [u8; 3] = [1, 2, 3];
 
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let chosen = only(figures(arguments.size), &arguments.only)?;
     if arguments.output.join("figures.json").exists() {
-        return Err(Error::Output {
-            path: arguments.output.display().to_string(),
-            problem: "figures of an earlier run and their times lie here; name another folder".to_owned(),
-        });
+        return Err(Error::output(
+            &arguments.output,
+            "this folder holds the figures of an earlier run; name another folder",
+        ));
     }
     super::make_folder(&arguments.output)?;
     let folder = Folder(&arguments.output);
@@ -72,41 +76,59 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let mut artist = Artist::new(arguments.textured()?);
     let mut renderer = Renderer::new(arguments.backend)?;
     let how = arguments.how_to_measure();
-    let is_measured = chosen.iter().any(|figure| !matches!(figure.content, Content::Pictures(_)));
+    let claims: Vec<Claim> = chosen.iter().flat_map(Figure::claims).collect();
+    let is_measured = chosen.iter().any(Figure::needs_numbers);
+    let claims_target = if claims.is_empty() { None } else { Some(folder.text("claims.md")?) };
     let panels: usize = chosen.iter().map(|figure| figure.panels().len()).sum();
     let measured_steps = if is_measured { steps(&how) } else { 0 };
-    let progress = Progress::new("drawing", (panels + measured_steps) as u64);
+    let progress = Progress::new("drawing", (panels + measured_steps + claims.len() * 2) as u64);
     let mut records = Vec::new();
     for figure in &chosen {
         let mut record = FigureRecord::new(figure, arguments.command(figure.id));
         for panel in figure.panels() {
-            if !artist.can_draw(panel) {
-                record.left_out.push(format!("{}, for {NO_TEXTURED_MODEL}", panel.label));
-            } else if let Some(picture) = artist.draw(&mut renderer, panel, arguments.size)? {
-                folder.picture(&panel.file, &picture)?;
-                record.pictures.push(arguments.record(panel, &picture));
+            match arguments.drawn(&folder, &mut artist, &mut renderer, panel)? {
+                Some(drawn) => record.pictures.push(drawn),
+                None => record.left_out.push(format!("{}, for {NO_TEXTURED_MODEL}", panel.label)),
             }
             progress.step();
         }
+        if figure.content == Content::Passes {
+            record.passes = pass_columns(&how)?;
+        }
         records.push(record);
+    }
+    let mut claim_pictures = Vec::new();
+    for claim in &claims {
+        let mut pictures = Vec::new();
+        for panel in claim.panels() {
+            pictures.extend(arguments.drawn(&folder, &mut artist, &mut renderer, &panel)?);
+        }
+        claim_pictures.push((claim.id, pictures));
+        progress.step();
     }
     let numbers = match is_measured {
         true => Some(measure(&mut renderer, &how, || progress.step())?),
         false => None,
     };
+    let found = measure_claims(&mut renderer, &claims, &how, numbers.as_ref(), || progress.step())?;
     if let Some(numbers) = &numbers
         && let Some(record) = records.iter_mut().find(|record| record.id == "evangelista-13")
     {
         for tones in PLOTS {
             let file = format!("evangelista-13-tones-{tones}.svg");
-            folder.text(&file)?.write(&plot(numbers, tones)?)?;
-            record.pictures.push(plot_record(file, tones));
+            let text = plot(numbers, tones)?;
+            folder.text(&file)?.write(&text)?;
+            record.pictures.push(plot_record(file, tones, &text));
         }
     }
     drop(progress);
     let gl = renderer.context();
-    page_target.write(&page(&records, numbers.as_ref(), &gl.renderer, arguments.size))?;
-    record_target.write(&arguments.json(&records, numbers.as_ref(), gl)?)?;
+    let shown = Shown { figures: &records, numbers: numbers.as_ref(), claims: &found, claim_pictures: &claim_pictures };
+    page_target.write(&page(shown, &gl.renderer, arguments.size))?;
+    record_target.write(&arguments.json(&records, numbers.as_ref(), &found, gl)?)?;
+    if let Some(target) = claims_target {
+        target.write(&markdown(&found, &Host::new(gl), &how))?;
+    }
     for record in &records {
         for line in &record.left_out {
             super::say(&format!("tinta: {} ({}), left out: {line}", record.id, record.number));
@@ -115,10 +137,11 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     Ok(())
 }
 
-fn plot_record(file: String, tones: u8) -> PictureRecord {
+fn plot_record(file: String, tones: u8, text: &str) -> PictureRecord {
     let label = title(tones).to_owned();
     let (width, height) = PLOT_SIZE;
-    PictureRecord { file, label, size: Size { width, height }, command: None, style: None, show: None }
+    let size = Size { width, height };
+    PictureRecord { file, label, size, command: None, style: None, show: None, source: svg_source(text) }
 }
 
 impl Arguments {
@@ -128,11 +151,11 @@ impl Arguments {
         HowToMeasure { size: self.size, frames: frames as usize, scenes }
     }
 
-    /// The user's model, which must have a texture.
+    /// The model with a texture: the user's, or else the built-in one.
     fn textured(&self) -> Result<Option<Arc<Mesh>>> {
-        let Some(path) = &self.model else { return Ok(None) };
+        let path = self.model.as_deref().unwrap_or(BUILTIN_CHARACTER);
         let options = LoadOptions { skin: self.skin.clone(), ..LoadOptions::default() };
-        let mesh = load_meshes(&ModelCache::for_one(), std::slice::from_ref(path), &options)?.pop();
+        let mesh = load_meshes(&ModelCache::for_one(), &[path.to_owned()], &options)?.pop();
         match mesh {
             Some(mesh) if mesh.materials.iter().any(|material| material.has_texture()) => Ok(Some(mesh)),
             _ => Err(Error::value(
@@ -143,9 +166,9 @@ impl Arguments {
         }
     }
 
-    /// What the user's model is called on a command line.
+    /// What that model is called on a command line.
     fn textured_name(&self) -> Option<String> {
-        let model = quoted(self.model.as_deref()?);
+        let model = quoted(self.model.as_deref().unwrap_or(BUILTIN_CHARACTER));
         Some(match &self.skin {
             Some(skin) => format!("{model} --skin {}", quoted(&skin.to_string_lossy())),
             None => model,
@@ -157,6 +180,19 @@ impl Arguments {
         let HowToMeasure { size, frames, .. } = self.how_to_measure();
         let quick = if self.quick { " --quick" } else { "" };
         format!("tinta figures -o figures --only {id} --size {size} --frames {frames}{quick}")
+    }
+
+    /// Draws a panel into its file; `None` where it needs a texture and there is none.
+    fn drawn(
+        &self,
+        folder: &Folder<'_>,
+        artist: &mut Artist,
+        renderer: &mut Renderer,
+        panel: &Panel,
+    ) -> Result<Option<PictureRecord>> {
+        let Some(picture) = artist.draw(renderer, panel, self.size)? else { return Ok(None) };
+        folder.picture(&panel.file, &picture)?;
+        Ok(Some(self.record(panel, &picture)))
     }
 
     fn record(&self, panel: &Panel, picture: &Picture) -> PictureRecord {
@@ -171,10 +207,17 @@ impl Arguments {
             command: Some(panel.command(self.size, self.textured_name().as_deref())),
             style: scene.map(|scene| scene.style.clone()),
             show: scene.map(|scene| scene.show),
+            source: png_source(picture),
         }
     }
 
-    fn json(&self, records: &[FigureRecord], numbers: Option<&Numbers>, gl: &tinta::gl::ContextInfo) -> Result<String> {
+    fn json(
+        &self,
+        records: &[FigureRecord],
+        numbers: Option<&Numbers>,
+        claims: &[ClaimRecord],
+        gl: &tinta::gl::ContextInfo,
+    ) -> Result<String> {
         let value = json!({
             "version": env!("CARGO_PKG_VERSION"),
             "size": self.size,
@@ -182,10 +225,10 @@ impl Arguments {
             "gl": gl,
             "figures": records,
             "numbers": numbers,
+            "claims": claims,
         });
-        let text = serde_json::to_string_pretty(&value).map_err(|error| Error::Output {
-            path: "figures.json".to_owned(),
-            problem: format!("the record cannot be written as JSON ({error}); report this"),
+        let text = serde_json::to_string_pretty(&value).map_err(|error| {
+            Error::output("figures.json", format!("the record cannot be written as JSON ({error}); report this"))
         })?;
         Ok(text + "\n")
     }
@@ -217,6 +260,9 @@ mod tests {
         let all: Vec<tinta::figures::Figure> = figures(Size { width: 64, height: 64 });
         let mut files: Vec<&str> =
             all.iter().flat_map(tinta::figures::Figure::panels).map(|panel| panel.file.as_str()).collect();
+        let of_claims: Vec<Panel> =
+            all.iter().flat_map(Figure::claims).flat_map(|claim: Claim| claim.panels()).collect();
+        files.extend(of_claims.iter().map(|panel| panel.file.as_str()));
         let count = files.len();
         files.sort_unstable();
         files.dedup();

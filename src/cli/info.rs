@@ -1,12 +1,12 @@
-//! `tinta info`: every way to a context and what came of it.
+//! `tinta info`: tries every backend and prints its properties or why it failed.
 
 use tinta::gl::context::{Attempt, Outcome, attempts};
 use tinta::{Backend, Error, Result};
 
-/// Show which OpenGL contexts can be made on this machine, and why others cannot
+/// Show which OpenGL backends work on this machine, and why the others do not
 #[derive(clap::Args)]
-pub struct Arguments {
-    /// Which ways to try: auto (all), egl, osmesa [default: auto]
+pub(super) struct Arguments {
+    /// Backends to try: auto (all), egl, osmesa [default: auto]
     #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 
@@ -15,7 +15,7 @@ pub struct Arguments {
     json: bool,
 }
 
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let attempts = attempts(arguments.backend);
     if arguments.json {
         super::print_json(&serde_json::json!({ "version": env!("CARGO_PKG_VERSION"), "attempts": attempts }))?;

@@ -1,4 +1,4 @@
-//! Files that are read are not written over: a model, its pictures, a preset.
+//! Protects input files from being overwritten: a model, its pictures, a preset.
 
 use std::path::{Path, PathBuf};
 use tinta::preset::{OptionValue, Options};
@@ -13,11 +13,11 @@ fn read() -> Vec<&'static str> {
 }
 
 /// What a command reads, as far as its command line says.
-pub struct Inputs(Vec<(&'static str, PathBuf)>);
+pub(super) struct Inputs(Vec<(&'static str, PathBuf)>);
 
 impl Inputs {
     /// The models, the files that options name, and a preset.
-    pub fn new(models: &[String], options: &Options, preset: Option<&str>) -> Self {
+    pub(super) fn new(models: &[String], options: &Options, preset: Option<&str>) -> Self {
         let named = |name: &'static str| match options.get(name) {
             Some(OptionValue::Text(path)) => Some((name, PathBuf::from(path))),
             _ => None,
@@ -28,27 +28,26 @@ impl Inputs {
     }
 
     /// Pictures that models name, known once these are read.
-    pub fn of_pictures(pictures: impl Iterator<Item = PathBuf>) -> Self {
+    pub(super) fn of_pictures(pictures: impl Iterator<Item = PathBuf>) -> Self {
         Self(pictures.map(|picture| ("model's picture", picture)).collect())
     }
 
     /// Refuses to write over any of them; an output with a number in it, `frame-%04d.png`, stands for all of its pictures.
-    pub fn keep(&self, output: &str) -> Result<()> {
+    pub(super) fn keep(&self, output: &str) -> Result<()> {
         let is_it = |input: &Path| match output.split_once('%') {
             None => same(Path::new(output), input),
             Some((before, after)) => is_numbered(before, after, input),
         };
         match self.0.iter().find(|(_, input)| is_it(input)) {
             None => Ok(()),
-            Some((what, _)) => Err(Error::Output {
-                path: output.to_owned(),
-                problem: format!("this is the {what} itself; name another file"),
-            }),
+            Some((what, _)) => {
+                Err(Error::output(output, format!("this would overwrite the {what}; name another file")))
+            }
         }
     }
 
     /// The same of files in a folder.
-    pub fn keep_in<'a>(&self, folder: &Path, names: impl IntoIterator<Item = &'a str>) -> Result<()> {
+    pub(super) fn keep_in<'a>(&self, folder: &Path, names: impl IntoIterator<Item = &'a str>) -> Result<()> {
         names.into_iter().try_for_each(|name| self.keep(&folder.join(name).to_string_lossy()))
     }
 }
@@ -92,7 +91,7 @@ mod tests {
         let inputs = Inputs::new(&[at("model.png"), at("frame-0007.png"), "builtin:bust".to_owned()], &options, None);
         for output in ["model.png", "./model.png", "skin.png", "frame-%04d.png", "frame-%d.png"] {
             let message = inputs.keep(&at(output)).unwrap_err().to_string();
-            assert!(message.contains("itself; name another file"), "{output}: {message}");
+            assert!(message.contains("this would overwrite the "), "{output}: {message}");
         }
         for output in ["other.png", "frame-x.png", "frame-x%d.png", "frame-%d.ppm"] {
             inputs.keep(&at(output)).unwrap();

@@ -9,17 +9,19 @@ use roff::{Roff, bold, roman};
 use std::path::PathBuf;
 use tinta::{Result, TextTarget};
 
-/// Write the manual pages: tinta.1 and one for each command, such as tinta-render.1
+/// Write the manual pages: tinta.1, and one for each command, such as tinta-render.1
 #[derive(clap::Args)]
-#[command(after_help = "\
-To read them: man -l man/tinta.1, or with -o ~/.local/share/man/man1 from then on: man tinta. The Debian package brings them along.")]
-pub struct Arguments {
-    /// Folder to write into; made if it is not there
+#[command(
+    after_help = "To read one: man -l man/tinta.1. Written with -o ~/.local/share/man/man1, they open with: man \
+tinta. The Debian package installs them."
+)]
+pub(super) struct Arguments {
+    /// Folder to write into; created if missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 }
 
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub(super) fn run(arguments: &Arguments) -> Result<()> {
     super::make_folder(&arguments.output)?;
     let targets = pages().into_iter().map(|page| {
         let path = arguments.output.join(&page.file);
@@ -38,11 +40,10 @@ struct Page {
 }
 
 /// What the program is, for its own page.
-const DESCRIPTION: &str = "\
-Draws 3D models the way the papers of 2001 to 2007 made them: the published OpenGL 2.1 programs almost verbatim, and exact visible \
-lines. No display and no graphics card is needed: OpenGL comes through EGL or OSMesa, from Mesa's software renderer where nothing \
-else is there. Models are files, or built in, such as builtin:bust. Each command has a page of its own with all its options and their \
-defaults.";
+const DESCRIPTION: &str = "Draws 3D models as cartoons, ink, charcoal and line art. It runs OpenGL 2.1 programs \
+published between 2001 and 2007, almost as printed, and computes exact visible lines. It needs neither a display nor a \
+graphics card: OpenGL comes from EGL or OSMesa, and Mesa's software renderer is enough. Models are files, or built in, \
+such as builtin:bust. Each command has a page of its own with all its options and their defaults.";
 
 /// Where a window opens.
 const DISPLAY: (&str, &str) =
@@ -51,8 +52,8 @@ const DISPLAY: (&str, &str) =
 /// Variables that Mesa reads.
 const ENVIRONMENT: [(&str, &str); 3] = [
     ("GALLIUM_DRIVER", "Mesa's software driver: llvmpipe, or the slower softpipe. Unset, Mesa chooses."),
-    ("LIBGL_ALWAYS_SOFTWARE", "If it is 1, Mesa leaves graphics cards alone."),
-    ("LP_NUM_THREADS", "How many threads Mesa's llvmpipe draws with; unset, one for each core."),
+    ("LIBGL_ALWAYS_SOFTWARE", "Set to 1, Mesa draws in software and ignores graphics cards."),
+    ("LP_NUM_THREADS", "Number of threads that Mesa's llvmpipe draws with; unset, one for each core."),
 ];
 
 /// Commands that open no OpenGL.
@@ -65,12 +66,12 @@ const EXIT_CODES: [(&str, &str); 3] = [
         "1",
         "A check found a difference: pictures that should be equal differ, a case did not end as it must, or a job of a batch failed.",
     ),
-    ("2", "It could not be done; the reason is one sentence on standard error."),
+    ("2", "Not done; one sentence on standard error says why."),
 ];
 
 /// Further ones of `tinta batch`.
 const EXIT_CODES_OF_BATCH: [(&str, &str); 2] = [
-    ("75", "Another run is at work on the same slice; try again later."),
+    ("75", "Another run is working on the same slice; try again later."),
     ("130 and 143", "Stopped by Ctrl-C or SIGTERM with jobs left to do."),
 ];
 
@@ -104,7 +105,7 @@ fn examples(whole: &Command) -> Vec<String> {
 }
 
 /// A page; the program's own names `commands`.
-pub fn page(command: &Command, examples: &[String], commands: &[String]) -> String {
+pub(super) fn page(command: &Command, examples: &[String], commands: &[String]) -> String {
     let usage = command.clone().render_usage().to_string();
     let usage = usage.strip_prefix("Usage: ").unwrap_or(&usage).to_owned();
     let man = Man::new(command.clone().override_usage(usage));

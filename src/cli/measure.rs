@@ -9,7 +9,7 @@ use super::preset::{Given, PresetArguments};
 use super::progress::Progress;
 use super::session::Session;
 use errors::{error_page, is_shown, known_picture};
-pub use settings::StyleOptions;
+pub(super) use settings::StyleOptions;
 use settings::{of_words, settings};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -21,14 +21,14 @@ use tinta::report::{ReportInfo, ReportPicture, RowLog, read_rows};
 use tinta::settings::{HasSettings, Kind};
 use tinta::{Backend, Error, LoadOptions, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
 
-/// Measure every style's error against its run time; a table, plots and a page come out
+/// Measure every style's error and run time, as a table, plots and a page
 #[derive(clap::Args)]
-pub struct Arguments {
+pub(super) struct Arguments {
     /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models, each measured by itself
     #[arg(value_name = "MODEL", required_unless_present_any = ["suite", "merge"])]
     models: Vec<String>,
 
-    /// Built-in models together: papers (bust, ant), solids (gear, open box), all
+    /// Set of built-in models: papers (bust, ant), solids (gear, open box), all
     #[arg(long, value_name = "SUITE", value_parser = parse_suite)]
     suite: Option<Suite>,
 
@@ -36,35 +36,35 @@ pub struct Arguments {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 
-    /// Sizes in pixels with commas between [default: 512x512]
+    /// Sizes in pixels, separated by commas [default: 512x512]
     #[arg(long, value_name = "SIZES", value_delimiter = ',', default_value = "512x512", hide_default_value = true)]
     size: Vec<Size>,
 
-    /// Styles with commas between [default: all]
+    /// Styles, separated by commas [default: all]
     #[arg(long, value_name = "STYLES", value_delimiter = ',')]
     styles: Vec<StyleName>,
 
-    /// Frames of each setting that are timed [default: 21, with --quick 7]
+    /// Frames to time for each setting [default: 21, with --quick 7]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     frames: Option<u32>,
 
-    /// Fewer settings and frames [default: off]
+    /// Measure fewer settings and frames [default: off]
     #[arg(long)]
     quick: bool,
 
-    /// Distance within which ink and line count as the same, pixels [default: 2]
+    /// Distance within which ink and line count as the same, in pixels [default: 2]
     #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, allow_hyphen_values = true)]
     tolerance: f64,
 
-    /// Go on where an interrupted run in the same folder stopped [default: off]
+    /// Continue an interrupted run in the same folder [default: off]
     #[arg(long, conflicts_with = "merge")]
     resume: bool,
 
-    /// Put results of several runs or machines together instead of measuring
+    /// Merge the results of several runs or machines instead of measuring
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["models", "suite"])]
     merge: Vec<PathBuf>,
 
-    /// What this machine is called in the report [default: system, processor, threads]
+    /// Name of this machine in the report [default: system, processor, threads]
     #[arg(long, value_name = "NAME")]
     machine: Option<String>,
 
@@ -106,7 +106,7 @@ const SECONDS_A_SETTING: f64 = 0.35;
 /// Files that a measurement writes, the pictures of its plots and errors aside.
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
-pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<()> {
+pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<()> {
     if !arguments.merge.is_empty() {
         return merge(arguments, given);
     }
@@ -150,7 +150,7 @@ pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Resul
         counted(arguments.size.len(), "size"),
         counted(how.frames, "frame"),
         in_words(expected),
-        if rows.is_empty() { "" } else { ", less what is there already" }
+        if rows.is_empty() { "" } else { ", minus what is done already" }
     ));
     let progress = Progress::new("measuring", (groups.len() * steps(settings.len(), how.frames)) as u64);
     let mut pictures = Vec::new();
@@ -203,14 +203,14 @@ fn refuse_other_terms(arguments: &Arguments, rows: &[Row], how: &MeasureSettings
     };
     match rows.iter().find(|row| differs(row)) {
         None => Ok(()),
-        Some(row) => Err(Error::Output {
-            path: arguments.output.display().to_string(),
-            problem: format!(
+        Some(row) => Err(Error::output(
+            &arguments.output,
+            format!(
                 "its rows were measured with {} and perhaps another tolerance; give the same --frames, --quick and \
                  --tolerance, or name another folder",
                 counted(row.time.frames_ms.len(), "frame")
             ),
-        }),
+        )),
     }
 }
 
@@ -295,12 +295,12 @@ fn in_words(time: Duration) -> String {
 }
 
 fn make_folder(folder: &Path) -> Result<()> {
-    std::fs::create_dir_all(folder).map_err(|error| Error::Output {
-        path: folder.display().to_string(),
-        problem: match folder.is_file() {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let problem = match folder.is_file() {
             true => "this is a file; name a folder".to_owned(),
-            false => format!("the folder cannot be made ({error}); choose another"),
-        },
+            false => format!("the folder cannot be created ({error}); choose another"),
+        };
+        Error::output(folder, problem).because(&error)
     })
 }
 
@@ -323,22 +323,19 @@ fn merge(arguments: &Arguments, given: &Given) -> Result<()> {
     for path in &arguments.merge {
         let of_file = read_rows(path)?;
         if of_file.is_empty() {
-            return Err(Error::Output {
-                path: path.display().to_string(),
-                problem: "it holds no row; name a results.jsonl of `tinta measure`".to_owned(),
-            });
+            return Err(Error::output(path, "it holds no row; name a results.jsonl of `tinta measure`"));
         }
         for row in of_file {
             let place = *places.entry(row.key()).or_insert(rows.len());
             if let Some(known) = rows.get(place).filter(|known| **known != row) {
-                return Err(Error::Output {
-                    path: path.display().to_string(),
-                    problem: format!(
+                return Err(Error::output(
+                    path,
+                    format!(
                         "{} was measured in another file on a machine of the same name; measure one of them with another \
                          --machine",
                         known.options
                     ),
-                });
+                ));
             }
             rows.push(row);
         }

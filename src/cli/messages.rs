@@ -7,7 +7,7 @@ use tinta::{Error, Result};
 
 /// What was said and printed while it was captured.
 #[derive(Default)]
-pub struct Captured {
+pub(super) struct Captured {
     /// Sentences for the person.
     pub said: Vec<String>,
     /// Results.
@@ -18,22 +18,22 @@ pub struct Captured {
 static CAPTURED: Mutex<Option<Captured>> = Mutex::new(None);
 
 /// Keeps what is said from now on instead of saying it.
-pub fn capture() {
+pub(super) fn capture() {
     *CAPTURED.lock().unwrap_or_else(PoisonError::into_inner) = Some(Captured::default());
 }
 
 /// Ends that, and hands over what was captured.
-pub fn captured() -> Captured {
+pub(super) fn captured() -> Captured {
     CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default()
 }
 
 /// Whether messages are captured.
-pub fn is_captured() -> bool {
+pub(super) fn is_captured() -> bool {
     CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).is_some()
 }
 
 /// Says a line to the person, on standard error; nobody listening is no error.
-pub fn say(line: &str) {
+pub(crate) fn say(line: &str) {
     let line = plain(line);
     match CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
         Some(captured) => captured.said.push(line.strip_prefix("tinta: ").map(str::to_owned).unwrap_or(line)),
@@ -43,7 +43,7 @@ pub fn say(line: &str) {
 
 /// A line that is one: a file's name may hold anything, and must neither break the line nor turn it around nor command the
 /// terminal.
-pub fn plain(line: &str) -> String {
+pub(crate) fn plain(line: &str) -> String {
     let is_unseen =
         |c: char| matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     line.chars()
@@ -52,7 +52,7 @@ pub fn plain(line: &str) -> String {
 }
 
 /// Writes text to standard output; a reader that has heard enough (`| head`) is no error.
-pub fn print(text: &str) -> Result<()> {
+pub(super) fn print(text: &str) -> Result<()> {
     if let Some(captured) = CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
         captured.printed.push_str(text);
         return Ok(());
@@ -64,7 +64,7 @@ pub fn print(text: &str) -> Result<()> {
 
 /// Prints the help or the version that was asked for; where none was, but the command line is empty, it is an error and ends
 /// the program.
-pub fn print_help(help: &clap::Error) -> Result<()> {
+pub(super) fn print_help(help: &clap::Error) -> Result<()> {
     if help.use_stderr() {
         help.exit();
     }
@@ -77,12 +77,9 @@ pub fn print_help(help: &clap::Error) -> Result<()> {
 const STANDARD_OUTPUT: &str = "-";
 
 /// Refuses standard output that was closed when the program began.
-pub fn check_output(output: &str) -> Result<()> {
+pub(super) fn check_output(output: &str) -> Result<()> {
     match output == STANDARD_OUTPUT && standard_output::was_closed() {
-        true => Err(Error::Output {
-            path: STANDARD_OUTPUT.to_owned(),
-            problem: "standard output is closed; name a file, or leave it open".to_owned(),
-        }),
+        true => Err(Error::output(STANDARD_OUTPUT, "standard output is closed; name a file, or leave it open")),
         false => Ok(()),
     }
 }
@@ -91,9 +88,9 @@ fn printed(result: std::io::Result<()>) -> Result<()> {
     match result {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Error::output(
             STANDARD_OUTPUT,
-            &error,
             format!("standard output cannot be written ({error}); check where it goes"),
-        )),
+        )
+        .because(&error)),
         _ => Ok(()),
     }
 }

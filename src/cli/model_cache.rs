@@ -7,27 +7,27 @@ use tinta::mesh::load;
 use tinta::{LoadOptions, Mesh, Result};
 
 /// Reads models, and keeps them where there are many jobs.
-pub struct ModelCache(Mutex<Models>);
+pub(super) struct ModelCache(Mutex<Models>);
 
 impl ModelCache {
     /// For one job: nothing is kept.
-    pub fn for_one() -> Self {
+    pub(super) fn for_one() -> Self {
         Self(Mutex::new(Models { keeps: false, kept: Vec::new() }))
     }
 
     /// For many jobs.
-    pub fn for_many() -> Self {
+    pub(super) fn for_many() -> Self {
         Self(Mutex::new(Models { keeps: true, kept: Vec::new() }))
     }
 
     /// Reads a model, or finds it among those last read.
-    pub fn read(&self, path: &str, options: &LoadOptions) -> Result<Arc<Model>> {
+    pub(super) fn read(&self, path: &str, options: &LoadOptions) -> Result<Arc<Model>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).read(path, options)
     }
 }
 
 /// A model that was read, with what was read beside it and what is to be said of it.
-pub struct Model {
+pub(super) struct Model {
     pub mesh: Arc<Mesh>,
     pub files: Vec<PathBuf>,
     pub remarks: Vec<String>,

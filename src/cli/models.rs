@@ -6,12 +6,12 @@ use std::sync::Arc;
 use tinta::{LoadOptions, Mesh, Result};
 
 /// Reads the models and says what is to be said of them.
-pub fn load_meshes(model_cache: &ModelCache, paths: &[String], options: &LoadOptions) -> Result<Vec<Arc<Mesh>>> {
+pub(super) fn load_meshes(model_cache: &ModelCache, paths: &[String], options: &LoadOptions) -> Result<Vec<Arc<Mesh>>> {
     load_with_files(model_cache, paths, options).map(|(meshes, _)| meshes)
 }
 
 /// As [`load_meshes`], with the files that were read besides the models' own.
-pub fn load_with_files(
+pub(super) fn load_with_files(
     model_cache: &ModelCache,
     paths: &[String],
     options: &LoadOptions,

@@ -3,7 +3,7 @@
 //! Name, values, help and default of each are declared beside the struct it sets, see `tinta::settings`. What is no setting
 //! of a struct stands here: which settings a command has, which exclude each other, paths that are no text.
 
-pub mod ignored;
+pub(super) mod ignored;
 #[cfg(test)]
 mod tests;
 
@@ -13,13 +13,13 @@ use std::marker::PhantomData;
 use std::path::PathBuf;
 use tinta::camera;
 use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
-use tinta::styles::{Paper, Ramp};
+use tinta::styles::{Ramp, TextureSource};
 use tinta::{
     CameraSettings, Error, LineSettings, LoadOptions, Result, SceneSettings, Show, Style, StyleName, SvgSettings,
 };
 
 /// Some of a table's settings as options.
-pub trait Selection {
+pub(super) trait Selection {
     /// Whose settings.
     type Of: HasSettings;
 
@@ -33,7 +33,7 @@ pub trait Selection {
 }
 
 /// What is given of a selection on the command line.
-pub struct Chosen<S> {
+pub(super) struct Chosen<S> {
     /// By name, as a preset has it.
     pub options: Options,
     /// Files whose paths are no text, which options cannot hold.
@@ -55,7 +55,7 @@ impl<S: Selection> Chosen<S> {
     }
 
     /// Refuses the first of them that is given.
-    pub fn refuse(&self, problem: &str) -> Result<()> {
+    pub(super) fn refuse(&self, problem: &str) -> Result<()> {
         match Self::all().find(|setting| self.options.contains_key(setting.name)) {
             Some(setting) => Err(Error::setting(setting.name, problem)),
             None => Ok(()),
@@ -88,7 +88,7 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
 }
 
 /// A command with a table's settings among its options.
-pub fn with_settings<T: Clone + Send + Sync + 'static>(
+pub(super) fn with_settings<T: Clone + Send + Sync + 'static>(
     command: Command,
     table: &'static Table<T>,
     settings: impl Iterator<Item = &'static Setting<T>>,
@@ -139,7 +139,7 @@ impl<S: Selection> FromArgMatches for Chosen<S> {
 }
 
 /// The settings of every style.
-pub struct OfStyles;
+pub(super) struct OfStyles;
 
 impl Selection for OfStyles {
     type Of = Style;
@@ -148,8 +148,8 @@ impl Selection for OfStyles {
 /// The styles' settings, in one group for every command that draws.
 #[derive(clap::Args)]
 #[command(next_help_heading = "All styles")]
-pub struct StyleArguments {
-    /// Which picture: final, borders, tones; three-pass, two-pass and mrt also normals, depth, map, ink also map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
+pub(super) struct StyleArguments {
+    /// Picture to show: final, borders, tones; three-pass, two-pass and mrt also normals, depth, map, ink also map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
     #[arg(long, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
     pub show: Show,
 
@@ -159,12 +159,20 @@ pub struct StyleArguments {
 
 impl StyleArguments {
     /// The style of this name with these settings; what belongs to other styles is left alone.
-    pub fn style(&self, name: StyleName) -> Result<Style> {
+    pub(super) fn style(&self, name: StyleName) -> Result<Style> {
         let mut style = Style::with_options(name, &self.given.options)?;
         for (option, path) in &self.given.paths {
             match (&mut style, *option) {
                 (Style::Inking(inking), "ramp") => inking.ramp = Ramp::read(path)?,
-                (Style::Charcoal(charcoal) | Style::Sand(charcoal), "paper") => charcoal.paper = Paper::read(path)?,
+                (Style::Charcoal(charcoal) | Style::Sand(charcoal), option) => {
+                    let source = match option {
+                        "cet" => &mut charcoal.cet,
+                        "noise-texture" => &mut charcoal.noise_texture,
+                        "paper" => &mut charcoal.paper,
+                        _ => continue,
+                    };
+                    *source = TextureSource::read(path)?;
+                }
                 _ => {}
             }
         }
@@ -172,17 +180,17 @@ impl StyleArguments {
     }
 
     /// Whether the lines are to be left out.
-    pub fn are_without_borders(&self) -> bool {
+    pub(super) fn are_without_borders(&self) -> bool {
         self.given.is_on("no-borders")
     }
 
     /// What the style lines finds.
-    pub fn line_settings(&self) -> Result<LineSettings> {
+    pub(super) fn line_settings(&self) -> Result<LineSettings> {
         LineSettings::from_options(&self.given.options)
     }
 
     /// How the style lines draws it; some of that it has in common with inking.
-    pub fn svg_settings(&self, lines: &LineArguments) -> Result<SvgSettings> {
+    pub(super) fn svg_settings(&self, lines: &LineArguments) -> Result<SvgSettings> {
         let mut svg = SvgSettings::from_options(&self.given.options)?;
         SvgSettings::table().apply(&mut svg, &lines.options)?;
         Ok(svg)
@@ -190,7 +198,7 @@ impl StyleArguments {
 }
 
 /// The settings of lines that no other style has.
-pub struct OfLinesAlone;
+pub(super) struct OfLinesAlone;
 
 impl Selection for OfLinesAlone {
     type Of = SvgSettings;
@@ -200,10 +208,10 @@ impl Selection for OfLinesAlone {
     }
 }
 
-pub type LineArguments = Chosen<OfLinesAlone>;
+pub(super) type LineArguments = Chosen<OfLinesAlone>;
 
 /// What a scene is besides its models and its camera.
-pub struct OfScene;
+pub(super) struct OfScene;
 
 impl Selection for OfScene {
     type Of = SceneSettings;
@@ -213,21 +221,21 @@ impl Selection for OfScene {
     }
 }
 
-pub type SceneArguments = Chosen<OfScene>;
+pub(super) type SceneArguments = Chosen<OfScene>;
 
 impl SceneArguments {
-    pub fn settings(&self, camera: CameraSettings) -> Result<SceneSettings> {
+    pub(super) fn settings(&self, camera: CameraSettings) -> Result<SceneSettings> {
         Ok(SceneSettings { camera, ..SceneSettings::from_options(&self.options)? })
     }
 
     /// Whether there is no background.
-    pub fn is_transparent(&self) -> bool {
+    pub(super) fn is_transparent(&self) -> bool {
         self.is_on("transparent")
     }
 }
 
 /// The camera of a scene.
-pub struct OfCamera;
+pub(super) struct OfCamera;
 
 impl Selection for OfCamera {
     type Of = SceneSettings;
@@ -237,25 +245,25 @@ impl Selection for OfCamera {
     }
 }
 
-pub type CameraArguments = Chosen<OfCamera>;
+pub(super) type CameraArguments = Chosen<OfCamera>;
 
 impl CameraArguments {
-    pub fn settings(&self) -> Result<CameraSettings> {
+    pub(super) fn settings(&self) -> Result<CameraSettings> {
         SceneSettings::from_options(&self.options).map(|scene| scene.camera)
     }
 }
 
 /// How models are read.
-pub struct OfModels;
+pub(super) struct OfModels;
 
 impl Selection for OfModels {
     type Of = LoadOptions;
 }
 
-pub type ModelArguments = Chosen<OfModels>;
+pub(super) type ModelArguments = Chosen<OfModels>;
 
 impl ModelArguments {
-    pub fn settings(&self) -> Result<LoadOptions> {
+    pub(super) fn settings(&self) -> Result<LoadOptions> {
         let load = LoadOptions::from_options(&self.options)?;
         let skin = self.paths.iter().find(|(option, _)| *option == "skin").map(|(_, path)| path.clone());
         Ok(LoadOptions { skin: skin.or(load.skin), ..load })

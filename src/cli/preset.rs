@@ -4,6 +4,7 @@
 //! them. An option given on the command line beats the preset's, and so does one that excludes it.
 
 use super::inputs::Inputs;
+#[cfg(feature = "measuring")]
 use super::measure::StyleOptions;
 use super::{Arguments, in_one_sentence};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -11,19 +12,19 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use tinta::preset::{OptionValue, Options, Preset};
-use tinta::settings::ON_OFF;
-use tinta::{Error, Result};
+use tinta::settings::{HasSettings, ON_OFF};
+use tinta::{Error, Result, Style};
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "Presets")]
-pub struct PresetArguments {
-    /// Options from this TOML file, under their long names, or a paper's constants: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand; what is given beside it counts more [default: none]
+pub(super) struct PresetArguments {
+    /// Read options from this TOML file, under their long names, or a paper's constants: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand; the command line overrides it [default: none]
     #[arg(long, value_name = "FILE|paper:NAME")]
     preset: Option<String>,
 }
 
 /// Options that say what is done with a picture, not which picture it is: they are in no preset and no recipe.
-const OF_ONE_RUN: [&str; 17] = [
+const OF_ONE_RUN: [&str; 18] = [
     "dump",
     "explain",
     "frames",
@@ -38,6 +39,7 @@ const OF_ONE_RUN: [&str; 17] = [
     "resume",
     "save-preset",
     "styles",
+    "submission",
     "suite",
     "tolerance",
     "verify",
@@ -45,7 +47,7 @@ const OF_ONE_RUN: [&str; 17] = [
 
 /// What a command line gives, its preset's options among it.
 #[derive(Default)]
-pub struct Given {
+pub(super) struct Given {
     /// The words after the program's name, a preset's among them.
     pub words: Vec<String>,
     /// The words after the program's name as they were given.
@@ -53,6 +55,7 @@ pub struct Given {
     /// The options that make the picture.
     pub options: Options,
     /// Words for a style and its settings, which `measure` measures besides.
+    #[cfg_attr(not(feature = "measuring"), expect(dead_code, reason = "only measuring reads it"))]
     pub setting: Vec<String>,
     preset: Option<Preset>,
     /// The preset's options that count: name on the command line and in the file.
@@ -61,12 +64,12 @@ pub struct Given {
 
 impl Given {
     /// What the command reads.
-    pub fn inputs(&self, models: &[String]) -> Inputs {
+    pub(super) fn inputs(&self, models: &[String]) -> Inputs {
         Inputs::new(models, &self.options, self.preset.as_ref().map(|preset| preset.name.as_str()))
     }
 
     /// An error about an option that the preset gave, with the preset's name and line.
-    pub fn attributed(&self, error: Error) -> Error {
+    pub(super) fn attributed(&self, error: Error) -> Error {
         match (&self.preset, &error) {
             (Some(preset), Error::Setting { .. } | Error::Settings { .. }) => preset.attributed(error, &self.used),
             _ => error,
@@ -75,7 +78,7 @@ impl Given {
 }
 
 /// Reads a command line, and the preset it names.
-pub fn parse(words: Vec<OsString>) -> std::result::Result<(Arguments, Given), Stop> {
+pub(super) fn parse(words: Vec<OsString>) -> std::result::Result<(Arguments, Given), Stop> {
     let mut whole = Arguments::command();
     let matches = whole.try_get_matches_from_mut(&words).map_err(refused)?;
     let texts = |words: &[OsString]| words.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
@@ -96,7 +99,7 @@ pub fn parse(words: Vec<OsString>) -> std::result::Result<(Arguments, Given), St
 
 /// Why a command line is not carried out.
 #[derive(Debug)]
-pub enum Stop {
+pub(crate) enum Stop {
     /// Help or the version was asked for: this is it.
     Help(clap::Error),
     /// It is wrong.
@@ -146,14 +149,17 @@ impl<'a> Merge<'a> {
 
     /// The command line with the preset's options.
     fn merged(self, whole: &Command, words: &[OsString]) -> Result<(Given, Vec<OsString>)> {
+        #[cfg(feature = "measuring")]
         let of_styles = StyleOptions::command();
+        #[cfg(not(feature = "measuring"))]
+        let of_styles = Command::new("tinta");
         let (mut own, mut setting, mut used) = (Vec::new(), Vec::new(), Vec::new());
         for (key, value) in &self.preset.options {
             // The style of a comparison is the one on the left.
             let option = if self.name == "compare" && key == "style" { "left" } else { key };
             let find = |command: &'a Command| command.get_arguments().find(|arg| arg.get_long() == Some(option));
             if !is_kept(option) {
-                let problem = "this is for one run and in no preset; give it on the command line";
+                let problem = "this applies to one run and cannot be in a preset; give it on the command line";
                 return Err(self.preset.refuse(key, format!("{key}: {problem}")));
             }
             if let Some(arg) = find(self.command) {
@@ -213,7 +219,9 @@ impl<'a> Merge<'a> {
     fn unknown(&self, whole: &Command, key: &str) -> Error {
         let is_renders = whole.find_subcommand("render").is_some_and(|render| long(render, key).is_some());
         let problem = match is_renders {
-            true => format!("{key}: tinta {} has no such option, only tinta render; leave it out here", self.name),
+            true => {
+                format!("{key}: tinta {} does not have this option, only tinta render does; leave it out", self.name)
+            }
             false => format!("{key}: there is no option --{key}; see tinta {} --help", self.name),
         };
         self.preset.refuse(key, problem)
@@ -221,7 +229,7 @@ impl<'a> Merge<'a> {
 }
 
 /// An option's words: what a switch is, the option itself knows. The error says what is wrong with the value.
-pub fn words_of(arg: &Arg, value: &OptionValue) -> std::result::Result<Vec<OsString>, String> {
+pub(super) fn words_of(arg: &Arg, value: &OptionValue) -> std::result::Result<Vec<OsString>, String> {
     let takes_value = arg.get_action().takes_values();
     let may_stand_alone = !takes_value || arg.get_num_args().is_some_and(|count| count.min_values() == 0);
     let name = arg.get_long().unwrap_or_default();
@@ -247,8 +255,14 @@ fn long<'a>(command: &'a Command, name: &str) -> Option<&'a Arg> {
 }
 
 /// Whether a preset or recipe may hold this option, if there is one of this name.
-pub fn is_kept(option: &str) -> bool {
+pub(super) fn is_kept(option: &str) -> bool {
     !OF_ONE_RUN.contains(&option)
+}
+
+/// A value as it is written now, for what is kept is read by versions to come.
+fn present(option: &str, value: String) -> String {
+    let mut settings = Style::table().settings.iter();
+    settings.find(|setting| setting.name == option).map_or(value.clone(), |setting| setting.present(&value).to_owned())
 }
 
 /// The options given that make the picture, as a preset or recipe keeps them.
@@ -261,7 +275,7 @@ fn kept_options(command: &Command, matches: &ArgMatches) -> Options {
         }
         let texts: Vec<String> =
             matches.get_raw(id).into_iter().flatten().map(|raw| raw.to_string_lossy().into_owned()).collect();
-        let value = texts.join(",");
+        let value = present(name, texts.join(","));
         let is_switch = !arg.get_action().takes_values() || value.is_empty();
         options.insert(name.to_owned(), if is_switch { OptionValue::Switch(true) } else { OptionValue::Text(value) });
     }

@@ -4,11 +4,11 @@ use super::messages::is_captured;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// Disappears when it is dropped, so that a message after it stands in a line of its own.
-pub struct Progress(ProgressBar);
+pub(super) struct Progress(ProgressBar);
 
 impl Progress {
     /// A bar for `count` steps with the word for what is done, such as "drawing".
-    pub fn new(what: &'static str, count: u64) -> Self {
+    pub(super) fn new(what: &'static str, count: u64) -> Self {
         // Draws nothing unless standard error is a terminal, and nothing for a job of a batch, which has a bar of its own.
         let target = if is_captured() { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(count), target);
@@ -25,7 +25,7 @@ impl Progress {
     }
 
     /// So many steps are done of so many.
-    pub fn set(&self, done: u64, count: u64) {
+    pub(super) fn set(&self, done: u64, count: u64) {
         if self.0.length() != Some(count) {
             self.show_share();
             self.0.set_length(count);
@@ -34,7 +34,7 @@ impl Progress {
     }
 
     /// Nothing is known yet of how much there is to do.
-    pub fn wait(&self) {
+    pub(super) fn wait(&self) {
         self.0.set_length(u64::MAX);
         if let Ok(style) = ProgressStyle::with_template("{msg}, {elapsed} so far") {
             self.0.set_style(style);
@@ -43,7 +43,7 @@ impl Progress {
     }
 
     /// One step more is done.
-    pub fn step(&self) {
+    pub(super) fn step(&self) {
         self.0.inc(1);
     }
 }

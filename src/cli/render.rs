@@ -20,17 +20,17 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
-use tinta::plan::Plan;
 use tinta::plan::prune::Pruned;
+use tinta::plan::{Plan, Submission};
 use tinta::preset::Options;
 use tinta::record::{CameraRecord, ModelRecord, Record, Summary};
 use tinta::renderer::{PassTime, milliseconds_since};
 use tinta::{Backend, Error, Renderer, Result, Scene, SceneSettings, Size, Style, StyleName, Target};
 
-/// Draw models into a picture file
+/// Draw models into a picture, an animation or a line drawing
 #[derive(clap::Args)]
 #[command(after_help = after_help())]
-pub struct Arguments {
+pub(super) struct Arguments {
     /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models; several make one scene, each at its own coordinates
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
@@ -72,7 +72,7 @@ pub struct Arguments {
 
 impl Arguments {
     /// The same picture into another file, by another way to OpenGL.
-    pub fn with_backend(self, backend: Backend) -> Self {
+    pub(super) fn with_backend(self, backend: Backend) -> Self {
         Self { run: RunArguments { backend, ..self.run }, ..self }
     }
 
@@ -81,13 +81,19 @@ impl Arguments {
     /// # Errors
     ///
     /// As for its settings.
-    pub fn size(&self) -> Result<Size> {
+    pub(super) fn size(&self) -> Result<Size> {
         Ok(self.scene_settings()?.size)
     }
 
     /// The scene's settings and the camera's.
     fn scene_settings(&self) -> Result<SceneSettings> {
         self.scene.settings(self.camera.settings()?)
+    }
+
+    /// What the style does for a scene, before anything is left out.
+    fn plan(&self, style: &Style, scene: &Scene) -> Result<Plan> {
+        let plan = style.plan(scene, self.styles.show)?;
+        Ok(Plan { submission: self.run.submission, ..plan })
     }
 
     /// The style of a picture.
@@ -106,6 +112,10 @@ struct RunArguments {
     #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 
+    /// Hand vertices to GL in buffers, or as programs of 2001 did, one by one (immediate) or in display lists (display-list); the picture is the same [default: buffers]
+    #[arg(long, value_name = "HOW", default_value = "buffers", hide_default_value = true)]
+    submission: Submission,
+
     /// Frames to draw and time after warm-up, with --json or --explain [default: 1]
     #[arg(long, value_name = "N", default_value = "1", hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
@@ -118,7 +128,7 @@ struct RunArguments {
     #[arg(long, conflicts_with = "json")]
     explain: bool,
 
-    /// Write what GL holds after every step of the published plan into this folder, RGBA PNG [default: off]
+    /// Write GL's buffers after every step of the published plan into this folder, as RGBA PNG [default: off]
     #[arg(long, value_name = "DIR")]
     dump: Option<PathBuf>,
 }
@@ -130,7 +140,7 @@ const WARM_UP: usize = 2;
 const PASS_FRAMES: usize = 21;
 
 /// Draws what the arguments say, of which `given` has those that make the picture, by name.
-pub fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<Verdict> {
+pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<Verdict> {
     super::messages::check_output(&arguments.output)?;
     let inputs = given.inputs(&arguments.models);
     inputs.keep(&arguments.output)?;
@@ -168,7 +178,7 @@ fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Resu
     let pruning = Instant::now();
     let Pruned { plan, omissions, kept } = arguments.prune.pruned(&published, &scene, renderer, arguments.run.frames);
     let plan_ms = plan_ms + milliseconds_since(pruning);
-    let remarks = renderer.remarks(&plan);
+    let remarks = [style.remarks(&scene), renderer.remarks(&plan)].concat();
     remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
 
     let first_frame = Instant::now();
@@ -217,6 +227,7 @@ fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Resu
         camera: CameraRecord::new(&scene),
         gl: renderer.context().clone(),
         passes,
+        submission: plan.submission,
         omissions,
         kept,
         remarks,
@@ -321,7 +332,7 @@ fn load_scene(
     pictures_of(&scene).keep(&arguments.output)?;
     scene.make_arrays();
     let start = Instant::now();
-    let published = style.plan(&scene, arguments.styles.show)?;
+    let published = arguments.plan(style, &scene)?;
     Ok(Loaded { scene, files, published, load_ms, plan_ms: milliseconds_since(start) })
 }
 
@@ -342,18 +353,18 @@ fn make_dump_folder(arguments: &Arguments) -> Result<()> {
     let name = output.file_name().and_then(|name| name.to_str()).unwrap_or_default().as_bytes();
     let is_step = name.len() > 2 && name[0].is_ascii_digit() && name[1].is_ascii_digit() && name[2] == b'-';
     if is_step && parent.is_some_and(is_folder) {
-        return Err(Error::Output {
-            path: arguments.output.clone(),
-            problem: "a step's picture in the --dump folder may take its place; give it another name".to_owned(),
-        });
+        return Err(Error::output(
+            arguments.output.clone(),
+            "a picture in the --dump folder could overwrite it; give it another name",
+        ));
     }
     std::fs::create_dir_all(folder).map_err(|error| {
         let problem = if folder.is_file() {
             "this is a file; name a folder".to_owned()
         } else {
-            format!("the folder cannot be made ({error}); choose another")
+            format!("the folder cannot be created ({error}); choose another")
         };
-        Error::output(format!("--dump {}", folder.display()), &error, problem)
+        Error::output(format!("--dump {}", folder.display()), problem).because(&error)
     })
 }
 
@@ -377,9 +388,8 @@ fn after_help() -> String {
     let names: Vec<String> =
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
     format!(
-        "Built-in models:\n{}\n\n\
-         As published, borders are black and a pixel or two wide at any size, and edges are not smoothed.\n\n\
-         Facets that show as thin lines come from the file's normals: try --normals smooth.",
+        "Built-in models:\n{}\n\nAs published, borders are black and one or two pixels wide at any size, and edges are \
+         not smoothed.\n\nIf facets show as thin lines, blame the file's normals and try --normals smooth.",
         names.join("\n")
     )
 }

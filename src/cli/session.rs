@@ -7,7 +7,7 @@ use super::model_cache::ModelCache;
 use tinta::{Backend, Renderer, Result};
 
 /// Contexts and models.
-pub struct Session {
+pub(super) struct Session {
     open: fn(Backend) -> Result<Renderer>,
     renderers: Vec<(Backend, Renderer)>,
     /// What the job at hand draws by.
@@ -18,27 +18,27 @@ pub struct Session {
 
 impl Session {
     /// For one job: nothing is kept that it does not need.
-    pub fn for_one() -> Self {
+    pub(super) fn for_one() -> Self {
         Self { open: Renderer::new, renderers: Vec::new(), used: None, model_cache: ModelCache::for_one() }
     }
 
     /// For many jobs, with this way to open a context.
-    pub fn for_many(open: fn(Backend) -> Result<Renderer>) -> Self {
+    pub(super) fn for_many(open: fn(Backend) -> Result<Renderer>) -> Self {
         Self { open, renderers: Vec::new(), used: None, model_cache: ModelCache::for_many() }
     }
 
     /// Whether this way to OpenGL is open.
-    pub fn has(&self, backend: Backend) -> bool {
+    pub(super) fn has(&self, backend: Backend) -> bool {
         self.renderers.iter().any(|(known, _)| *known == backend)
     }
 
     /// Opens a context that [`Session::keep`] may be given.
-    pub fn open(&self, backend: Backend) -> Result<Renderer> {
+    pub(super) fn open(&self, backend: Backend) -> Result<Renderer> {
         (self.open)(backend)
     }
 
     /// Keeps an open context for the jobs to come.
-    pub fn keep(&mut self, backend: Backend, renderer: Renderer) -> &mut Renderer {
+    pub(super) fn keep(&mut self, backend: Backend, renderer: Renderer) -> &mut Renderer {
         self.renderers.retain(|(known, _)| *known != backend);
         self.renderers.push((backend, renderer));
         self.used = Some(backend);
@@ -47,7 +47,7 @@ impl Session {
     }
 
     /// The context that is open, or one that is opened now.
-    pub fn renderer(&mut self, backend: Backend) -> Result<&mut Renderer> {
+    pub(super) fn renderer(&mut self, backend: Backend) -> Result<&mut Renderer> {
         match self.renderers.iter().position(|(known, _)| *known == backend) {
             Some(place) => {
                 self.used = Some(backend);
@@ -61,19 +61,19 @@ impl Session {
     }
 
     /// The context that was asked for since this was asked last.
-    pub fn take_used(&mut self) -> Option<&Renderer> {
+    pub(super) fn take_used(&mut self) -> Option<&Renderer> {
         let used = self.used.take()?;
         self.renderers.iter().find(|(known, _)| *known == used).map(|(_, renderer)| renderer)
     }
 
     /// How many GL objects all contexts hold.
     #[cfg(test)]
-    pub fn live_objects(&self) -> usize {
+    pub(super) fn live_objects(&self) -> usize {
         self.renderers.iter().map(|(_, renderer)| renderer.live_objects()).sum()
     }
 
     /// Lets go of all contexts: one of them is lost.
-    pub fn close(&mut self) {
+    pub(super) fn close(&mut self) {
         self.renderers.clear();
     }
 }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 static WAS_CLOSED: AtomicBool = AtomicBool::new(false);
 
 /// Whether standard output was closed when the program began, as `>&-` closes it. Linux only; elsewhere it is never said.
-pub fn was_closed() -> bool {
+pub(super) fn was_closed() -> bool {
     WAS_CLOSED.load(Ordering::Relaxed)
 }
 

@@ -1,4 +1,4 @@
-//! `tinta stress`: the program attacks itself and says how it held.
+//! `tinta stress`: runs extreme cases and prints their verdicts.
 
 use super::Verdict;
 use super::progress::Progress;
@@ -6,26 +6,26 @@ use std::path::PathBuf;
 use tinta::stress::{StressSettings, Summary, run as stress};
 use tinta::{Result, TextTarget};
 
-/// Try the program on stiff and extreme cases and print what came of each
+/// Test the program with extreme cases and print each verdict
 #[derive(clap::Args)]
 #[command(after_help = "\
-Files: stress.json, every case in every style by every backend with its verdict and figures, and stress.md, the same as a
-table. A backend that is not there, EGL or OSMesa, is left out, which is said and stands in both files; without either \
-nothing is tried. Exit code 0 when every case ends as it must, 1 otherwise. docs/stability.md says what the figures mean.")]
-pub struct Arguments {
-    /// Folder to write into; made if it is not there
+Files: stress.json has every case in every style by every backend, with its verdict and figures; stress.md is the same as a \
+table. A missing backend (EGL or OSMesa) is skipped, and both files and standard error say so; without any backend nothing is \
+tried. Exit code: 0 if every case ends as it must, 1 otherwise. docs/stability.md explains the figures.")]
+pub(super) struct Arguments {
+    /// Folder to write into; created if missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 
-    /// Only cases with this in their name, or the group of this name: scale, depth, topology, thresholds, pictures, mixes, turns, files, faults [default: all]
+    /// Try only cases whose name contains this, or one group: scale, depth, topology, thresholds, pictures, mixes, turns, files, faults [default: all]
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
 
-    /// Where the random numbers of the mixes begin [default: 0]
+    /// Seed of the random mixes [default: 0]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     seed: u64,
 
-    /// How many mixes are drawn at random, 0 to 10000 [default: 24]
+    /// Number of random mixes, 0 to 10000 [default: 24]
     #[arg(long, value_name = "N", default_value_t = 24, hide_default_value = true, value_parser = clap::value_parser!(u16).range(0..=10_000))]
     mixes: u16,
 
@@ -35,7 +35,7 @@ pub struct Arguments {
 }
 
 /// Runs the cases, writes both files, prints the table's end.
-pub fn run(arguments: &Arguments) -> Result<Verdict> {
+pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
     let settings = StressSettings {
         seed: arguments.seed,
         mixes: usize::from(arguments.mixes),

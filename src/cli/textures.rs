@@ -10,13 +10,13 @@ use tinta::styles::{Charcoal, Ramp};
 use tinta::textures::{ContrastTexture, NoiseTexture, PaperTexture};
 use tinta::{Picture, Result, Size, Style, StyleName, Target};
 
-/// Write the textures that styles draw with: a charcoal drawing's grain, noise and paper, and the paint's ramp
+/// Write the textures of the styles: charcoal's grain, noise and paper, and the paint's ramp
 #[derive(clap::Args)]
 #[command(after_help = "\
-Files: cet.png, noise.png and paper.png, and ramp.png, to be changed and given to --ramp. With the default density, exponent and blur also the text's figures 2
-(figure-2.png, the grains before they are moved) and 3 (figure-3-m-1.3.png, -5.5 and -15).")]
-pub struct Arguments {
-    /// Folder to write into; made if it is not there
+Files: cet.png, noise.png and paper.png; and ramp.png, to edit and give to --ramp. With the default density, exponent and blur \
+also the text's figures 2 (figure-2.png, the grains before they are moved) and 3 (figure-3-m-1.3.png, -5.5 and -15).")]
+pub(super) struct Arguments {
+    /// Folder to write into; created if missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 
@@ -39,18 +39,18 @@ impl Selection for OfGrain {
     type Of = Style;
 
     fn has(setting: &Setting<Style>) -> bool {
-        ["seed", "density", "cet-exponent", "cet-blur"].contains(&setting.name)
+        ["seed", "random", "density", "cet-exponent", "cet-blur"].contains(&setting.name)
     }
 }
 
 /// Makes all textures, then writes them: nonsense leaves no file, a full disk none of them.
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let mut made = Vec::new();
     let contrast = arguments.contrast()?;
-    let (size, seed) = (contrast.size, contrast.seed);
+    let (size, seed, random) = (contrast.size, contrast.seed, contrast.random);
     made.push(Made::new("cet.png", &contrast, ContrastTexture::picture)?);
-    made.push(Made::new("noise.png", &NoiseTexture { size, seed }, NoiseTexture::picture)?);
-    made.push(Made::new("paper.png", &PaperTexture { size, seed }, PaperTexture::picture)?);
+    made.push(Made::new("noise.png", &NoiseTexture { size, seed, random }, NoiseTexture::picture)?);
+    made.push(Made::new("paper.png", &PaperTexture { size, seed, random }, PaperTexture::picture)?);
     made.push(Made::new("ramp.png", &Ramp::default(), |ramp| Ok(Picture::clone(&ramp.picture)))?);
     if contrast == (ContrastTexture { size, seed, ..ContrastTexture::default() }) {
         let scattered = ContrastTexture::figure_2(size, seed);
@@ -105,6 +105,7 @@ impl Arguments {
             exponent: charcoal.cet_exponent,
             blur_px: charcoal.cet_blur_px,
             seed: charcoal.seed,
+            random: charcoal.random,
         })
     }
 }
@@ -125,8 +126,8 @@ mod tests {
         let arguments = Line::try_parse_from(["tinta", "-o", "folder"]).unwrap().arguments;
         let contrast = arguments.contrast().unwrap();
         assert_eq!(contrast, ContrastTexture::default());
-        let (size, seed) = (contrast.size, contrast.seed);
-        assert_eq!(NoiseTexture { size, seed }, NoiseTexture::default());
-        assert_eq!(PaperTexture { size, seed }, PaperTexture::default());
+        let (size, seed, random) = (contrast.size, contrast.seed, contrast.random);
+        assert_eq!(NoiseTexture { size, seed, random }, NoiseTexture::default());
+        assert_eq!(PaperTexture { size, seed, random }, PaperTexture::default());
     }
 }

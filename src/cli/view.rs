@@ -12,8 +12,8 @@ use tinta::{Backend, Error, Result, SceneSettings, Size, Style, StyleName};
 
 /// Show models in a window: turn them, compare styles, change every setting
 #[derive(clap::Args)]
-#[command(after_help = "In the window H lists the keys. Drop a model's file on it to see that one.")]
-pub struct Arguments {
+#[command(after_help = "Press H in the window for a list of keys. Drop a model file on the window to show it.")]
+pub(super) struct Arguments {
     /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models; several make one scene [default: builtin:bust]
     #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
     models: Vec<String>,
@@ -21,7 +21,7 @@ pub struct Arguments {
     #[arg(long, help = format!("Style: {} [default: three-pass]", StyleName::list()), value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
     style: StyleName,
 
-    /// Style right of a divider [default: none, one style alone]
+    /// Second style, right of a divider [default: none]
     #[arg(long, value_name = "STYLE")]
     right: Option<StyleName>,
 
@@ -36,19 +36,19 @@ pub struct Arguments {
     #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 
-    /// Shaders from this folder, laid out like glsl/, in place of those built in, and anew when they change [default: none]
+    /// Read shaders from this folder, laid out like glsl/, instead of the built-in ones; edits show at once [default: none]
     #[arg(long, value_name = "DIR")]
     glsl: Option<PathBuf>,
 
-    /// Where files saved from the window go [default: here]
+    /// Folder for files saved from the window [default: the current one]
     #[arg(long, value_name = "DIR", default_value = ".", hide_default_value = true)]
     folder: PathBuf,
 
-    /// Play a recording of events, one JSON object a line, take its pictures and end; docs/viewer.md has the format [default: none]
+    /// Play a recording of events, one JSON object a line, take its pictures and quit; docs/viewer.md has the format [default: none]
     #[arg(long, value_name = "FILE")]
     replay: Option<PathBuf>,
 
-    /// Print one JSON record of a recording: time to the first picture, of each frame [default: off]
+    /// Print one JSON record of a recording: time to the first picture and of each frame [default: off]
     #[arg(long, requires = "replay")]
     json: bool,
 
@@ -75,17 +75,17 @@ impl Selection for OfView {
 }
 
 /// Opens the window and returns when it is closed.
-pub fn run(arguments: &Arguments, started: Instant) -> Result<()> {
+pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
     for (option, folder) in [("glsl", arguments.glsl.as_ref()), ("folder", Some(&arguments.folder))] {
         if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-            return Err(Error::value(option, folder.display(), "there is no such folder; name one"));
+            return Err(Error::value(option, folder.display(), "there is no such folder; check the name"));
         }
     }
     // What is broken in a file is said in the window; a name that is nothing at all need not open one.
     let is_missing = |model: &&String| !model.starts_with("builtin:") && !Path::new(model).exists();
     if let Some(path) = arguments.models.iter().find(is_missing) {
         let problem = "there is no such file; check the name".to_owned();
-        return Err(Error::Model { path: path.clone(), line: None, problem });
+        return Err(Error::model(path.clone(), problem));
     }
     let replay = arguments.replay.as_deref().map(Replay::read).transpose()?;
     let viewer = ViewerOptions {

@@ -2,7 +2,7 @@
 
 use super::{Drawing, Model, Panel, SceneDrawing};
 use crate::error::Result;
-use crate::mesh::{LoadOptions, Mesh, load};
+use crate::mesh::{LoadOptions, Mesh, Normals, load};
 use crate::picture::Picture;
 use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings, Size};
@@ -10,10 +10,10 @@ use crate::styles::Ramp;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Draws panels; reads each built-in model once.
+/// Draws panels; reads each built-in model once, and again where its normals are made by another rule.
 #[derive(Debug, Default)]
 pub struct Artist {
-    builtin: HashMap<&'static str, Arc<Mesh>>,
+    builtin: HashMap<(&'static str, Normals), Arc<Mesh>>,
     textured: Option<Arc<Mesh>>,
 }
 
@@ -38,19 +38,21 @@ impl Artist {
             Drawing::Grains { texture, .. } => texture.picture().map(Some),
             Drawing::Ramp => Ok(Some(Picture::clone(&Ramp::default().picture))),
             Drawing::Scene(drawing) => {
-                let Some(mesh) = self.mesh(drawing.model)? else { return Ok(None) };
+                let Some(mesh) = self.mesh(drawing.model, drawing.normals)? else { return Ok(None) };
                 let scene = Scene::new(vec![mesh], &settings(drawing, size))?;
                 renderer.draw(&scene, &drawing.style.plan(&scene, drawing.show)?).map(Some)
             }
         }
     }
 
-    fn mesh(&mut self, model: Model) -> Result<Option<Arc<Mesh>>> {
+    fn mesh(&mut self, model: Model, normals: Normals) -> Result<Option<Arc<Mesh>>> {
         let Model::Builtin(name) = model else { return Ok(self.textured.clone()) };
-        if !self.builtin.contains_key(name) {
-            self.builtin.insert(name, Arc::new(load(name, &LoadOptions::default())?.mesh));
+        if let Some(known) = self.builtin.get(&(name, normals)) {
+            return Ok(Some(known.clone()));
         }
-        Ok(self.builtin.get(name).cloned())
+        let mesh = Arc::new(load(name, &LoadOptions { normals, ..LoadOptions::default() })?.mesh);
+        self.builtin.insert((name, normals), mesh.clone());
+        Ok(Some(mesh))
     }
 }
 

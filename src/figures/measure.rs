@@ -196,7 +196,7 @@ impl Contestant {
         Ok(Self::new(scene, style.plan(scene, Show::Final)?))
     }
 
-    fn series(&self) -> Series {
+    pub(super) fn series(&self) -> Series {
         Series::new(self.times.clone())
     }
 }
@@ -299,7 +299,7 @@ pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut
 }
 
 /// All contestants' frames, one of each at a time.
-fn take_turns(
+pub(super) fn take_turns(
     renderer: &mut Renderer,
     contestants: &mut [Contestant],
     frames: usize,
@@ -317,7 +317,7 @@ fn take_turns(
 }
 
 /// The scene from its own direction and so many times its own distance.
-fn from(scene: &Scene, distance: f64, size: Size) -> Result<Scene> {
+pub(super) fn from(scene: &Scene, distance: f64, size: Size) -> Result<Scene> {
     let camera = scene.camera;
     let eye = Some(camera.target + (camera.eye - camera.target) * distance);
     let camera = crate::CameraSettings { eye, target: Some(camera.target), ..crate::CameraSettings::default() };
@@ -326,7 +326,7 @@ fn from(scene: &Scene, distance: f64, size: Size) -> Result<Scene> {
 }
 
 /// Share of the picture's pixels that the objects cover.
-fn covered(renderer: &mut Renderer, scene: &Scene) -> Result<f64> {
+pub(super) fn covered(renderer: &mut Renderer, scene: &Scene) -> Result<f64> {
     let bare = Scene { background: Background::Transparent, ..scene.clone() };
     let picture = renderer.render(&bare, &Style::Phong(crate::styles::Phong::default()))?;
     let drawn = picture.pixels.chunks_exact(4).filter(|pixel| pixel[3] > 0).count();

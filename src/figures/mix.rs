@@ -35,7 +35,7 @@ pub struct Mix {
 }
 
 /// The models that mixes are made of, each on the ground, as large as the others.
-pub struct Kit {
+pub(super) struct Kit {
     models: [Mesh; 3],
     open_box: Mesh,
 }
@@ -46,7 +46,7 @@ impl Kit {
     /// # Errors
     ///
     /// As [`load`], which does not fail for built-in models.
-    pub fn new() -> Result<Self> {
+    pub(super) fn new() -> Result<Self> {
         let model = |name: &str| -> Result<Mesh> {
             Ok(of_one_size(load(&format!("builtin:{name}"), &LoadOptions::default())?.mesh))
         };
@@ -55,7 +55,7 @@ impl Kit {
     }
 
     /// Chooses models for about `wanted` triangles.
-    pub fn mix(&self, wanted: usize) -> Mix {
+    pub(super) fn mix(&self, wanted: usize) -> Mix {
         let counts = [0, 1, 2].map(|kind| self.models[kind].triangles.len());
         let mut numbers = [0; 3];
         let mut left = wanted;
@@ -75,7 +75,7 @@ impl Kit {
     }
 
     /// The models of a mix, side by side in rows that go back.
-    pub fn meshes(&self, mix: &Mix) -> Vec<Arc<Mesh>> {
+    pub(super) fn meshes(&self, mix: &Mix) -> Vec<Arc<Mesh>> {
         let mut numbers = [mix.gears, mix.ants, mix.busts];
         let mut chosen: Vec<Mesh> = Vec::new();
         while numbers != [0; 3] {

@@ -1,13 +1,19 @@
-//! The page that shows the figures by the texts' own numbers: one XHTML file with its style in it, pictures beside it.
+//! The page that shows the figures by the texts' own numbers: one XHTML file with its style and its pictures in it.
 //!
-//! In: what was drawn and measured. Out: text. It needs no network and no script, and is as readable on a telephone.
+//! In: what was drawn and measured. Out: text. It needs no other file, no network and no script, and is as readable on a
+//! telephone. Its pictures have fewer colours than the files beside it, so that all of them fit into one page.
 
+mod claims;
+mod diagrams;
 mod numbers;
 
-use super::{Figure, Numbers, Text};
+use super::{ClaimRecord, Content, Figure, Numbers, PassColumn, Text};
 use crate::markup::escaped;
+use crate::picture::Picture;
 use crate::scene::Size;
 use crate::styles::{Show, Style};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -28,6 +34,10 @@ pub struct FigureRecord {
     pub pictures: Vec<PictureRecord>,
     /// Labels of pictures that were left out, each with the reason.
     pub left_out: Vec<String>,
+    /// Why none was drawn, where none is ever drawn.
+    pub not_drawn: Option<&'static str>,
+    /// The passes that it is a diagram of.
+    pub passes: Vec<PassColumn>,
     /// The whole command that made all of it.
     pub command: String,
     #[serde(skip)]
@@ -49,14 +59,43 @@ pub struct PictureRecord {
     pub style: Option<Style>,
     /// Which of the style's pictures.
     pub show: Option<Show>,
+    /// What the page shows: [`png_source`] or [`svg_source`].
+    #[serde(skip)]
+    pub source: String,
+}
+
+/// What a picture of the page may take, bytes, unless it is grain all over: sixty of them and more stay below six million in
+/// base 64.
+const MOST_BYTES: usize = 80_000;
+
+/// A picture as an address that holds it.
+pub fn png_source(picture: &Picture) -> String {
+    let bytes = picture.small_png(MOST_BYTES).unwrap_or_default();
+    format!("data:image/png;base64,{}", BASE64_STANDARD.encode(bytes))
+}
+
+/// A plot as an address that holds it.
+pub fn svg_source(text: &str) -> String {
+    format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(text))
 }
 
 impl FigureRecord {
     /// A record of a figure without pictures yet.
     pub fn new(figure: &Figure, command: String) -> Self {
-        let (pictures, left_out) = (Vec::new(), Vec::new());
         let Figure { id, text, number, title, caption, .. } = *figure;
-        Self { id, text: text.name(), number, title, caption, pictures, left_out, command, text_index: text }
+        Self {
+            id,
+            text: text.name(),
+            number,
+            title,
+            caption,
+            pictures: Vec::new(),
+            left_out: Vec::new(),
+            not_drawn: if let Content::NotDrawn(reason) = figure.content { Some(reason) } else { None },
+            passes: Vec::new(),
+            command,
+            text_index: text,
+        }
     }
 }
 
@@ -70,23 +109,38 @@ figure { margin: 0; max-width: 100%; } img { max-width: 100%; height: auto; disp
 pre { background: #f3f3f3; padding: .5rem .7rem; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; margin: .5rem 0; }
 .table { overflow-x: auto; } table { border-collapse: collapse; font-size: .9rem; margin: .6rem 0; }
 th, td { padding: .2rem .6rem; border-bottom: 1px solid #ddd; text-align: right; } td { white-space: nowrap; } th { vertical-align: bottom; } td.name, th.name { text-align: left; }
-p { max-width: 48rem; } .left-out { color: #8a3a00; } .hint { color: #555; }";
+p { max-width: 48rem; } .left-out { color: #8a3a00; } .hint { color: #555; }
+.columns { display: flex; flex-wrap: wrap; gap: 1rem; } .columns > div { flex: 1 1 18rem; min-width: 0; }
+.pass { border: 1px solid #888; border-radius: .4rem; padding: .4rem .7rem; margin: .5rem 0; }
+.pass ol { margin: .3rem 0; padding-left: 1.3rem; font-size: .85rem; overflow-wrap: anywhere; }
+.matrices { display: flex; align-items: center; gap: .7rem; } .matrix { border-left: 2px solid #222; border-right: 2px solid #222; }
+.claim { border-top: 1px solid #ddd; padding: .3rem 0; } .claim p { margin: .4rem 0; }
+.claim span { color: #fff; border-radius: .3rem; padding: .05rem .45rem; font-size: .85rem; }
+.confirmed { background: #1a6b2f; } .refuted { background: #a8321e; } .untested { background: #666; }";
+
+/// What was drawn, measured and found.
+#[derive(Debug, Clone, Copy)]
+pub struct Shown<'a> {
+    /// The figures.
+    pub figures: &'a [FigureRecord],
+    /// Section 5's numbers, where they were measured.
+    pub numbers: Option<&'a Numbers>,
+    /// What was found of claims.
+    pub claims: &'a [ClaimRecord],
+    /// The pictures of claims, by their ids.
+    pub claim_pictures: &'a [(&'static str, Vec<PictureRecord>)],
+}
 
 /// The page.
-pub fn page(records: &[FigureRecord], numbers: Option<&Numbers>, gl: &str, size: Size) -> String {
+pub fn page(shown: Shown<'_>, gl: &str, size: Size) -> String {
     let mut out = String::new();
     // Writing to a String cannot fail.
-    let _ = write(&mut out, records, numbers, gl, size);
+    let _ = write(&mut out, shown, gl, size);
     out
 }
 
-fn write(
-    out: &mut String,
-    records: &[FigureRecord],
-    numbers: Option<&Numbers>,
-    gl: &str,
-    size: Size,
-) -> std::fmt::Result {
+fn write(out: &mut String, shown: Shown<'_>, gl: &str, size: Size) -> std::fmt::Result {
+    let Shown { figures: records, numbers, .. } = shown;
     let version = env!("CARGO_PKG_VERSION");
     writeln!(
         out,
@@ -98,8 +152,10 @@ fn write(
     writeln!(out, "<h1>Three texts' figures, drawn again</h1>")?;
     writeln!(
         out,
-        "<p>Every figure that shows a result of its authors, by their number, in pictures and plots of our own. Drawn by \
-         tinta {version} at {size} pixels on {}.</p>",
+        "<p>Every figure of the three texts by its own number, diagrams included: drawn anew with models of our own, or named with \
+         the reason why not. Drawn by tinta {version} at {size} pixels on {}; the files beside this page hold each picture in all \
+         its colours.</p>\n<p>The originals' pictures were not at hand: the texts were read as text alone, and what a figure shows \
+         is known from its caption and from what is said of it.</p>",
         escaped(gl)
     )?;
     if let Some(numbers) = numbers {
@@ -118,13 +174,13 @@ fn write(
         }
         writeln!(out, "<h2>{}</h2>\n<p class=\"hint\"><cite>{}</cite></p>", text.name(), text.title())?;
         for record in of_text {
-            section(out, record, numbers)?;
+            section(out, record, shown)?;
         }
     }
     writeln!(out, "</body>\n</html>")
 }
 
-fn section(out: &mut String, record: &FigureRecord, numbers: Option<&Numbers>) -> std::fmt::Result {
+fn section(out: &mut String, record: &FigureRecord, shown: Shown<'_>) -> std::fmt::Result {
     writeln!(out, "<section id=\"{}\">", record.id)?;
     writeln!(
         out,
@@ -133,29 +189,57 @@ fn section(out: &mut String, record: &FigureRecord, numbers: Option<&Numbers>) -
         escaped(record.title),
         escaped(record.caption)
     )?;
-    if !record.pictures.is_empty() {
-        let class = if record.pictures.len() > 2 { "pictures four" } else { "pictures" };
-        writeln!(out, "<div class=\"{class}\">")?;
-        for picture in &record.pictures {
-            let (file, label, Size { width, height }) = (escaped(&picture.file), escaped(&picture.label), picture.size);
-            let alt = format!("{}: {label}", escaped(record.title));
-            writeln!(
-                out,
-                "<figure><img src=\"{file}\" width=\"{width}\" height=\"{height}\" alt=\"{alt}\" />\
-                 <figcaption>{label}</figcaption></figure>"
-            )?;
-        }
-        writeln!(out, "</div>")?;
-    }
+    pictures(out, record.pictures.iter(), record.title)?;
     for line in &record.left_out {
         writeln!(out, "<p class=\"left-out\">Left out: {}.</p>", escaped(line))?;
     }
-    if let Some(measured) = numbers {
+    if let Some(reason) = record.not_drawn {
+        return writeln!(out, "<p class=\"left-out\">Not drawn: {}.</p>\n</section>", escaped(reason));
+    }
+    if !record.passes.is_empty() {
+        diagrams::passes(out, &record.passes)?;
+        return writeln!(out, "</section>");
+    }
+    if record.id.ends_with("-claims") {
+        claims::claims(out, record.text_index, shown.claims, shown.claim_pictures)?;
+    }
+    if let Some(measured) = shown.numbers {
         numbers::tables(out, record.id, measured)?;
     }
     let commands: Vec<String> = record.pictures.iter().filter_map(|picture| picture.command.clone()).collect();
     let text = if commands.is_empty() { record.command.clone() } else { commands.join("\n") };
     writeln!(out, "<pre>{}</pre>\n</section>", escaped(&text))
+}
+
+/// Figures whose pictures stand beside their filters' matrices.
+const WITH_MATRICES: [&str; 2] = ["evangelista-10", "evangelista-11"];
+
+/// Pictures side by side.
+fn pictures<'p>(
+    out: &mut String,
+    records: impl ExactSizeIterator<Item = &'p PictureRecord>,
+    title: &str,
+) -> std::fmt::Result {
+    if records.len() == 0 {
+        return Ok(());
+    }
+    let class = if records.len() > 2 { "pictures four" } else { "pictures" };
+    writeln!(out, "<div class=\"{class}\">")?;
+    for picture in records {
+        let (file, label, Size { width, height }) = (escaped(&picture.file), escaped(&picture.label), picture.size);
+        let alt = format!("{}: {label}", escaped(title));
+        writeln!(
+            out,
+            "<figure><img src=\"{}\" data-file=\"{file}\" width=\"{width}\" height=\"{height}\" alt=\"{alt}\" />\
+             <figcaption>{label}</figcaption>",
+            picture.source
+        )?;
+        if WITH_MATRICES.iter().any(|id| picture.file.starts_with(id)) {
+            diagrams::matrices(out, picture.style.as_ref())?;
+        }
+        writeln!(out, "</figure>")?;
+    }
+    writeln!(out, "</div>")
 }
 
 fn lower_first(text: &str) -> String {
@@ -169,7 +253,8 @@ mod tests {
 
     #[test]
     fn names_of_files_and_drivers_cannot_break_the_page() {
-        let page = page(&[], None, "<script>", Size { width: 4, height: 3 });
+        let nothing = Shown { figures: &[], numbers: None, claims: &[], claim_pictures: &[] };
+        let page = page(nothing, "<script>", Size { width: 4, height: 3 });
         assert!(page.contains("&lt;script&gt;") && !page.contains("<script"));
     }
 }

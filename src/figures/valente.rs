@@ -1,8 +1,10 @@
 //! The figures of Valente 2007 that show a result of his: 2 to 4 and 6 to 12. Figures 1 and 5 are other authors' pictures.
+//!
+//! The originals' pictures were not at hand: what captions say of them is what the report's own text says.
 
 use super::{Content, Drawing, Figure, Panel, Shot, Text, panel};
 use crate::scene::Size;
-use crate::styles::{CetCoordinate, Charcoal, CharcoalRecipe, Show, Style};
+use crate::styles::{CetCoordinate, Charcoal, CharcoalRecipe, Improvements, Show, Style};
 use crate::textures::ContrastTexture;
 
 const BUST: &str = "builtin:bust";
@@ -21,6 +23,7 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
     let face =
         |file: &str, label, charcoal: Charcoal, more: &str| drawn(file, label, BUST, Shot::face(), charcoal, more);
     let saturated = || Charcoal { saturation: 1.2, ..base.clone() };
+    let contrast = |contrast_exponent| Charcoal { contrast_exponent, ..base.clone() };
     let recipe = |recipe| Charcoal { texture_size: size, ..Charcoal::recipe(recipe) };
     let figure = |id, number, title, caption, panels| Figure {
         id,
@@ -30,6 +33,14 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
         caption,
         content: Content::Pictures(panels),
     };
+    let sand = |file: &str, label, charcoal: Charcoal, more: &str| {
+        panel(file, label, "", Shot::whole(), Style::Sand(charcoal), &options("sand", more)).textured()
+    };
+    let luminance = || {
+        let improve = Improvements { luminance: true, ..Improvements::default() };
+        Charcoal { improve, ..base.clone() }
+    };
+    let everything = || Charcoal { improve: Improvements::EVERYTHING, ..recipe(CharcoalRecipe::Closure) };
     let [light, medium, dense] = ContrastTexture::figure_3(size, 0);
     let grains = |file: &str, label, texture, name| Panel {
         file: format!("{file}.png"),
@@ -42,7 +53,8 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "valente-2",
             "Figure 2",
             "Scattered grains of density 60",
-            "Black pixels at random places on white, before the contrast operator moves them.",
+            "Black pixels at random places on white, before the contrast operator moves them. The report does not say what 60 \
+             counts; here it is percent.",
             vec![grains("valente-2", "density 60", ContrastTexture::figure_2(size, 0), "figure-2.png")],
         ),
         figure(
@@ -50,7 +62,8 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "Figure 3",
             "Three contrast-enhanced textures",
             "The same density moved along t to t^m and blurred. A larger m gathers the grains in the darkest rows, at the \
-             bottom.",
+             bottom. Each grain starts at a random place within its pixel, which is ours: the report's picture, which was not at \
+             hand, may have stripes.",
             vec![
                 grains("valente-3-left", "m = 1.3", light, "figure-3-m-1.3.png"),
                 grains("valente-3-middle", "m = 5.5", medium, "figure-3-m-5.5.png"),
@@ -61,18 +74,20 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "valente-4",
             "Figure 4",
             "Diffuse light and the contrast-enhanced model",
-            "The light of two lamps on a white surface, and the same raised to the contrast exponent. The report shows \
-             the picture of the work it follows; ours is the bust.",
+            "The light of two lamps on a white surface, and the same raised to the contrast exponent: here 3, so that it shows. \
+             The report shows the picture of the work it follows; ours is the bust.",
             vec![
                 face("valente-4-left", "diffuse light", base.clone(), "").showing(Show::Diffuse, "diffuse"),
-                face("valente-4-right", "contrast enhanced", base.clone(), "").showing(Show::Cem, "cem"),
+                face("valente-4-right", "contrast enhanced, m = 3", contrast(3.0), " --contrast-exponent 3")
+                    .showing(Show::Cem, "cem"),
             ],
         ),
         figure(
             "valente-6",
             "Figure 6",
             "A drawing without smudging",
-            "Grain by tone on paper, as the listing draws it. Exponent and lights are ours, for the report gives none.",
+            "Grain by tone on paper, as the listing draws it. Exponent, lights and paper are ours, for the report gives none and \
+             its picture was not at hand.",
             vec![face("valente-6", "without", base.clone(), "")],
         ),
         figure(
@@ -102,11 +117,12 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "valente-9",
             "Figure 9",
             "Sand",
-            "A Quake 2 character whose own texture, turned to sepia, is mixed with the charcoal drawing; ours is the model \
-             that --model names.",
+            "A Quake 2 character whose own texture, turned to sepia, is mixed with the charcoal drawing. Ours is a toy soldier in \
+             the same format, or the model that --model names; beside it the same with the weights that were probably meant, \
+             so that its texture is seen. The report's picture was not at hand.",
             vec![
-                panel("valente-9", "sand", "", Shot::whole(), Style::Sand(base.clone()), &options("sand", ""))
-                    .textured(),
+                sand("valente-9", "sand", base.clone(), ""),
+                sand("valente-9-luminance", "luminance mended", luminance(), " --improve luminance"),
             ],
         ),
         figure(
@@ -130,12 +146,19 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "valente-12",
             "Figure 12",
             "Other results",
-            "The report ends with further drawings. Ours are its two recipes, stronger strokes and faint outlines left to \
-             the viewer, and your model where --model names one.",
+            "The report ends with further drawings, which were not at hand. Ours are the two ways its conclusions name, \
+             stronger strokes and faint outlines left to the viewer; the second with everything improved, beyond the report; \
+             and figure 9's model.",
             vec![
                 face("valente-12-darker", "darker", recipe(CharcoalRecipe::Darker), " --charcoal darker"),
                 face("valente-12-closure", "closure", recipe(CharcoalRecipe::Closure), " --charcoal closure"),
-                drawn("valente-12-model", "your model", "", Shot::whole(), base.clone(), "").textured(),
+                face(
+                    "valente-12-everything",
+                    "closure, everything improved",
+                    everything(),
+                    " --charcoal closure --improve everything",
+                ),
+                drawn("valente-12-model", "figure 9's model", "", Shot::whole(), base.clone(), "").textured(),
             ],
         ),
     ]

@@ -11,8 +11,7 @@ pub(crate) mod window;
 
 use super::Gl;
 use super::faults::{self, Fault, Faults};
-use crate::choice::find;
-use crate::error::{Error, ParseError, Result};
+use crate::error::{Error, Result};
 use crate::scene::Size;
 use context_lock::{ContextGuard, ContextLock};
 use info::load_functions;
@@ -21,7 +20,6 @@ use serde::Serialize;
 use std::ffi::{CStr, c_void};
 use std::mem::ManuallyDrop;
 use std::rc::Rc;
-use std::str::FromStr;
 
 /// The OpenGL that contexts are asked for.
 const VERSION: (u8, u8) = (2, 1);
@@ -48,13 +46,7 @@ impl Backend {
     pub const ALL: [(&'static str, Self); 3] = [("auto", Self::Auto), ("egl", Self::Egl), ("osmesa", Self::OsMesa)];
 }
 
-impl FromStr for Backend {
-    type Err = ParseError;
-
-    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
-        Ok(find(&Self::ALL, text)?)
-    }
-}
+tinta_geometry::choices!(Backend);
 
 /// One way that was tried.
 #[derive(Debug, Clone, Serialize)]
@@ -167,12 +159,12 @@ pub fn attempts(backend: Backend) -> Vec<Attempt> {
 
 impl Context {
     /// The first way of this backend that works.
-    pub fn open(backend: Backend) -> Result<Self> {
+    pub(crate) fn open(backend: Backend) -> Result<Self> {
         Self::open_with(backend, None)
     }
 
     /// The same, with something that will go wrong.
-    pub fn open_with(backend: Backend, fault: Option<Fault>) -> Result<Self> {
+    pub(crate) fn open_with(backend: Backend, fault: Option<Fault>) -> Result<Self> {
         let mut attempts = Vec::new();
         for candidate in Candidate::all(backend) {
             let name = candidate.name();
@@ -206,16 +198,16 @@ impl Context {
         self.lock.map(ContextLock::lock)
     }
 
-    pub fn info(&self) -> &ContextInfo {
+    pub(crate) fn info(&self) -> &ContextInfo {
         &self.gl.info
     }
 
-    pub fn gl(&self) -> &Rc<Gl> {
+    pub(crate) fn gl(&self) -> &Rc<Gl> {
         &self.gl
     }
 
     /// Makes the surface this large; refuses what the context cannot draw.
-    pub fn resize(&mut self, size: Size) -> Result<()> {
+    pub(crate) fn resize(&mut self, size: Size) -> Result<()> {
         let limit = self.info().largest_picture;
         if size.width > limit.width || size.height > limit.height {
             return Err(Error::PictureTooLarge {
@@ -236,7 +228,7 @@ impl Context {
 
     /// Makes the context current until the guard is dropped, after waiting for its lock: a thread has one such guard at most.
     /// Contexts of both platforms share one dispatch table inside Mesa, so none is left current when another may be entered.
-    pub fn enter(&self) -> Result<Current<'_>> {
+    pub(crate) fn enter(&self) -> Result<Current<'_>> {
         let guard = self.lock_context();
         self.platform.make_current().map_err(|NotCurrent { is_lost, reason }| {
             let during = "making the context current";

@@ -1,13 +1,15 @@
 //! Edges drawn by GL: indices into the objects' own vertices, so that a line lies where the faces beside it do.
 
 use super::Gl;
+use super::display_lists::{Content, Same};
 use super::execute::Resources;
+use super::immediate::{Places, Vertices};
 use super::legacy::{self, MODELVIEW, PROJECTION};
 use super::meshes::of_another_scene;
 use super::objects::Buffer;
 use super::quads::{line_quads, point_quads};
 use crate::error::Result;
-use crate::plan::{EdgeRun, Mark};
+use crate::plan::{EdgeRun, Mark, Submission};
 use crate::scene::Scene;
 use glam::{Mat4, Vec3};
 use glow::HasContext;
@@ -15,10 +17,11 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 /// The ends of some edges on the device, one run after the other.
-pub struct EdgeIndices {
+pub(super) struct EdgeIndices {
     runs: Arc<Vec<EdgeRun>>,
-    /// How many indices each run has.
-    counts: Vec<usize>,
+    /// Each run's indices.
+    indices: Vec<Vec<u32>>,
+    /// All of them.
     buffer: Buffer,
 }
 
@@ -29,9 +32,8 @@ impl EdgeIndices {
             Mark::Points => each_once(run.ends.as_flattened()),
         };
         let indices: Vec<Vec<u32>> = runs.iter().map(ends).collect();
-        let counts = indices.iter().map(Vec::len).collect();
         let buffer = Buffer::new(gl, glow::ELEMENT_ARRAY_BUFFER, bytemuck::cast_slice(&indices.concat()))?;
-        Ok(Self { runs: runs.clone(), counts, buffer })
+        Ok(Self { runs: runs.clone(), indices, buffer })
     }
 }
 
@@ -69,47 +71,62 @@ impl Resources {
             self.gl.legacy.load_matrix(PROJECTION, &scene.clip_from_view());
         }
         let mut first = 0;
-        for (run, count) in runs.iter().zip(&edges.counts) {
+        for (number, (run, indices)) in runs.iter().zip(&edges.indices).enumerate() {
             let object = scene.objects.get(run.object).ok_or_else(of_another_scene)?;
             let buffers = self.find_mesh(&object.mesh).ok_or_else(of_another_scene)?;
             if run.ends.as_flattened().iter().any(|end| *end as usize >= buffers.vertex_count) {
                 return Err(of_another_scene());
             }
-            buffers.bind(&self.gl, None);
-            edges.buffer.bind();
-            // SAFETY: the context is current; the run lies within the bound index buffer and its indices, asked above, within
-            // the bound vertex buffer.
+            // SAFETY: the context is current.
             unsafe {
                 self.gl.legacy.load_matrix(MODELVIEW, &scene.view_from_object(object, buffers.centre));
                 self.gl.legacy.color(run.color);
-                let first_byte = (first * size_of::<u32>()) as i32;
-                self.gl.glow.draw_elements(mode, *count as i32, glow::UNSIGNED_INT, first_byte);
             }
-            first += *count;
+            if self.submission == Submission::Buffers {
+                buffers.bind(&self.gl, None);
+                edges.buffer.bind();
+                // SAFETY: the context is current; the run lies within the bound index buffer and its indices, asked above,
+                // within the bound vertex buffer.
+                unsafe {
+                    let first_byte = (first * size_of::<u32>()) as i32;
+                    self.gl.glow.draw_elements(mode, indices.len() as i32, glow::UNSIGNED_INT, first_byte);
+                }
+            } else {
+                let places = Places::Positions(&scene.arrays(object).vertices);
+                let content = Content::Edges {
+                    mesh: Same::as_this(&object.mesh),
+                    unit: scene.radius,
+                    runs: Same::as_this(runs),
+                    run: number,
+                    mark,
+                };
+                let vertices = Vertices::new(mode, places, indices);
+                self.lists.draw(&self.gl, self.submission, content, &vertices)?;
+            }
+            first += indices.len();
         }
         // SAFETY: the context is current.
         unsafe { self.gl.glow.disable(smooth) };
         if is_smooth {
-            self.draw_unseen();
+            self.draw_unseen()?;
         }
         Ok(())
     }
 
     /// A draw that leaves no trace. Mesa 22's llvmpipe keeps the state of smoothed lines and points for whatever is drawn
     /// next, which so loses its polygon offset and culling; this takes that upon itself.
-    fn draw_unseen(&self) {
-        self.bind_squares();
-        // SAFETY: the context is current and the bound buffer holds four vertices; the depth mask is set again before
-        // anything else is drawn or cleared.
+    fn draw_unseen(&self) -> Result<()> {
+        // SAFETY: the context is current; the depth mask is set again before anything else is drawn or cleared.
         unsafe {
             self.gl.glow.color_mask(false, false, false, false);
             self.gl.glow.depth_mask(false);
-            self.gl.legacy.position_and_normal_arrays();
             self.gl.legacy.load_matrix(PROJECTION, &Mat4::IDENTITY);
             self.gl.legacy.load_matrix(MODELVIEW, &Mat4::from_scale(Vec3::splat(0.5)));
-            self.gl.glow.draw_arrays(glow::LINES, 0, 2);
-            self.gl.glow.color_mask(true, true, true, true);
         }
+        let drawn = self.draw_corners(glow::LINES, 0, 2);
+        // SAFETY: the context is current.
+        unsafe { self.gl.glow.color_mask(true, true, true, true) };
+        drawn
     }
 
     /// Quads of the width asked for, for drivers whose lines or points are narrower.
@@ -127,14 +144,23 @@ impl Resources {
                 Mark::Lines => line_quads(ends, scene.size, width_px),
                 Mark::Points => point_quads(ends, scene.size, width_px),
             };
+            // SAFETY: the context is current.
+            unsafe {
+                self.gl.legacy.load_matrix(PROJECTION, &Mat4::IDENTITY);
+                self.gl.legacy.load_matrix(MODELVIEW, &Mat4::IDENTITY);
+                self.gl.legacy.color(run.color);
+            }
+            if self.submission != Submission::Buffers {
+                let (indices, places) = ((0..quads.len() as u32).collect::<Vec<u32>>(), Places::Clip(&quads));
+                let vertices = Vertices::new(legacy::QUADS, places, &indices);
+                self.lists.draw(&self.gl, self.submission, Content::Once, &vertices)?;
+                continue;
+            }
             let buffer = Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&quads))?;
             buffer.bind();
             // SAFETY: the context is current and the bound buffer holds four numbers for each vertex drawn.
             unsafe {
                 self.gl.legacy.clip_position_array();
-                self.gl.legacy.load_matrix(PROJECTION, &Mat4::IDENTITY);
-                self.gl.legacy.load_matrix(MODELVIEW, &Mat4::IDENTITY);
-                self.gl.legacy.color(run.color);
                 self.gl.glow.draw_arrays(legacy::QUADS, 0, quads.len() as i32);
             }
         }

@@ -1,15 +1,16 @@
-//! Plans carried out, step by step; every draw sets all the state it needs.
+//! Executes plans step by step; every draw sets all the state it needs.
 
 use super::Gl;
+use super::display_lists::{self, DisplayLists};
 use super::edges::EdgeIndices;
-use super::legacy::{self, MODELVIEW, PROJECTION};
-use super::meshes::{Coordinates, FaceIndices, MeshBuffers};
+use super::legacy;
+use super::meshes::{FaceIndices, MeshBuffers, OfVertices};
 use super::objects::{Buffer, Program, Shader, TimerQuery};
 use super::targets::{Targets, clear_each};
 use super::textures::Textures;
 use crate::error::{Error, Result};
 use crate::glsl;
-use crate::plan::{self, Depth, Draw, Geometry, LineDrawing, Plan, Step, Target};
+use crate::plan::{self, Depth, Draw, Geometry, LineDrawing, Plan, Step, Submission, Target};
 use crate::scene::{Rectangle, Scene, Size};
 use crate::tolerances::BACKGROUND_DISTANCE;
 use glam::{Mat4, Vec3, Vec4};
@@ -18,15 +19,16 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 /// The GL objects of a renderer, kept between pictures. Its methods need the context current.
-pub struct Resources {
+pub(crate) struct Resources {
     pub(super) gl: Rc<Gl>,
     programs: HashMap<plan::Program, Program>,
     pub(super) meshes: Vec<MeshBuffers>,
     /// The lists of faces of this plan's draws.
     pub(super) faces: Vec<FaceIndices>,
-    /// The texture coordinates they paint by.
-    pub(super) coordinates: Vec<Coordinates>,
-    squares: Option<Buffer>,
+    /// The texture coordinates and colours they paint by.
+    pub(super) coordinates: Vec<OfVertices<[f32; 2]>>,
+    pub(super) colors: Vec<OfVertices<[f32; 4]>>,
+    pub(super) squares: Option<Buffer>,
     /// The size of what is drawn into: the picture's, or a multiple of it.
     surface: Size,
     targets: Targets,
@@ -34,39 +36,33 @@ pub struct Resources {
     pub(super) textures: Textures,
     /// The edges last drawn as lines and as points, as indices on the device.
     pub(super) edges: [Option<EdgeIndices>; 2],
+    /// How the plan at hand wants vertices handed over, and those kept for that.
+    pub(super) submission: Submission,
+    pub(super) lists: DisplayLists,
 }
 
-/// Position and normal of each corner: the background square, then the screen square at the near plane.
-const SQUARES: [[f32; 6]; 8] = [
-    [-1.0, -1.0, 0.0, 0.0, 0.0, 1.0],
-    [1.0, -1.0, 0.0, 0.0, 0.0, 1.0],
-    [1.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-    [-1.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-    [-1.0, -1.0, -1.0, 0.0, 0.0, 1.0],
-    [1.0, -1.0, -1.0, 0.0, 0.0, 1.0],
-    [1.0, 1.0, -1.0, 0.0, 0.0, 1.0],
-    [-1.0, 1.0, -1.0, 0.0, 0.0, 1.0],
-];
-
 impl Resources {
-    pub fn new(gl: &Rc<Gl>) -> Self {
+    pub(crate) fn new(gl: &Rc<Gl>) -> Self {
         Self {
             gl: gl.clone(),
             programs: HashMap::new(),
             meshes: Vec::new(),
             faces: Vec::new(),
             coordinates: Vec::new(),
+            colors: Vec::new(),
             squares: None,
             surface: Size { width: 1, height: 1 },
             targets: Targets::default(),
             pass_scissor: None,
             textures: Textures::default(),
             edges: [None, None],
+            submission: Submission::Buffers,
+            lists: DisplayLists::default(),
         }
     }
 
     /// Compiles, uploads and sets up whatever this plan needs that is not there yet, and lets go of other scenes' meshes.
-    pub fn prepare(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
+    pub(crate) fn prepare(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
         let gl = self.gl.clone();
         // SAFETY: the context is current; these are state calls of GL 2.1 with valid names.
         unsafe {
@@ -75,14 +71,17 @@ impl Resources {
             gl.glow.disable(glow::DITHER);
             gl.glow.color_mask(true, true, true, true);
         }
+        if plan.submission != Submission::Buffers {
+            display_lists::available(&gl, plan.submission)?;
+        }
+        self.submission = plan.submission;
+        self.lists.prepare(plan.submission);
         self.surface = scene.size.times(plan.supersample);
         self.targets.prepare(&gl, plan, self.surface)?;
         self.upload_meshes(scene)?;
         self.upload_faces(scene, plan)?;
-        self.upload_coordinates(plan)?;
-        if self.squares.is_none() {
-            self.squares = Some(Buffer::new(&gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&SQUARES))?);
-        }
+        self.upload_paint(plan)?;
+        self.upload_squares()?;
         self.textures.prepare(&gl, scene, plan)?;
         for (_, step) in plan.steps() {
             if let Step::Draw(draw) = step
@@ -105,13 +104,13 @@ impl Resources {
     }
 
     /// What the steps that follow draw into, of a prepared plan, and the pixels they may change.
-    pub fn begin(&mut self, target: Target, scissor: Option<Rectangle>) -> Result<()> {
+    pub(crate) fn begin(&mut self, target: Target, scissor: Option<Rectangle>) -> Result<()> {
         self.pass_scissor = scissor;
         self.targets.begin(&self.gl, target)
     }
 
     /// Carries out one step of a prepared plan.
-    pub fn step(&mut self, scene: &Scene, step: &Step) -> Result<()> {
+    pub(crate) fn step(&mut self, scene: &Scene, step: &Step) -> Result<()> {
         self.set_scissor(match step {
             Step::Draw(draw) => draw.scissor.or(self.pass_scissor),
             _ => self.pass_scissor,
@@ -157,7 +156,7 @@ impl Resources {
                 if material_unit.is_some_and(|unit| unit as u32 >= legacy::FIXED_UNITS) {
                     return Err(Error::gl("drawing", "a plan reads the models' own pictures by a third unit"));
                 }
-                self.draw_objects(scene, paint, draw.faces.as_deref(), material_unit.map(|unit| unit as u32))?;
+                self.draw_objects(scene, draw, paint, material_unit.map(|unit| unit as u32))?;
             }
             Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
                 let as_quads = *line_drawing == LineDrawing::Quads || !self.gl.info.draws_edges(*width_px, *is_smooth);
@@ -171,10 +170,10 @@ impl Resources {
                 let far_away = Mat4::from_translation(Vec3::new(0.0, 0.0, -BACKGROUND_DISTANCE));
                 // x and y as they are, depth that of the far plane: a parallel projection that fills the picture.
                 let flat = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::ZERO, Vec4::new(0.0, 0.0, 1.0, 1.0));
-                self.draw_square(0, *color, &far_away, &flat);
+                self.draw_square(0, *color, &far_away, &flat)?;
             }
             Geometry::ScreenSquare | Geometry::PictureSquare => {
-                self.draw_square(4, [1.0; 4], &Mat4::IDENTITY, &Mat4::IDENTITY);
+                self.draw_square(4, [1.0; 4], &Mat4::IDENTITY, &Mat4::IDENTITY)?;
             }
         }
         Ok(())
@@ -247,6 +246,8 @@ impl Resources {
         let gl = &self.gl.glow;
         // SAFETY: the context is current; the names are of GL 2.1.
         unsafe {
+            // Drivers can be told to smooth every polygon, which C. Dachsbacher's article warns of (errata D13).
+            gl.disable(glow::POLYGON_SMOOTH);
             match draw.depth {
                 Depth::TestAndWrite | Depth::TestOnly => {
                     gl.enable(glow::DEPTH_TEST);
@@ -287,26 +288,8 @@ impl Resources {
         }
     }
 
-    pub(super) fn bind_squares(&self) {
-        if let Some(squares) = &self.squares {
-            squares.bind();
-        }
-    }
-
-    fn draw_square(&self, first: i32, color: [f32; 4], view_from_square: &Mat4, clip_from_view: &Mat4) {
-        self.bind_squares();
-        // SAFETY: the context is current and the bound buffer holds both squares, four vertices each.
-        unsafe {
-            self.gl.legacy.position_and_normal_arrays();
-            self.gl.legacy.load_matrix(PROJECTION, clip_from_view);
-            self.gl.legacy.load_matrix(MODELVIEW, view_from_square);
-            self.gl.legacy.color(color);
-            self.gl.glow.draw_arrays(legacy::QUADS, first, 4);
-        }
-    }
-
     /// Reads the framebuffer, RGBA8, bottom row first, into memory of exactly that size.
-    pub fn read_framebuffer(&self, size: Size, pixels: &mut [u8]) {
+    pub(crate) fn read_framebuffer(&self, size: Size, pixels: &mut [u8]) {
         assert_eq!(pixels.len(), size.pixel_count() * 4, "memory for {size} pixels");
         let (width, height) = (size.width as i32, size.height as i32);
         let target = glow::PixelPackData::Slice(Some(pixels));
@@ -315,7 +298,7 @@ impl Resources {
     }
 
     /// Reads the texture that this copying step filled, as [`Resources::read_framebuffer`] does; of depth as grey.
-    pub fn read_copy(&self, step: &Step, size: Size, pixels: &mut [u8]) {
+    pub(crate) fn read_copy(&self, step: &Step, size: Size, pixels: &mut [u8]) {
         assert_eq!(pixels.len(), size.pixel_count() * 4, "memory for {size} pixels");
         let is_depth = *step == Step::CopyDepth;
         let copied = if is_depth { self.targets.depth_map() } else { self.targets.border_map() };
@@ -336,33 +319,33 @@ impl Resources {
     }
 
     /// The shaders linked so far.
-    pub fn programs(&self) -> Vec<plan::Program> {
+    pub(crate) fn programs(&self) -> Vec<plan::Program> {
         self.programs.keys().cloned().collect()
     }
 
     /// Waits until everything is drawn.
-    pub fn finish(&self) {
+    pub(crate) fn finish(&self) {
         // SAFETY: the context is current.
         unsafe { self.gl.glow.finish() }
     }
 
     /// A timer, for contexts that have them.
-    pub fn timer(&self) -> Result<TimerQuery> {
+    pub(crate) fn timer(&self) -> Result<TimerQuery> {
         TimerQuery::new(&self.gl)
     }
 
     /// Returns GL's error since the last check.
-    pub fn check(&self, during: &str) -> Result<()> {
+    pub(crate) fn check(&self, during: &str) -> Result<()> {
         self.gl.check(during)
     }
 
     /// Refuses to go on with a context that is lost.
-    pub fn refuse_if_lost(&self, during: &str) -> Result<()> {
+    pub(crate) fn refuse_if_lost(&self, during: &str) -> Result<()> {
         self.gl.refuse_if_lost(during)
     }
 
     /// What came of some work, and GL's own error where the work has met none. That the context is lost explains any other.
-    pub fn explain<T>(&self, during: &str, result: Result<T>) -> Result<T> {
+    pub(crate) fn explain<T>(&self, during: &str, result: Result<T>) -> Result<T> {
         match (result, self.check(during)) {
             (Err(lost @ Error::ContextLost { .. }), _) | (_, Err(lost @ Error::ContextLost { .. })) => Err(lost),
             (Err(error), _) => Err(error),
@@ -372,13 +355,13 @@ impl Resources {
 
     /// Takes shaders from these texts where they are among them, and links all programs anew when they are needed.
     /// Returns those used so far.
-    pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> HashMap<String, String> {
+    pub(crate) fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> HashMap<String, String> {
         self.programs.clear();
         self.gl.replaced_shaders.replace(shaders)
     }
 
     /// The built-in shaders in whose place there is another text, in order of their paths.
-    pub fn replaced_shaders(&self) -> Vec<String> {
+    pub(crate) fn replaced_shaders(&self) -> Vec<String> {
         let replaced = self.gl.replaced_shaders.borrow();
         let is_other = |(path, text): &(&String, &String)| glsl::source(path).is_some_and(|built_in| built_in != *text);
         let mut paths: Vec<String> = replaced.iter().filter(is_other).map(|(path, _)| path.clone()).collect();
@@ -387,23 +370,26 @@ impl Resources {
     }
 
     /// Compiles a shader by itself and lets go of it.
-    pub fn compile(&self, path: &str) -> Result<()> {
+    pub(crate) fn compile(&self, path: &str) -> Result<()> {
         let kind = if path.ends_with(".vert") { glow::VERTEX_SHADER } else { glow::FRAGMENT_SHADER };
         Shader::new(&self.gl, kind, path).map(drop)
     }
 
     /// Deletes everything; the context must be current.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         *self = Self::new(&self.gl.clone());
     }
 
     /// Lets go of everything without a word to GL, for a context that is lost.
-    pub fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         std::mem::forget(std::mem::replace(self, Self::new(&self.gl.clone())));
     }
 
     /// How many GL objects are alive.
-    pub fn live_objects(&self) -> usize {
+    pub(crate) fn live_objects(&self) -> usize {
         self.gl.live_objects.get()
     }
 }
+
+#[cfg(test)]
+mod tests;

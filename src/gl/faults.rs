@@ -1,4 +1,4 @@
-//! Faults on purpose: what a driver does when things go wrong, for tests and for `tinta stress`.
+//! Fault injection: imitates a failing driver, for tests and for `tinta stress`.
 //!
 //! GL's functions are loaded by name, so a context made with a [`Fault`] gets stand-ins for a few of them: they count, fail
 //! when it is their turn, and otherwise call the driver's. Everything else is the code and the driver of every day. Each
@@ -35,6 +35,8 @@ pub enum Fault {
         /// How many are done before.
         after: u32,
     },
+    /// The driver has no glBegin, as in a core profile, and otherwise all that is needed.
+    NoImmediateMode,
 }
 
 /// What a stand-in is called for.
@@ -75,6 +77,9 @@ impl Faults {
 
     /// The address to call a GL function at: a stand-in's for some, for others the driver's own.
     pub(super) fn load(&self, name: &CStr, real: *const c_void) -> *const c_void {
+        if self.fault == Fault::NoImmediateMode && name == c"glBegin" {
+            return std::ptr::null();
+        }
         match stand_in(name) {
             Some(stand_in) if !real.is_null() => {
                 self.real.borrow_mut().insert(name.to_owned(), real);
@@ -106,7 +111,10 @@ impl Faults {
                 }
                 has_room
             }
-            Fault::OutOfMemory { .. } | Fault::ContextRefused | Fault::ShaderRefused { .. } => true,
+            Fault::OutOfMemory { .. }
+            | Fault::ContextRefused
+            | Fault::ShaderRefused { .. }
+            | Fault::NoImmediateMode => true,
         }
     }
 }

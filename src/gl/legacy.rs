@@ -3,15 +3,17 @@
 use std::ffi::{CStr, c_char, c_void};
 
 /// `GL_MODELVIEW`
-pub const MODELVIEW: u32 = 0x1700;
+pub(super) const MODELVIEW: u32 = 0x1700;
 /// `GL_PROJECTION`
-pub const PROJECTION: u32 = 0x1701;
+pub(super) const PROJECTION: u32 = 0x1701;
 /// `GL_VERTEX_ARRAY`
-pub const VERTEX_ARRAY: u32 = 0x8074;
+pub(super) const VERTEX_ARRAY: u32 = 0x8074;
 /// `GL_NORMAL_ARRAY`
-pub const NORMAL_ARRAY: u32 = 0x8075;
+pub(super) const NORMAL_ARRAY: u32 = 0x8075;
+/// `GL_COLOR_ARRAY`
+pub(super) const COLOR_ARRAY: u32 = 0x8076;
 /// `GL_TEXTURE_COORD_ARRAY`
-pub const TEXTURE_COORD_ARRAY: u32 = 0x8078;
+pub(super) const TEXTURE_COORD_ARRAY: u32 = 0x8078;
 /// `GL_TEXTURE_ENV`
 const TEXTURE_ENV: u32 = 0x2300;
 /// `GL_TEXTURE_ENV_MODE`
@@ -19,29 +21,29 @@ const TEXTURE_ENV_MODE: u32 = 0x2200;
 /// `GL_MODULATE`
 const MODULATE: i32 = 0x2100;
 /// `GL_POINT_SMOOTH`
-pub const POINT_SMOOTH: u32 = 0x0B10;
+pub(super) const POINT_SMOOTH: u32 = 0x0B10;
 /// `GL_LUMINANCE_ALPHA`
-pub const LUMINANCE_ALPHA: u32 = 0x190A;
+pub(super) const LUMINANCE_ALPHA: u32 = 0x190A;
 /// `GL_LUMINANCE8_ALPHA8`
-pub const LUMINANCE8_ALPHA8: u32 = 0x8045;
+pub(super) const LUMINANCE8_ALPHA8: u32 = 0x8045;
 /// `GL_RGBA` as the internal format the article copies to.
-pub const RGBA: u32 = 0x1908;
+pub(super) const RGBA: u32 = 0x1908;
 /// `GL_GENERATE_MIPMAP`
-pub const GENERATE_MIPMAP: u32 = 0x8191;
+pub(super) const GENERATE_MIPMAP: u32 = 0x8191;
 /// `GL_QUADS`
-pub const QUADS: u32 = 0x0007;
+pub(super) const QUADS: u32 = 0x0007;
 /// `GL_ALPHA_BITS`
-pub const ALPHA_BITS: u32 = 0x0D55;
+pub(super) const ALPHA_BITS: u32 = 0x0D55;
 /// `GL_DEPTH_BITS`
-pub const DEPTH_BITS: u32 = 0x0D56;
+pub(super) const DEPTH_BITS: u32 = 0x0D56;
 /// `GL_SMOOTH_LINE_WIDTH_RANGE`
-pub const SMOOTH_LINE_WIDTH_RANGE: u32 = 0x0B22;
+pub(super) const SMOOTH_LINE_WIDTH_RANGE: u32 = 0x0B22;
 /// `GL_ALIASED_LINE_WIDTH_RANGE`
-pub const ALIASED_LINE_WIDTH_RANGE: u32 = 0x846E;
+pub(super) const ALIASED_LINE_WIDTH_RANGE: u32 = 0x846E;
 /// `GL_SMOOTH_POINT_SIZE_RANGE`
-pub const SMOOTH_POINT_SIZE_RANGE: u32 = 0x0B12;
+pub(super) const SMOOTH_POINT_SIZE_RANGE: u32 = 0x0B12;
 /// `GL_ALIASED_POINT_SIZE_RANGE`
-pub const ALIASED_POINT_SIZE_RANGE: u32 = 0x846D;
+pub(super) const ALIASED_POINT_SIZE_RANGE: u32 = 0x846D;
 
 type Enumerated = unsafe extern "system" fn(u32);
 type LoadMatrix = unsafe extern "system" fn(*const f32);
@@ -54,7 +56,7 @@ type GetString = unsafe extern "system" fn(u32) -> *const c_char;
 type ResetStatus = unsafe extern "system" fn() -> u32;
 
 /// The functions, each of the type the specification gives it.
-pub struct Legacy {
+pub(super) struct Legacy {
     matrix_mode: Enumerated,
     load_matrix: LoadMatrix,
     color: Color,
@@ -63,6 +65,7 @@ pub struct Legacy {
     client_active_texture: Enumerated,
     vertex_pointer: VertexPointer,
     normal_pointer: NormalPointer,
+    color_pointer: VertexPointer,
     texture_coordinate_pointer: VertexPointer,
     texture_environment: TextureEnvironment,
     point_size: PointSize,
@@ -76,7 +79,7 @@ impl Legacy {
     /// # Safety
     ///
     /// `load` returns null or the address of the GL function of that name for the current context.
-    pub unsafe fn load(mut load: impl FnMut(&CStr) -> *const c_void) -> Result<Self, String> {
+    pub(super) unsafe fn load(mut load: impl FnMut(&CStr) -> *const c_void) -> Result<Self, String> {
         let mut find = |name: &'static CStr| {
             let address = load(name);
             if address.is_null() {
@@ -97,6 +100,7 @@ impl Legacy {
                 )?),
                 vertex_pointer: std::mem::transmute::<*const c_void, VertexPointer>(find(c"glVertexPointer")?),
                 normal_pointer: std::mem::transmute::<*const c_void, NormalPointer>(find(c"glNormalPointer")?),
+                color_pointer: std::mem::transmute::<*const c_void, VertexPointer>(find(c"glColorPointer")?),
                 texture_coordinate_pointer: std::mem::transmute::<*const c_void, VertexPointer>(find(
                     c"glTexCoordPointer",
                 )?),
@@ -113,7 +117,7 @@ impl Legacy {
     /// # Safety
     ///
     /// As [`Legacy::load`], and the context has the extension: drivers give addresses for functions they do not have.
-    pub unsafe fn load_robustness(&mut self, mut load: impl FnMut(&CStr) -> *const c_void) {
+    pub(super) unsafe fn load_robustness(&mut self, mut load: impl FnMut(&CStr) -> *const c_void) {
         // The extension's own name, then that of KHR_robustness and OpenGL 4.5.
         let names = [c"glGetGraphicsResetStatusARB", c"glGetGraphicsResetStatus"];
         if let Some(address) = names.into_iter().map(&mut load).find(|address| !address.is_null()) {
@@ -127,7 +131,7 @@ impl Legacy {
     /// # Safety
     ///
     /// The context is current.
-    pub unsafe fn reset_status(&self) -> u32 {
+    pub(super) unsafe fn reset_status(&self) -> u32 {
         // SAFETY: the caller's promise.
         self.reset_status.map_or(glow::NO_ERROR, |reset_status| unsafe { reset_status() })
     }
@@ -137,7 +141,7 @@ impl Legacy {
     /// # Safety
     ///
     /// The context is current.
-    pub unsafe fn string(&self, name: u32) -> Option<String> {
+    pub(super) unsafe fn string(&self, name: u32) -> Option<String> {
         // SAFETY: the caller's promise; GL's strings end with 0 and live as long as the context.
         unsafe {
             let text = (self.get_string)(name);
@@ -150,7 +154,7 @@ impl Legacy {
     /// # Safety
     ///
     /// The context is current.
-    pub unsafe fn load_matrix(&self, mode: u32, matrix: &glam::Mat4) {
+    pub(super) unsafe fn load_matrix(&self, mode: u32, matrix: &glam::Mat4) {
         // SAFETY: the caller's promise; the matrix is 16 floats, column by column.
         unsafe {
             (self.matrix_mode)(mode);
@@ -163,22 +167,23 @@ impl Legacy {
     /// # Safety
     ///
     /// The context is current.
-    pub unsafe fn color(&self, [red, green, blue, alpha]: [f32; 4]) {
+    pub(super) unsafe fn color(&self, [red, green, blue, alpha]: [f32; 4]) {
         // SAFETY: the caller's promise.
         unsafe { (self.color)(red, green, blue, alpha) }
     }
 
-    /// Positions and normals interleaved, three floats each, from the start of the bound array buffer; no texture
+    /// Positions and normals interleaved, three floats each, from the start of the bound array buffer; no colours, no texture
     /// coordinates.
     ///
     /// # Safety
     ///
     /// The context is current and the buffer bound to GL_ARRAY_BUFFER holds such vertices.
-    pub unsafe fn position_and_normal_arrays(&self) {
+    pub(super) unsafe fn position_and_normal_arrays(&self) {
         const STRIDE: i32 = 24;
         // SAFETY: the caller's promise; with a buffer bound the pointers are offsets into it.
         unsafe {
             self.no_texture_coordinates();
+            (self.disable_client_state)(COLOR_ARRAY);
             (self.enable_client_state)(VERTEX_ARRAY);
             (self.enable_client_state)(NORMAL_ARRAY);
             (self.vertex_pointer)(3, glow::FLOAT, STRIDE, std::ptr::null());
@@ -191,10 +196,11 @@ impl Legacy {
     /// # Safety
     ///
     /// As [`Legacy::position_and_normal_arrays`].
-    pub unsafe fn clip_position_array(&self) {
+    pub(super) unsafe fn clip_position_array(&self) {
         // SAFETY: as above.
         unsafe {
             self.no_texture_coordinates();
+            (self.disable_client_state)(COLOR_ARRAY);
             (self.enable_client_state)(VERTEX_ARRAY);
             (self.disable_client_state)(NORMAL_ARRAY);
             (self.vertex_pointer)(4, glow::FLOAT, 0, std::ptr::null());
@@ -206,12 +212,25 @@ impl Legacy {
     /// # Safety
     ///
     /// The context is current and the bound buffer holds them for as many vertices as will be drawn.
-    pub unsafe fn texture_coordinate_array(&self, unit: u32) {
+    pub(super) unsafe fn texture_coordinate_array(&self, unit: u32) {
         // SAFETY: as above.
         unsafe {
             (self.client_active_texture)(glow::TEXTURE0 + unit);
             (self.enable_client_state)(TEXTURE_COORD_ARRAY);
             (self.texture_coordinate_pointer)(2, glow::FLOAT, 0, std::ptr::null());
+        }
+    }
+
+    /// Colours, four floats a vertex, from the start of the bound array buffer; until other arrays are set.
+    ///
+    /// # Safety
+    ///
+    /// As [`Legacy::texture_coordinate_array`].
+    pub(super) unsafe fn color_array(&self) {
+        // SAFETY: as above.
+        unsafe {
+            (self.enable_client_state)(COLOR_ARRAY);
+            (self.color_pointer)(4, glow::FLOAT, 0, std::ptr::null());
         }
     }
 
@@ -230,7 +249,7 @@ impl Legacy {
     /// # Safety
     ///
     /// The context is current.
-    pub unsafe fn modulate(&self) {
+    pub(super) unsafe fn modulate(&self) {
         // SAFETY: the caller's promise.
         unsafe { (self.texture_environment)(TEXTURE_ENV, TEXTURE_ENV_MODE, MODULATE) }
     }
@@ -240,11 +259,11 @@ impl Legacy {
     /// # Safety
     ///
     /// The context is current; the size is above 0.
-    pub unsafe fn point_size(&self, size_px: f32) {
+    pub(super) unsafe fn point_size(&self, size_px: f32) {
         // SAFETY: the caller's promise.
         unsafe { (self.point_size)(size_px) }
     }
 }
 
 /// Texture units that plans use without a fragment shader; every driver of OpenGL 2.1 has two.
-pub const FIXED_UNITS: u32 = 2;
+pub(super) const FIXED_UNITS: u32 = 2;

@@ -1,13 +1,15 @@
 //! The scene's meshes on the device, and how they are drawn.
 
 use super::Gl;
+use super::display_lists::{Content, Same};
 use super::execute::Resources;
-use super::legacy::{MODELVIEW, PROJECTION};
+use super::immediate::{Places, Vertices};
+use super::legacy::{FIXED_UNITS, MODELVIEW, PROJECTION};
 use super::objects::Buffer;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Part, VertexArrays};
-use crate::plan::{Draw, FaceList, Faces, Geometry, Paint, Plan, Step};
-use crate::scene::{Color, Scene};
+use crate::plan::{Draw, FaceList, Faces, Geometry, Paint, Plan, Step, Submission};
+use crate::scene::{Color, Object, Scene};
 use glam::DVec3;
 use glow::HasContext;
 use std::rc::Rc;
@@ -31,9 +33,9 @@ pub(super) struct FaceIndices {
     buffer: Buffer,
 }
 
-/// Texture coordinates of an object's vertices on the device.
-pub(super) struct Coordinates {
-    list: Arc<Vec<[f32; 2]>>,
+/// Something of each of an object's vertices on the device: its texture coordinate, its colour.
+pub(super) struct OfVertices<T> {
+    list: Arc<Vec<T>>,
     buffer: Buffer,
 }
 
@@ -52,22 +54,22 @@ impl Resources {
         Ok(())
     }
 
-    /// Uploads the texture coordinates this plan paints by that are not there yet and lets go of others.
-    pub(super) fn upload_coordinates(&mut self, plan: &Plan) -> Result<()> {
-        let is_painted = |(_, step): (_, &'_ Step)| match step {
-            Step::Draw(Draw { geometry: Geometry::Objects(Paint::Coordinates(lists)), .. }) => Some(lists.clone()),
-            _ => None,
-        };
-        let painted: Vec<_> = plan.steps().filter_map(is_painted).collect();
-        let lists: Vec<&Arc<Vec<[f32; 2]>>> = painted.iter().flat_map(|lists| lists.iter()).collect();
-        self.coordinates.retain(|present| lists.iter().any(|list| Arc::ptr_eq(list, &present.list)));
-        for list in lists {
-            if !self.coordinates.iter().any(|present| Arc::ptr_eq(list, &present.list)) {
-                let buffer = Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(list))?;
-                self.coordinates.push(Coordinates { list: list.clone(), buffer });
+    /// Uploads the texture coordinates and colours this plan paints by that are not there yet and lets go of others.
+    pub(super) fn upload_paint(&mut self, plan: &Plan) -> Result<()> {
+        let (mut coordinates, mut colors) = (Vec::new(), Vec::new());
+        for (_, step) in plan.steps() {
+            match step {
+                Step::Draw(Draw { geometry: Geometry::Objects(Paint::Coordinates(lists)), .. }) => {
+                    coordinates.extend(lists.iter());
+                }
+                Step::Draw(Draw { geometry: Geometry::Objects(Paint::Colors(lists)), .. }) => {
+                    colors.extend(lists.iter());
+                }
+                _ => {}
             }
         }
-        Ok(())
+        upload(&self.gl, &mut self.coordinates, &coordinates)?;
+        upload(&self.gl, &mut self.colors, &colors)
     }
 
     /// Uploads the lists of faces this plan draws that are not there yet and lets go of others.
@@ -101,76 +103,171 @@ impl Resources {
         self.meshes.iter().find(|buffers| Arc::ptr_eq(&buffers.mesh, mesh))
     }
 
-    /// Draws the objects, or these faces of them; their own texture coordinates go to this unit.
+    /// Draws the objects, or the faces of them that the draw lists; their own texture coordinates go to this unit.
     pub(super) fn draw_objects(
         &mut self,
         scene: &Scene,
+        draw: &Draw,
         paint: &Paint,
-        faces: Option<&Vec<Faces>>,
         material_unit: Option<u32>,
     ) -> Result<()> {
         // SAFETY: the context is current.
         unsafe { self.gl.legacy.load_matrix(PROJECTION, &scene.clip_from_view()) };
         let mut bound = None;
         for (number, object) in scene.objects.iter().enumerate() {
-            let listed = match faces.map_or(Some(&Faces::All), |faces| faces.get(number)) {
+            let listed = match draw.faces.as_ref().map_or(Some(&Faces::All), |faces| faces.get(number)) {
                 Some(Faces::All) => None,
                 Some(Faces::None) => continue,
                 Some(Faces::Listed(list)) => Some(list),
                 None => return Err(of_another_scene()),
             };
             let buffers = self.find_mesh(&object.mesh).ok_or_else(of_another_scene)?;
-            let list = match paint {
-                Paint::Coordinates(lists) => {
-                    let list = lists.get(number).filter(|list| list.len() == buffers.vertex_count);
-                    Some(list.ok_or_else(of_another_scene)?)
-                }
-                Paint::Materials | Paint::Uniform(_) => None,
-            };
-            // Copies share both mesh and list.
-            let wanted = (Arc::as_ptr(&object.mesh), list.map(Arc::as_ptr));
-            if bound != Some(wanted) {
-                buffers.bind(&self.gl, material_unit);
-                if let Some(list) = list {
-                    let present = self.coordinates.iter().find(|present| Arc::ptr_eq(list, &present.list));
-                    present.ok_or_else(of_another_scene)?.buffer.bind();
-                    // SAFETY: the context is current; the buffer just bound has coordinates for every vertex.
-                    unsafe { self.gl.legacy.texture_coordinate_array(0) };
-                }
-                bound = Some(wanted);
-            }
+            let lists = PaintLists::of(paint, number, buffers.vertex_count)?;
             // SAFETY: the context is current.
             unsafe { self.gl.legacy.load_matrix(MODELVIEW, &scene.view_from_object(object, buffers.centre)) };
-            let mut parts = &buffers.parts;
-            if let Some(list) = listed {
-                let indices = self.faces.iter().find(|faces| Arc::ptr_eq(list, &faces.list));
-                indices.ok_or_else(of_another_scene)?.buffer.bind();
-                parts = &list.parts;
-                // The next copy may be drawn whole.
-                bound = None;
+            let parts = listed.map_or(&buffers.parts, |list| &list.parts);
+            if self.submission == Submission::Buffers {
+                // Copies share both mesh and lists.
+                let wanted =
+                    (Arc::as_ptr(&object.mesh), lists.coordinates.map(Arc::as_ptr), lists.colors.map(Arc::as_ptr));
+                if bound != Some(wanted) {
+                    buffers.bind(&self.gl, material_unit);
+                    if let Some(list) = lists.coordinates {
+                        buffer_of(&self.coordinates, list)?.bind();
+                        // SAFETY: the context is current; the buffer just bound has coordinates for every vertex.
+                        unsafe { self.gl.legacy.texture_coordinate_array(0) };
+                    }
+                    if let Some(list) = lists.colors {
+                        buffer_of(&self.colors, list)?.bind();
+                        // SAFETY: the context is current; the buffer just bound has a colour for every vertex.
+                        unsafe { self.gl.legacy.color_array() };
+                    }
+                    bound = Some(wanted);
+                }
+                if let Some(list) = listed {
+                    let indices = self.faces.iter().find(|faces| Arc::ptr_eq(list, &faces.list));
+                    indices.ok_or_else(of_another_scene)?.buffer.bind();
+                    // The next copy may be drawn whole.
+                    bound = None;
+                }
             }
-            for part in parts {
+            for (number, part) in parts.iter().enumerate() {
                 let color = match paint {
                     Paint::Materials => {
                         let Color([red, green, blue]) = scene.material_color(&object.mesh, part.material);
                         [red, green, blue, 1.0]
                     }
                     Paint::Uniform(color) => *color,
-                    Paint::Coordinates(_) => [1.0; 4],
+                    Paint::Coordinates(_) | Paint::Colors(_) => [1.0; 4],
                 };
                 if let Some(unit) = material_unit {
-                    self.textures.bind_material(scene, object, part.material, unit)?;
+                    self.textures.bind_material(object, part.material, unit);
+                }
+                // SAFETY: the context is current.
+                unsafe { self.gl.legacy.color(color) };
+                if self.submission != Submission::Buffers {
+                    let has_normals = draw.program.is_some();
+                    let faces = RunOfFaces { object, listed, number, part, lists, material_unit, has_normals };
+                    self.send_faces(scene, &faces)?;
+                    continue;
                 }
                 // SAFETY: the context is current; the part lies within the bound index buffer, whose indices lie within the
                 // bound vertex buffers, both by construction of `VertexArrays`.
                 unsafe {
-                    self.gl.legacy.color(color);
                     let first_byte = part.first as i32 * size_of::<u32>() as i32;
                     self.gl.glow.draw_elements(glow::TRIANGLES, part.count as i32, glow::UNSIGNED_INT, first_byte);
                 }
             }
         }
         Ok(())
+    }
+
+    /// Draws a run of faces without buffers.
+    fn send_faces(&self, scene: &Scene, faces: &RunOfFaces<'_>) -> Result<()> {
+        let RunOfFaces { object, listed, number, part, lists, material_unit, has_normals } = *faces;
+        let arrays = scene.arrays(object);
+        let own_unit = material_unit.filter(|_| !arrays.texture_coordinates.is_empty());
+        let mut coordinates = [None; FIXED_UNITS as usize];
+        coordinates[0] = lists.coordinates.map(|list| list.as_slice());
+        if let Some(slot) = own_unit.and_then(|unit| coordinates.get_mut(unit as usize)) {
+            *slot = Some(arrays.texture_coordinates.as_slice());
+        }
+        let indices = listed.map_or(&arrays.indices, |list| &list.indices);
+        let vertices = Vertices {
+            mode: glow::TRIANGLES,
+            places: match has_normals {
+                true => Places::PositionsAndNormals(&arrays.vertices),
+                false => Places::Positions(&arrays.vertices),
+            },
+            indices: &indices[part.first as usize..][..part.count as usize],
+            colors: lists.colors.map(|list| list.as_slice()),
+            coordinates,
+        };
+        let content = Content::Faces {
+            mesh: Same::as_this(&object.mesh),
+            unit: scene.radius,
+            list: listed.map(Same::as_this),
+            part: number,
+            coordinates: lists.coordinates.map(Same::as_this),
+            colors: lists.colors.map(Same::as_this),
+            own_unit,
+            has_normals,
+        };
+        self.lists.draw(&self.gl, self.submission, content, &vertices)
+    }
+}
+
+/// Faces of an object that share a material.
+#[derive(Clone, Copy)]
+struct RunOfFaces<'a> {
+    object: &'a Object,
+    /// The list they are in, if not all of the object's faces are drawn.
+    listed: Option<&'a Arc<FaceList>>,
+    /// Which run of the list or object it is, and what is in it.
+    number: usize,
+    part: &'a Part,
+    lists: PaintLists<'a>,
+    material_unit: Option<u32>,
+    has_normals: bool,
+}
+
+/// Uploads lists that are not there yet and lets go of those not wanted.
+fn upload<T: bytemuck::NoUninit>(gl: &Rc<Gl>, present: &mut Vec<OfVertices<T>>, wanted: &[&Arc<Vec<T>>]) -> Result<()> {
+    present.retain(|present| wanted.iter().any(|list| Arc::ptr_eq(list, &present.list)));
+    for list in wanted {
+        if !present.iter().any(|present| Arc::ptr_eq(list, &present.list)) {
+            let buffer = Buffer::new(gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(list))?;
+            present.push(OfVertices { list: Arc::clone(list), buffer });
+        }
+    }
+    Ok(())
+}
+
+/// The buffer of a list.
+fn buffer_of<'a, T>(present: &'a [OfVertices<T>], list: &Arc<Vec<T>>) -> Result<&'a Buffer> {
+    let found = present.iter().find(|present| Arc::ptr_eq(list, &present.list));
+    found.map(|present| &present.buffer).ok_or_else(of_another_scene)
+}
+
+/// What a paint has for each vertex of an object.
+#[derive(Clone, Copy, Default)]
+struct PaintLists<'a> {
+    coordinates: Option<&'a Arc<Vec<[f32; 2]>>>,
+    colors: Option<&'a Arc<Vec<[f32; 4]>>>,
+}
+
+impl<'a> PaintLists<'a> {
+    fn of(paint: &'a Paint, object: usize, vertex_count: usize) -> Result<Self> {
+        fn list<T>(lists: &[Arc<Vec<T>>], object: usize, vertex_count: usize) -> Result<&Arc<Vec<T>>> {
+            lists.get(object).filter(|list| list.len() == vertex_count).ok_or_else(of_another_scene)
+        }
+        Ok(match paint {
+            Paint::Materials | Paint::Uniform(_) => Self::default(),
+            Paint::Coordinates(lists) => {
+                Self { coordinates: Some(list(lists, object, vertex_count)?), ..Self::default() }
+            }
+            Paint::Colors(lists) => Self { colors: Some(list(lists, object, vertex_count)?), ..Self::default() },
+        })
     }
 }
 

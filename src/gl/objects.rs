@@ -32,7 +32,7 @@ pub(super) fn out_of_names(error: String) -> Error {
 }
 
 /// A vertex or index buffer.
-pub struct Buffer {
+pub(super) struct Buffer {
     live: Live,
     id: glow::Buffer,
     target: u32,
@@ -40,7 +40,7 @@ pub struct Buffer {
 
 impl Buffer {
     /// Uploads bytes once, for drawing; `target` is GL_ARRAY_BUFFER or GL_ELEMENT_ARRAY_BUFFER.
-    pub fn new(gl: &Rc<Gl>, target: u32, bytes: &[u8]) -> Result<Self> {
+    pub(super) fn new(gl: &Rc<Gl>, target: u32, bytes: &[u8]) -> Result<Self> {
         // SAFETY: the context is current, as it must be to call `Resources`' methods; the bytes outlive the call.
         unsafe {
             let id = gl.glow.create_buffer().map_err(out_of_names)?;
@@ -52,7 +52,7 @@ impl Buffer {
         }
     }
 
-    pub fn bind(&self) {
+    pub(super) fn bind(&self) {
         // SAFETY: the context is current and this buffer alive.
         unsafe { self.live.0.glow.bind_buffer(self.target, Some(self.id)) }
     }
@@ -65,8 +65,40 @@ impl Drop for Buffer {
     }
 }
 
+/// A display list.
+pub(super) struct DisplayList {
+    live: Live,
+    name: u32,
+}
+
+impl DisplayList {
+    /// An empty list, for drivers that have lists.
+    pub(super) fn new(gl: &Rc<Gl>) -> Result<Self> {
+        // SAFETY: the context is current.
+        let name = gl.immediate.as_ref().map_or(0, |immediate| unsafe { immediate.new_list() });
+        match name {
+            0 => Err(out_of_names("glGenLists gave no name".to_owned())),
+            name => Ok(Self { live: Live::new(gl), name }),
+        }
+    }
+
+    /// What GL calls it.
+    pub(super) fn name(&self) -> u32 {
+        self.name
+    }
+}
+
+impl Drop for DisplayList {
+    fn drop(&mut self) {
+        if let Ok(immediate) = &self.live.0.immediate {
+            // SAFETY: the context is current and this list alive and ours.
+            unsafe { immediate.delete_list(self.name) }
+        }
+    }
+}
+
 /// A texture.
-pub struct Texture {
+pub(super) struct Texture {
     live: Live,
     id: glow::Texture,
     target: u32,
@@ -74,7 +106,7 @@ pub struct Texture {
 
 impl Texture {
     /// An empty texture; `target` is GL_TEXTURE_1D or GL_TEXTURE_2D.
-    pub fn new(gl: &Rc<Gl>, target: u32, sampling: Sampling) -> Result<Self> {
+    pub(super) fn new(gl: &Rc<Gl>, target: u32, sampling: Sampling) -> Result<Self> {
         let (smaller, larger, wrap) = match sampling {
             Sampling::NearestClamped => (glow::NEAREST, glow::NEAREST, glow::CLAMP_TO_EDGE),
             Sampling::LinearRepeated => (glow::LINEAR, glow::LINEAR, glow::REPEAT),
@@ -106,7 +138,7 @@ impl Texture {
         self.id
     }
 
-    pub fn bind(&self, unit: u32) {
+    pub(super) fn bind(&self, unit: u32) {
         // SAFETY: the context is current and this texture alive; that there are as many units `Resources::prepare` has
         // checked.
         unsafe {
@@ -124,7 +156,7 @@ impl Drop for Texture {
 }
 
 /// A linked program and where its uniforms are.
-pub struct Program {
+pub(super) struct Program {
     live: Live,
     id: glow::Program,
     locations: HashMap<&'static str, Option<glow::UniformLocation>>,
@@ -132,7 +164,7 @@ pub struct Program {
 
 impl Program {
     /// Compiles and links the shaders a plan names.
-    pub fn new(gl: &Rc<Gl>, program: &plan::Program) -> Result<Self> {
+    pub(super) fn new(gl: &Rc<Gl>, program: &plan::Program) -> Result<Self> {
         // SAFETY: the context is current; shaders are attached, detached and deleted in that order.
         unsafe {
             let id = gl.glow.create_program().map_err(out_of_names)?;
@@ -157,13 +189,13 @@ impl Program {
         }
     }
 
-    pub fn bind(&self) {
+    pub(super) fn bind(&self) {
         // SAFETY: the context is current and this program alive.
         unsafe { self.live.0.glow.use_program(Some(self.id)) }
     }
 
     /// Sets a uniform of this program, which is bound; one the driver has optimised away is no error.
-    pub fn set(&mut self, name: &'static str, value: plan::Value) {
+    pub(super) fn set(&mut self, name: &'static str, value: plan::Value) {
         let gl = &self.live.0.glow;
         let id = self.id;
         // SAFETY: the context is current, this program alive and bound.
@@ -181,7 +213,7 @@ impl Program {
     }
 
     /// Points a sampler of this program, which is bound, at a texture unit.
-    pub fn set_sampler(&mut self, name: &'static str, unit: u32) {
+    pub(super) fn set_sampler(&mut self, name: &'static str, unit: u32) {
         let gl = &self.live.0.glow;
         let id = self.id;
         // SAFETY: the context is current, this program alive and bound.
@@ -200,14 +232,14 @@ impl Drop for Program {
 }
 
 /// A compiled shader, needed until its program is linked.
-pub struct Shader {
+pub(super) struct Shader {
     live: Live,
     id: glow::Shader,
 }
 
 impl Shader {
     /// Compiles the shader of this path below `glsl/`.
-    pub fn new(gl: &Rc<Gl>, kind: u32, path: &str) -> Result<Self> {
+    pub(super) fn new(gl: &Rc<Gl>, kind: u32, path: &str) -> Result<Self> {
         let failed = |log: &str| Error::Shader { path: path.to_owned(), log: one_line(log) };
         let replaced = gl.replaced_shaders.borrow();
         let built_in = || crate::glsl::source(path);
@@ -235,30 +267,30 @@ impl Drop for Shader {
 }
 
 /// A query of elapsed time on the device.
-pub struct TimerQuery {
+pub(crate) struct TimerQuery {
     live: Live,
     id: glow::Query,
 }
 
 impl TimerQuery {
-    pub fn new(gl: &Rc<Gl>) -> Result<Self> {
+    pub(crate) fn new(gl: &Rc<Gl>) -> Result<Self> {
         // SAFETY: the context is current.
         let id = unsafe { gl.glow.create_query() }.map_err(out_of_names)?;
         Ok(Self { live: Live::new(gl), id })
     }
 
-    pub fn begin(&self) {
+    pub(crate) fn begin(&self) {
         // SAFETY: the context is current, this query alive and no other of its kind running.
         unsafe { self.live.0.glow.begin_query(glow::TIME_ELAPSED, self.id) }
     }
 
-    pub fn end(&self) {
+    pub(crate) fn end(&self) {
         // SAFETY: the context is current and this query running.
         unsafe { self.live.0.glow.end_query(glow::TIME_ELAPSED) }
     }
 
     /// Waits for the device and returns the elapsed milliseconds.
-    pub fn milliseconds(&self) -> f64 {
+    pub(crate) fn milliseconds(&self) -> f64 {
         // SAFETY: the context is current and this query ended. 32 bits of nanoseconds reach for four seconds.
         let nanoseconds = unsafe { self.live.0.glow.get_query_parameter_u32(self.id, glow::QUERY_RESULT) };
         f64::from(nanoseconds) * 1e-6
@@ -295,6 +327,7 @@ mod tests {
             let query = TimerQuery::new(gl).unwrap();
             query.begin();
             query.end();
+            let list = DisplayList::new(gl).unwrap();
             let (buffer_id, texture_id, program_id) = (buffer.id, texture.id, program.id);
             // SAFETY: the context is current; asking after a name is safe whether or not it is alive.
             let alive = || unsafe {
@@ -302,8 +335,8 @@ mod tests {
                 [glow.is_buffer(buffer_id), glow.is_texture(texture_id), glow.is_program(program_id)]
             };
             assert_eq!(alive(), [true; 3], "{backend:?}");
-            assert_eq!(gl.live_objects.get(), 4, "the shaders went with the linking");
-            drop((buffer, texture, program, query));
+            assert_eq!(gl.live_objects.get(), 5, "the shaders went with the linking");
+            drop((buffer, texture, program, query, list));
             assert_eq!(alive(), [false; 3], "{backend:?}");
             assert_eq!(gl.live_objects.get(), 0);
         }

@@ -6,7 +6,7 @@ use glam::{Vec2, Vec4};
 /// Four corners a line, in clip space: the line's image widened at right angles to itself.
 ///
 /// `ends` are in clip space; what lies before the near plane is cut off, lines seen end-on have no image.
-pub fn line_quads(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, width_px: f32) -> Vec<[f32; 4]> {
+pub(super) fn line_quads(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, width_px: f32) -> Vec<[f32; 4]> {
     let pixels = half_size(size);
     ends.filter_map(behind_near_plane)
         .filter_map(|[a, b]| {
@@ -19,7 +19,7 @@ pub fn line_quads(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, width_px: f
 }
 
 /// Four corners a point, both ends of each line: squares of this size.
-pub fn point_quads(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, size_px: f32) -> Vec<[f32; 4]> {
+pub(super) fn point_quads(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, size_px: f32) -> Vec<[f32; 4]> {
     let half = Vec2::splat(size_px * 0.5) / half_size(size);
     ends.flatten()
         .filter(|point| point.w > 0.0 && point.z >= -point.w)

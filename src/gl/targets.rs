@@ -1,4 +1,4 @@
-//! What passes draw into and read from besides the framebuffer: copies of its colour and depth, and textures drawn into by
+//! Render targets besides the framebuffer: copies of its colour and depth, and textures drawn into by
 //! framebuffer objects.
 
 mod framebuffer;
@@ -9,14 +9,14 @@ use super::{Gl, legacy};
 use crate::error::{Error, Result};
 use crate::plan::{Attachments, Drawn, Format, Plan, Sampling, Target};
 use crate::scene::{Rectangle, Size};
-pub use framebuffer::clear_each;
+pub(super) use framebuffer::clear_each;
 use framebuffer::{Framebuffer, Renderbuffer};
 use glow::HasContext;
 use std::rc::Rc;
 
 /// The textures that passes leave for each other.
 #[derive(Default)]
-pub struct Targets {
+pub(super) struct Targets {
     border_map: Option<Copied>,
     depth_map: Option<Copied>,
     drawn: Option<TextureTargets>,
@@ -24,7 +24,7 @@ pub struct Targets {
 
 impl Targets {
     /// Makes what the plan draws into where there is none of this size yet.
-    pub fn prepare(&mut self, gl: &Rc<Gl>, plan: &Plan, size: Size) -> Result<()> {
+    pub(super) fn prepare(&mut self, gl: &Rc<Gl>, plan: &Plan, size: Size) -> Result<()> {
         check(&gl.info, plan)?;
         let attachments = plan.attachments();
         let is_there = |drawn: &TextureTargets| drawn.size == size && drawn.attachments == attachments;
@@ -37,7 +37,7 @@ impl Targets {
     }
 
     /// What is drawn next goes there.
-    pub fn begin(&self, gl: &Gl, target: Target) -> Result<()> {
+    pub(super) fn begin(&self, gl: &Gl, target: Target) -> Result<()> {
         let framebuffer = match target {
             Target::Framebuffer => None,
             Target::Textures(attachments) => {
@@ -53,34 +53,34 @@ impl Targets {
     }
 
     /// Copies the framebuffer's colour, all of it or this part.
-    pub fn copy_color(&mut self, gl: &Rc<Gl>, size: Size, part: Option<Rectangle>) -> Result<()> {
+    pub(super) fn copy_color(&mut self, gl: &Rc<Gl>, size: Size, part: Option<Rectangle>) -> Result<()> {
         copy(gl, &mut self.border_map, legacy::RGBA, size, part)
     }
 
     /// Copies the framebuffer's depth, all of it or this part.
-    pub fn copy_depth(&mut self, gl: &Rc<Gl>, size: Size, part: Option<Rectangle>) -> Result<()> {
+    pub(super) fn copy_depth(&mut self, gl: &Rc<Gl>, size: Size, part: Option<Rectangle>) -> Result<()> {
         copy(gl, &mut self.depth_map, glow::DEPTH_COMPONENT24, size, part)
     }
 
     /// The copy of the colour.
-    pub fn border_map(&self) -> Option<&Texture> {
+    pub(super) fn border_map(&self) -> Option<&Texture> {
         self.border_map.as_ref().map(|(_, texture)| texture)
     }
 
     /// The copy of the depth.
-    pub fn depth_map(&self) -> Option<&Texture> {
+    pub(super) fn depth_map(&self) -> Option<&Texture> {
         self.depth_map.as_ref().map(|(_, texture)| texture)
     }
 
     /// The texture of this name that a framebuffer object drew into.
-    pub fn drawn(&self, name: Drawn) -> Option<&Texture> {
+    pub(super) fn drawn(&self, name: Drawn) -> Option<&Texture> {
         self.drawn.as_ref()?.textures.iter().find(|(other, ..)| *other == name).map(|(.., texture)| texture)
     }
 }
 
 /// Refuses a plan that this context has no framebuffer objects, draw buffers or texture formats for, by the option that
 /// asks for them.
-pub fn check(info: &ContextInfo, plan: &Plan) -> Result<()> {
+pub(super) fn check(info: &ContextInfo, plan: &Plan) -> Result<()> {
     for attachments in plan.attachments() {
         let count = attachments.colors.len();
         let lack = if !info.framebuffer_objects {

@@ -5,7 +5,7 @@ use super::legacy;
 use super::objects::Texture;
 use crate::error::{Error, Result};
 use crate::mesh::NONE;
-use crate::picture::Picture;
+use crate::picture::{MaterialPictures, Picture};
 use crate::plan::{self, Draw, Plan, PlanTable, Sampling, Step};
 use crate::scene::{Object, Scene, Size};
 use glow::HasContext;
@@ -14,18 +14,19 @@ use std::sync::Arc;
 
 /// The textures there are.
 #[derive(Default)]
-pub struct Textures {
+pub(super) struct Textures {
     /// Those of the last plan that had any; its numbers are theirs.
     tables: Vec<(PlanTable, Texture)>,
     pictures: Vec<(Arc<Picture>, Sampling, Texture)>,
     /// Which of `pictures` each of the plan's is.
     plan_pictures: Vec<usize>,
     white: Option<Texture>,
+    materials: MaterialPictures,
 }
 
 impl Textures {
     /// Uploads what this plan reads and is not there yet, and lets go of what it does not read.
-    pub fn prepare(&mut self, gl: &Rc<Gl>, scene: &Scene, plan: &Plan) -> Result<()> {
+    pub(super) fn prepare(&mut self, gl: &Rc<Gl>, scene: &Scene, plan: &Plan) -> Result<()> {
         if !plan.tables.is_empty() && !self.tables.iter().map(|(table, _)| table).eq(&plan.tables) {
             self.tables.clear();
             for table in &plan.tables {
@@ -42,8 +43,9 @@ impl Textures {
                 let size = Size { width: 1, height: 1 };
                 self.white = Some(upload(gl, &Picture { size, pixels: vec![u8::MAX; 4] }, Sampling::NearestClamped)?);
             }
+            self.materials.prepare(&scene.objects)?;
             for object in &scene.objects {
-                let pictures = scene.material_pictures(object)?.iter().flatten();
+                let pictures = self.materials.of(object).iter().flatten();
                 wanted.extend(pictures.map(|picture| (picture.clone(), Sampling::LinearRepeated)));
             }
         }
@@ -68,23 +70,23 @@ impl Textures {
     }
 
     /// The plan's table of this number.
-    pub fn table(&self, number: usize) -> Option<&Texture> {
+    pub(super) fn table(&self, number: usize) -> Option<&Texture> {
         self.tables.get(number).map(|(_, texture)| texture)
     }
 
     /// The plan's picture of this number.
-    pub fn picture(&self, number: usize) -> Option<&Texture> {
+    pub(super) fn picture(&self, number: usize) -> Option<&Texture> {
         self.pictures.get(*self.plan_pictures.get(number)?).map(|(.., texture)| texture)
     }
 
     /// One white texel.
-    pub fn white(&self) -> Option<&Texture> {
+    pub(super) fn white(&self) -> Option<&Texture> {
         self.white.as_ref()
     }
 
     /// Binds the picture on a material, white where there is none.
-    pub fn bind_material(&self, scene: &Scene, object: &Object, material: u32, unit: u32) -> Result<()> {
-        let pictures = scene.material_pictures(object)?;
+    pub(super) fn bind_material(&self, object: &Object, material: u32, unit: u32) {
+        let pictures = self.materials.of(object);
         let picture = if material == NONE { None } else { pictures.get(material as usize).and_then(Option::as_ref) };
         let texture = picture.and_then(|picture| {
             let found = self
@@ -96,7 +98,6 @@ impl Textures {
         if let Some(texture) = texture.or(self.white()) {
             texture.bind(unit);
         }
-        Ok(())
     }
 }
 

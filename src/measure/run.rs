@@ -1,4 +1,4 @@
-//! Settings drawn, timed in turn and measured.
+//! Draws settings, times them in turn and measures them.
 
 use super::ink::{Ink, Verdict};
 use super::reference::Reference;
@@ -8,7 +8,7 @@ use crate::edges::{ClassSet, Classes, MeshEdges, Silhouettes};
 use crate::error::{Error, Result};
 use crate::lines::LineSettings;
 use crate::picture::Picture;
-use crate::plan::Plan;
+use crate::plan::{Plan, Submission};
 use crate::renderer::{Renderer, median, milliseconds_since};
 use crate::scene::{Scene, Size};
 use crate::styles::{Show, Style};
@@ -19,6 +19,8 @@ use std::time::Instant;
 pub struct Setting {
     /// The style.
     pub style: Style,
+    /// How its vertices are handed to GL.
+    pub submission: Submission,
     /// Its options for `tinta render`.
     pub options: String,
     /// Whether these are the published program's own.
@@ -170,7 +172,7 @@ fn contestant(
     let scene = &subject.scene;
     let style = &setting.style;
     let start = Instant::now();
-    let plan = style.plan(scene, Show::Final)?;
+    let plan = Plan { submission: setting.submission, ..style.plan(scene, Show::Final)? };
     let plan_ms = milliseconds_since(start);
     let start = Instant::now();
     renderer.draw(scene, &plan)?;

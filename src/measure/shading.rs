@@ -2,7 +2,7 @@
 //! they mean.
 
 use crate::error::Result;
-use crate::picture::Picture;
+use crate::picture::{MaterialPictures, Picture};
 use crate::scene::Scene;
 use crate::styles::{CetCoordinate, CetFilter, Charcoal, ContrastOperator, Noise, Phong, Style, Tones};
 use glam::{DVec2, DVec3};
@@ -43,9 +43,9 @@ pub(super) enum Shading<'a> {
 pub(super) type Sand = Vec<Vec<Option<Arc<Picture>>>>;
 
 impl<'a> Shading<'a> {
-    /// A style's shading; `None` for one that is not computed here: charcoal read through mipmaps, with noise on the object
-    /// or another contrast operator, and styles without shading of their own.
-    pub fn of(style: &'a Style, scene: &Scene) -> Result<Option<Self>> {
+    /// A style's shading; `None` for one that is not computed here: charcoal read through mipmaps, with noise on the object,
+    /// another contrast operator or more than the text's flaws improved, and styles without shading of their own.
+    pub(super) fn of(style: &'a Style, scene: &Scene) -> Result<Option<Self>> {
         Ok(match style {
             Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => Some(Self::Tones(&cartoon.tones)),
             Style::Mrt(mrt) => Some(Self::Tones(&mrt.tones)),
@@ -53,6 +53,7 @@ impl<'a> Shading<'a> {
             Style::Phong(phong) => Some(Self::Phong(phong)),
             Style::Charcoal(charcoal) | Style::Sand(charcoal) => {
                 let is_computed = charcoal.operator == ContrastOperator::Power
+                    && !charcoal.improve.go_beyond_the_text()
                     && charcoal.noise == Noise::Screen
                     && charcoal.cet_filter == CetFilter::Linear;
                 if !is_computed {
@@ -60,25 +61,26 @@ impl<'a> Shading<'a> {
                 }
                 let sand = match style {
                     Style::Sand(_) => {
-                        let pictures = |object| scene.material_pictures(object).map(<[_]>::to_vec);
-                        Some(scene.objects.iter().map(pictures).collect::<Result<Sand>>()?)
+                        let mut pictures = MaterialPictures::default();
+                        pictures.prepare(&scene.objects)?;
+                        Some(scene.objects.iter().map(|object| pictures.of(object).to_vec()).collect::<Sand>())
                     }
                     _ => None,
                 };
                 let (noise, cet, paper) = charcoal.pictures.all(charcoal)?;
                 Some(Self::Charcoal { charcoal, noise, cet, paper, sand })
             }
-            Style::Inking(_) | Style::Dietrich(_) => None,
+            _ => None,
         })
     }
 
     /// Whether it has tones, of which a pixel has the right one or another.
-    pub fn is_of_tones(&self) -> bool {
+    pub(super) fn is_of_tones(&self) -> bool {
         matches!(self, Self::Tones(_))
     }
 
     /// The colour at a surface, of 1, clamped.
-    pub fn color(&self, surface: &Surface) -> DVec3 {
+    pub(super) fn color(&self, surface: &Surface) -> DVec3 {
         let color = match self {
             Self::Tones(tones) => {
                 let [diffuse, specular] = surface.light;
@@ -114,8 +116,9 @@ fn phong(phong: &Phong, surface: &Surface) -> DVec3 {
 /// Valente 2007, section 3.3.
 fn charcoal(charcoal: &Charcoal, [noise, cet, paper]: [&Picture; 3], surface: &Surface) -> DVec3 {
     let normal = surface.normal.normalize_or_zero();
-    let lights = charcoal.lights.map(|light| DVec3::from_array(light.map(f64::from)).normalize_or_zero());
-    let light: f64 = lights.iter().map(|light| light.dot(normal).max(0.0)).sum();
+    let lights =
+        charcoal.lights.iter().flatten().map(|light| DVec3::from_array(light.map(f64::from)).normalize_or_zero());
+    let light: f64 = lights.map(|light| light.dot(normal).max(0.0)).sum();
     let original = light.powf(f64::from(charcoal.contrast_exponent));
     let mut cem = original * f64::from(charcoal.saturation);
     if charcoal.improve.clamp {

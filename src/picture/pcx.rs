@@ -17,12 +17,12 @@ const RUN: u8 = 0xc0;
 const CUT_OFF: &str = "it is cut off or damaged; save it again";
 
 /// Whether a file begins like PCX: the maker's number, a version there was, and whether it is coded.
-pub fn looks_like(bytes: &[u8]) -> bool {
+pub(super) fn looks_like(bytes: &[u8]) -> bool {
     matches!(bytes, [MANUFACTURER, 0 | 2 | 3 | 4 | 5, 0 | 1, 1 | 2 | 4 | 8, ..])
 }
 
 /// Reads a PCX file's bytes into at most `most` bytes of pixels; the error is a sentence without the file's name.
-pub fn read(bytes: &[u8], most: u64) -> Result<Picture, String> {
+pub(super) fn read(bytes: &[u8], most: u64) -> Result<Picture, String> {
     if !looks_like(bytes) {
         return Err("it does not begin like a PCX picture; it is damaged or misnamed, save it again".to_owned());
     }
@@ -118,7 +118,7 @@ fn decode(data: &[u8], count: usize) -> Option<Vec<u8>> {
 }
 
 #[cfg(test)]
-pub mod tests {
+pub(super) mod tests {
     use super::*;
 
     fn header(width: u16, height: u16, planes: u8, line_bytes: u16) -> Vec<u8> {
@@ -133,7 +133,7 @@ pub mod tests {
     }
 
     /// Three pixels by two with 256 colours; colour n is (n, 255 - n, 1). A run crosses the end of the first line.
-    pub fn with_palette() -> Vec<u8> {
+    pub(crate) fn with_palette() -> Vec<u8> {
         let mut bytes = header(3, 2, 1, 4);
         bytes.extend([3, RUN + 1, 0xfe, RUN + 4, 5, 0, RUN + 9, 8]);
         bytes.push(PALETTE_MARK);

@@ -2,10 +2,10 @@
 
 use super::Picture;
 use crate::values::Size;
-use png::{BitDepth, ColorType, Compression, Decoder, Encoder, Filter, Limits};
-use std::io::Cursor;
+use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
 /// What reading a text may take, bytes.
+#[cfg(feature = "recipes")]
 const LARGEST_BYTES: usize = 4 << 20;
 
 /// Encodes as the image crate is asked to elsewhere, with a `tEXt` chunk; `text` is ASCII.
@@ -32,13 +32,16 @@ pub(super) fn encode(picture: &Picture, keyword: &str, text: &str) -> Result<Vec
 }
 
 /// Whether a file begins as PNG does.
+#[cfg(feature = "recipes")]
 pub(crate) fn is_png(head: &[u8]) -> bool {
     head.starts_with(b"\x89PNG\r\n\x1a\n")
 }
 
 /// The `tEXt` chunk of this keyword, if it stands before the pixels; the error is a sentence without the file's name.
+#[cfg(feature = "recipes")]
 pub(crate) fn find(head: &[u8], keyword: &str) -> Result<Option<String>, String> {
-    let decoder = Decoder::new_with_limits(Cursor::new(head), Limits { bytes: LARGEST_BYTES });
+    use png::{Decoder, Limits};
+    let decoder = Decoder::new_with_limits(std::io::Cursor::new(head), Limits { bytes: LARGEST_BYTES });
     let reader = decoder.read_info().map_err(|error| format!("the PNG is damaged ({error}); draw it again"))?;
     let texts = &reader.info().uncompressed_latin1_text;
     Ok(texts.iter().find(|text| text.keyword == keyword).map(|text| text.text.clone()))

@@ -2,7 +2,7 @@
 
 use super::{Picture, pcx};
 use crate::bytes::Bytes;
-use crate::error::{Error, Result};
+use crate::error::{Error, FileKind, Result};
 use crate::files::{self, shown};
 use crate::limits::{
     MEMORY_FACTOR, MEMORY_SLACK_BYTES, PICTURE_BYTES, PICTURE_FILE_BYTES, PICTURE_SIDE_PX, PIXELS_A_BYTE,
@@ -21,7 +21,7 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`Error::Picture`] with the path when it is missing, unreadable, damaged, in no such format, longer than 16384
+    /// [`Error::File`] with the path when it is missing, unreadable, damaged, in no such format, longer than 16384
     /// pixels on a side, or larger in memory than [`PICTURE_BYTES`] without a file to match.
     pub fn read(path: &Path) -> Result<Self> {
         Self::read_within(path, None, u64::MAX).map(|(picture, _)| picture)
@@ -31,7 +31,7 @@ impl Picture {
     pub(crate) fn read_within(path: &Path, within: Option<&Path>, most: u64) -> Result<(Self, u64)> {
         let failed = |problem: String| Error::picture(path, problem);
         let bytes = files::read_within(path, within, PICTURE_FILE_BYTES)
-            .map_err(|failure| failed(failure.problem("a picture")))?;
+            .map_err(|failure| failure.into_error(FileKind::Picture, path, "a picture"))?;
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         let picture = decode(&bytes, &extension.to_ascii_lowercase(), most).map_err(failed)?;
         Ok((picture, bytes.len() as u64))
@@ -93,11 +93,11 @@ fn decode(bytes: &[u8], extension: &str, most: u64) -> std::result::Result<Pictu
         _ if extension == "pcx" || (pcx::looks_like(bytes) && extension != "tga") => return pcx::read(bytes, most),
         _ if extension == "tga" || bytes.ends_with(TGA_END) => ImageFormat::Tga,
         _ => {
-            return Err("this is not a picture in a format known here; use PNG, BMP, TGA, JPEG, PPM or PCX".to_owned());
+            return Err("this is not a picture in a supported format; use PNG, BMP, TGA, JPEG, PPM or PCX".to_owned());
         }
     };
     if format == ImageFormat::Png && !has_sound_palette(bytes) {
-        return Err("its palette is no list of up to 256 colours; it is damaged, save it again".to_owned());
+        return Err("its palette is not a list of up to 256 colours; it is damaged, save it again".to_owned());
     }
     let mut limits = Limits::default();
     limits.max_image_width = Some(PICTURE_SIDE_PX);
@@ -142,7 +142,7 @@ fn in_words(error: &ImageError) -> String {
         // It may quote the file.
         error => {
             let cause = shown(&error.to_string());
-            format!("it is damaged or of a kind that is not read ({cause}); save it again")
+            format!("it is damaged or of an unsupported kind ({cause}); save it again")
         }
     }
 }
@@ -192,10 +192,10 @@ mod tests {
         let message = |path: &Path| Picture::read(path).unwrap_err().to_string();
         assert!(message(&at("none.pcx")).ends_with("none.pcx: there is no such file; check the name"));
         assert!(message(&at("empty.png")).contains("empty.png: the file is empty"));
-        assert!(message(&at("notes.txt")).contains("not a picture in a format known here"));
+        assert!(message(&at("notes.txt")).contains("not a picture in a supported format"));
         assert!(message(folder.path()).contains("directory"));
         #[cfg(unix)]
-        assert!(message(Path::new("/dev/null")).contains("no ordinary file"));
+        assert!(message(Path::new("/dev/null")).contains("not a regular file"));
     }
 
     #[test]

@@ -316,6 +316,7 @@ fn check_lists(draw: &Draw, scene: &Scene, surface: Size, pass: &'static str) ->
     }
     match &draw.geometry {
         Geometry::Objects(Paint::Coordinates(lists)) => by_object("coordinates", lists.len()),
+        Geometry::Objects(Paint::Colors(lists)) => by_object("colours", lists.len()),
         Geometry::Edges { runs, .. } => match runs.iter().find(|run| run.object >= count) {
             Some(run) => Err(missing(pass, &format!("object {} of the scene, counted from 0", run.object))),
             None => Ok(()),

@@ -1,7 +1,8 @@
 //! Plans as text, for `--explain` and for tests.
 
 use super::{
-    Depth, Draw, EdgeRun, Faces, Facts, Geometry, LineDrawing, Mark, Paint, Plan, Program, Step, Texture, Value,
+    Depth, Draw, EdgeRun, Faces, Facts, Geometry, LineDrawing, Mark, Paint, Plan, Program, Step, Submission, Texture,
+    Value,
 };
 use crate::scene::Rectangle;
 use std::fmt;
@@ -11,6 +12,11 @@ impl fmt::Display for Plan {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.supersample > 1 {
             writeln!(out, "everything drawn {} times as wide and high as the picture", self.supersample)?;
+        }
+        match self.submission {
+            Submission::Buffers => {}
+            Submission::Immediate => writeln!(out, "vertices sent one by one, by glBegin and glEnd")?,
+            Submission::DisplayList => writeln!(out, "vertices compiled into display lists")?,
         }
         for (number, pass) in self.passes.iter().enumerate() {
             write!(out, "pass {}: {}{}", number + 1, pass.name, pass.target)?;
@@ -64,6 +70,7 @@ impl fmt::Display for Draw {
             Geometry::Objects(Paint::Materials) => write!(out, "draw the objects")?,
             Geometry::Objects(Paint::Uniform([r, g, b, a])) => write!(out, "draw the objects in ({r}, {g}, {b}, {a})")?,
             Geometry::Objects(Paint::Coordinates(_)) => write!(out, "draw the objects by texture coordinates")?,
+            Geometry::Objects(Paint::Colors(_)) => write!(out, "draw the objects in colours of their vertices")?,
             Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
                 let mark = if *mark == Mark::Lines { "lines" } else { "points" };
                 let smooth = if *is_smooth { "smooth " } else { "" };

@@ -1,4 +1,4 @@
-//! Leaving out what a scene does not need: from facts about the scene to a shorter plan that draws the same picture.
+//! Pruning: shortens a plan by facts about the scene so that it draws the same picture.
 //!
 //! In: a [`Plan`] as published and the [`Scene`] it was made for. Out: [`Pruned`], the plan without what cannot change a
 //! byte of the picture, and of each [`Rule`] either the [`Omission`] it led to, with its reason and the facts it rests on,
@@ -14,13 +14,10 @@ mod objects;
 mod shaders;
 
 use super::{Draw, Geometry, Plan, Step};
-use crate::choice::find;
-use crate::error::ParseError;
+use crate::choice::Choice;
 use crate::scene::{Rectangle, Scene, Size};
 use serde::Serialize;
 use std::cell::OnceCell;
-use std::fmt;
-use std::str::FromStr;
 
 /// A kind of thing that can be left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -67,7 +64,7 @@ impl Rule {
     /// As the user writes it.
     #[must_use]
     pub fn name(self) -> &'static str {
-        Self::ALL[self as usize].0
+        self.choice_name()
     }
 
     /// Shortens the plan, or says why not.
@@ -87,19 +84,7 @@ impl Rule {
     }
 }
 
-impl FromStr for Rule {
-    type Err = ParseError;
-
-    fn from_str(text: &str) -> Result<Self, ParseError> {
-        Ok(find(&Self::ALL, text)?)
-    }
-}
-
-impl fmt::Display for Rule {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(self.name())
-    }
-}
+tinta_geometry::choices!(Rule);
 
 /// How to prune; [`crate::Renderer::pruning`] has what holds of a renderer.
 #[derive(Debug, Clone, PartialEq, Serialize)]

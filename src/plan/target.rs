@@ -1,4 +1,4 @@
-//! What passes draw into: the framebuffer, or textures by a framebuffer object.
+//! Render targets of passes: the framebuffer, or textures by a framebuffer object.
 
 use super::{Output, Plan};
 use std::fmt;

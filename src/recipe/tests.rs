@@ -119,7 +119,7 @@ fn pictures_without_a_recipe_are_told_from_files_that_are_none() {
     assert!(message(&path).contains("cannot be understood"));
     std::fs::write(&path, format!("<svg>{}", recipe_element(&" ".repeat(LARGEST_BYTES + 1)))).unwrap();
     assert!(message(&path).contains("longer than"), "{}", message(&path));
-    assert!(message(folder.path()).contains("no ordinary file"));
+    assert!(message(folder.path()).contains("not a regular file"));
     assert!(message(&folder.path().join("none")).contains("no such file"));
 }
 

@@ -1,4 +1,4 @@
-//! What is written of exact lines as JSON: their record, and the file of all of them.
+//! Exact lines as JSON: their record, and the file that holds all of them.
 
 use super::{CameraRecord, ModelRecord};
 use crate::edges::ClassCounts;

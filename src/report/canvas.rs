@@ -118,5 +118,5 @@ fn pixel((x, y): (f64, f64)) -> (i32, i32) {
 
 /// Drawing into memory does not fail; if it did, the plot would be the file that cannot be written.
 fn drawn<T, E: std::error::Error>(result: std::result::Result<T, E>) -> Result<T> {
-    result.map_err(|error| Error::Output { path: "plot".to_owned(), problem: format!("it cannot be drawn ({error})") })
+    result.map_err(|error| Error::output("plot", format!("it cannot be drawn ({error})")))
 }

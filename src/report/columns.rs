@@ -122,13 +122,13 @@ fn setting_columns() -> Vec<Column> {
         column("triangles", "Triangles", 0, |row| Value::Number(row.triangles as f64), "Triangles drawn."),
         column("width_px", "Width", 0, |row| Value::Number(row.size[0].into()), "Width of the picture, pixels."),
         column("height_px", "Height", 0, |row| Value::Number(row.size[1].into()), "Height of the picture, pixels."),
-        column("machine", "Machine", 0, |row| text(&row.machine), "Where it was measured."),
+        column("machine", "Machine", 0, |row| text(&row.machine), "The machine it was measured on."),
         column(
             "renderer",
             "Renderer",
             0,
             |row| text(&row.renderer),
-            "What carried out OpenGL there (GL_RENDERER); none for lines found without it.",
+            "The OpenGL renderer (GL_RENDERER); none for lines found without OpenGL.",
         ),
         column("version", "Version", 0, |row| text(&row.version), "The version of tinta."),
     ]
@@ -207,7 +207,8 @@ fn line_columns() -> Vec<Column> {
             "Lines F1",
             3,
             |row| line(row, |lines| Some(lines.f1)),
-            "Harmonic mean of precision and recall of the picture's ink against the exact visible lines: 1 agrees wholly, 0 not at all.",
+            "Harmonic mean of precision and recall of the picture's ink against the exact visible lines: 1 is full \
+             agreement, 0 is none.",
         )
         .main(),
         column(
@@ -223,7 +224,7 @@ fn line_columns() -> Vec<Column> {
             "Precision of all ink",
             3,
             |row| line(row, |lines| Some(lines.precision_of_all)),
-            "The same of all ink, however faint: nets of faint lines that the threshold does not see count here.",
+            "The same of all ink, however faint: nets of faint lines that fall below the threshold count here.",
         ),
         column(
             "recall",

@@ -23,7 +23,7 @@ const SCRIPT: &str = include_str!("page.js");
 ///
 /// # Errors
 ///
-/// [`crate::Error::Output`] should a plot not be drawn.
+/// [`crate::Error::File`] should a plot not be drawn.
 pub fn html(rows: &[Row], info: &ReportInfo) -> Result<String> {
     let machines = machines(rows);
     let all: Vec<&Row> = rows.iter().collect();

@@ -1,16 +1,14 @@
 //! `results.jsonl`: a row a line, on disk as soon as it is known, so that an interruption loses the row in the making at
 //! most.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, FileKind, Result};
 use crate::files::{self, Failure, shown};
 use crate::limits::ROWS_BYTES;
 use crate::measure::Row;
+use crate::record::ROWS_FILE;
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
-
-/// The rows' file inside a report's folder.
-pub const ROWS_FILE: &str = "results.jsonl";
 
 /// The open file of rows.
 #[derive(Debug)]
@@ -24,17 +22,16 @@ impl RowLog {
     ///
     /// # Errors
     ///
-    /// [`Error::Output`] where there is one already or the folder may not be written.
+    /// [`Error::File`] where there is one already or the folder may not be written.
     pub fn create(folder: &Path) -> Result<Self> {
         let path = folder.join(ROWS_FILE);
         check(&path)?;
         // A run that ended before its first row left nothing that could be lost.
         if path.metadata().is_ok_and(|file| file.len() > 0) {
-            return Err(Error::Output {
-                path: path.display().to_string(),
-                problem: "rows of an earlier run lie here; go on with them by --resume, or name another folder"
-                    .to_owned(),
-            });
+            return Err(Error::output(
+                path,
+                "this folder holds rows of an earlier run; continue with --resume, or name another folder",
+            ));
         }
         match OpenOptions::new().append(true).create(true).open(&path) {
             Ok(file) => Ok(Self { file, path }),
@@ -48,7 +45,7 @@ impl RowLog {
     ///
     /// # Errors
     ///
-    /// [`Error::Rows`] for a whole line that is no row, [`Error::Output`] for a file that may not be written.
+    /// [`Error::File`] for a whole line that is no row, and for a file that may not be written.
     pub fn resume(folder: &Path) -> Result<(Self, Vec<Row>)> {
         let path = folder.join(ROWS_FILE);
         check(&path)?;
@@ -71,9 +68,9 @@ impl RowLog {
     ///
     /// # Errors
     ///
-    /// [`Error::Rows`] for a row with a number that is not finite, [`Error::DiskFull`].
+    /// [`Error::File`] for a row with a number that is not finite, and for a full disk.
     pub fn append(&mut self, row: &Row) -> Result<()> {
-        let problem = |problem: String| Error::Rows { path: self.path.display().to_string(), line: None, problem };
+        let problem = |problem: String| Error::file(FileKind::Rows, &self.path, problem);
         let mut line = serde_json::to_string(row).map_err(|error| problem(error.to_string()))?;
         // JSON has no NaN and no infinity: they would come back as something else, or not at all.
         if serde_json::from_str::<Row>(&line).ok().as_ref() != Some(row) {
@@ -95,7 +92,7 @@ impl RowLog {
 ///
 /// # Errors
 ///
-/// [`Error::Rows`] naming file and line.
+/// [`Error::File`] naming file and line.
 pub fn read_rows(path: &Path) -> Result<Vec<Row>> {
     Ok(parse(path, &read(path)?)?.0)
 }
@@ -104,32 +101,28 @@ pub fn read_rows(path: &Path) -> Result<Vec<Row>> {
 ///
 /// # Errors
 ///
-/// [`Error::Rows`] naming file and line.
+/// [`Error::File`] naming file and line.
 pub fn rows_of_bytes(bytes: &[u8], name: &str) -> Result<Vec<Row>> {
     Ok(parse(Path::new(name), bytes)?.0)
 }
 
 fn read(path: &Path) -> Result<Vec<u8>> {
-    files::read(path, ROWS_BYTES).map_err(|failure| Error::Rows {
-        path: path.display().to_string(),
-        line: None,
-        problem: match failure {
-            Failure::System(error) if error.kind() == ErrorKind::NotFound => {
-                "there is no such file; name a results.jsonl of tinta measure".to_owned()
-            }
-            Failure::Folder => "this is a folder; name the results.jsonl in it".to_owned(),
-            failure => failure.problem("a results.jsonl"),
-        },
+    files::read(path, ROWS_BYTES).map_err(|failure| match failure {
+        Failure::System(error) if error.kind() == ErrorKind::NotFound => {
+            let problem = "there is no such file; name a results.jsonl of tinta measure";
+            Error::file(FileKind::Rows, path, problem).because(&error)
+        }
+        Failure::Folder => Error::file(FileKind::Rows, path, "this is a folder; name the results.jsonl in it"),
+        failure => failure.into_error(FileKind::Rows, path, "a results.jsonl"),
     })
 }
 
 /// Refuses what lies where the rows go and is no file: a pipe would wait for somebody to read it.
 fn check(path: &Path) -> Result<()> {
     match path.metadata() {
-        Ok(metadata) if !metadata.is_file() => Err(Error::Output {
-            path: path.display().to_string(),
-            problem: "this is no ordinary file; name another folder".to_owned(),
-        }),
+        Ok(metadata) if !metadata.is_file() => {
+            Err(Error::output(path, "this is not a regular file; name another folder"))
+        }
         _ => Ok(()),
     }
 }
@@ -145,11 +138,12 @@ fn parse(path: &Path, text: &[u8]) -> Result<(Vec<Row>, usize)> {
             // Without its end this is the line that was being written.
             Err(_) if !line.ends_with(b"\n") => break,
             Err(error) => {
-                return Err(Error::Rows {
-                    path: path.display().to_string(),
-                    line: Some(index as u64 + 1),
-                    problem: format!("this is no row of this version ({}); remove the line", without_place(&error)),
-                });
+                return Err(Error::file(
+                    FileKind::Rows,
+                    path,
+                    format!("this is not a row of this version ({}); remove the line", without_place(&error)),
+                )
+                .at(Some(index as u64 + 1)));
             }
         }
         sound_bytes += line.len();
@@ -166,15 +160,15 @@ fn without_place(error: &serde_json::Error) -> String {
 
 fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
     let problem = match error.kind() {
-        ErrorKind::NotFound | ErrorKind::NotADirectory => "its folder is not there; make it first".to_owned(),
+        ErrorKind::NotFound | ErrorKind::NotADirectory => "its folder does not exist; create it first".to_owned(),
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
-            "the disk is full; free some space and go on by --resume".to_owned()
+            "the disk is full; free some space and continue with --resume".to_owned()
         }
         ErrorKind::FileTooLarge => {
-            "it would be larger than files may be here (see ulimit -f); raise the limit and go on by --resume"
+            "it would exceed the limit on file sizes (see ulimit -f); raise the limit and continue with --resume"
                 .to_owned()
         }
         _ => format!("it cannot be written ({error})"),
     };
-    Error::output(path.display().to_string(), error, problem)
+    Error::output(path, problem).because(error)
 }

@@ -61,7 +61,7 @@ pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
 ///
 /// # Errors
 ///
-/// [`crate::Error::Output`] should the drawing fail.
+/// [`crate::Error::File`] should the drawing fail.
 pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> Result<Option<String>> {
     let points = &points.points;
     if points.is_empty() {

@@ -1,4 +1,4 @@
-//! What is attacked: each case is data.
+//! The cases, as data.
 
 mod depth;
 mod faults;

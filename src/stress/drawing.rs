@@ -1,4 +1,4 @@
-//! A case drawn: by every backend, with and without omissions, and studied as far as it asks.
+//! Draws a case by every backend, with and without pruning, and measures what it asks for.
 
 use super::cases::{Drawing, Study, side_px};
 use super::figures::{Exact, Figures, covered_px, differing_px, non_finite};
@@ -45,7 +45,7 @@ pub(super) struct Drawn {
 
 impl Subject {
     /// Builds the scene for a backend's largest picture, and studies it.
-    pub fn new(drawing: &Drawing, largest: Size, folder: &Path) -> Result<Self> {
+    pub(super) fn new(drawing: &Drawing, largest: Size, folder: &Path) -> Result<Self> {
         let scene = scene(drawing, largest, folder)?;
         let mut subject = Self {
             figures: Figures::from([("non_finite", non_finite(&scene) as f64)]),
@@ -86,7 +86,7 @@ impl Subject {
     }
 
     /// Draws it in a style; `is_first` for the backend that also finds out what a jitter or a turn does.
-    pub fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<Drawn> {
+    pub(super) fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<Drawn> {
         let style = &variant.style;
         let plan = style.plan(&self.scene, Show::Final)?;
         let pruning = renderer.pruning(MANY_PICTURES);

@@ -1,4 +1,4 @@
-//! A picture by a driver that fails, and what is left of the program after it.
+//! Draws with a failing driver, and checks the program's state afterwards.
 
 use super::Shape;
 use super::run::Outcome;

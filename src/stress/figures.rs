@@ -1,4 +1,4 @@
-//! The numbers that show how a case went.
+//! The figures measured in a case.
 
 use crate::compare::InkMask;
 use crate::edges::Class;
@@ -12,7 +12,7 @@ use glam::Vec3;
 use std::collections::BTreeMap;
 
 /// Figures by name.
-pub type Figures = BTreeMap<&'static str, f64>;
+pub(super) type Figures = BTreeMap<&'static str, f64>;
 
 /// How far a channel may move before it is a change, of 255: a grey step that an eye sees.
 const SEEN: u8 = 8;
@@ -70,7 +70,7 @@ impl Exact {
 }
 
 /// Numbers that GL is given and that are not finite.
-pub fn non_finite(scene: &Scene) -> usize {
+pub(super) fn non_finite(scene: &Scene) -> usize {
     let mut count = usize::from(!scene.clip_from_view().is_finite());
     for object in &scene.objects {
         let arrays = scene.arrays(object);
@@ -90,7 +90,7 @@ fn non_finite_ends(lines: &VisibleLines) -> usize {
 
 /// How much of some ink came or went from one picture to the next, as a share of both pictures' ink: pixels with none of the
 /// other picture's ink in them or next to them.
-pub fn popped(before: &InkMask, after: &InkMask) -> f64 {
+pub(super) fn popped(before: &InkMask, after: &InkMask) -> f64 {
     let all = before.count() + after.count();
     let popped = before.count_far_from(after, MOVED_PX) + after.count_far_from(before, MOVED_PX);
     if all == 0 { 0.0 } else { popped as f64 / all as f64 }
@@ -98,7 +98,7 @@ pub fn popped(before: &InkMask, after: &InkMask) -> f64 {
 
 /// Pixels whose colour is none that the other picture has there or next to it, as a share of those that either covers: what
 /// changed without having moved.
-pub fn shades_popped(before: &Picture, after: &Picture) -> f64 {
+pub(super) fn shades_popped(before: &Picture, after: &Picture) -> f64 {
     let covered = |picture: &Picture, index: usize| picture.pixels[index * 4..index * 4 + 3] != [u8::MAX; 3];
     let all = (0..before.size.pixel_count()).filter(|&index| covered(before, index) || covered(after, index)).count();
     let popped = colors_gone(before, after) + colors_gone(after, before);
@@ -122,12 +122,12 @@ fn colors_gone(first: &Picture, second: &Picture) -> usize {
 }
 
 /// Pixels that differ at all.
-pub fn differing_px(first: &Picture, second: &Picture) -> f64 {
+pub(super) fn differing_px(first: &Picture, second: &Picture) -> f64 {
     first.difference(second).map_or(f64::NAN, |difference| difference.pixels as f64)
 }
 
 /// Pixels that are not white.
-pub fn covered_px(picture: &Picture) -> f64 {
+pub(super) fn covered_px(picture: &Picture) -> f64 {
     picture.pixels.chunks_exact(4).filter(|pixel| pixel[..3] != [u8::MAX; 3]).count() as f64
 }
 

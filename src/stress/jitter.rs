@@ -1,4 +1,4 @@
-//! A scene moved by a millionth of its size: what changes then hangs by a thread.
+//! Moves a scene by a millionth of its size to find what is unstable in its picture.
 
 use super::figures::{Exact, popped, shades_popped};
 use crate::compare::InkMask;
@@ -63,7 +63,7 @@ impl Popped {
 }
 
 /// The scene with every vertex and the camera moved by up to a millionth of its radius along each axis.
-pub fn jittered(scene: &Scene) -> Scene {
+pub(super) fn jittered(scene: &Scene) -> Scene {
     let mut random = Random::new(1, "jitter");
     let step = JITTER * scene.radius;
     let mut moved =
@@ -79,7 +79,7 @@ pub fn jittered(scene: &Scene) -> Scene {
 }
 
 /// Compares the classes of a scene's edges before and after.
-pub fn flips(before: &Scene, after: &Scene) -> Flips {
+pub(super) fn flips(before: &Scene, after: &Scene) -> Flips {
     let crease_angle = CreaseAngle::default();
     let mut flips = Flips::default();
     for (was, is) in before.objects.iter().zip(&after.objects) {

@@ -1,4 +1,4 @@
-//! A model file read, and whether the folder it lies in is as before.
+//! Reads a model file, and checks that its folder is unchanged.
 
 use super::cases::Content;
 use super::figures::Figures;

@@ -1,8 +1,9 @@
-//! Cases carried out, several at once, and judged.
+//! Runs cases, several at once, and judges them.
 
 use super::cases::{Case, Expected, Group, Work, cases};
 use super::figures::Figures;
 use super::{drawing, failing, reading};
+use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::gl::Backend;
 use crate::renderer::Renderer;
@@ -123,7 +124,7 @@ pub(super) enum Outcome {
 }
 
 impl Outcome {
-    pub fn refused(error: &Error) -> Self {
+    pub(super) fn refused(error: &Error) -> Self {
         Self::Refused { kind: error.kind(), sentence: error.with_dashes() }
     }
 
@@ -163,7 +164,7 @@ impl Expected {
             }
             (Self::Rendered, Outcome::Refused { sentence, .. }) => Some(sentence.clone()),
             (Self::Refused { .. }, Outcome::Rendered(_)) => Some("rendered all the same".to_owned()),
-            (_, Outcome::Panicked) => Some("panicked; the message stands above".to_owned()),
+            (_, Outcome::Panicked) => Some("panicked; see the message above".to_owned()),
         }
     }
 }
@@ -215,13 +216,13 @@ fn never_checked(case: &Case, rows: &[Row]) -> Option<Row> {
 ///
 /// # Errors
 ///
-/// [`Error::NoContext`] when no backend can be had, [`Error::Setting`] when no case has such a name, [`Error::Output`] when
+/// [`Error::NoContext`] when no backend can be had, [`Error::Setting`] when no case has such a name, [`Error::File`] when
 /// there is no place for the files that cases need.
 pub fn run(settings: &StressSettings, mut progress: impl FnMut(usize, usize)) -> Result<Summary> {
     let chosen = settings.cases()?;
-    let folder = tempfile::tempdir().map_err(|error| Error::Output {
-        path: std::env::temp_dir().display().to_string(),
-        problem: format!("no temporary folder can be made there ({error}); set TMPDIR to one where it can"),
+    let folder = tempfile::tempdir().map_err(|error| {
+        let problem = format!("no temporary folder can be made there ({error}); set TMPDIR to one where it can");
+        Error::output(std::env::temp_dir(), problem).because(&error)
     })?;
     let folder = folder.path();
     // Before any work: a backend that is not there would fail every case.
@@ -272,7 +273,7 @@ fn find(asked: &[Backend]) -> Result<Found> {
         match Renderer::new(*backend) {
             Ok(renderer) => found.push((*backend, renderer)),
             Err(Error::NoContext { attempts }) => {
-                missing.push(MissingBackend { backend: name(*backend), reason: attempts.join("; ") });
+                missing.push(MissingBackend { backend: backend.choice_name(), reason: attempts.join("; ") });
                 all_attempts.extend(attempts);
             }
             Err(error) => return Err(error),
@@ -285,12 +286,8 @@ fn find(asked: &[Backend]) -> Result<Found> {
     Ok(Found { backends: found.into_iter().map(|(backend, _)| backend).collect(), renderers, missing })
 }
 
-fn name(backend: Backend) -> &'static str {
-    Backend::ALL.iter().find(|(_, known)| *known == backend).map_or("auto", |(name, _)| name)
-}
-
 fn open(backends: &[Backend]) -> Result<Vec<(&'static str, Renderer)>> {
-    backends.iter().map(|backend| Ok((name(*backend), Renderer::new(*backend)?))).collect()
+    backends.iter().map(|backend| Ok((backend.choice_name(), Renderer::new(*backend)?))).collect()
 }
 
 /// A thread with its own contexts.

@@ -36,7 +36,7 @@ impl Summary {
 /// A sentence for each backend that could not be had.
 fn missing(missing: &[MissingBackend]) -> String {
     let sentence = |of: &MissingBackend| {
-        format!("Without {}, which could not be had ({}): no two backends were compared.\n\n", of.backend, of.reason)
+        format!("Without {}, which is not available ({}): no two backends were compared.\n\n", of.backend, of.reason)
     };
     missing.iter().map(sentence).collect()
 }

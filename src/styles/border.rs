@@ -5,7 +5,7 @@ use super::{CARTOON, IMAGE_SPACE, MapEncoding, lens};
 use crate::error::{Error, Result};
 use crate::plan::{Depth, Draw, Facts, Geometry, Program, Texture, Uniform, Value, WhereEven};
 use crate::scene::{Scene, Size};
-use crate::settings::{Choice, ON_OFF, Setting, under};
+use crate::settings::{ON_OFF, Setting, under};
 use serde::Serialize;
 
 /// Settings of the border; the defaults are the listing's.
@@ -39,26 +39,49 @@ pub enum Filter {
     Laplacian8,
     /// The centre against its diagonal neighbours (figure 10, right; Mitchell 2002).
     Mitchell,
+    /// The same in two programs, as Mitchell's shading language made him: one reads the normals, one the depth, and each is
+    /// blended (section 4.1). Where both answer, the line is fainter than with one program.
+    #[serde(rename = "mitchell-two")]
+    MitchellTwo,
     /// Sobel's gradient.
     Sobel,
     /// Roberts' cross.
     Roberts,
+    /// The centre against the Gaussian mean of the 3 x 3 pixels around it: our reading of the fourth filter that the article
+    /// names.
+    Gaussian,
 }
 
 impl Filter {
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 5] = [
+    pub const ALL: [(&'static str, Self); 7] = [
         ("laplacian4", Self::Laplacian4),
         ("laplacian8", Self::Laplacian8),
         ("mitchell", Self::Mitchell),
+        ("mitchell-two", Self::MitchellTwo),
         ("sobel", Self::Sobel),
         ("roberts", Self::Roberts),
+        ("gaussian", Self::Gaussian),
     ];
+
+    /// The programs that draw it one after the other: each one's pass and shader.
+    fn programs(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Self::Laplacian4 => &[("border", "evangelista/filter-laplacian4.frag")],
+            Self::Laplacian8 => &[("border", "evangelista/filter-laplacian8.frag")],
+            Self::Mitchell => &[("border", "evangelista/filter-mitchell.frag")],
+            Self::MitchellTwo => &[
+                ("border-normals", "evangelista/filter-mitchell-normals.frag"),
+                ("border-depth", "evangelista/filter-mitchell-depth.frag"),
+            ],
+            Self::Sobel => &[("border", "evangelista/filter-sobel.frag")],
+            Self::Roberts => &[("border", "evangelista/filter-roberts.frag")],
+            Self::Gaussian => &[("border", "evangelista/filter-gaussian.frag")],
+        }
+    }
 }
 
-impl Choice for Filter {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
+tinta_geometry::choices!(Filter);
 
 impl Default for Border {
     fn default() -> Self {
@@ -69,35 +92,38 @@ impl Default for Border {
 impl Border {
     /// Its settings.
     pub(super) fn settings() -> Vec<Setting<Self>> {
-        let filter = vec![
+        let filter =
+            vec![
             Setting::field(
                 "filter",
                 "FILTER",
-                "Edge filter: laplacian4, laplacian8, mitchell, sobel, roberts",
+                "Edge filter: laplacian4, laplacian8, mitchell, mitchell-two (in two programs, not for two-pass), sobel, \
+                 roberts, gaussian",
                 |border: &mut Self| &mut border.filter,
-            )
+            ).printed("E, figure 11")
             .labelled("edge filter"),
             Setting::field(
                 "detection-factor",
                 "FACTOR",
-                "What the edge filter's response is multiplied by; more darkens faint edges",
+                "Factor for the edge filter's response; more darkens faint edges",
                 |border: &mut Self| &mut border.detection_factor,
-            )
+            ).printed("E, appendix 1: #define DETECTION_FACTOR 0.2f")
             .range(0.0, 2.0, 3),
             Setting::field(
                 "slope-threshold",
                 ON_OFF,
-                "Let depth answer by a threshold that knows the surface's slope, on or off; off: by the filter",
+                "Find edges in depth by a threshold that follows the surface's slope, on or off; off uses the filter",
                 |border: &mut Self| &mut border.slope_threshold,
-            ),
+            ).printed("E, appendix 1: depth goes through the filter as normals do"),
         ];
         let width = Setting::open_field(
             "border-width",
             "PIXELS",
             "paper",
-            "Width of the borders, pixels, 1 to 64; paper is as the filter draws them, about 2; ink has 2",
+            "Width of the borders in pixels, 1 to 64, or paper: as the filter draws them, about 2; ink has 2",
             |border: &mut Self| &mut border.width_px,
         )
+        .printed("E, appendix 1: the filter reads the next pixels")
         .offering(&["paper", "1", "2", "3", "4", "5", "6", "8", "12", "16", "24", "32", "64"]);
         under(CARTOON, filter).chain(under(IMAGE_SPACE, vec![width])).collect()
     }
@@ -114,15 +140,26 @@ impl Border {
         check_width(self.width_px)
     }
 
-    /// The fragment shader that holds the filter with its factor as a uniform, and its parts.
-    pub(super) fn shaders(&self, encoding: MapEncoding) -> [&'static str; 4] {
-        let filter = match self.filter {
-            Filter::Laplacian4 => "evangelista/filter-laplacian4.frag",
-            Filter::Laplacian8 => "evangelista/filter-laplacian8.frag",
-            Filter::Mitchell => "evangelista/filter-mitchell.frag",
-            Filter::Sobel => "evangelista/filter-sobel.frag",
-            Filter::Roberts => "evangelista/filter-roberts.frag",
-        };
+    /// The fragment shader that holds the whole filter with its factor as a uniform, and its parts: for a style that draws more
+    /// in the same program.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a filter that is no single program.
+    pub(super) fn shaders(&self, encoding: MapEncoding) -> Result<[&'static str; 4]> {
+        match self.filter.programs() {
+            [(_, filter)] => Ok(self.parts(filter, encoding)),
+            _ => Err(Error::value(
+                "filter",
+                "mitchell-two",
+                "its two programs are blended one after the other, and two-pass has borders and tones in one; use --filter \
+                 mitchell, or --style three-pass",
+            )),
+        }
+    }
+
+    /// A filter's shader and what it calls.
+    fn parts(&self, filter: &'static str, encoding: MapEncoding) -> [&'static str; 4] {
         let tap = if self.width_px.is_some() { "improved/tap-apart.frag" } else { "evangelista/tap-next.frag" };
         let depth = match self.slope_threshold {
             true => "improved/slope-threshold.frag",
@@ -136,37 +173,42 @@ impl Border {
         self.is_published() && encoding == MapEncoding::Published
     }
 
-    /// The filter over the whole surface, blended; `textures` are those of the map.
-    pub(super) fn square(
+    /// The filter over the whole surface, blended: a draw for each of its programs, beside the name of its pass; `textures` are
+    /// those of the map.
+    pub(super) fn squares(
         &self,
         scene: &Scene,
         surface: Size,
         encoding: MapEncoding,
-        textures: Vec<(&'static str, Texture)>,
-    ) -> Draw {
-        let mut fragments = vec!["evangelista/border.frag"];
-        let mut uniforms = Self::published_uniforms(surface);
-        if !self.runs_the_listing(encoding) {
-            fragments = vec!["evangelista/border-settings.frag"];
-            fragments.extend(self.shaders(encoding));
-            uniforms = self.uniforms(scene, surface, encoding);
-        }
-        Draw {
-            uniforms,
-            textures,
-            depth: Depth::Ignore,
-            blend: true,
-            facts: Facts {
-                reach_px: Some(self.reach_px(scene, surface)),
-                // No difference is an alpha of 0.
-                where_even: Some(WhereEven::Unchanged),
-                // The slope's threshold is black or white by itself.
-                adds_nothing: (self.detection_factor == 0.0 && !self.slope_threshold)
-                    .then(|| "the detection factor is 0".to_owned()),
-                ..Facts::plain()
-            },
-            ..Draw::new(Geometry::ScreenSquare, Some(Program { vertex: "evangelista/border.vert", fragments }))
-        }
+        textures: &[(&'static str, Texture)],
+    ) -> Vec<(&'static str, Draw)> {
+        let square = |(pass, filter): &(&'static str, &'static str)| {
+            let mut fragments = vec!["evangelista/border.frag"];
+            let mut uniforms = Self::published_uniforms(surface);
+            if !self.runs_the_listing(encoding) {
+                fragments = vec!["evangelista/border-settings.frag"];
+                fragments.extend(self.parts(filter, encoding));
+                uniforms = self.uniforms(scene, surface, encoding);
+            }
+            let draw = Draw {
+                uniforms,
+                textures: textures.to_vec(),
+                depth: Depth::Ignore,
+                blend: true,
+                facts: Facts {
+                    reach_px: Some(self.reach_px(scene, surface)),
+                    // No difference is an alpha of 0.
+                    where_even: Some(WhereEven::Unchanged),
+                    // The slope's threshold is black or white by itself.
+                    adds_nothing: (self.detection_factor == 0.0 && !self.slope_threshold)
+                        .then(|| "the detection factor is 0".to_owned()),
+                    ..Facts::plain()
+                },
+                ..Draw::new(Geometry::ScreenSquare, Some(Program { vertex: "evangelista/border.vert", fragments }))
+            };
+            (*pass, draw)
+        };
+        self.filter.programs().iter().map(square).collect()
     }
 
     /// How far the filter looks in a map of this size, pixels; one more costs nothing.

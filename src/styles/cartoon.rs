@@ -61,7 +61,8 @@ impl Cartoon {
             background_square(|cartoon: &mut Self| &mut cartoon.background_square),
             Setting::field("map-encoding", "ENCODING", MapEncoding::HELP, |cartoon: &mut Self| {
                 &mut cartoon.map_encoding
-            }),
+            })
+            .printed("E, appendix 1: the normal as colour, depth as alpha"),
         ];
         let image_space = vec![
             Supersample::setting(|cartoon: &mut Self| &mut cartoon.supersample),
@@ -78,8 +79,10 @@ impl Cartoon {
 
 /// The setting whether the map holds a square behind the scene.
 pub(super) fn background_square<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
-    let help = "Draw a square behind the scene, on or off; off loses outer borders";
-    Setting::field("background-quad", ON_OFF, help, field).labelled("background square")
+    let help = "Draw a square behind the scene, on or off; without it outer borders are lost";
+    Setting::field("background-quad", ON_OFF, help, field)
+        .printed("E, section 5: drawn in every scene")
+        .labelled("background square")
 }
 
 /// Borders alone are drawn on white, as in figure 12.
@@ -100,7 +103,7 @@ impl Cartoon {
                 passes.push(self.tone_pass(scene));
             }
             if let Some(border) = border {
-                passes.push(self.border_pass(&border, scene, show == Show::Borders));
+                passes.extend(self.border_passes(&border, scene, show == Show::Borders));
             }
         }
         Ok(self.finish(scene, passes, show))
@@ -121,6 +124,7 @@ impl Cartoon {
                  --background-quad off and lose them",
             ));
         }
+        let filter = border.shaders(self.map_encoding)?;
         let steps = self.scene_steps(scene, |background| {
             let surface = self.supersample.surface(scene.size);
             let published = border.runs_the_listing(self.map_encoding) && self.tones.are_published();
@@ -129,7 +133,7 @@ impl Cartoon {
             let mut fragments = vec!["evangelista/two-pass.frag"];
             if !published {
                 fragments = vec!["evangelista/two-pass-settings.frag", self.tones.shader()];
-                fragments.extend(border.shaders(self.map_encoding));
+                fragments.extend(filter);
                 uniforms = border.uniforms(scene, surface, self.map_encoding);
                 uniforms.extend(self.tones.uniforms(background));
                 textures.extend(self.tones.textures());
@@ -254,18 +258,18 @@ impl Cartoon {
         steps
     }
 
-    /// Step 3: the filter over the whole picture, blended; `alone` on a white ground.
-    fn border_pass(&self, border: &Border, scene: &Scene, alone: bool) -> Pass {
+    /// Step 3: the filter over the whole picture, blended, a pass for each of its programs; `alone` on a white ground.
+    fn border_passes(&self, border: &Border, scene: &Scene, alone: bool) -> Vec<Pass> {
         let surface = self.supersample.surface(scene.size);
         let textures = self.map_encoding.textures(self.map_target);
-        let square = border.square(scene, surface, self.map_encoding, textures);
-        let mut steps = Vec::new();
-        if alone {
+        let squares = border.squares(scene, surface, self.map_encoding, &textures);
+        let mut passes: Vec<Pass> =
+            squares.into_iter().map(|(name, square)| Pass::new(name, vec![Step::Draw(square)])).collect();
+        if alone && let Some(first) = passes.first_mut() {
             let color = if scene.background == Background::Transparent { [0.0; 4] } else { WHITE };
-            steps.push(Step::clear(color));
+            first.steps.insert(0, Step::clear(color));
         }
-        steps.push(Step::Draw(square));
-        Pass::new("border", steps)
+        passes
     }
 }
 

@@ -5,19 +5,26 @@
 //! (`glsl/valente/charcoal-parts.frag`). A test shows that listing and parts draw the same picture.
 
 mod choices;
+mod improvements;
+mod layout;
 mod pictures;
+mod settings;
 
-pub use choices::{CetCoordinate, CetFilter, CharcoalRecipe, ContrastOperator, Improvements, Noise};
-pub use pictures::{CharcoalPictures, Paper};
+pub use choices::{CetCoordinate, CetFilter, CharcoalRecipe, ContrastOperator, Noise};
+pub use improvements::Improvements;
+pub use pictures::{CharcoalPictures, TextureSource};
 
-use super::{ALL_STYLES, Show, cull};
+use self::layout::Layout;
+use super::Show;
 use crate::error::{Error, Result};
+use crate::hiding::doubled_faces;
 use crate::mesh::Mesh;
 use crate::plan::{
     Depth, Draw, Facts, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
 };
 use crate::scene::{Background, Scene, Size};
-use crate::settings::{Kind, ON_OFF, Setting, Value as _, names_of, under};
+use crate::textures::Generator;
+use std::sync::Arc;
 
 /// Settings of `charcoal` and `sand`; the defaults are the text's where it gives them, ours elsewhere (errata V7).
 #[derive(Debug, Clone, PartialEq)]
@@ -29,25 +36,34 @@ pub struct Charcoal {
     pub saturation: f32,
     /// Whether the drawing is multiplied by the light again, which darkens. Default no.
     pub smudge: bool,
-    /// Directions towards the two lights, eye space, of any length above 0. Default ours: from above and from the lower
-    /// left, 122 degrees apart, so that together they nowhere exceed 1; nearer to each other they wrap (errata V3).
-    pub lights: [[f32; 3]; 2],
-    /// Share of black in the contrast-enhanced texture before its grains are moved, percent. Default 60, the text's; more
-    /// is darker.
+    /// Directions towards the two lights, eye space, of any length above 0; `None` leaves one out, not both. Default two,
+    /// the text's, in directions of ours: from above and from the lower left, 122 degrees apart, so that together they
+    /// nowhere exceed 1; nearer to each other they wrap (errata V3).
+    pub lights: [Option<[f32; 3]>; 2],
+    /// Share of black in the contrast-enhanced texture before its grains are moved, percent. Default 60: the text says
+    /// "density 60" without a unit, which is read as percent here (errata V10); more is darker.
     pub density_percent: f64,
-    /// Exponent of the contrast-enhanced texture, at least 1. Default 5.5, the text's middle one; more leaves fewer
-    /// grains in light tones.
+    /// Exponent of the contrast-enhanced texture, at least 1. Default 5.5, the middle one of figure 3; which one the text
+    /// draws with it does not say. More leaves fewer grains in light tones.
     pub cet_exponent: f64,
     /// Standard deviation of the blur of the contrast-enhanced texture, pixels, 0 to 100. Default 0.8, ours; more is softer
     /// grain, and none at all where it is as wide as a row of tones.
     pub cet_blur_px: f64,
     /// Where the random numbers of all textures begin. Default 0.
     pub seed: u64,
+    /// Where the random numbers of all textures come from. Default SplitMix64, ours; the text's are its platform's `rand()`,
+    /// of which two are here to try (errata V8).
+    pub random: Generator,
     /// Size of the textures made here, pixels. Default 512 x 512. Noise and paper are stretched once over the picture, as
     /// published: more is finer grain.
     pub texture_size: Size,
+    /// The contrast-enhanced texture: its darkest tone in its lowest row, repeated along its width. Default made here from
+    /// density, exponent and blur.
+    pub cet: TextureSource,
+    /// The noise that chooses the grain's column: the mean of its red, green and blue. Default made here.
+    pub noise_texture: TextureSource,
     /// The paper. Default made here.
-    pub paper: Paper,
+    pub paper: TextureSource,
     /// How the contrast-enhanced texture is filtered. Default linear, as published.
     pub cet_filter: CetFilter,
     /// By which light its rows are read. Default that before saturation, as published.
@@ -56,7 +72,7 @@ pub struct Charcoal {
     pub operator: ContrastOperator,
     /// Where the noise lies. Default on the picture, as published.
     pub noise: Noise,
-    /// Which of the text's flaws are mended. Default none.
+    /// Which of the text's flaws are mended, and what goes beyond the text. Default none.
     pub improve: Improvements,
     /// Whether faces turned away from the eye are left out. Default no.
     pub cull_back_faces: bool,
@@ -70,13 +86,16 @@ impl Default for Charcoal {
             contrast_exponent: 1.5,
             saturation: 1.0,
             smudge: false,
-            lights: [[0.26, 0.9, 0.35], [-0.7, -0.56, 0.45]],
+            lights: [Some([0.26, 0.9, 0.35]), Some([-0.7, -0.56, 0.45])],
             density_percent: 60.0,
             cet_exponent: 5.5,
             cet_blur_px: 0.8,
             seed: 0,
+            random: Generator::SplitMix,
             texture_size: Size { width: 512, height: 512 },
-            paper: Paper::Made,
+            cet: TextureSource::Made,
+            noise_texture: TextureSource::Made,
+            paper: TextureSource::Made,
             cet_filter: CetFilter::Linear,
             cet_coordinate: CetCoordinate::Original,
             operator: ContrastOperator::Power,
@@ -88,145 +107,11 @@ impl Default for Charcoal {
     }
 }
 
-impl Charcoal {
-    /// Its settings.
-    pub(super) fn settings() -> Vec<Setting<Self>> {
-        let common = vec![cull(|charcoal: &mut Self| &mut charcoal.cull_back_faces)];
-        let recipe = Setting::of(
-            "charcoal",
-            "RECIPE",
-            Kind::Recipe(names_of::<CharcoalRecipe>()),
-            "Recipe: published, darker (density 85, contrast exponent 1.2, smudged), closure (density 35, contrast exponent 2, \
-             saturation 1.4); options given beside it count more",
-            |_: &Self| CharcoalRecipe::Published.text(),
-            |charcoal, text| {
-                let recipe = Self::recipe(CharcoalRecipe::parse(text)?);
-                (charcoal.density_percent, charcoal.contrast_exponent) =
-                    (recipe.density_percent, recipe.contrast_exponent);
-                (charcoal.smudge, charcoal.saturation) = (recipe.smudge, recipe.saturation);
-                Ok(())
-            },
-        );
-        let grain = vec![
-            recipe,
-            Setting::field(
-                "seed",
-                "N",
-                "Where the random numbers begin; the same seed gives the same textures",
-                |charcoal: &mut Self| &mut charcoal.seed,
-            )
-            .range(0.0, 1000.0, 0),
-            Setting::field(
-                "density",
-                "PERCENT",
-                "Share of black pixels in the grain's texture before they are moved, percent; more is darker",
-                |charcoal: &mut Self| &mut charcoal.density_percent,
-            )
-            .range(0.0, 100.0, 0),
-            Setting::field(
-                "cet-exponent",
-                "M",
-                "Exponent m that moves black pixels along t to t^m; more leaves fewer grains in light tones",
-                |charcoal: &mut Self| &mut charcoal.cet_exponent,
-            )
-            .range(1.0, 20.0, 1)
-            .labelled("grain exponent"),
-            Setting::field(
-                "cet-blur",
-                "PIXELS",
-                "Standard deviation of the blur that follows, pixels; more is softer grain",
-                |charcoal: &mut Self| &mut charcoal.cet_blur_px,
-            )
-            .range(0.0, 5.0, 2)
-            .labelled("grain blur"),
-        ];
-        let drawing = vec![
-            Setting::field(
-                "contrast-exponent",
-                "M",
-                "Exponent of the light's contrast; more darkens all but the lights",
-                |charcoal: &mut Self| &mut charcoal.contrast_exponent,
-            )
-            .range(0.1, 6.0, 2),
-            Setting::field(
-                "saturation",
-                "FACTOR",
-                "What the light is multiplied by; above 1 faint lines vanish (closure)",
-                |charcoal: &mut Self| &mut charcoal.saturation,
-            )
-            .range(0.0, 3.0, 2),
-            Setting::field("smudge", ON_OFF, "Smudge the drawing, on or off; on is darker", |charcoal: &mut Self| {
-                &mut charcoal.smudge
-            }),
-            Setting::field(
-                "light-1",
-                "X,Y,Z",
-                "Direction towards the first light, seen from the eye",
-                |charcoal: &mut Self| &mut charcoal.lights[0],
-            )
-            .range(-1.0, 1.0, 2)
-            .labelled("first light"),
-            Setting::field("light-2", "X,Y,Z", "Direction towards the second light", |charcoal: &mut Self| {
-                &mut charcoal.lights[1]
-            })
-            .range(-1.0, 1.0, 2)
-            .labelled("second light"),
-            Setting::field(
-                "paper",
-                "FILE",
-                "Picture of the paper, stretched over the whole drawing in place of --background",
-                |charcoal: &mut Self| &mut charcoal.paper,
-            )
-            .said("made from the seed"),
-            Setting::field(
-                "texture-size",
-                "WxH",
-                "Size of grain, noise and paper, stretched over the drawing; more is finer",
-                |charcoal: &mut Self| &mut charcoal.texture_size,
-            ),
-            Setting::field(
-                "cet-filter",
-                "FILTER",
-                "Filter of the grain's texture: linear, mipmap (blurs the grain away)",
-                |charcoal: &mut Self| &mut charcoal.cet_filter,
-            )
-            .labelled("grain filter"),
-            Setting::field(
-                "cet-coordinate",
-                "LIGHT",
-                "Light that chooses the grain: original, saturated",
-                |charcoal: &mut Self| &mut charcoal.cet_coordinate,
-            )
-            .labelled("grain chosen by"),
-            Setting::field(
-                "contrast-operator",
-                "OPERATOR",
-                "What enhances contrast: power (as published), sigmoid, bias",
-                |charcoal: &mut Self| &mut charcoal.operator,
-            ),
-            Setting::field(
-                "noise",
-                "WHERE",
-                "Where the noise lies: screen (as published), object (turns with the model)",
-                |charcoal: &mut Self| &mut charcoal.noise,
-            ),
-            Setting::field(
-                "improve",
-                "FLAWS",
-                "Flaws of the text to mend: clamp, wrap, paper-coordinate, luminance with commas between, or all",
-                |charcoal: &mut Self| &mut charcoal.improve,
-            )
-            .labelled("mended flaws"),
-        ];
-        let heading = "Styles charcoal and sand (the defaults are the text's where it gives them)";
-        under(ALL_STYLES, common).chain(under(heading, grain)).chain(under(heading, drawing)).collect()
-    }
-}
-
 /// Where a plan's pictures are in its list.
 const NOISE: usize = 0;
 const CET: usize = 1;
 const PAPER: usize = 2;
+const TOOTH: usize = 3;
 
 /// The ground of the light and the contrast-enhanced model, shown by themselves.
 const WHITE: [f32; 4] = [1.0; 4];
@@ -246,10 +131,33 @@ impl Charcoal {
     pub fn recipe(recipe: CharcoalRecipe) -> Self {
         let base = Self::default();
         match recipe {
-            CharcoalRecipe::Published => base,
+            CharcoalRecipe::Plain => base,
             CharcoalRecipe::Darker => Self { density_percent: 85.0, contrast_exponent: 1.2, smudge: true, ..base },
             CharcoalRecipe::Closure => Self { density_percent: 35.0, contrast_exponent: 2.0, saturation: 1.4, ..base },
         }
+    }
+
+    /// That faces lie on each other where it matters which of them is drawn, and what helps, a sentence for each model.
+    pub(super) fn remarks(&self, scene: &Scene) -> Vec<String> {
+        if self.improve.two_sided || self.cull_back_faces {
+            return Vec::new();
+        }
+        let mut meshes: Vec<&Arc<Mesh>> = Vec::new();
+        for object in &scene.objects {
+            if !meshes.iter().any(|known| Arc::ptr_eq(known, &object.mesh)) {
+                meshes.push(&object.mesh);
+            }
+        }
+        let remark = |mesh: &&Arc<Mesh>| {
+            let (name, doubled) = (&mesh.name, doubled_faces(mesh));
+            let pairs = if doubled == 1 { "pair of faces lies" } else { "pairs of faces lie" };
+            let remark = format!(
+                "{name}: {doubled} {pairs} on each other, one each way, and the one that faces away may be seen; --improve \
+                 two-sided lights both alike, --cull back leaves it out"
+            );
+            (doubled > 0).then_some(remark)
+        };
+        meshes.iter().filter_map(remark).collect()
     }
 
     /// Paper and drawing.
@@ -267,8 +175,8 @@ impl Charcoal {
                 "style",
                 "sand",
                 format!(
-                    "it draws with a model's own texture, and {} has no texture coordinates with a picture for them; give \
-                     it one with --skin, or use --style charcoal",
+                    "it draws with the model's own texture, and {} has no texture coordinates or no picture for them; \
+                     name one with --skin, or use --style charcoal",
                     object.mesh.name
                 ),
             ));
@@ -285,11 +193,13 @@ impl Charcoal {
         };
         let linear = Sampling::LinearRepeated;
         let picture = |name, picture, sampling| PlanPicture { name, picture, sampling };
-        let pictures = vec![
+        let layout = Layout::of(&made, scene.size, self.improve.proportion);
+        let mut pictures = vec![
             picture("noise", made.noise, linear),
             picture("cet", made.cet, cet),
             picture("paper", made.paper, linear),
         ];
+        pictures.extend(made.tooth.map(|tooth| picture("tooth", tooth, linear)));
         let has_paper = matches!(show, Show::Final | Show::Paper) && scene.background != Background::Transparent;
         let color = match show {
             Show::Final | Show::Paper => scene.background.clear_color(),
@@ -298,9 +208,14 @@ impl Charcoal {
         };
         let mut steps = vec![Step::clear(color)];
         if has_paper {
-            let program = Program { vertex: "valente/paper.vert", fragments: vec!["valente/paper.frag"] };
+            let fragments = match self.improve.proportion {
+                false => vec!["valente/paper.frag"],
+                true => vec!["valente/paper-even.frag", "valente/spread-even.frag"],
+            };
+            let program = Program { vertex: "valente/paper.vert", fragments };
             // The text draws it in 2D over the whole screen; what follows is nearer, so it needs no depth.
             steps.push(Step::Draw(Draw {
+                uniforms: if self.improve.proportion { layout.spreads() } else { Vec::new() },
                 textures: vec![("paperTexture", Texture::Picture(PAPER))],
                 depth: Depth::Ignore,
                 facts: Facts::plain(),
@@ -308,22 +223,24 @@ impl Charcoal {
             }));
         }
         if show != Show::Paper {
-            steps.push(Step::Draw(self.objects(scene, show, is_sand)));
+            steps.push(Step::Draw(self.objects(scene, show, is_sand, &layout)));
         }
         let pass = Pass::new(if is_sand { "sand" } else { "charcoal" }, steps);
         Ok(Plan { pictures, ..Plan::new(vec![pass]) })
     }
 
     /// The drawing itself.
-    fn objects(&self, scene: &Scene, show: Show, is_sand: bool) -> Draw {
+    fn objects(&self, scene: &Scene, show: Show, is_sand: bool, layout: &Layout) -> Draw {
         let uniform = |name, value| Uniform { name, value };
-        let mut uniforms = vec![
-            uniform("inputLight1", Value::Vec3(measurable(self.lights[0]))),
-            uniform("inputLight2", Value::Vec3(measurable(self.lights[1]))),
+        // The first that there is; the second is read where there are two.
+        let lights = self.lights.iter().flatten().zip(["inputLight1", "inputLight2"]);
+        let mut uniforms: Vec<Uniform> =
+            lights.map(|(light, name)| uniform(name, Value::Vec3(measurable(*light)))).collect();
+        uniforms.extend([
             uniform("contrastExp", Value::Float(self.contrast_exponent)),
             uniform("saturationFactor", Value::Float(self.saturation)),
             uniform("smudge", Value::Int(self.smudge.into())),
-        ];
+        ]);
         let mut textures = Vec::new();
         if is_sand && show == Show::Final {
             // First, for the first unit's coordinates are those the listing reads.
@@ -334,20 +251,14 @@ impl Charcoal {
             ("contrastTexture", Texture::Picture(CET)),
             ("paperTexture", Texture::Picture(PAPER)),
         ]);
+        if self.improve.tooth {
+            textures.push(("toothTexture", Texture::Picture(TOOTH)));
+        }
         let program = match self.is_published(show) {
             true if is_sand => Program { vertex: "valente/sand.vert", fragments: vec!["valente/sand.frag"] },
             true => Program { vertex: "valente/charcoal.vert", fragments: vec!["valente/charcoal.frag"] },
             false => {
-                let Size { width, height } = scene.size;
-                let texel = 1.0 / self.texture_size.height as f32;
-                let unit = [1.0 / width as f32, 1.0 / height as f32];
-                // About as many texels a pixel as on the screen, where the scene's radius is about half the picture.
-                let across = [width, height].map(|side| width.min(height) as f32 / side as f32 * 0.5);
-                uniforms.extend([
-                    uniform("cetTexel", Value::Float(texel)),
-                    uniform("textureUnit", Value::Vec2(unit)),
-                    uniform("noiseScale", Value::Vec2(across)),
-                ]);
+                uniforms.extend(layout.uniforms(scene.size));
                 self.parts(show, is_sand)
             }
         };
@@ -366,7 +277,12 @@ impl Charcoal {
             && self.cet_coordinate == CetCoordinate::Original
             && self.operator == ContrastOperator::Power
             && self.noise == Noise::Screen
+            && self.has_two_lights()
             && self.improve == Improvements::default()
+    }
+
+    fn has_two_lights(&self) -> bool {
+        self.lights.iter().all(Option::is_some)
     }
 
     /// The listing in parts, each the one that is asked for.
@@ -375,6 +291,9 @@ impl Charcoal {
         let improve = &self.improve;
         let mut fragments = vec![
             "valente/charcoal-parts.frag",
+            either(self.has_two_lights(), "valente/lights-two.frag", "valente/lights-one.frag"),
+            either(improve.two_sided, "valente/side-seen.frag", "valente/side-outer.frag"),
+            either(improve.strokes, "valente/strokes-hand.frag", "valente/strokes-none.frag"),
             match self.operator {
                 ContrastOperator::Power => "valente/operator-power.frag",
                 ContrastOperator::Sigmoid => "valente/operator-sigmoid.frag",
@@ -387,7 +306,9 @@ impl Charcoal {
             },
             either(improve.wrap, "valente/wrap-edge.frag", "valente/wrap-repeat.frag"),
             either(improve.paper_coordinate, "valente/paper-pixel.frag", "valente/paper-vertex.frag"),
+            either(improve.proportion, "valente/spread-even.frag", "valente/spread-stretched.frag"),
             either(self.noise == Noise::Object, "valente/noise-object.frag", "valente/noise-screen.frag"),
+            either(improve.tooth, "valente/tooth-paper.frag", "valente/tooth-none.frag"),
             match show {
                 Show::Diffuse => "valente/finish-diffuse.frag",
                 Show::Cem => "valente/finish-cem.frag",
@@ -423,8 +344,12 @@ impl Charcoal {
                 "the saturation is a finite number of at least 0; 1 changes nothing",
             ));
         }
+        if self.lights == [None, None] {
+            return Err(Error::setting("light-2", "without any light nothing is drawn; leave one of the two"));
+        }
         for (light, option) in self.lights.iter().zip(["light-1", "light-2"]) {
-            let is_direction = light.iter().all(|x| x.is_finite()) && light.iter().any(|x| *x != 0.0);
+            let is_direction =
+                light.is_none_or(|light| light.iter().all(|x| x.is_finite()) && light.iter().any(|x| *x != 0.0));
             if !is_direction {
                 return Err(Error::setting(option, "a light's direction is three finite numbers, not all 0"));
             }

@@ -53,7 +53,8 @@ impl Dietrich {
                 dietrich.ink = <[f32; 3]>::parse(text).map(Color).or_else(|_| Color::parse(text))?;
                 Ok(())
             },
-        );
+        )
+        .ours("the text names the method and prints no colour");
         let own = vec![
             Setting::field(
                 "ink-threshold",
@@ -61,6 +62,7 @@ impl Dietrich {
                 "Cosine between normal and view below which a pixel is ink, 0 to 1; more makes wider lines",
                 |dietrich: &mut Self| &mut dietrich.threshold,
             )
+            .ours("D, Alternative techniques: a chosen threshold, not printed")
             .range(0.0, 1.0, 3),
             color.said("black").labelled("ink colour"),
         ];

@@ -7,13 +7,13 @@ use super::border::{check_width, reach, taps};
 use super::lens::DepthRange;
 use super::map::map_texture;
 use super::{
-    ALL_STYLES, IMAGE_SPACE, INKING, MapTarget, Show, Supersample, Tones, cull, lens, no_borders, supersample,
+    ALL_STYLES, IMAGE_SPACE, INK, INKING, MapTarget, Show, Supersample, Tones, cull, lens, no_borders, supersample,
 };
 use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
 use crate::plan::{Depth, Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Target, Uniform, Value, WhereEven};
 use crate::scene::{Background, Scene, Size};
-use crate::settings::{Choice, Setting, Value as _, under, within};
+use crate::settings::{Setting, Value as _, under, within};
 
 /// Settings of `ink`.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,9 +64,7 @@ impl Quality {
     }
 }
 
-impl Choice for Quality {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
+tinta_geometry::choices!(Quality);
 
 impl Default for Ink {
     fn default() -> Self {
@@ -96,45 +94,50 @@ impl Ink {
             "border-width",
             "PIXELS",
             u32::kind(),
-            "Width of the lines, pixels, 1 to 64",
+            "Width of the lines in pixels, 1 to 64",
             |ink: &Self| ink.line_width_px.text(),
             |ink, text| {
                 ink.line_width_px = if text == "paper" { Self::default().line_width_px } else { u32::parse(text)? };
                 Ok(())
             },
-        );
+        )
+        .ours("as wide as the lines of inking, whose text prints 2");
         let image_space = vec![
             width.range(1.0, 64.0, 0).labelled("line width"),
-            Setting::open_field("supersample", "N", "auto", Supersample::HELP, |ink: &mut Self| &mut ink.supersample),
+            Setting::open_field("supersample", "N", "auto", Supersample::HELP, |ink: &mut Self| &mut ink.supersample)
+                .ours("the quality decides"),
             MapTarget::setting(|ink: &mut Self| &mut ink.map_target),
         ];
         let own = vec![
             Setting::field(
                 "quality",
                 "QUALITY",
-                "Time for the ink: standard (no more than three-pass) or best (drawn larger, and shrunk)",
+                "Quality of the ink: standard (no slower than three-pass) or best (drawn larger, then shrunk)",
                 |ink: &mut Self| &mut ink.quality,
-            ),
+            )
+            .ours("no slower than the three passes"),
             Setting::field(
                 "least-gap",
                 "PIXELS",
-                "Least step from one surface to another that is a line, widths of a pixel; more draws fewer lines",
+                "Smallest step between two surfaces that makes a line, in pixel widths; more draws fewer lines",
                 |ink: &mut Self| &mut ink.least_gap_px,
             )
+            .ours("the best of those measured (ink.md)")
             .range(0.0, 20.0, 2),
             Setting::field(
                 "gap-per-slope",
                 "PIXELS",
-                "What is added to it for each unit of slope; more draws fewer lines near outlines",
+                "Addition to --least-gap per unit of slope; more draws fewer lines near outlines",
                 |ink: &mut Self| &mut ink.gap_per_slope,
             )
+            .ours("the best of those measured (ink.md)")
             .range(0.0, 5.0, 2),
         ];
         under(ALL_STYLES, common)
             .chain(within(Tones::settings(), |ink: &mut Self| Some(&mut ink.tones)))
             .chain(under(INKING, vec![CreaseAngle::setting(|ink: &mut Self| &mut ink.crease_angle)]))
             .chain(under(IMAGE_SPACE, image_space))
-            .chain(under("Style ink (tones as three-pass, --crease-angle as inking)", own))
+            .chain(under(INK, own))
             .collect()
     }
 

@@ -4,7 +4,9 @@
 //! that lines of some width join. All of it in the fixed-function pipeline, as in the text, but for the variant whose
 //! vertex shader computes the light.
 
-use super::{ALL_STYLES, INKING, Ramp, RampRow, Show, cull, no_borders, ramp};
+use super::gradients::Gradients;
+use super::shading::{faces_by_tone, vertex_colors};
+use super::{ALL_STYLES, INKING, Ramp, RampRow, Show, cull, no_borders};
 use crate::edges::{Class, ClassSet, CreaseAngle, Side, SilhouetteRule, side_of_face};
 use crate::error::{Error, Result};
 use crate::lines::{ClassColors, line_width};
@@ -13,7 +15,7 @@ use crate::plan::{
     Texture,
 };
 use crate::scene::{Background, Color, Scene};
-use crate::settings::{Choice, ON_OFF, Setting, under};
+use crate::settings::{ON_OFF, Setting, under};
 use std::sync::Arc;
 
 /// Settings of `inking`; the defaults are the text's.
@@ -106,70 +108,82 @@ impl Inking {
                 ON_OFF,
                 "Smooth and blend the lines, on or off; quads are never smoothed",
                 |inking: &mut Self| &mut inking.is_smooth,
-            ),
+            )
+            .printed("D, Inking: the optional part, GL_LINE_SMOOTH and GL_POINT_SMOOTH"),
             Setting::field(
                 "joints",
                 ON_OFF,
-                "Join lines by points at their ends, on or off; thin lines hardly need it",
+                "Join lines with points at their ends, on or off; thin lines hardly need it",
                 |inking: &mut Self| &mut inking.has_joints,
-            ),
+            )
+            .printed("D, Inking: the vertices once more as points, to avoid gaps"),
             Setting::field(
                 "back-edges",
                 ON_OFF,
-                "Draw edges both of whose faces are turned away, on or off; on closed models hardly any of them shows",
+                "Draw edges whose faces both point away, on or off; on closed models hardly any is visible",
                 |inking: &mut Self| &mut inking.back_edges,
-            ),
+            )
+            .printed("D, Inking: the listing asks of no edge where its faces look"),
             Setting::field(
                 "line-drawing",
                 "HOW",
                 "Draw lines as GL lines (gl) or as quads of exactly their width (quads)",
                 |inking: &mut Self| &mut inking.line_drawing,
-            ),
+            )
+            .printed("D, Inking: glBegin( GL_LINES )"),
             Setting::either(
                 "ink-depth",
                 "HOW",
                 ["test", "write"],
-                "Lines write depth as in the text (write), which leaves gaps between smoothed lines, or only test it (test)",
+                "Let lines write depth as in the text (write; smoothed lines get gaps) or only test it (test)",
                 |inking: &mut Self| &mut inking.writes_depth,
-            ),
+            )
+            .deduced("D, Inking: the listing leaves the depth mask as it is"),
             Setting::field(
                 "polygon-offset",
                 "F,U",
                 "How far faces are pushed behind the lines: glPolygonOffset's factor and units",
                 |inking: &mut Self| &mut inking.polygon_offset,
             )
+            .printed("D, Inking: glPolygonOffset( 1.0f, 5.0f )")
             .range(-10.0, 20.0, 1),
         ];
-        let faces = vec![
+        let faces =
+            vec![
             Setting::field(
                 "paint",
                 "HOW",
-                "Paint faces in the background's colour (none), their own (flat), or by light and ramp (ramp)",
+                "Paint faces in the background's colour (none), their own (flat), or by light: each pixel's tone from the \
+                 ramp (ramp), a tone a face (flat-shaded), tones mixed between vertices (gouraud)",
                 |inking: &mut Self| &mut inking.paint,
-            ),
+            ).printed("D, Painting: a texture looked up by the light"),
             Setting::field(
                 "ramp",
                 "FILE",
                 "Picture of four gradients, one above the other, dark at the left",
                 |inking: &mut Self| &mut inking.ramp,
-            )
+            ).ours("the text's texture was on its disk and is not at hand")
             .said("built in"),
             Setting::field(
                 "ramp-row",
                 "ROW",
-                "Which gradient: material (the nearest to its colour), object (one after the other), or 0 to 3",
+                "Gradient of the ramp: material (the nearest to its colour), object (each object the next), 0 to 3, or own (each \
+                 colour a gradient made of it)",
                 |inking: &mut Self| &mut inking.ramp_row,
-            ),
+            ).ours("D leaves it to who writes the program: texOffset"),
             Setting::field(
                 "light",
                 "WHERE",
                 "Compute the light on the cpu or in a vertex-shader",
                 |inking: &mut Self| &mut inking.light,
-            )
+            ).printed("D, Painting: computed for each vertex; a vertex shader is named as an alternative")
             .labelled("light on"),
-            Setting::field("texture", ON_OFF, "Multiply the model's own picture in, on or off", |inking: &mut Self| {
-                &mut inking.has_texture
-            }),
+            Setting::field(
+                "texture",
+                ON_OFF,
+                "Multiply the paint by the model's own texture, on or off",
+                |inking: &mut Self| &mut inking.has_texture,
+            ).deduced("D, Alternative techniques: named, and not in the listing"),
         ];
         under(ALL_STYLES, common).chain(under(INKING, lines)).chain(under(INKING, faces)).collect()
     }
@@ -182,18 +196,27 @@ pub enum PaintMode {
     None,
     /// Each material in its colour.
     Flat,
-    /// By the light, looked up in the ramp.
+    /// By the light, looked up in the ramp at every pixel.
     Ramp,
+    /// By the light on each face, looked up in the ramp once a face: flat shading, which shows the triangles.
+    FlatShaded,
+    /// By the light at each vertex, looked up in the ramp there; between vertices the colours are mixed: Gouraud shading, in
+    /// which there are more colours than the ramp has.
+    Gouraud,
 }
 
 impl PaintMode {
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 3] = [("none", Self::None), ("flat", Self::Flat), ("ramp", Self::Ramp)];
+    pub const ALL: [(&'static str, Self); 5] = [
+        ("none", Self::None),
+        ("flat", Self::Flat),
+        ("ramp", Self::Ramp),
+        ("flat-shaded", Self::FlatShaded),
+        ("gouraud", Self::Gouraud),
+    ];
 }
 
-impl Choice for PaintMode {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
+tinta_geometry::choices!(PaintMode);
 
 /// Where the light that the ramp is looked up by is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -209,9 +232,7 @@ impl LightOn {
     pub const ALL: [(&'static str, Self); 2] = [("cpu", Self::Cpu), ("vertex-shader", Self::VertexShader)];
 }
 
-impl Choice for LightOn {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
+tinta_geometry::choices!(LightOn);
 
 /// Widest line, pixels: as wide as the largest picture of most drivers.
 const WIDEST_LINE: f32 = 16_384.0;
@@ -222,8 +243,8 @@ impl Inking {
         self.check(scene, show)?;
         let (fill, pictures) = self.fill(scene, show);
         let ground = if show == Show::Borders { blank(scene) } else { scene.background.clear_color() };
-        let paint = Pass::new("paint", vec![Step::clear(ground), Step::Draw(fill)]);
-        let mut passes = vec![paint];
+        let paint = std::iter::once(Step::clear(ground)).chain(fill.into_iter().map(Step::Draw));
+        let mut passes = vec![Pass::new("paint", paint.collect())];
         if self.is_inked && show != Show::Tones {
             let runs = Arc::new(self.runs(scene));
             let mark = |mark| {
@@ -258,6 +279,13 @@ impl Inking {
                 "only style lines finds where faces pass through one another; leave it out, or write a .svg",
             ));
         }
+        if self.ramp_row == RampRow::Own && self.ramp != Ramp::default() {
+            return Err(Error::value(
+                "ramp-row",
+                "own",
+                "its gradients are made of the materials' colours and none is read from a picture; leave out this or --ramp",
+            ));
+        }
         if self.polygon_offset.iter().any(|number| !number.is_finite()) {
             return Err(Error::setting("polygon-offset", "its two numbers must be finite"));
         }
@@ -282,34 +310,42 @@ impl Inking {
     }
 
     /// The faces, painted or blank, and the pictures they read.
-    fn fill(&self, scene: &Scene, show: Show) -> (Draw, Vec<PlanPicture>) {
+    fn fill(&self, scene: &Scene, show: Show) -> (Vec<Draw>, Vec<PlanPicture>) {
         let paint_mode = if show == Show::Borders { None } else { Some(self.paint) };
+        let gradients = Gradients::new(scene, &self.ramp, self.ramp_row);
         let (mut textures, mut pictures, mut program) = (Vec::new(), Vec::new(), None);
-        let paint = match paint_mode {
-            None => Paint::Uniform(blank(scene)),
-            Some(PaintMode::None) => Paint::Uniform(scene.background.clear_color()),
-            Some(PaintMode::Flat) => Paint::Materials,
+        let all = |paint| vec![(paint, None)];
+        let paints = match paint_mode {
+            None => all(Paint::Uniform(blank(scene))),
+            Some(PaintMode::None) => all(Paint::Uniform(scene.background.clear_color())),
+            Some(PaintMode::Flat) => all(Paint::Materials),
+            Some(PaintMode::FlatShaded) => {
+                let tones = faces_by_tone(scene, &gradients).into_iter();
+                tones.map(|(color, faces)| (Paint::Uniform(color), Some(faces))).collect()
+            }
+            Some(PaintMode::Gouraud) => all(Paint::Colors(vertex_colors(&gradients))),
             Some(PaintMode::Ramp) => {
-                let picture = self.ramp.picture.clone();
+                let picture = gradients.picture().clone();
                 pictures.push(PlanPicture { name: "ramp", picture, sampling: Sampling::NearestClamped });
                 textures.push(("ramp", Texture::Picture(0)));
                 if self.light == LightOn::VertexShader {
                     program = Some(Program { vertex: "dachsbacher/ramp.vert", fragments: Vec::new() });
                 }
-                Paint::Coordinates(ramp::coordinates(scene, &self.ramp, self.ramp_row, self.light == LightOn::Cpu))
+                all(Paint::Coordinates(gradients.coordinates(self.light == LightOn::Cpu)))
             }
         };
-        if self.has_texture && matches!(paint_mode, Some(PaintMode::Flat | PaintMode::Ramp)) {
+        if self.has_texture && !matches!(paint_mode, None | Some(PaintMode::None)) {
             textures.push(("own", Texture::Material));
         }
-        let draw = Draw {
-            textures,
+        let draw = |(paint, faces)| Draw {
+            textures: textures.clone(),
             cull_back_faces: self.cull_back_faces,
             polygon_offset: Some(self.polygon_offset),
+            faces,
             facts: Facts::plain(),
-            ..Draw::new(Geometry::Objects(paint), program)
+            ..Draw::new(Geometry::Objects(paint), program.clone())
         };
-        (draw, pictures)
+        (paints.into_iter().map(draw).collect(), pictures)
     }
 
     /// The edges to draw, object by object and class by class.

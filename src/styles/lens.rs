@@ -23,13 +23,13 @@ pub(super) struct DepthRange {
 
 impl DepthRange {
     /// The camera's planes: a map that takes its depth from the window has them.
-    pub fn of_camera(scene: &Scene) -> Self {
+    pub(super) fn of_camera(scene: &Scene) -> Self {
         Self { near: scene.camera.near, far: scene.camera.far }
     }
 
     /// The camera's planes, but no farther apart than the ball around the scene: planes given far apart then leave a map's
     /// few bits to where something is. Planes that were fitted are nearer to each other than that, and stay.
-    pub fn of_scene(scene: &Scene) -> Self {
+    pub(super) fn of_scene(scene: &Scene) -> Self {
         let camera = &scene.camera;
         let middle = (scene.centre - camera.eye).dot(-camera.backward());
         let near = camera.near.max(middle - scene.radius);
@@ -39,7 +39,7 @@ impl DepthRange {
 
     /// `depthOfDistance`: at distance d, scene radii, depth is x + y / d + z d: in perspective window depth between these
     /// planes, which is linear in the picture wherever a surface is flat.
-    pub fn of_distance(self, scene: &Scene) -> Uniform {
+    pub(super) fn of_distance(self, scene: &Scene) -> Uniform {
         let (near, far) = (self.near / scene.radius, self.far / scene.radius);
         let range = far - near;
         let terms = match scene.camera.projection {

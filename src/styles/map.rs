@@ -1,7 +1,7 @@
 //! The map of the cartoon styles: how normals and depth are stored between the passes (errata E6 to E8).
 
 use crate::plan::{Attachment, Attachments, Drawn, Format, Program, SettingValue, Target, Texture};
-use crate::settings::{Choice, Setting};
+use crate::settings::Setting;
 
 /// How normals and depth are stored.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -30,8 +30,8 @@ impl MapEncoding {
     ];
 
     /// What the setting does.
-    pub(super) const HELP: &'static str = "How normals and depth are kept: paper, biased (0.5 n + 0.5), float16, float, depth-texture \
-         (biased, depth from the depth buffer); mrt has paper only";
+    pub(super) const HELP: &'static str = "Storage of normals and depth: paper, biased (0.5 n + 0.5), float16, float, \
+         depth-texture (biased, depth from the depth buffer); mrt has paper only";
 
     /// The shaders that write it.
     pub(super) fn program(self) -> Program {
@@ -113,9 +113,10 @@ impl MapTarget {
 
     /// The setting of a style that has one.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
-        let help = "Copy the map into its texture (copy) or draw it there by a framebuffer object (texture), the same picture but \
-                    for rounding; mrt always does";
+        let help = "Copy the map into its texture (copy) or draw it there with a framebuffer object (texture); \
+                    pictures differ by rounding only; mrt always draws it there";
         Setting::field("map-target", "HOW", help, field)
+            .printed("E, section 4.1: drawn into the framebuffer, then copied into a texture")
     }
 
     /// What a map of 8 bits a channel is written into.
@@ -160,10 +161,4 @@ const FLOAT_MAP: Attachments = Attachments {
     ..FLOAT16_MAP
 };
 
-impl Choice for MapTarget {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
-
-impl Choice for MapEncoding {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
+tinta_geometry::choices!(MapTarget, MapEncoding);

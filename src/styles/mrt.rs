@@ -72,7 +72,8 @@ impl Mrt {
                 )
                 .into()),
             },
-        );
+        )
+        .printed("E, appendix 1: the normal as colour, depth as alpha");
         let map = vec![background_square(|mrt: &mut Self| &mut mrt.background_square), encoding];
         let image_space = vec![Supersample::setting(|mrt: &mut Self| &mut mrt.supersample)];
         under(ALL_STYLES, common)
@@ -110,11 +111,13 @@ impl Mrt {
         cartoon.check(scene, show)?;
         let surface = self.supersample.surface(scene.size);
         let map = vec![("borderMap", Texture::Drawn(MAP_TEXTURE))];
-        let square = border.square(scene, surface, MapEncoding::Published, map);
-        let passes = vec![
-            self.geometry_pass(scene),
-            Pass { target: Target::Textures(&TONES_ALONE), ..Pass::new("border", vec![Step::Draw(square)]) },
-        ];
+        let squares = border.squares(scene, surface, MapEncoding::Published, &map);
+        let over_tones = |(name, square)| Pass {
+            target: Target::Textures(&TONES_ALONE),
+            ..Pass::new(name, vec![Step::Draw(square)])
+        };
+        let mut passes = vec![self.geometry_pass(scene)];
+        passes.extend(squares.into_iter().map(over_tones));
         let plan = Plan { tables: self.tones.tables(), ..Plan::new(passes) };
         Ok(self.supersample.finish(plan, scene.size))
     }

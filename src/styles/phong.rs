@@ -35,19 +35,22 @@ impl Phong {
                 "SHARE",
                 "Share of the colour seen where no light falls; more lightens the shadows",
                 |phong: &mut Self| &mut phong.ambient,
-            ),
+            )
+            .ours("E shows Phong shading in figures 5a and 8 and prints no weights"),
             Setting::field(
                 "specular",
                 "SHARE",
                 "Weight of the white highlight; more is brighter",
                 |phong: &mut Self| &mut phong.specular,
-            ),
+            )
+            .ours("E shows Phong shading in figures 5a and 8 and prints no weights"),
             Setting::field(
                 "shininess",
                 "EXPONENT",
                 "Exponent of the highlight; more makes it smaller",
                 |phong: &mut Self| &mut phong.shininess,
             )
+            .ours("E shows Phong shading in figures 5a and 8 and prints no exponent")
             .range(1.0, 200.0, 0),
         ];
         let common = vec![cull(|phong: &mut Self| &mut phong.cull_back_faces)];

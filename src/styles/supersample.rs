@@ -2,7 +2,7 @@
 
 use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Target, Texture, Uniform, Value};
 use crate::scene::Size;
-use crate::settings::{Choice, Setting};
+use crate::settings::Setting;
 
 /// How many times as wide and high as the picture it is drawn.
 ///
@@ -25,11 +25,13 @@ impl Supersample {
 
     /// What the setting does.
     pub(super) const HELP: &'static str =
-        "Draw 1, 2 or 4 times as wide and high and shrink; the largest picture shrinks by as much (tinta info has it)";
+        "Draw 1, 2 or 4 times as wide and high, then shrink; lowers the largest size that tinta info shows";
 
     /// The setting of a style that always has a factor.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
-        Setting::field("supersample", "N", Self::HELP, field).said("1; ink --quality best 2")
+        Setting::field("supersample", "N", Self::HELP, field)
+            .ours("no text draws larger than its picture")
+            .said("1; ink --quality best 2")
     }
 
     /// The factor.
@@ -73,9 +75,7 @@ impl Supersample {
     }
 }
 
-impl Choice for Supersample {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
+tinta_geometry::choices!(Supersample);
 
 /// How far apart the texels of a texture of this size are.
 pub(super) fn texture_unit(size: Size) -> Uniform {

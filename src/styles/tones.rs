@@ -3,7 +3,7 @@
 use super::CARTOON;
 use crate::error::{Error, Result};
 use crate::plan::{PlanTable, Program, Shorter, Texture, Uniform, Value};
-use crate::settings::{Choice, Kind, Setting, Value as _, under};
+use crate::settings::{Kind, Setting, Value as _, under};
 use crate::tolerances::UNREACHED_LIGHT;
 
 /// Settings of the tones; the defaults are the listing's constants.
@@ -35,9 +35,7 @@ impl ToneLookup {
     pub const ALL: [(&'static str, Self); 2] = [("steps", Self::Steps), ("texture", Self::Texture)];
 }
 
-impl Choice for ToneLookup {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
+tinta_geometry::choices!(ToneLookup);
 
 impl Tones {
     /// Its settings.
@@ -46,13 +44,14 @@ impl Tones {
             "tone-thresholds",
             "D,S",
             Kind::Numbers { count: 2, range: [0.0, 1.0], decimals: 3 },
-            "Diffuse and specular light from which the second and third tone hold",
+            "Diffuse and specular light at which the second and third tone begin",
             |tones: &Self| [tones.diffuse_threshold, tones.specular_threshold].text(),
             |tones, text| {
                 [tones.diffuse_threshold, tones.specular_threshold] = <[f32; 2]>::parse(text)?;
                 Ok(())
             },
-        );
+        )
+        .printed("E, appendix 1: diffuse>=0.8f, specular>0.65f");
         let settings = vec![
             Setting::field(
                 "tones",
@@ -60,18 +59,21 @@ impl Tones {
                 "Number of tones, 1 to 3; fewer leave out the brightest",
                 |tones: &mut Self| &mut tones.count,
             )
+            .printed("E, appendix 1 has three; section 3.2 names one and two")
             .range(1.0, 3.0, 0),
             thresholds,
-            Setting::field("tone-levels", "A,B,C", "What the tones multiply the colour by", |tones: &mut Self| {
+            Setting::field("tone-levels", "A,B,C", "Factors for the colour in each tone", |tones: &mut Self| {
                 &mut tones.levels
             })
+            .printed("E, appendix 1: 0.65f, 0.95f, 1.0f")
             .range(0.0, 1.0, 3),
             Setting::field(
                 "tone-lookup",
                 "HOW",
-                "Find tones by comparing (steps) or in a 1-D texture (texture)",
+                "Look up tones by comparison (steps) or in a 1-D texture (texture)",
                 |tones: &mut Self| &mut tones.lookup,
-            ),
+            )
+            .printed("E, appendix 1 compares; section 3.2 names one-dimensional textures"),
         ];
         under(CARTOON, settings).collect()
     }

@@ -4,10 +4,10 @@
 //! Black pixels are scattered over a white picture, each is moved along t to t^m, and the result is blurred.
 
 use super::blur::{Rows, gaussian};
+use super::generator::{Generator, Numbers};
 use super::{DEFAULT_SIZE, check_size, opaque};
 use crate::error::{Error, Result};
 use crate::picture::Picture;
-use crate::random::Random;
 use crate::scene::Size;
 use crate::tolerances::ROW_EDGE;
 use serde::Serialize;
@@ -19,15 +19,18 @@ use serde::Serialize;
 pub struct ContrastTexture {
     /// Pixels along s and t. Default 512 x 512; the text gives none (errata V7). More is finer grain.
     pub size: Size,
-    /// Share of pixels that are made black before they are moved, percent. Default 60, the text's; more is darker.
+    /// Share of pixels that are made black before they are moved, percent. Default 60: the text says "density 60" without a
+    /// unit, which is read as percent here (errata V10). More is darker.
     pub density_percent: f64,
-    /// The exponent m of t^m, at least 1. Default 5.5, the middle one of the text's three (1.3, 5.5, 15); more gathers
-    /// the grains at the darkest tones, so that the drawing has fewer.
+    /// The exponent m of t^m, at least 1. Default 5.5, the middle one of figure 3's three (1.3, 5.5, 15); which one the text
+    /// draws with it does not say. More gathers the grains at the darkest tones, so that the drawing has fewer.
     pub exponent: f64,
     /// Standard deviation of the final blur, pixels. Default 0.8; the text gives none (errata V7). More is softer.
     pub blur_px: f64,
     /// Where the random numbers begin. Default 0; another seed is another texture of the same kind.
     pub seed: u64,
+    /// Where the random numbers come from. Default SplitMix64, ours; the text's are its platform's `rand()`.
+    pub random: Generator,
 }
 
 /// The exponents of figure 3, from left to right.
@@ -38,7 +41,14 @@ const LARGEST_BLUR_PX: f64 = 100.0;
 
 impl Default for ContrastTexture {
     fn default() -> Self {
-        Self { size: DEFAULT_SIZE, density_percent: 60.0, exponent: PUBLISHED_EXPONENTS[1], blur_px: 0.8, seed: 0 }
+        Self {
+            size: DEFAULT_SIZE,
+            density_percent: 60.0,
+            exponent: PUBLISHED_EXPONENTS[1],
+            blur_px: 0.8,
+            seed: 0,
+            random: Generator::SplitMix,
+        }
     }
 }
 
@@ -87,7 +97,7 @@ impl ContrastTexture {
     /// Makes the texture.
     ///
     /// It repeats along s, where the drawing's random numbers reach over the edge. It does not along t: there the blur
-    /// ends with the picture, for the darkest row is no neighbour of the lightest and would put specks into the lights.
+    /// ends with the picture (ours, errata V11), for the darkest row is no neighbour of the lightest and would put specks into the lights.
     ///
     /// # Errors
     ///
@@ -106,16 +116,16 @@ impl ContrastTexture {
     /// As [`ContrastTexture::picture`].
     pub fn grains(&self) -> Result<Grains> {
         self.check()?;
-        let mut random = Random::new(self.seed, "contrast");
+        let mut numbers = Numbers::new(self.random, self.seed, "contrast");
         let Size { width, height } = self.size;
         // Of 2^32 numbers so many make a pixel black.
         let black = (self.density_percent / 100.0 * (1u64 << 32) as f64).round() as u64;
         let mut counts = vec![0u16; self.size.pixel_count()];
         for row in 0..height {
             for column in 0..width {
-                let bits = random.bits();
-                if (bits >> 32) < black {
-                    let within = f64::from(bits as u32) / (1u64 << 32) as f64;
+                let [darkness, within] = numbers.pair();
+                if u64::from(darkness) < black {
+                    let within = f64::from(within) / (1u64 << 32) as f64;
                     let row_from_top = height - 1 - self.moved(f64::from(row) + within);
                     counts[(row_from_top * width + column) as usize] += 1;
                 }
@@ -126,8 +136,8 @@ impl ContrastTexture {
 
     /// The row that t^m puts a grain into, rows counted from t = 0.
     ///
-    /// A grain lies somewhere within its pixel. Were all of a row in its middle, they would be moved together and leave
-    /// rows without any between them: stripes in the lights.
+    /// A grain lies somewhere within its pixel, which is ours (errata V9). Were all of a row in its middle, they would be moved
+    /// together and leave rows without any between them: stripes in the lights.
     fn moved(&self, row: f64) -> u32 {
         let height = f64::from(self.size.height);
         let moved = (row / height).powf(self.exponent) * height;
@@ -150,7 +160,7 @@ impl ContrastTexture {
             return Err(Error::value(
                 "cet-exponent",
                 self.exponent,
-                "the exponent is a finite number of at least 1, which moves nothing",
+                "the exponent is a finite number of at least 1; 1 moves nothing",
             ));
         }
         if !(0.0..=LARGEST_BLUR_PX).contains(&self.blur_px) {
@@ -206,6 +216,20 @@ mod tests {
             let counts = &grains.counts[(63 - row) as usize * 4096..][..4096];
             let share = counts.iter().filter(|count| **count > 0).count() as f64 / 4096.0;
             assert!((share - expected).abs() < 0.035, "row {row}: {share}, expected {expected}");
+        }
+    }
+
+    #[test]
+    fn from_the_middle_of_their_pixels_grains_leave_most_rows_empty_and_from_anywhere_within_none() {
+        for (exponent, empty) in [(5.5, 287), (15.0, 394)] {
+            let texture = with_exponent(exponent);
+            let mut has_grain = [false; 512];
+            (0..512).for_each(|row| has_grain[texture.moved(f64::from(row) + 0.5) as usize] = true);
+            assert_eq!(has_grain.iter().filter(|has_grain| !**has_grain).count(), empty, "m = {exponent}");
+            let grains = texture.grains().unwrap();
+            let rows = grains.counts.chunks_exact(512);
+            let ours = rows.filter(|counts| counts.iter().all(|count| *count == 0)).count();
+            assert_eq!(ours, 0, "m = {exponent}");
         }
     }
 

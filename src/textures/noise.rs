@@ -1,9 +1,9 @@
 //! The noise texture: each pixel a random red, green and blue (Valente 2007, section 3.1), read where GLSL has no `noise`.
 
+use super::generator::{Generator, Numbers};
 use super::{DEFAULT_SIZE, check_size, opaque};
 use crate::error::Result;
 use crate::picture::Picture;
-use crate::random::Random;
 use crate::scene::Size;
 use serde::Serialize;
 
@@ -14,11 +14,13 @@ pub struct NoiseTexture {
     pub size: Size,
     /// Where the random numbers begin. Default 0; another seed is another texture of the same kind.
     pub seed: u64,
+    /// Where the random numbers come from. Default SplitMix64, ours; the text's are its platform's `rand()`.
+    pub random: Generator,
 }
 
 impl Default for NoiseTexture {
     fn default() -> Self {
-        Self { size: DEFAULT_SIZE, seed: 0 }
+        Self { size: DEFAULT_SIZE, seed: 0, random: Generator::SplitMix }
     }
 }
 
@@ -30,12 +32,8 @@ impl NoiseTexture {
     /// [`crate::Error::Setting`] for a size that no texture has.
     pub fn picture(&self) -> Result<Picture> {
         check_size(self.size)?;
-        let mut random = Random::new(self.seed, "noise");
-        let color = |_| {
-            let [red, green, blue, ..] = random.bits().to_le_bytes();
-            [red, green, blue]
-        };
-        Ok(opaque(self.size, (0..self.size.pixel_count()).map(color)))
+        let mut numbers = Numbers::new(self.random, self.seed, "noise");
+        Ok(opaque(self.size, (0..self.size.pixel_count()).map(|_| numbers.color())))
     }
 }
 
@@ -45,25 +43,30 @@ mod tests {
 
     #[test]
     fn every_value_of_every_channel_is_as_frequent_as_the_others() {
-        let picture = NoiseTexture::default().picture().unwrap();
-        for channel in 0..3 {
-            let mut counts = [0u32; 256];
-            picture.pixels.chunks_exact(4).for_each(|pixel| counts[usize::from(pixel[channel])] += 1);
-            // 1024 expected with a standard deviation of 32.
-            assert!(counts.iter().all(|count| (860..1190).contains(count)), "{counts:?}");
+        for (name, random) in Generator::ALL {
+            let picture = NoiseTexture { random, ..NoiseTexture::default() }.picture().unwrap();
+            for channel in 0..3 {
+                let mut counts = [0u32; 256];
+                picture.pixels.chunks_exact(4).for_each(|pixel| counts[usize::from(pixel[channel])] += 1);
+                // 1024 expected with a standard deviation of 32.
+                assert!(counts.iter().all(|count| (860..1190).contains(count)), "{name} {counts:?}");
+            }
         }
     }
 
     #[test]
-    fn neighbours_and_channels_are_independent() {
-        let picture = NoiseTexture::default().picture().unwrap();
-        let value = |index: usize| f64::from(picture.pixels[index]) - 127.5;
-        let correlation = |step: usize| {
-            let pairs = (0..picture.pixels.len() - step).step_by(4).map(|at| value(at) * value(at + step));
-            pairs.sum::<f64>() / (picture.size.pixel_count() as f64 * 256.0 * 256.0 / 12.0)
-        };
-        for step in [1, 2, 4, 512 * 4] {
-            assert!(correlation(step).abs() < 0.01, "{step}: {}", correlation(step));
+    fn neighbours_and_channels_are_independent_whatever_the_generator() {
+        for (name, random) in Generator::ALL {
+            let picture = NoiseTexture { random, ..NoiseTexture::default() }.picture().unwrap();
+            let value = |index: usize| f64::from(picture.pixels[index]) - 127.5;
+            let correlation = |step: usize| {
+                let pairs = (0..picture.pixels.len() - step).step_by(4).map(|at| value(at) * value(at + step));
+                pairs.sum::<f64>() / (picture.size.pixel_count() as f64 * 256.0 * 256.0 / 12.0)
+            };
+            // Green, blue, the pixel on the right and the one below.
+            let correlations = [1, 2, 4, 512 * 4].map(correlation);
+            println!("{name}: {correlations:.4?}");
+            assert!(correlations.iter().all(|correlation| correlation.abs() < 0.01), "{name} {correlations:?}");
         }
     }
 

@@ -4,10 +4,10 @@
 //! pulp, cloudy where it is thicker, slightly yellow. It repeats in both directions.
 
 use super::blur::{Rows, gaussian};
+use super::generator::{Generator, Numbers};
 use super::{DEFAULT_SIZE, check_size, opaque};
 use crate::error::Result;
 use crate::picture::Picture;
-use crate::random::Random;
 use crate::scene::Size;
 use serde::Serialize;
 
@@ -18,11 +18,13 @@ pub struct PaperTexture {
     pub size: Size,
     /// Where the random numbers begin. Default 0; another seed is another sheet.
     pub seed: u64,
+    /// Where the random numbers come from. Default SplitMix64, ours.
+    pub random: Generator,
 }
 
 impl Default for PaperTexture {
     fn default() -> Self {
-        Self { size: DEFAULT_SIZE, seed: 0 }
+        Self { size: DEFAULT_SIZE, seed: 0, random: Generator::SplitMix }
     }
 }
 
@@ -38,7 +40,27 @@ const TOOTH: f32 = 1.5;
 const FIBRES: f32 = 1.0;
 const CLOUDS: f32 = 1.1;
 
+/// What is smaller than this in a picture of paper is taken for its tooth, pixels.
+const COARSEST_TOOTH_PX: f64 = 4.5;
+
+/// Steps of 255 a standard deviation of the height.
+const HEIGHT_STEP: f32 = 56.0;
+
 impl PaperTexture {
+    /// How high each place of the paper lies, as grey: 128 in the middle, lighter is higher.
+    ///
+    /// # Errors
+    ///
+    /// [`crate::Error::Setting`] for a size that no texture has.
+    pub fn height(&self) -> Result<Picture> {
+        check_size(self.size)?;
+        let mut random = Numbers::new(self.random, self.seed, "paper");
+        let [fine, coarse] = tooth_of_two_sizes(self.size, &mut random);
+        let fibres = fibres_of(self.size, &mut random);
+        let height: Vec<f32> = fine.iter().zip(&coarse).map(|(fine, coarse)| fine + 0.45 * coarse).collect();
+        Ok(as_greys(self.size, &surface(&standardised(height), &fibres)))
+    }
+
     /// Makes the texture.
     ///
     /// # Errors
@@ -47,13 +69,11 @@ impl PaperTexture {
     pub fn picture(&self) -> Result<Picture> {
         check_size(self.size)?;
         let size = self.size;
-        let mut random = Random::new(self.seed, "paper");
+        let mut random = Numbers::new(self.random, self.seed, "paper");
         let tooth = tooth(size, &mut random);
-        let fibres = standardised(gaussian(&fibres(size, &mut random), size, 0.6, Rows::Wrap));
+        let fibres = fibres_of(size, &mut random);
         let clouds = clouds(size, &mut random);
-        // Fibres lie on the surface and so belong to the relief as well.
-        let height: Vec<f32> = tooth.iter().zip(&fibres).map(|(tooth, fibre)| tooth + 0.3 * fibre).collect();
-        let relief = standardised(slope(&height, size));
+        let relief = standardised(slope(&surface(&tooth, &fibres), size));
         let colors = (0..size.pixel_count()).map(|at| {
             let change = RELIEF * relief[at] + TOOTH * tooth[at] + FIBRES * fibres[at] + CLOUDS * clouds[at];
             [0, 1, 2].map(|channel| (COLOR[channel] + TINT[channel] * change).round().clamp(0.0, 255.0) as u8)
@@ -62,15 +82,41 @@ impl PaperTexture {
     }
 }
 
+/// The height that a picture of paper seems to have: how much lighter each place is than its surroundings.
+pub fn height_of(paper: &Picture) -> Picture {
+    let light: Vec<f32> = paper.pixels.chunks_exact(4).map(|pixel| f32::from(pixel[1])).collect();
+    let around = gaussian(&light, paper.size, COARSEST_TOOTH_PX, Rows::Wrap);
+    as_greys(paper.size, &light.iter().zip(around).map(|(light, around)| light - around).collect::<Vec<f32>>())
+}
+
+/// Heights as grey, in standard deviations.
+fn as_greys(size: Size, heights: &[f32]) -> Picture {
+    let grey = |height: f32| (128.0 + HEIGHT_STEP * height).round().clamp(0.0, 255.0) as u8;
+    opaque(size, standardised(heights.to_vec()).into_iter().map(|height| [grey(height); 3]))
+}
+
+/// The fibres, softened.
+fn fibres_of(size: Size, random: &mut Numbers) -> Vec<f32> {
+    standardised(gaussian(&fibres(size, random), size, 0.6, Rows::Wrap))
+}
+
+/// Fibres lie on the surface and so belong to its height as well.
+fn surface(tooth: &[f32], fibres: &[f32]) -> Vec<f32> {
+    tooth.iter().zip(fibres).map(|(tooth, fibre)| tooth + 0.3 * fibre).collect()
+}
+
 /// The height of the surface: grain of two sizes.
-fn tooth(size: Size, random: &mut Random) -> Vec<f32> {
-    let fine = between(size, random, 0.8, 1.8);
-    let coarse = between(size, random, 1.7, 4.5);
+fn tooth(size: Size, random: &mut Numbers) -> Vec<f32> {
+    let [fine, coarse] = tooth_of_two_sizes(size, random);
     standardised(fine.iter().zip(&coarse).map(|(fine, coarse)| 0.55 * fine + coarse).collect())
 }
 
+fn tooth_of_two_sizes(size: Size, random: &mut Numbers) -> [Vec<f32>; 2] {
+    [between(size, random, 0.8, 1.8), between(size, random, 1.7, COARSEST_TOOTH_PX)]
+}
+
 /// Noise with the details between two sizes, pixels.
-fn between(size: Size, random: &mut Random, finest_px: f64, coarsest_px: f64) -> Vec<f32> {
+fn between(size: Size, random: &mut Numbers, finest_px: f64, coarsest_px: f64) -> Vec<f32> {
     let noise: Vec<f32> = (0..size.pixel_count()).map(|_| random.signed()).collect();
     let fine = gaussian(&noise, size, finest_px, Rows::Wrap);
     let coarse = gaussian(&noise, size, coarsest_px, Rows::Wrap);
@@ -78,7 +124,7 @@ fn between(size: Size, random: &mut Random, finest_px: f64, coarsest_px: f64) ->
 }
 
 /// Threads of a pixel's width that bend a little, some lighter and some darker than the pulp.
-fn fibres(size: Size, random: &mut Random) -> Vec<f32> {
+fn fibres(size: Size, random: &mut Numbers) -> Vec<f32> {
     const PIXELS_PER_FIBRE: usize = 260;
     const BEND: f32 = 0.07;
     let (width, height) = (size.width as f32, size.height as f32);
@@ -119,7 +165,7 @@ fn splat(values: &mut [f32], size: Size, x: f32, y: f32, value: f32) {
 }
 
 /// A unit vector; from a point in the unit disc, for sine and cosine are not the same on every platform.
-fn direction(random: &mut Random) -> (f32, f32) {
+fn direction(random: &mut Numbers) -> (f32, f32) {
     loop {
         let (x, y) = (random.signed(), random.signed());
         let square = x * x + y * y;
@@ -135,7 +181,7 @@ fn normalised(x: f32, y: f32) -> (f32, f32) {
 }
 
 /// Soft large noise: lattices of random numbers, each twice as fine and half as strong as the one before.
-fn clouds(size: Size, random: &mut Random) -> Vec<f32> {
+fn clouds(size: Size, random: &mut Numbers) -> Vec<f32> {
     const LARGEST_PX: u32 = 96;
     let mut values = vec![0.0f32; size.pixel_count()];
     for octave in 0..3 {
@@ -194,7 +240,7 @@ mod tests {
     use super::*;
 
     fn paper(width: u32, height: u32) -> Picture {
-        PaperTexture { size: Size { width, height }, seed: 1 }.picture().unwrap()
+        PaperTexture { size: Size { width, height }, seed: 1, ..PaperTexture::default() }.picture().unwrap()
     }
 
     /// Mean difference of neighbouring columns (or rows) `a` and `b`.

@@ -132,7 +132,7 @@ impl Shown {
 
     /// Paints a frame and lets happen what was done in it. What the window then shows is returned if asked for, and how long
     /// nothing need be painted.
-    pub fn frame(&mut self, is_wanted: bool) -> Result<(Option<Picture>, Duration)> {
+    pub(super) fn frame(&mut self, is_wanted: bool) -> Result<(Option<Picture>, Duration)> {
         let input = self.egui.take_egui_input(&self.window);
         let context = self.egui.egui_ctx().clone();
         let mut events = Vec::new();
@@ -161,11 +161,11 @@ impl Shown {
     }
 
     /// Pixels of the window to a point.
-    pub fn scale(&self) -> f64 {
+    pub(super) fn scale(&self) -> f64 {
         self.window.scale_factor()
     }
 
-    pub fn event(&mut self, event: ViewerEvent) {
+    pub(super) fn event(&mut self, event: ViewerEvent) {
         if let Some(Effect::FullScreen(is_full)) = self.viewer.event(event) {
             self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
         }

@@ -1,6 +1,6 @@
-//! The pictures a style can show of its inside.
+//! The intermediate pictures a style can show.
 
-use crate::choice::find;
+use crate::choice::Choice;
 use crate::edges::{Class, ClassSet};
 use crate::error::ParseError;
 use crate::scene::Color;
@@ -29,7 +29,7 @@ impl Buffer {
     /// As the user writes it.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Show(show) => Show::ALL.iter().find(|(_, known)| *known == show).map_or("final", |(name, _)| name),
+            Self::Show(show) => show.choice_name(),
             Self::EdgeClasses => EDGE_CLASSES,
         }
     }
@@ -50,7 +50,7 @@ impl FromStr for Buffer {
     fn from_str(text: &str) -> Result<Self, ParseError> {
         match text {
             EDGE_CLASSES => Ok(Self::EdgeClasses),
-            _ => Ok(find(&Show::ALL, text).map(Self::Show).map_err(|problem| format!("{problem}, {EDGE_CLASSES}"))?),
+            _ => Show::of_name(text).map(Self::Show).map_err(|problem| format!("{problem}, {EDGE_CLASSES}").into()),
         }
     }
 }
@@ -61,7 +61,7 @@ pub fn buffers(style: StyleName) -> Vec<Buffer> {
 }
 
 /// The colours of classes, in their order, far apart for eyes of any kind.
-pub const CLASS_COLORS: [(Class, [f32; 3]); 7] = [
+pub(super) const CLASS_COLORS: [(Class, [f32; 3]); 7] = [
     (Class::Boundary, [0.84, 0.37, 0.0]),
     (Class::NonManifold, [0.8, 0.1, 0.1]),
     (Class::Silhouette, [0.0, 0.0, 0.0]),

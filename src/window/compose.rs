@@ -1,4 +1,4 @@
-//! Panes put together to one picture: what a screenshot holds.
+//! Composes the panes into one picture, for screenshots.
 
 use super::event::Side;
 use super::state::{Content, ViewerState};
@@ -53,7 +53,7 @@ fn cut(left: &Picture, right: &Picture, column: u32) -> Picture {
 }
 
 /// White where both are the same, darker in a channel the more it differs.
-pub fn difference(left: &Picture, right: &Picture) -> Picture {
+pub(super) fn difference(left: &Picture, right: &Picture) -> Picture {
     let pairs = left.pixels.chunks_exact(4).zip(right.pixels.chunks_exact(4));
     let pixels = pairs.flat_map(|(a, b)| {
         let channel = |index: usize| u8::MAX - a[index].abs_diff(b[index]);

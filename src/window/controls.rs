@@ -8,7 +8,7 @@ use crate::settings::{HasSettings, Kind, Setting, Table};
 use crate::styles::Style;
 
 /// Whether a style is as its source has it.
-pub fn is_faithful(style: &Style) -> bool {
+pub(super) fn is_faithful(style: &Style) -> bool {
     *style == published(style)
 }
 
@@ -18,7 +18,7 @@ fn published(style: &Style) -> Style {
 }
 
 /// The controls of a style: all of its settings but those that have one value only, or stand for several others.
-pub fn of(style: &Style) -> Vec<Control<Style>> {
+pub(super) fn of(style: &Style) -> Vec<Control<Style>> {
     of_table(Style::table(), style, &published(style))
 }
 
@@ -37,7 +37,7 @@ fn of_table<T: Clone + 'static>(table: &'static Table<T>, of: &T, published: &T)
 }
 
 /// A setting as a panel shows it.
-pub struct Control<T: 'static> {
+pub(super) struct Control<T: 'static> {
     /// The setting.
     pub setting: &'static Setting<T>,
     /// Its value.
@@ -48,12 +48,12 @@ pub struct Control<T: 'static> {
 
 impl<T: Clone + 'static> Control<T> {
     /// Its option, as events and the command line have it.
-    pub fn option(&self) -> String {
+    pub(super) fn option(&self) -> String {
         format!("--{}", self.setting.name)
     }
 
     /// Whether it is as published.
-    pub fn is_default(&self) -> bool {
+    pub(super) fn is_default(&self) -> bool {
         self.value == self.default
     }
 }
@@ -64,7 +64,7 @@ impl<T: Clone + 'static> Control<T> {
 ///
 /// A sentence that begins with the option, for a style without it and for values it cannot have. What no value of its own
 /// can tell, the style's plan refuses.
-pub fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result<(), String> {
+pub(super) fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result<(), String> {
     let (setting, value) = (find(style, option)?, value.trim());
     if let Kind::Numbers { .. } = setting.kind
         && value.split(',').any(|number| number.trim().parse().is_ok_and(|number: f64| !number.is_finite()))
@@ -79,7 +79,7 @@ pub fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result
 /// # Errors
 ///
 /// Those of [`turn`].
-pub fn turn_back(style: &mut Style, option: &str) -> std::result::Result<(), String> {
+pub(super) fn turn_back(style: &mut Style, option: &str) -> std::result::Result<(), String> {
     let setting = find(style, option)?;
     let default = setting.value(&published(style)).unwrap_or_default();
     turned(setting.set(style, &default))

@@ -1,4 +1,4 @@
-//! What each style costs and how far its lines are from the exact ones, found out while nothing else is to be done.
+//! Each style's frame time and line error, measured while the window is idle.
 //!
 //! The exact lines of a view take longer than its picture: they are found on a thread of their own, which is told to give up
 //! as soon as the view changes.

@@ -1,4 +1,4 @@
-//! A thread that draws: it owns a renderer, takes jobs and answers with pictures, so that the window answers meanwhile.
+//! A rendering thread: it owns a renderer, takes jobs and answers with pictures, so that the window answers meanwhile.
 //!
 //! In: a [`Job`], all values. Out: the pictures that `tinta render` draws with the same settings, byte for byte, because
 //! it is the same renderer with the same plans.
@@ -59,7 +59,7 @@ pub struct Cost {
 }
 
 /// What a drawing thread is told.
-pub enum Order {
+pub(super) enum Order {
     /// Draw this.
     Draw(Box<Job>),
     /// Time this and draw its lines by themselves.
@@ -215,7 +215,11 @@ impl Job {
 
 /// Starts a thread, which names itself by its number. It ends when its orders do, and must be waited for then: a driver does
 /// not bear a program's end while it draws.
-pub fn start(backend: Backend, number: usize, reporter: Reporter) -> std::io::Result<(Sender<Order>, JoinHandle<()>)> {
+pub(super) fn start(
+    backend: Backend,
+    number: usize,
+    reporter: Reporter,
+) -> std::io::Result<(Sender<Order>, JoinHandle<()>)> {
     let (orders, taken) = channel();
     let thread = std::thread::Builder::new().name("drawing".to_owned());
     let thread = thread.spawn(move || work(backend, number, &taken, &reporter))?;

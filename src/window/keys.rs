@@ -6,7 +6,7 @@ use crate::styles::StyleName;
 use egui::{Key, Modifiers};
 
 /// What the key sheet says: keys, what they do.
-pub fn sheet() -> impl Iterator<Item = (&'static str, String)> {
+pub(super) fn sheet() -> impl Iterator<Item = (&'static str, String)> {
     SHEET.iter().map(|(keys, what)| (*keys, what.replace(STYLES, &StyleName::list())))
 }
 
@@ -51,7 +51,7 @@ const ZOOM_STEP: f64 = 1.25;
 const DIVIDER_STEP: f64 = 0.05;
 
 /// The event of a key; `None` for a key that does nothing.
-pub fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Option<ViewerEvent> {
+pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Option<ViewerEvent> {
     if modifiers.command {
         return match key {
             Key::S => Some(ViewerEvent::SavePicture),

@@ -1,4 +1,4 @@
-//! Reading models on a thread of its own, so that the window goes on meanwhile.
+//! Reads models on their own thread, so that the window stays responsive.
 
 use super::report::{Report, Reporter};
 use crate::error::Result;
@@ -31,7 +31,7 @@ pub struct Stage {
 }
 
 /// Starts threads that read models; the last one asked counts.
-pub struct Loader {
+pub(super) struct Loader {
     options: LoadOptions,
     reporter: Reporter,
     /// The number of the last load.
@@ -40,12 +40,12 @@ pub struct Loader {
 
 impl Loader {
     /// Reads models with these options and tells this reporter.
-    pub fn new(options: LoadOptions, reporter: Reporter) -> Self {
+    pub(super) fn new(options: LoadOptions, reporter: Reporter) -> Self {
         Self { options, reporter, last: Arc::default() }
     }
 
     /// Whether this load is the last one asked for.
-    pub fn is_last(&self, number: u64) -> bool {
+    pub(super) fn is_last(&self, number: u64) -> bool {
         self.last.load(Ordering::Relaxed) == number
     }
 
@@ -54,7 +54,7 @@ impl Loader {
     /// # Errors
     ///
     /// When there is no thread to be had.
-    pub fn start(&self, models: Vec<String>) -> std::io::Result<()> {
+    pub(super) fn start(&self, models: Vec<String>) -> std::io::Result<()> {
         let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
         let (options, reporter, last) = (self.options.clone(), self.reporter.clone(), self.last.clone());
         let work = move || {
@@ -95,7 +95,7 @@ fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> 
             let (done, doing) = match step {
                 LoadStage::Reading => (0, "reading"),
                 LoadStage::Parsing => (1, "understanding"),
-                LoadStage::Joining => (2, "joining the vertices of"),
+                _ => (2, "joining the vertices of"),
             };
             let share = (STEPS_A_MODEL * index + done) as f32 / steps;
             stage(Stage { text: format!("{doing} {model}{size}{which}"), share });

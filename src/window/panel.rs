@@ -5,11 +5,11 @@ use super::event::{Layout, Side, ViewerEvent};
 use super::viewer::Viewer;
 use crate::preset::SHIPPED;
 use crate::settings::Kind;
-use crate::styles::{Style, StyleName};
+use crate::styles::{Origin, Style, StyleName};
 use egui::{Color32, RichText, Ui};
 
 /// Shows the panel's content.
-pub fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     let state = &viewer.state;
     let side = state.active;
     ui.horizontal_wrapped(|ui| {
@@ -85,12 +85,12 @@ fn preset_file(ui: &mut Ui, events: &mut Vec<ViewerEvent>) {
 fn faithful(ui: &mut Ui, style: &Style, side: Side, events: &mut Vec<ViewerEvent>) {
     ui.horizontal(|ui| {
         if controls::is_faithful(style) {
-            let said = match style {
-                Style::Ink(_) | Style::Phong(_) | Style::Mrt(_) | Style::Dietrich(_) => "● default settings",
-                _ => "● faithful",
+            let said = match style.style_name().info().origin {
+                Origin::Published => "● faithful",
+                Origin::Named | Origin::Own => "● default settings",
             };
             ui.colored_label(Color32::from_rgb(110, 190, 110), said)
-                .on_hover_text("every setting is the one its source gives");
+                .on_hover_text("every setting has its default: the text's value where it gives one");
         } else {
             let changed = controls::of(style).iter().filter(|control| !control.is_default()).count();
             ui.colored_label(Color32::from_rgb(220, 160, 60), format!("○ {changed} changed"));
@@ -129,7 +129,7 @@ fn one(ui: &mut Ui, control: &Control<Style>, side: Side, events: &mut Vec<Viewe
         ui.label(name).on_hover_text(format!("{} {}", control.option(), setting.help));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let back = ui.add_enabled(!control.is_default(), egui::Button::new("↺").small());
-            if back.on_hover_text(format!("as published: {}", control.default)).clicked() {
+            if back.on_hover_text(format!("back to the default: {}", control.default)).clicked() {
                 events.push(ViewerEvent::Default(side, control.option()));
             }
             if let Kind::Switch | Kind::Flag | Kind::Choice(_) = setting.kind

@@ -1,4 +1,4 @@
-//! Recordings played in a window, frame by frame, and what that took.
+//! Plays recordings in a window frame by frame, and times them.
 
 use super::app::Shown;
 use super::replay::Replay;
@@ -26,7 +26,7 @@ pub struct PlayedRecord {
 }
 
 /// A recording being played.
-pub struct Player {
+pub(super) struct Player {
     replay: Replay,
     frame: u64,
     /// Whether frames go on without waiting for what they started.
@@ -50,17 +50,17 @@ struct Times {
 
 impl Player {
     /// Before its first frame.
-    pub fn new(replay: Replay, started: Instant) -> Self {
+    pub(super) fn new(replay: Replay, started: Instant) -> Self {
         Self { replay, frame: 0, is_free: false, dragged: None, started, times: Times::default() }
     }
 
     /// Whether it says how large the drawing area is.
-    pub fn has_sizes(&self) -> bool {
+    pub(super) fn has_sizes(&self) -> bool {
         self.replay.has_sizes()
     }
 
     /// What it took.
-    pub fn record(self) -> PlayedRecord {
+    pub(super) fn record(self) -> PlayedRecord {
         let Times { first_picture_ms, frame_ms, free_frame_ms, drag_frame_ms, scale } = self.times;
         PlayedRecord {
             first_picture_ms: first_picture_ms.unwrap_or_default(),
@@ -84,7 +84,7 @@ impl Player {
     /// # Errors
     ///
     /// [`Error::Setting`] for an event that cannot be and for what cannot be drawn, and what keeps pictures from being written.
-    pub fn play(&mut self, shown: &mut Shown) -> Result<bool> {
+    pub(super) fn play(&mut self, shown: &mut Shown) -> Result<bool> {
         self.times.scale = shown.scale();
         if self.is_free {
             self.play_free(shown)?;

@@ -20,7 +20,7 @@ const LABEL_GAP: f32 = 6.0;
 const LEAST_RANGE: f64 = 0.05;
 
 /// Shows times and errors.
-pub fn show(ui: &mut Ui, viewer: &Viewer) {
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer) {
     for side in viewer.state.sides() {
         let Some(drawing) = viewer.drawing(*side) else { continue };
         let style = viewer.state.style(*side).name();

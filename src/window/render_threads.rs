@@ -19,7 +19,7 @@ const MOST: usize = 2;
 const SECOND: Backend = Backend::OsMesa;
 
 /// The threads.
-pub struct RenderThreads {
+pub(super) struct RenderThreads {
     backend: Backend,
     /// What the first thread's context says about itself.
     first: Option<ContextInfo>,
@@ -48,7 +48,7 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When there is no thread to be had.
-    pub fn start(backend: Backend, reporter: Reporter) -> std::io::Result<Self> {
+    pub(super) fn start(backend: Backend, reporter: Reporter) -> std::io::Result<Self> {
         let mut started =
             Self { backend, first: None, reporter, threads: Vec::new(), shaders: None, may_grow: false, count: 0 };
         started.add()?;
@@ -68,7 +68,7 @@ impl RenderThreads {
 
     /// Takes what a thread's context says: whether a second thread is worth having, and whether the second one that came draws
     /// what the first does.
-    pub fn opened(&mut self, thread: usize, context: &ContextInfo) {
+    pub(super) fn opened(&mut self, thread: usize, context: &ContextInfo) {
         if thread == 0 {
             let has_another = self.backend == Backend::Auto && context.backend == "egl";
             self.may_grow = context.is_software() && has_another && cores() > 1;
@@ -79,7 +79,7 @@ impl RenderThreads {
     }
 
     /// Does without a thread that cannot draw; whether there is still one that can.
-    pub fn lost(&mut self, thread: usize) -> bool {
+    pub(super) fn lost(&mut self, thread: usize) -> bool {
         self.may_grow = false;
         if let Some(lost) = self.threads.get_mut(thread) {
             (lost.orders, lost.job) = (None, None);
@@ -88,7 +88,7 @@ impl RenderThreads {
     }
 
     /// The last job that was given out and is not done.
-    pub fn newest(&self) -> Option<&Job> {
+    pub(super) fn newest(&self) -> Option<&Job> {
         let jobs = self.threads.iter().filter_map(|thread| thread.job.as_ref());
         jobs.max_by_key(|(number, _)| *number).map(|(_, job)| job)
     }
@@ -98,7 +98,7 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When a thread has ended.
-    pub fn draw(&mut self, job: Job, is_moving: bool) -> Result<(), Ended> {
+    pub(super) fn draw(&mut self, job: Job, is_moving: bool) -> Result<(), Ended> {
         let is_free = |thread: &Thread| thread.orders.is_some() && thread.job.is_none();
         let may_add = is_moving && self.may_grow && self.threads.len() < MOST;
         // Where there is no other thread to be had, the picture waits.
@@ -116,7 +116,7 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When it has ended.
-    pub fn measure_cost(&self, job: Job) -> Result<(), Ended> {
+    pub(super) fn measure_cost(&self, job: Job) -> Result<(), Ended> {
         self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::MeasureCost(Box::new(job))))
     }
 
@@ -125,21 +125,21 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When a thread has ended.
-    pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<(), Ended> {
+    pub(super) fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<(), Ended> {
         self.shaders = Some(shaders.clone());
         let mut working = self.threads.iter().filter(|thread| thread.orders.is_some());
         working.try_for_each(|thread| thread.send(Order::Shaders(shaders.clone())))
     }
 
     /// The job that a thread has done, with its number.
-    pub fn done(&mut self, thread: usize) -> Option<(u64, Job)> {
+    pub(super) fn done(&mut self, thread: usize) -> Option<(u64, Job)> {
         self.threads.get_mut(thread)?.job.take()
     }
 }
 
 /// A thread has ended that should not have.
 #[derive(Debug)]
-pub struct Ended;
+pub(super) struct Ended;
 
 /// Whether two contexts are those of the same driver, whose pictures are the same.
 fn is_same_driver(a: &ContextInfo, b: &ContextInfo) -> bool {

@@ -59,7 +59,7 @@ impl Replay {
             Ok(file) if file.len() > LONGEST => {
                 return Err(refused(format!("it is longer than {LONGEST} bytes; cut it")));
             }
-            Ok(file) if !file.is_file() => return Err(refused("this is no file; name a recording".to_owned())),
+            Ok(file) if !file.is_file() => return Err(refused("this is not a file; name a recording".to_owned())),
             _ => std::fs::read_to_string(path),
         };
         let text = text.map_err(|error| refused(format!("it cannot be read ({error}); check the name")))?;
@@ -77,10 +77,10 @@ impl Replay {
         for (number, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
             let number = number + 1;
             let line: Line = serde_json::from_str(text)
-                .map_err(|error| format!("line {number} is no step of a recording ({error})"))?;
+                .map_err(|error| format!("line {number} is not a step of a recording ({error})"))?;
             let this = line.frame.unwrap_or(frame);
             if this < frame || this > LAST_FRAME {
-                return Err(format!("line {number}: frames are numbered upwards, to {LAST_FRAME} at most"));
+                return Err(format!("line {number}: frame numbers must increase, up to {LAST_FRAME}"));
             }
             frame = this;
             lines.push((frame, line));
@@ -130,7 +130,7 @@ mod tests {
         for (text, words) in [
             ("", "no line"),
             ("{\"event\": \"reset\"}\n{\"event\": \"jump\"}", "line 2"),
-            ("{\"frame\": 3}\n{\"frame\": 2}", "line 2: frames are numbered upwards"),
+            ("{\"frame\": 3}\n{\"frame\": 2}", "line 2: frame numbers must increase"),
             ("{\"frame\": -1}", "line 1"),
             ("{\"picture\": \"a.png\"}", "line 1"),
         ] {

@@ -1,4 +1,4 @@
-//! What threads tell the viewer, and how they wake it.
+//! Messages from threads to the viewer, and how they wake it.
 
 use super::draw::{Cost, Drawing};
 use super::event::Side;

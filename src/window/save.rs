@@ -23,7 +23,7 @@ const TURN: (u32, u16) = (36, 69);
 
 /// How a model is read and where files go.
 #[derive(Debug, Clone)]
-pub struct Surroundings {
+pub(super) struct Surroundings {
     /// How the models were read.
     pub load: LoadOptions,
     /// OpenGL from.
@@ -41,7 +41,7 @@ pub struct Surroundings {
 /// # Errors
 ///
 /// [`crate::Error::Setting`] where a setting has no option, and what the camera is refused for.
-pub fn command(
+pub(super) fn command(
     state: &ViewerState,
     job: &Job,
     surroundings: &Surroundings,
@@ -104,8 +104,8 @@ fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> 
 ///
 /// # Errors
 ///
-/// [`crate::Error::Output`] and what drawing is refused for.
-pub fn save(
+/// [`crate::Error::File`] and what drawing is refused for.
+pub(super) fn save(
     state: &ViewerState,
     job: &Job,
     shown: Option<&Picture>,

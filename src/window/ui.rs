@@ -17,7 +17,7 @@ use std::time::Duration;
 const PANEL_WIDTH: f32 = 300.0;
 
 /// Height of the line below the panes, points.
-pub const STATUS_HEIGHT: f32 = 24.0;
+pub(super) const STATUS_HEIGHT: f32 = 24.0;
 
 /// How far from the divider a pointer takes it, points.
 const DIVIDER_REACH: f32 = 6.0;
@@ -30,7 +30,7 @@ const LOADING_INTERVAL: Duration = Duration::from_millis(100);
 
 /// The pictures as textures, made anew when there are new ones.
 #[derive(Default)]
-pub struct Textures {
+pub(super) struct Textures {
     made_of: Option<(u64, bool)>,
     sides: [Option<TextureHandle>; 2],
     difference: Option<TextureHandle>,
@@ -69,7 +69,12 @@ fn put(context: &Context, texture: &mut Option<TextureHandle>, picture: Option<&
 }
 
 /// Shows a frame and returns what was done in it. `follows_window`: the drawing area is as large as the window leaves it.
-pub fn frame(context: &Context, viewer: &Viewer, textures: &mut Textures, follows_window: bool) -> Vec<ViewerEvent> {
+pub(super) fn frame(
+    context: &Context,
+    viewer: &Viewer,
+    textures: &mut Textures,
+    follows_window: bool,
+) -> Vec<ViewerEvent> {
     let mut events = Vec::new();
     textures.update(context, viewer);
     let state = &viewer.state;

@@ -1,4 +1,4 @@
-//! The viewer without its window: the state, the threads that work for it, and what they have told.
+//! The viewer without its window: the state, its worker threads, and their latest results.
 //!
 //! The window asks [`Viewer::take_reports`] for news when it is woken, hands over events, and paints what is known. Each
 //! drawing thread draws one picture; when it is there and no longer what is wanted, the next one is asked for. So the newest
@@ -279,7 +279,8 @@ impl Viewer {
         if let Err(error) = self.loader.start(models) {
             self.loads_going_on -= 1;
             self.stage = None;
-            self.problem = Some(format!("no thread to read the model on could be started ({error}); close something"));
+            self.problem =
+                Some(format!("no thread to read the model on could be started ({error}); close other programs"));
         }
     }
 
@@ -299,7 +300,7 @@ impl Viewer {
         match std::thread::Builder::new().name("saving".to_owned()).spawn(work) {
             Ok(thread) => self.saving_threads.push(thread),
             Err(_) => {
-                self.state.message = Some("no thread to save on could be started; close something".to_owned());
+                self.state.message = Some("no thread to save on could be started; close other programs".to_owned());
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Files looked at now and then for changes: the models and a folder of shaders.
+//! Polls files for changes: the models and a folder of shaders.
 //!
 //! Asked for their time and length twice a second, which costs some microseconds and works on every kind of disk; a
 //! notification by the system would need a crate and miss network disks. A file counts as changed once it has stood still for
@@ -22,13 +22,13 @@ type Look = Option<(SystemTime, u64)>;
 
 /// Files and what was seen of them.
 #[derive(Debug, Default)]
-pub struct Watched {
+pub(super) struct Watched {
     files: Vec<(PathBuf, Look, Look)>,
 }
 
 impl Watched {
     /// Begins to watch files as they are now.
-    pub fn new(files: impl IntoIterator<Item = PathBuf>) -> Self {
+    pub(super) fn new(files: impl IntoIterator<Item = PathBuf>) -> Self {
         let seen = |file: PathBuf| {
             let now = look(&file);
             (file, now, now)
@@ -37,7 +37,7 @@ impl Watched {
     }
 
     /// Looks again; whether a file has changed since it was last said to have, and stood still since the last look.
-    pub fn has_changed(&mut self) -> bool {
+    pub(super) fn has_changed(&mut self) -> bool {
         let mut has_changed = false;
         for (file, said, last) in &mut self.files {
             let now = look(file);
@@ -57,7 +57,7 @@ fn look(file: &Path) -> Look {
 }
 
 /// The shaders that a folder laid out like `glsl/` has in place of those built in.
-pub fn shaders_in(folder: &Path) -> HashMap<String, String> {
+pub(super) fn shaders_in(folder: &Path) -> HashMap<String, String> {
     let read = |path: &str| {
         let file = folder.join(path);
         let is_short = std::fs::metadata(&file).is_ok_and(|file| file.is_file() && file.len() <= LONGEST_SHADER);
@@ -68,7 +68,7 @@ pub fn shaders_in(folder: &Path) -> HashMap<String, String> {
 }
 
 /// Starts the thread; what is sent to it is the list of models to watch from then on. It ends with its sender.
-pub fn start(shaders: Option<PathBuf>, reporter: Reporter) -> std::io::Result<Sender<Vec<PathBuf>>> {
+pub(super) fn start(shaders: Option<PathBuf>, reporter: Reporter) -> std::io::Result<Sender<Vec<PathBuf>>> {
     let (sender, lists) = channel();
     let work = move || work(shaders.as_deref(), &lists, &reporter);
     std::thread::Builder::new().name("watching".to_owned()).spawn(work)?;

@@ -1,4 +1,4 @@
-//! A job as command-line arguments, so that its options are read and checked where all options are.
+//! Turns a job into command-line arguments, so that the usual parser reads and checks its options.
 
 use super::super::Arguments;
 use super::super::preset::words_of;
@@ -10,7 +10,7 @@ use tinta::preset::OptionValue;
 use tinta::{Error, Result};
 
 /// The command line of a job whose outputs lie in `folder`.
-pub fn argv(job: &Job, folder: &Path) -> Result<Vec<OsString>> {
+pub(super) fn argv(job: &Job, folder: &Path) -> Result<Vec<OsString>> {
     let whole = Arguments::command();
     let name = job.command.name();
     let refuse = |key: &str, problem: String| Error::setting(key, problem);
@@ -45,7 +45,7 @@ fn values(arg: &Arg, key: &str, value: &OptionValue, folder: &Path) -> Result<Ve
     if OUTPUTS.contains(&key) {
         let refuse = |problem: String| Error::setting(key, problem);
         let OptionValue::Text(output) = value else {
-            return Err(refuse("this is a text: the name of a file".to_owned()));
+            return Err(refuse("write the name of a file, as a text".to_owned()));
         };
         let place = place_in(folder, output).map_err(|problem| refuse(format!("{output}: {problem}")))?;
         return Ok(vec![OptionValue::text(place.to_string_lossy())]);

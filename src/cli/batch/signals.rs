@@ -1,10 +1,10 @@
-//! A run that is asked to stop ends the jobs it has begun and writes them down; asked again, it stops at once.
+//! Signal handling: the first signal lets running jobs finish and be recorded; the second stops at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Whether the run is asked to stop, by Ctrl-C or by a scheduler.
-pub struct Stop {
+pub(super) struct Stop {
     is_asked: Arc<AtomicBool>,
     signal: Arc<AtomicUsize>,
 }
@@ -12,7 +12,7 @@ pub struct Stop {
 impl Stop {
     /// From now on.
     #[cfg(unix)]
-    pub fn on_signals() -> Self {
+    pub(super) fn on_signals() -> Self {
         use signal_hook::consts::{SIGINT, SIGTERM};
         use signal_hook::flag::{register, register_conditional_shutdown, register_usize};
         let stop = Self { is_asked: Arc::default(), signal: Arc::default() };
@@ -32,18 +32,18 @@ impl Stop {
     }
 
     /// Whether it is.
-    pub fn is_asked(&self) -> bool {
+    pub(super) fn is_asked(&self) -> bool {
         self.is_asked.load(Ordering::Relaxed)
     }
 
     /// The signal's number.
-    pub fn signal(&self) -> u8 {
+    pub(super) fn signal(&self) -> u8 {
         u8::try_from(self.signal.load(Ordering::Relaxed)).unwrap_or_default()
     }
 }
 
 /// In a worker: terminals and schedulers send their signals to it too, but its run says when it has done enough.
-pub fn leave_to_the_run() {
+pub(super) fn leave_to_the_run() {
     #[cfg(unix)]
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
         let _ = signal_hook::flag::register(signal, Arc::default());
@@ -52,7 +52,7 @@ pub fn leave_to_the_run() {
 
 /// Ends a worker whose run is gone, in the middle of its job: what the driver would do at an orderly end is not safe beside a
 /// thread that draws.
-pub fn end_at_once() -> ! {
+pub(super) fn end_at_once() -> ! {
     #[cfg(unix)]
     let _ = signal_hook::low_level::raise(signal_hook::consts::SIGKILL);
     std::process::exit(2)

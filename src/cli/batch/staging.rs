@@ -1,15 +1,15 @@
-//! Staging of a measurement's folder, which fills row by row: it has another name until it is complete, and is resumed after a
+//! Staging of a measurement's folder, which fills row by row: it has a temporary name until it is complete, and is resumed after a
 //! kill.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use tinta::batch::{Job, JobCommand, place_in};
-use tinta::report::ROWS_FILE;
+use tinta::record::ROWS_FILE;
 use tinta::settings::OptionValue;
 use tinta::{Error, Result};
 
 /// A folder that does not have its final name yet.
-pub struct StagedFolder {
+pub(super) struct StagedFolder {
     staged: PathBuf,
     place: PathBuf,
     /// Rows of several files are put together quickly, and from the beginning.
@@ -18,7 +18,7 @@ pub struct StagedFolder {
 
 impl StagedFolder {
     /// Of a measurement; of other jobs none. A folder that is no measurement's is refused.
-    pub fn of(job: &Job, folder: &Path) -> Result<Option<Self>> {
+    pub(super) fn of(job: &Job, folder: &Path) -> Result<Option<Self>> {
         let output = job.options.iter().find(|(key, _)| key == "output");
         let (JobCommand::Measure, Some((_, OptionValue::Text(output)))) = (job.command, output) else {
             return Ok(None);
@@ -27,10 +27,10 @@ impl StagedFolder {
         let name = place.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let is_empty = || std::fs::read_dir(&place).is_ok_and(|mut files| files.next().is_none());
         if place.symlink_metadata().is_ok() && !place.join(ROWS_FILE).is_file() && !is_empty() {
-            return Err(Error::Output {
-                path: place.display().to_string(),
-                problem: "something that is no measurement lies here; name another folder".to_owned(),
-            });
+            return Err(Error::output(
+                place,
+                "this folder holds something other than a measurement; name another folder",
+            ));
         }
         let staged = place.with_file_name(format!("{}{name}", prefix(job)));
         let is_merge = job.options.iter().any(|(key, _)| key == "merge");
@@ -41,7 +41,7 @@ impl StagedFolder {
     }
 
     /// The job's arguments with the staged folder, resumed.
-    pub fn words(&self, words: Vec<OsString>) -> Vec<OsString> {
+    pub(super) fn words(&self, words: Vec<OsString>) -> Vec<OsString> {
         let is_output = |word: &OsString| word.to_string_lossy().starts_with("--output=");
         let mut words: Vec<OsString> = words.into_iter().filter(|word| !is_output(word)).collect();
         let mut output = OsString::from("--output=");
@@ -54,7 +54,7 @@ impl StagedFolder {
     }
 
     /// Gives the folder, whole, its name; an older measurement there is gone then.
-    pub fn put_in_place(&self) -> Result<()> {
+    pub(super) fn put_in_place(&self) -> Result<()> {
         let old = self.staged.with_extension("old");
         let _ = std::fs::remove_dir_all(&old);
         if self.place.join(ROWS_FILE).is_file() {
@@ -67,11 +67,11 @@ impl StagedFolder {
 }
 
 /// How the name of a job's folder begins while it is staged: another one where the job has been changed.
-pub fn prefix(job: &Job) -> String {
+pub(super) fn prefix(job: &Job) -> String {
     format!(".tinta-{}-", job.sha256.get(..16).unwrap_or_default())
 }
 
 fn cannot(path: &Path, error: &std::io::Error) -> Error {
     let problem = format!("the folder cannot be replaced ({error}); choose another");
-    Error::output(path.display().to_string(), error, problem)
+    Error::output(path, problem).because(error)
 }

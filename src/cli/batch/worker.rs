@@ -1,8 +1,10 @@
 //! Child side of a worker process: jobs from standard input, one after another, in one session.
 
+#[cfg(feature = "measuring")]
+use super::super::measure;
 use super::super::preset::{Given, parse};
 use super::super::session::Session;
-use super::super::{Command, Stop, Verdict, compare, measure, messages, render};
+use super::super::{Command, Stop, Verdict, compare, messages, render};
 use super::staging::{self, StagedFolder};
 use super::{argv::argv, signals};
 use std::io::{BufRead, Write};
@@ -18,10 +20,10 @@ use tinta::settings::OptionValue;
 use tinta::{Error, Renderer, Result};
 
 /// Does what it is told until nobody tells any more.
-pub fn serve(folder: &Path) -> Result<()> {
+pub(super) fn serve(folder: &Path) -> Result<()> {
     signals::leave_to_the_run();
     let gone =
-        |error: std::io::Error| Error::Output { path: "-".to_owned(), problem: format!("the run is gone ({error})") };
+        |error: std::io::Error| Error::output("-", format!("the parent process has ended ({error})")).because(&error);
     let is_busy = Arc::new(AtomicBool::new(false));
     let lines = lines(&is_busy).map_err(gone)?;
     let mut session = Session::for_many(Renderer::new);
@@ -58,7 +60,7 @@ fn lines(is_busy: &Arc<AtomicBool>) -> std::io::Result<Receiver<Vec<u8>>> {
 }
 
 /// Does a job; a second time in new contexts where the first one's was lost.
-pub fn carry_out(job: &Job, folder: &Path, session: &mut Session) -> Outcome {
+pub(super) fn carry_out(job: &Job, folder: &Path, session: &mut Session) -> Outcome {
     let start = Instant::now();
     let mut tries = 0;
     let (result, captured) = loop {
@@ -117,6 +119,7 @@ fn command(command: Command, given: &Given, session: &mut Session) -> Result<Ver
     match command {
         Command::Render(arguments) => render::run(&arguments, given, session),
         Command::Compare(arguments) => compare::run(&arguments, given, session).map(|()| Verdict::Good),
+        #[cfg(feature = "measuring")]
         Command::Measure(arguments) => measure::run(&arguments, given, session).map(|()| Verdict::Good),
         _ => Err(Error::CommandLine { problem: "a job is render, compare or measure".to_owned() }),
     }
@@ -132,8 +135,8 @@ fn make_folders(job: &Job, folder: &Path) -> Result<()> {
         let Ok(place) = place_in(folder, output) else { continue };
         let parent: PathBuf = place.parent().unwrap_or(folder).to_path_buf();
         std::fs::create_dir_all(&parent).map_err(|error| {
-            let problem = format!("the folder cannot be made ({error}); choose another");
-            Error::output(parent.display().to_string(), &error, problem)
+            let problem = format!("the folder cannot be created ({error}); choose another");
+            Error::output(parent, problem).because(&error)
         })?;
     }
     Ok(())

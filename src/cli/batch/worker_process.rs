@@ -1,4 +1,4 @@
-//! Parent side of a worker process: it is sent jobs and sends back what came of them, a line of JSON each.
+//! Parent side of a worker process: sends jobs and receives results, one line of JSON each.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use tinta::batch::{Job, Outcome};
 use tinta::{Error, Result};
 
 /// A worker process, which ends with this.
-pub struct WorkerProcess {
+pub(super) struct WorkerProcess {
     child: Child,
     /// Closed, it ends once its job has ended.
     jobs: Option<ChildStdin>,
@@ -19,7 +19,12 @@ const RASTER_THREADS: &str = "LP_NUM_THREADS";
 
 impl WorkerProcess {
     /// The worker that is there, or a new one in its place.
-    pub fn of<'w>(place: &'w mut Option<Self>, folder: &Path, workers: usize, cores: usize) -> Result<&'w mut Self> {
+    pub(super) fn of<'w>(
+        place: &'w mut Option<Self>,
+        folder: &Path,
+        workers: usize,
+        cores: usize,
+    ) -> Result<&'w mut Self> {
         // One that has lost its process takes no more jobs.
         if place.as_ref().is_some_and(|worker| worker.jobs.is_none()) {
             *place = None;
@@ -52,7 +57,7 @@ impl WorkerProcess {
     }
 
     /// Has a job done. A worker that ends over it is the job's failure, and the last thing it does.
-    pub fn carry_out(&mut self, job: &Job) -> Result<Outcome> {
+    pub(super) fn carry_out(&mut self, job: &Job) -> Result<Outcome> {
         let told = self
             .jobs
             .as_mut()
@@ -71,7 +76,8 @@ impl WorkerProcess {
         Ok(Outcome::failed(
             "crash",
             format!(
-                "its worker ended ({ended}), as drivers that crash and systems without memory end one; try it by itself"
+                "its worker process ended ({ended}), perhaps because the driver crashed or memory ran out; try it by \
+                 itself"
             ),
         ))
     }

@@ -3,13 +3,13 @@
 
 use clap::builder::{PossibleValuesParser, Resettable};
 use clap::{Arg, Command, ValueHint};
-use tinta::figures::figures;
+use tinta::plan::Submission;
 use tinta::plan::prune::Rule;
-use tinta::settings::HasSettings;
-use tinta::{Backend, LineSettings, LoadOptions, SceneSettings, Show, Size, Style, StyleName, SvgSettings};
+use tinta::settings::{HasSettings, names_of};
+use tinta::{Backend, LineSettings, LoadOptions, SceneSettings, Show, Style, StyleName, SvgSettings};
 
 /// The command with what a shell offers for each value.
-pub fn with_values(command: Command) -> Command {
+pub(super) fn with_values(command: Command) -> Command {
     let names: Vec<String> = command.get_subcommands().map(|command| command.get_name().to_owned()).collect();
     names.into_iter().fold(command, |whole, name| {
         whole.mut_subcommand(&name, |command| command.mut_args(|arg| with_value(&name, arg)))
@@ -17,7 +17,7 @@ pub fn with_values(command: Command) -> Command {
 }
 
 /// Whether a value stands after it.
-pub fn takes_value(arg: &Arg) -> bool {
+pub(super) fn takes_value(arg: &Arg) -> bool {
     arg.get_long().is_some() && arg.get_action().takes_values()
 }
 
@@ -45,15 +45,17 @@ fn with_value(command: &str, arg: Arg) -> Arg {
 /// The names an option takes, or the usual ones where it takes others too.
 fn offered(command: &str, option: &str) -> Vec<&'static str> {
     match option {
-        "style" if command == "view" => names(&StyleName::ALL),
-        "style" => with(names(&StyleName::ALL), &["lines"]),
-        "left" | "right" | "styles" => names(&StyleName::ALL),
-        "backend" => names(&Backend::ALL),
-        "show" => names(&Show::ALL),
-        "keep" => names(&Rule::ALL),
+        "style" if command == "view" => names_of::<StyleName>(),
+        "style" => with(names_of::<StyleName>(), &["lines"]),
+        "left" | "right" | "styles" => names_of::<StyleName>(),
+        "backend" => names_of::<Backend>(),
+        "submission" => names_of::<Submission>(),
+        "show" => names_of::<Show>(),
+        "keep" => names_of::<Rule>(),
         "suite" => vec!["papers", "solids", "all"],
         "only" if command == "stress" => GROUPS.to_vec(),
-        "only" => figures(Size { width: 1, height: 1 }).iter().map(|figure| figure.id).collect(),
+        #[cfg(feature = "measuring")]
+        "only" => tinta::figures::figures(tinta::Size { width: 1, height: 1 }).iter().map(|figure| figure.id).collect(),
         _ => {
             let tables = [
                 of_table::<Style>,
@@ -68,18 +70,14 @@ fn offered(command: &str, option: &str) -> Vec<&'static str> {
 }
 
 /// What a table of settings offers for an option; nothing for one of another table.
-pub fn of_table<T: HasSettings>(option: &str) -> Vec<&'static str> {
+pub(crate) fn of_table<T: HasSettings>(option: &str) -> Vec<&'static str> {
     let settings = T::table().settings.iter().filter(|setting| setting.name == option);
     settings.map(|setting| setting.kind.offered()).next().unwrap_or_default()
 }
 
 /// Groups of cases that `tinta stress --only` names.
-pub const GROUPS: [&str; 9] =
+pub(super) const GROUPS: [&str; 9] =
     ["scale", "depth", "topology", "thresholds", "pictures", "mixes", "turns", "files", "faults"];
-
-fn names<T>(table: &[(&'static str, T)]) -> Vec<&'static str> {
-    table.iter().map(|(name, _)| *name).collect()
-}
 
 fn with(mut names: Vec<&'static str>, more: &[&'static str]) -> Vec<&'static str> {
     names.extend_from_slice(more);

@@ -8,7 +8,7 @@ use tinta::report::ReportPicture;
 use tinta::{Error, Picture, Result, Target};
 
 /// Whether the page shows where a row's errors lie: of each style's published settings, and of the best.
-pub fn is_shown(row: &Row) -> bool {
+pub(super) fn is_shown(row: &Row) -> bool {
     let is_exact = row.options.starts_with("--style inking --silhouette exact")
         && !["smooth", "line-", "polygon", "classes", "ink-depth"].iter().any(|other| row.options.contains(other));
     row.lines.is_some() && (row.is_faithful || row.style == "ink" || is_exact)
@@ -37,18 +37,15 @@ fn shortened(name: String) -> String {
 }
 
 /// Writes a picture of the error and hands it over for the page.
-pub fn error_page(arguments: &Arguments, row: &Row, picture: &Picture) -> Result<ReportPicture> {
+pub(super) fn error_page(arguments: &Arguments, row: &Row, picture: &Picture) -> Result<ReportPicture> {
     make_folder(&arguments.output.join("errors"))?;
     let path = error_path(arguments, row);
     Target::File { path: path.clone(), format: PictureFormat::Png }.write(picture)?;
-    known_picture(arguments, row).ok_or_else(|| Error::Output {
-        path: path.display().to_string(),
-        problem: "it cannot be read again; choose another folder".to_owned(),
-    })
+    known_picture(arguments, row).ok_or_else(|| Error::output(path, "it cannot be read again; choose another folder"))
 }
 
 /// The picture of a row's errors for the page, if it is there.
-pub fn known_picture(arguments: &Arguments, row: &Row) -> Option<ReportPicture> {
+pub(super) fn known_picture(arguments: &Arguments, row: &Row) -> Option<ReportPicture> {
     let png = std::fs::read(error_path(arguments, row)).ok()?;
     let f1 = row.lines.as_ref().map(|lines| format!(", F1 {:.3}", lines.f1)).unwrap_or_default();
     let caption = format!("{}, {}x{}: {}{f1}", row.model, row.size[0], row.size[1], row.options);

@@ -3,22 +3,24 @@
 use super::super::options::StyleArguments;
 use clap::Parser;
 use tinta::measure::Setting;
+use tinta::plan::Submission;
 use tinta::recipe::option_words;
 use tinta::shell::quoted;
+use tinta::styles::Origin;
 use tinta::{Error, Result, Style, StyleName};
 
 /// A setting's options by themselves.
 #[derive(Parser)]
-pub struct StyleOptions {
+pub(crate) struct StyleOptions {
     #[arg(long, default_value = "three-pass")]
     style: StyleName,
+
+    #[arg(long, default_value = "buffers")]
+    submission: Submission,
 
     #[command(flatten)]
     styles: StyleArguments,
 }
-
-/// The published settings, one a style; `phong` is what they compare with.
-const FAITHFUL: [&str; 7] = ["three-pass", "two-pass", "inking", "dietrich", "phong", "charcoal", "sand"];
 
 /// What is measured besides even when it has to be quick.
 const QUICK: [&str; 10] = [
@@ -35,10 +37,12 @@ const QUICK: [&str; 10] = [
 ];
 
 /// What is measured besides when there is time.
-const FULL: [&str; 29] = [
+const FULL: [&str; 34] = [
     "--style inking --silhouette exact --polygon-offset 0,0",
     "--style inking --silhouette exact --classes boundary,non-manifold,silhouette,crease,material",
     "--style inking --light vertex-shader",
+    "--style inking --submission immediate",
+    "--style inking --submission display-list",
     "--style charcoal --improve all",
     "--style three-pass --map-encoding biased",
     "--style three-pass --map-encoding float16",
@@ -53,11 +57,14 @@ const FULL: [&str; 29] = [
     "--style two-pass --map-encoding float --slope-threshold on",
     "--style three-pass --filter laplacian8",
     "--style three-pass --filter mitchell",
+    "--style three-pass --filter mitchell-two",
     "--style three-pass --filter roberts",
+    "--style three-pass --filter gaussian",
     "--style three-pass --filter sobel --detection-factor 0.5",
     "--style three-pass --tones 1",
     "--style three-pass --tones 2",
     "--style three-pass --tone-lookup texture",
+    "--style three-pass --background-quad off",
     "--style two-pass --filter sobel",
     "--style two-pass --background-quad off",
     "--style two-pass --cull back",
@@ -67,12 +74,20 @@ const FULL: [&str; 29] = [
     "--style dietrich --ink-threshold 0.15",
 ];
 
-/// The settings of some styles, all of them for none named.
-pub fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setting>> {
-    let published = FAITHFUL.iter().map(|style| (format!("--style {style}"), true));
-    let others = QUICK.iter().chain(FULL.iter().filter(|_| !is_quick));
-    published
-        .chain(others.map(|options| ((*options).to_owned(), false)))
+/// The settings of some styles, all of them for none named: first the styles of the texts by default, then what is listed above, and
+/// styles of this project that are not.
+pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setting>> {
+    let of_defaults = |is_own: bool| {
+        let styles = StyleName::lines_first().into_iter();
+        let wanted = styles.filter(move |style| (style.info().origin == Origin::Own) == is_own);
+        wanted.map(|style| format!("--style {}", style.name()))
+    };
+    let listed = |list: &'static [&'static str]| list.iter().map(|options| (*options).to_owned());
+    let own = of_defaults(true).filter(|options| !QUICK.contains(&options.as_str()));
+    let others = listed(&QUICK).chain(own).chain(listed(if is_quick { &[] } else { &FULL }));
+    let faithful = of_defaults(false).map(|options| (options, true));
+    faithful
+        .chain(others.map(|options| (options, false)))
         .map(|(options, is_faithful)| setting(options, is_faithful))
         .filter(|setting| match setting {
             Ok((name, _)) => styles.is_empty() || styles.contains(name),
@@ -87,11 +102,11 @@ fn setting(options: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
     let parsed =
         StyleOptions::try_parse_from(words).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
     let style = parsed.styles.style(parsed.style)?;
-    Ok((parsed.style, Setting { style, options, is_faithful }))
+    Ok((parsed.style, Setting { style, submission: parsed.submission, options, is_faithful }))
 }
 
 /// The setting that a preset's words make; none for no words.
-pub fn of_words(words: &[String]) -> Result<Option<Setting>> {
+pub(super) fn of_words(words: &[String]) -> Result<Option<Setting>> {
     if words.is_empty() {
         return Ok(None);
     }
@@ -105,7 +120,7 @@ pub fn of_words(words: &[String]) -> Result<Option<Setting>> {
     changed.remove("style");
     let words = changed.iter().flat_map(|(name, value)| option_words(name, value));
     let options = words.fold(format!("--style {}", parsed.style.name()), |text, word| text + " " + &quoted(&word));
-    Ok(Some(Setting { style, options, is_faithful }))
+    Ok(Some(Setting { style, submission: parsed.submission, options, is_faithful }))
 }
 
 #[cfg(test)]
@@ -115,9 +130,12 @@ mod tests {
     #[test]
     fn every_setting_is_one_that_render_takes_and_none_comes_twice() {
         let all = settings(&[], false).unwrap();
-        assert_eq!(all.len(), FAITHFUL.len() + QUICK.len() + FULL.len());
+        for (name, style) in StyleName::ALL {
+            assert!(all.iter().any(|setting| setting.style == Style::named(style)), "{name} is not measured");
+        }
         for (index, setting) in all.iter().enumerate() {
-            assert!(all[..index].iter().all(|other| other.style != setting.style), "{}", setting.options);
+            let is_same = |other: &Setting| other.style == setting.style && other.submission == setting.submission;
+            assert!(!all[..index].iter().any(is_same), "{}", setting.options);
             assert!(all[..index].iter().all(|other| other.options != setting.options), "{}", setting.options);
         }
     }

@@ -1,11 +1,11 @@
-//! Options that the drawn styles do not have: said, since they are harmless but hardly what was meant.
+//! Warns about options that have no effect on the drawn styles.
 
 use tinta::settings::HasSettings;
 use tinta::{LineSettings, Style, StyleName, SvgSettings};
 
 /// Whether this option changes nothing in any of the styles, of which `lines` is one; options that are no style's are not
 /// meant.
-pub fn is_ignored(option: &str, styles: &[&str]) -> bool {
+pub(crate) fn is_ignored(option: &str, styles: &[&str]) -> bool {
     let has = |style: &&str| match style.parse::<StyleName>() {
         Ok(name) => Style::table().find(&Style::named(name), option).is_some(),
         Err(_) => LineSettings::table().has(option) || SvgSettings::table().has(option),
@@ -14,7 +14,7 @@ pub fn is_ignored(option: &str, styles: &[&str]) -> bool {
 }
 
 /// What to say about options given as words on a command line that none of the drawn styles has.
-pub fn remark(words: &[String], styles: &[&str]) -> Option<String> {
+pub(crate) fn remark(words: &[String], styles: &[&str]) -> Option<String> {
     let mut ignored: Vec<&str> = Vec::new();
     for word in words.iter().take_while(|word| *word != "--") {
         let Some(option) = word.strip_prefix("--").and_then(|option| option.split('=').next()) else { continue };

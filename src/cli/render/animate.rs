@@ -14,7 +14,7 @@ use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, 
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "Animation, into FILE.gif, FILE.apng or numbered pictures such as frame-%04d.png")]
-pub struct AnimationArguments {
+pub(super) struct AnimationArguments {
     /// Draw N views of a full turn around the models [default: off]
     #[arg(long, value_name = "N", conflicts_with = "animate", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub turntable: Option<u32>,
@@ -23,7 +23,7 @@ pub struct AnimationArguments {
     #[arg(long, value_name = "MOVEMENT", num_args = 0..=1, require_equals = true, default_missing_value = "", conflicts_with = "model-frame")]
     pub animate: Option<String>,
 
-    /// How long each picture is shown, milliseconds [default: 100 for a model's frame; a turn in 2500, at most 200 each]
+    /// Time that each picture is shown, in milliseconds [default: 100 for a model's frame; a turn takes 2500, at most 200 each]
     #[arg(long, value_name = "MS", value_parser = clap::value_parser!(u16).range(20..=60_000))]
     frame_delay: Option<u16>,
 }
@@ -39,7 +39,7 @@ const MODEL_FRAME_MS: u16 = 100;
 
 impl AnimationArguments {
     /// Where the animation goes, if one is asked for.
-    pub fn target(&self, output: &str, transparent: bool) -> Result<Option<AnimationTarget>> {
+    pub(super) fn target(&self, output: &str, transparent: bool) -> Result<Option<AnimationTarget>> {
         let is_asked_for = self.turntable.is_some() || self.animate.is_some() || AnimationTarget::is_meant_by(output);
         is_asked_for.then(|| AnimationTarget::check(output, transparent)).transpose()
     }
@@ -51,7 +51,7 @@ impl AnimationArguments {
 }
 
 /// Draws the animation that the arguments describe; encoding goes on beside the drawing.
-pub fn run(arguments: &Arguments, target: &AnimationTarget, session: &mut Session) -> Result<Verdict> {
+pub(super) fn run(arguments: &Arguments, target: &AnimationTarget, session: &mut Session) -> Result<Verdict> {
     let start = Instant::now();
     refuse_what_is_for_one_picture(arguments)?;
     let style = arguments.styles.style(arguments.style_name())?;
@@ -67,10 +67,11 @@ pub fn run(arguments: &Arguments, target: &AnimationTarget, session: &mut Sessio
     let mut verdict = Verdict::Good;
     for (number, scene) in scenes.iter().enumerate() {
         let frame = Instant::now();
-        let published = style.plan(scene, arguments.styles.show)?;
+        let published = arguments.plan(&style, scene)?;
         let plan = arguments.prune.pruned(&published, scene, renderer, scenes.len() as u32).plan;
         if number == 0 {
-            renderer.remarks(&plan).iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
+            let remarks = [style.remarks(scene), renderer.remarks(&plan)].concat();
+            remarks.iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
         }
         let picture = renderer.draw(scene, &plan)?;
         frame_ms.push(milliseconds_since(frame));

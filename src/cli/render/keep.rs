@@ -11,22 +11,22 @@ use tinta::{Error, Recipe, Result, Scene, Size, Style, TextTarget};
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "Presets")]
-pub struct KeepArguments {
+pub(super) struct KeepArguments {
     #[command(flatten)]
     preset: PresetArguments,
 
-    /// Write the options given here and by --preset as a preset, once the picture is drawn [default: off]
+    /// Save the options of this command line and of --preset as a preset, once the picture is drawn [default: off]
     #[arg(long, value_name = "FILE")]
     save_preset: Option<String>,
 
-    /// Leave out the recipe, with which `tinta again` makes a .png or .svg anew, and the names of files with it [default: off]
+    /// Leave out the recipe, from which `tinta again` redraws a .png or .svg, and the file names in it [default: off]
     #[arg(long)]
     pub no_recipe: bool,
 }
 
 impl KeepArguments {
     /// Where the preset goes, checked before the work.
-    pub fn preset_target(&self, output: &str, inputs: &Inputs) -> Result<Option<TextTarget>> {
+    pub(super) fn preset_target(&self, output: &str, inputs: &Inputs) -> Result<Option<TextTarget>> {
         let Some(path) = &self.save_preset else { return Ok(None) };
         let refuse = |problem: &str| Err(Error::value("save-preset", path, problem));
         if path.is_empty() {
@@ -42,7 +42,7 @@ impl KeepArguments {
 }
 
 /// Writes the options as a preset.
-pub fn save_preset(target: &TextTarget, options: &Options) -> Result<()> {
+pub(super) fn save_preset(target: &TextTarget, options: &Options) -> Result<()> {
     let comment = format!(
         "A preset of tinta {}: options by their long names; any of them may be left out.\n\
          tinta render MODEL -o picture.png --preset THIS-FILE",
@@ -52,7 +52,7 @@ pub fn save_preset(target: &TextTarget, options: &Options) -> Result<()> {
 }
 
 /// The recipe of a picture of these models; `None` where it is not wanted.
-pub fn recipe(
+pub(super) fn recipe(
     arguments: &Arguments,
     options: &Options,
     size: Size,
@@ -72,7 +72,12 @@ pub fn recipe(
 }
 
 /// The files that a picture was made of: models, what they brought with them, what the style draws with.
-pub fn files(arguments: &Arguments, scene: &Scene, beside: &[PathBuf], style: Option<&Style>) -> Vec<FileRecord> {
+pub(super) fn files(
+    arguments: &Arguments,
+    scene: &Scene,
+    beside: &[PathBuf],
+    style: Option<&Style>,
+) -> Vec<FileRecord> {
     if arguments.keep.no_recipe {
         return Vec::new();
     }

@@ -16,7 +16,7 @@ use tinta::{Error, Recipe, Result, Scene, Show, StyleName, SvgSettings, TextTarg
 
 /// What `--style` takes: a style that GL draws, or lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StyleChoice {
+pub(super) enum StyleChoice {
     Picture(StyleName),
     Lines,
 }
@@ -41,13 +41,13 @@ fn refuse_given(given: &[(&str, bool)], problem: &str) -> Result<()> {
 
 /// The files lines are written to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
+pub(super) enum Format {
     Svg,
     Json,
 }
 
 /// The format if lines are asked for: by the file's name, or by the style for standard output.
-pub fn format(arguments: &Arguments) -> Result<Option<Format>> {
+pub(super) fn format(arguments: &Arguments) -> Result<Option<Format>> {
     let output = &arguments.output;
     let extension = Path::new(output).extension().and_then(|extension| extension.to_str());
     let format = match extension.map(str::to_ascii_lowercase).as_deref() {
@@ -55,7 +55,7 @@ pub fn format(arguments: &Arguments) -> Result<Option<Format>> {
         Some("json") => Some(Format::Json),
         _ => None,
     };
-    let refuse = |problem: String| Err(Error::Output { path: output.clone(), problem });
+    let refuse = |problem: String| Err(Error::output(output.clone(), problem));
     match (arguments.style, format) {
         (None | Some(StyleChoice::Lines), Some(format)) => Ok(Some(format)),
         (Some(StyleChoice::Lines), None) if output == "-" => Ok(Some(Format::Svg)),
@@ -84,7 +84,7 @@ fn is_of_a_picture(extension: &str) -> bool {
 }
 
 /// Finds the lines and writes them.
-pub fn run(arguments: &Arguments, options: &Options, format: Format, model_cache: &ModelCache) -> Result<()> {
+pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, model_cache: &ModelCache) -> Result<()> {
     let target = TextTarget::check(&arguments.output)?;
     refuse_what_lines_have_not(arguments, format, &target)?;
     let settings = arguments.styles.line_settings()?;
@@ -95,7 +95,9 @@ pub fn run(arguments: &Arguments, options: &Options, format: Format, model_cache
     let scene = Scene::new(meshes, &arguments.scene_settings()?)?;
     let lines = find(&scene, &settings)?;
     if !lines.segments.iter().any(|segment| segment.is_visible) {
-        super::super::say("tinta: no line of these classes is seen in this picture; see --classes, --eye and --target");
+        super::super::say(
+            "tinta: no line of these classes is visible in this picture; see --classes, --eye and --target",
+        );
     }
 
     let recipe = match format {
@@ -169,7 +171,7 @@ fn find(scene: &Scene, settings: &LineSettings) -> Result<VisibleLines> {
 
 /// How the SVG is to be written. Its command has a name of its own for the output: the same drawing is the same bytes wherever
 /// it is written.
-pub fn svg_settings(arguments: &Arguments, recipe: Option<&Recipe>) -> Result<SvgSettings> {
+pub(super) fn svg_settings(arguments: &Arguments, recipe: Option<&Recipe>) -> Result<SvgSettings> {
     let names =
         arguments.models.iter().map(|path| Path::new(path).file_name().map_or(path.into(), |n| n.to_string_lossy()));
     Ok(SvgSettings {
@@ -196,7 +198,7 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &Te
     )?;
     refuse_given(
         &[("no-borders", arguments.styles.are_without_borders())],
-        "it is lines that are drawn; leave it out",
+        "style lines draws nothing but lines; leave it out",
     )?;
     refuse_given(
         &[("-o -", *target == TextTarget::Stdout && run.json)],
@@ -204,8 +206,8 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &Te
     )?;
     match format {
         Format::Svg => Ok(()),
-        Format::Json => arguments
-            .lines
-            .refuse("a .json file has all lines and where they come from, and no looks; leave it out, or write a .svg"),
+        Format::Json => {
+            arguments.lines.refuse("a .json file holds all lines but no appearance; leave it out, or write a .svg")
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! The pictures of docs/options.md: the command below each heading draws them again, without the option of the heading and
 //! with it, side by side.
 //!
-//! `TINTA_UPDATE_PICTURES=1 cargo test --bin tinta option_pictures` writes them anew and then fails, so that nobody does so
-//! unnoticed. All are drawn in one process by one context, which is what makes it cheap; the words are parsed, the models
+//! `TINTA_UPDATE_PICTURES=1 cargo test --lib option_pictures` writes them anew and then fails, so that nobody does so
+//! unnoticed; an option's name instead of 1 writes that one. All are drawn in one process by one context, which is what makes it cheap; the words are parsed, the models
 //! read and the plans made by the program's own functions.
 
 use super::super::{Arguments as Whole, Command, carry_out, parse};
@@ -222,9 +222,14 @@ fn different_share(expected: &Picture, actual: &Picture, limit: u8) -> f64 {
 
 #[test]
 fn the_pictures_of_the_options_are_what_their_commands_draw() {
-    let update = std::env::var_os("TINTA_UPDATE_PICTURES").is_some();
-    let sections = sections(&page());
+    // One option's name, or 1 for all.
+    let update = std::env::var("TINTA_UPDATE_PICTURES").ok();
+    let mut sections = sections(&page());
     assert!(sections.len() > 60, "only {} options were found", sections.len());
+    if let Some(name) = update.as_deref().filter(|name| *name != "1") {
+        sections.retain(|section| section.option == name);
+        assert!(!sections.is_empty(), "no option --{name} has a picture");
+    }
     let mut renderer = Renderer::new(Backend::Auto).unwrap();
     let mut failures = Vec::new();
     for section in &sections {
@@ -234,7 +239,7 @@ fn the_pictures_of_the_options_are_what_their_commands_draw() {
             failures.push(format!("--{}: only {:.3} % of the picture change", section.option, change * 100.0));
         }
         let actual = side_by_side(&left, &right);
-        if update {
+        if update.is_some() {
             write(&actual, &section.picture);
             continue;
         }
@@ -255,10 +260,10 @@ fn the_pictures_of_the_options_are_what_their_commands_draw() {
             }
         }
     }
-    let how =
-        "if the change is wanted: TINTA_UPDATE_PICTURES=1 cargo test --bin tinta option_pictures, and look at them";
+    let how = "if the change is wanted: TINTA_UPDATE_PICTURES=1 cargo test --lib option_pictures, and look at them; \
+               an option's name instead of 1 updates that one";
     assert!(failures.is_empty(), "{}\n{how}", failures.join("\n"));
-    assert!(!update, "the pictures were written anew: look at them, then run without TINTA_UPDATE_PICTURES");
+    assert!(update.is_none(), "the pictures were written anew: look at them, then run without TINTA_UPDATE_PICTURES");
 }
 
 #[test]

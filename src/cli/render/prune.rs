@@ -9,17 +9,17 @@ use tinta::renderer::median;
 use tinta::{Error, Picture, Renderer, Result, Scene, Target};
 
 #[derive(clap::Args)]
-#[command(next_help_heading = "Leaving out what the scene does not need")]
-pub struct PruneArguments {
-    /// Draw everything as published, needed or not [default: off, what cannot change the picture is left out]
+#[command(next_help_heading = "Skipping work that cannot change the picture")]
+pub(super) struct PruneArguments {
+    /// Draw everything as published [default: off, work that cannot change the picture is skipped]
     #[arg(long)]
     full: bool,
 
-    /// Leave these in, each explained in docs/pruning.md: border, outside-objects, culled-faces, hidden-faces, unused-light, background-square, empty-pixels, unread-map, overwritten-clear, unread-textures [default: none]
+    /// Do not skip these, each explained in docs/pruning.md: border, outside-objects, culled-faces, hidden-faces, unused-light, background-square, empty-pixels, unread-map, overwritten-clear, unread-textures [default: none]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "full")]
     keep: Vec<Rule>,
 
-    /// Leave out all that can be, however long finding it takes, draw in full too and compare byte for byte; if a pixel differs, exit with 1 and write OUTPUT-difference.png [default: off]
+    /// Skip all that can be skipped, draw in full, too, and compare byte for byte; if a pixel differs, exit with 1 and write OUTPUT-difference.png [default: off]
     #[arg(long, conflicts_with = "full")]
     pub verify: bool,
 }
@@ -35,13 +35,13 @@ const MOST_ROUNDS: usize = 101;
 
 impl PruneArguments {
     /// How to prune for so many pictures; `None` for not at all.
-    pub fn pruning(&self, renderer: &Renderer, pictures: u32) -> Option<Pruning> {
+    pub(super) fn pruning(&self, renderer: &Renderer, pictures: u32) -> Option<Pruning> {
         let pictures = if self.verify { ALL_WORTH_IT } else { pictures };
         (!self.full).then(|| Pruning { keep: self.keep.clone(), ..renderer.pruning(pictures) })
     }
 
     /// The plan that is drawn.
-    pub fn pruned(&self, published: &Plan, scene: &Scene, renderer: &Renderer, pictures: u32) -> Pruned {
+    pub(super) fn pruned(&self, published: &Plan, scene: &Scene, renderer: &Renderer, pictures: u32) -> Pruned {
         match self.pruning(renderer, pictures) {
             Some(pruning) => prune(published, scene, &pruning),
             None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
@@ -49,7 +49,7 @@ impl PruneArguments {
     }
 
     /// Refuses these options where there is no plan.
-    pub fn refuse(&self) -> Result<()> {
+    pub(super) fn refuse(&self) -> Result<()> {
         let given = [("full", self.full), ("keep", !self.keep.is_empty()), ("verify", self.verify)];
         match given.iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => {
@@ -61,7 +61,7 @@ impl PruneArguments {
 }
 
 /// Draws the published plan and compares it with the picture of the shorter one; without a difference no picture of one stays.
-pub fn verify(
+pub(super) fn verify(
     arguments: &Arguments,
     renderer: &mut Renderer,
     scene: &Scene,
@@ -102,7 +102,7 @@ fn difference_path(output: &str) -> PathBuf {
 }
 
 /// What was left out and what that saved, timed by drawing with and without each; and what was not left out.
-pub fn explanation(
+pub(super) fn explanation(
     renderer: &mut Renderer,
     scene: &Scene,
     published: &Plan,

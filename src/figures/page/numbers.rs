@@ -7,7 +7,7 @@ use crate::styles::Filter;
 use std::fmt::{Result, Write};
 
 /// What was measured on what, in a sentence.
-pub fn summary(numbers: &Numbers) -> String {
+pub(super) fn summary(numbers: &Numbers) -> String {
     let frames = numbers.empty.frames_ms.len();
     format!(
         "Times are medians of {frames} {} of each setting, the settings taking turns, the picture read back each time, on {} \
@@ -26,7 +26,7 @@ const TOO_FEW: &str = " So few frames say little: times, gains and what is concl
                        other; more frames settle it.";
 
 /// What belongs to this figure.
-pub fn tables(out: &mut String, id: &str, numbers: &Numbers) -> Result {
+pub(super) fn tables(out: &mut String, id: &str, numbers: &Numbers) -> Result {
     match id {
         "evangelista-13" => {
             scenes(out, numbers)?;

@@ -1,4 +1,4 @@
-//! A lock for contexts: of one software driver's contexts in this process only one is at work at a time.
+//! A lock that lets only one context of a software driver work at a time in this process.
 //!
 //! Mesa's llvmpipe has one screen for all contexts of a device, and one for all of OSMesa. Before it reads or replaces a
 //! texture it looks through what every context of that screen has yet to draw, without a lock and while their threads free it
@@ -9,29 +9,29 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Held by the context that is at work, of those of one screen.
-pub struct ContextLock(Mutex<()>);
+pub(super) struct ContextLock(Mutex<()>);
 
 /// Until it is dropped, no other context of the screen is at work.
-pub struct ContextGuard {
+pub(super) struct ContextGuard {
     _guard: MutexGuard<'static, ()>,
 }
 
 /// Those of EGL's software device, of which Mesa has one.
-pub static OF_EGL: ContextLock = ContextLock(Mutex::new(()));
+pub(super) static OF_EGL: ContextLock = ContextLock(Mutex::new(()));
 
 /// Those of OSMesa.
-pub static OF_OSMESA: ContextLock = ContextLock(Mutex::new(()));
+pub(super) static OF_OSMESA: ContextLock = ContextLock(Mutex::new(()));
 
 impl ContextLock {
     /// Waits for the lock. A thread that holds it must not ask for it again.
-    pub fn lock(&'static self) -> ContextGuard {
+    pub(super) fn lock(&'static self) -> ContextGuard {
         // Nothing is guarded that a panic could leave half done.
         ContextGuard { _guard: self.0.lock().unwrap_or_else(PoisonError::into_inner) }
     }
 
     /// Whether a context of this screen is at work.
     #[cfg(test)]
-    pub fn is_locked(&'static self) -> bool {
+    pub(super) fn is_locked(&'static self) -> bool {
         self.0.try_lock().is_err()
     }
 }

@@ -68,14 +68,14 @@ pub(super) fn check_library() -> Result<(), String> {
 }
 
 /// A device EGL knows.
-pub struct Device {
+pub(super) struct Device {
     device: device::Device,
     /// For people: EGL and what the device calls itself.
     pub name: String,
 }
 
 /// The devices, hardware before software.
-pub fn devices() -> Result<Vec<Device>, String> {
+pub(super) fn devices() -> Result<Vec<Device>, String> {
     check_library()?;
     let found = device::Device::query_devices().map_err(|error| format!("no devices ({error})"))?;
     let is_software = |device: &device::Device| device.extensions().contains("EGL_MESA_device_software");
@@ -100,7 +100,7 @@ pub fn devices() -> Result<Vec<Device>, String> {
 }
 
 /// A context with its pbuffer.
-pub struct EglContext {
+pub(super) struct EglContext {
     // Declared, and so dropped, before the display they belong to.
     context: PossiblyCurrentContext,
     surface: Surface<PbufferSurface>,
@@ -111,7 +111,7 @@ pub struct EglContext {
 
 impl EglContext {
     /// A compatibility context of this version of OpenGL on this device with a surface of one pixel.
-    pub fn open(device: &Device, (major, minor): (u8, u8)) -> Result<Self, String> {
+    pub(super) fn open(device: &Device, (major, minor): (u8, u8)) -> Result<Self, String> {
         let step = |what: &'static str| move |error: glutin::error::Error| format!("{what} failed ({error})");
         // SAFETY: the device was given by EGL and no native display handle is passed.
         let display = unsafe { Display::with_device(&device.device, None) }.map_err(step("opening the display"))?;
@@ -144,7 +144,7 @@ impl EglContext {
         Ok(Self { context: context.treat_as_possibly_current(), surface, size, config, display })
     }
 
-    pub fn resize(&mut self, size: Size) -> Result<(), String> {
+    pub(super) fn resize(&mut self, size: Size) -> Result<(), String> {
         if size != self.size {
             self.surface = create_surface(&self.display, &self.config, size)?;
             self.size = size;
@@ -152,23 +152,23 @@ impl EglContext {
         Ok(())
     }
 
-    pub fn make_current(&self) -> Result<(), NotCurrent> {
+    pub(super) fn make_current(&self) -> Result<(), NotCurrent> {
         self.context.make_current(&self.surface).map_err(|error| NotCurrent {
             is_lost: matches!(error.error_kind(), ErrorKind::ContextLost),
             reason: format!("it cannot be made current ({error})"),
         })
     }
 
-    pub fn release(&self) {
+    pub(super) fn release(&self) {
         // Fails only if the display is gone, and then there is nothing to release.
         let _ = self.context.make_not_current_in_place();
     }
 
-    pub fn proc_address(&self, name: &CStr) -> *const c_void {
+    pub(super) fn proc_address(&self, name: &CStr) -> *const c_void {
         self.display.get_proc_address(name)
     }
 
-    pub fn largest_surface(&self) -> Size {
+    pub(super) fn largest_surface(&self) -> Size {
         let RawDisplay::Egl(display) = self.display.raw_display();
         let RawConfig::Egl(config) = self.config.raw_config();
         let limit = |attribute: u32| {

@@ -2,6 +2,7 @@
 
 use super::super::Gl;
 use super::super::faults::Faults;
+use super::super::immediate::Immediate;
 use super::super::legacy::{self, Legacy};
 use super::Platform;
 use crate::error::Error;
@@ -106,11 +107,11 @@ pub(super) fn load_functions(
     let mut legacy = unsafe { Legacy::load(load) }?;
     // Before anything else is asked: glow takes for granted that a context knows its version.
     // SAFETY: the context is current.
-    let version = unsafe { legacy.string(glow::VERSION) }.ok_or("it does not know its own version")?;
+    let version = unsafe { legacy.string(glow::VERSION) }.ok_or("it reports no version")?;
     match version_numbers(&version) {
         Some((major, minor)) if (major, minor) >= (2, 1) => {}
         Some(_) => return Err(format!("it is OpenGL {version}, older than 2.1")),
-        None => return Err(format!("it calls itself {version:?}, which is no version of OpenGL")),
+        None => return Err(format!("it reports the version {version:?}, which is not one of OpenGL")),
     }
     // SAFETY: as above.
     let glow = unsafe { glow::Context::from_loader_function_cstr(load) };
@@ -166,8 +167,10 @@ pub(super) fn load_functions(
         subpixel_bits: integer(glow::SUBPIXEL_BITS).max(LEAST_SUBPIXEL_BITS) as u32,
         timer_queries,
     };
+    // SAFETY: as above.
+    let immediate = unsafe { Immediate::load(load) };
     let (live_objects, lost) = (Cell::new(0), Cell::new(None));
-    let gl = Gl { glow, legacy, info, live_objects, replaced_shaders: RefCell::default(), lost };
+    let gl = Gl { glow, legacy, immediate, info, live_objects, replaced_shaders: RefCell::default(), lost };
     // A core profile answers the questions about alpha and lines with an error: it lacks what the articles use.
     gl.check("asking the context about itself").map_err(|error| match error {
         Error::ContextLost { what, .. } => format!("the context was lost at once ({what})"),

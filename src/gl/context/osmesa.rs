@@ -35,7 +35,7 @@ fn functions() -> Result<&'static Functions, String> {
 }
 
 /// For people: OSMesa and the library it is.
-pub fn name() -> String {
+pub(super) fn name() -> String {
     functions().map_or("OSMesa".to_owned(), |functions| format!("OSMesa {}", functions.library))
 }
 
@@ -49,7 +49,7 @@ fn load() -> Result<Functions, String> {
             Err(error) => reasons.push(error.to_string()),
         }
     }
-    Err(format!("the library is not there ({})", reasons[0]))
+    Err(format!("the library is not installed ({})", reasons[0]))
 }
 
 fn find_functions(name: &'static str, library: &'static Library) -> Result<Functions, String> {
@@ -92,7 +92,7 @@ fn check_driver(chosen: Option<&str>) -> Result<(), String> {
 }
 
 /// A context and the memory it draws into.
-pub struct OsMesaContext {
+pub(super) struct OsMesaContext {
     functions: &'static Functions,
     context: Handle,
     size: Size,
@@ -128,7 +128,7 @@ impl SmallBlocks {
 
 impl OsMesaContext {
     /// A compatibility context of this version of OpenGL with a surface of one pixel.
-    pub fn open((major, minor): (u8, u8)) -> Result<Self, String> {
+    pub(super) fn open((major, minor): (u8, u8)) -> Result<Self, String> {
         let functions = functions()?;
         check_driver(std::env::var_os("GALLIUM_DRIVER").map(|name| name.to_string_lossy().into_owned()).as_deref())?;
         let [major, minor] = [major, minor].map(i32::from);
@@ -143,7 +143,7 @@ impl OsMesaContext {
         Ok(Self { functions, context, size, memory: RefCell::new(vec![0]), made_current: Cell::new(size) })
     }
 
-    pub fn resize(&mut self, size: Size) -> Result<(), String> {
+    pub(super) fn resize(&mut self, size: Size) -> Result<(), String> {
         let mut memory = Vec::new();
         memory.try_reserve_exact(size.pixel_count()).map_err(|_| "there is not enough memory".to_owned())?;
         memory.resize(size.pixel_count(), 0);
@@ -152,7 +152,7 @@ impl OsMesaContext {
         Ok(())
     }
 
-    pub fn make_current(&self) -> Result<(), NotCurrent> {
+    pub(super) fn make_current(&self) -> Result<(), NotCurrent> {
         let _elsewhere = (self.made_current.replace(self.size) != self.size).then(SmallBlocks::take);
         let mut memory = self.memory.borrow_mut();
         let (width, height) = (self.size.width as i32, self.size.height as i32);
@@ -169,17 +169,17 @@ impl OsMesaContext {
         }
     }
 
-    pub fn release(&self) {
+    pub(super) fn release(&self) {
         // SAFETY: no context, no memory: Mesa flushes and lets go of both.
         unsafe { (self.functions.make_current)(ptr::null_mut(), ptr::null_mut(), glow::UNSIGNED_BYTE, 0, 0) };
     }
 
-    pub fn proc_address(&self, name: &CStr) -> *const c_void {
+    pub(super) fn proc_address(&self, name: &CStr) -> *const c_void {
         // SAFETY: the name ends with 0.
         unsafe { (self.functions.get_proc_address)(name.as_ptr()) }
     }
 
-    pub fn largest_surface(&self) -> Size {
+    pub(super) fn largest_surface(&self) -> Size {
         const MAX_WIDTH: i32 = 0x24;
         const MAX_HEIGHT: i32 = 0x25;
         let limit = |name: i32| {

@@ -22,7 +22,7 @@ use winit::window::{Window, WindowAttributes};
 const GROUND: [f32; 4] = [0.2, 0.2, 0.2, 1.0];
 
 /// The window's context, its surface, and what paints into it.
-pub struct WindowGl {
+pub(crate) struct WindowGl {
     // Dropped in this order, each before what it was made from.
     painter: egui_glow::Painter,
     surface: Surface<WindowSurface>,
@@ -30,7 +30,7 @@ pub struct WindowGl {
 }
 
 /// Shapes on their way to the screen.
-pub struct Shapes {
+pub(crate) struct Shapes {
     /// What is painted.
     pub primitives: Vec<egui::ClippedPrimitive>,
     /// Textures to be made, changed and let go of.
@@ -45,7 +45,7 @@ impl WindowGl {
     /// # Errors
     ///
     /// [`Error::NoWindow`] with the reason.
-    pub fn open(event_loop: &ActiveEventLoop, attributes: WindowAttributes) -> Result<(Window, Self)> {
+    pub(crate) fn open(event_loop: &ActiveEventLoop, attributes: WindowAttributes) -> Result<(Window, Self)> {
         Self::try_open(event_loop, attributes).map_err(|reason| Error::NoWindow { reason })
     }
 
@@ -86,12 +86,12 @@ impl WindowGl {
     }
 
     /// The largest side of a texture, pixels.
-    pub fn largest_texture(&self) -> usize {
+    pub(crate) fn largest_texture(&self) -> usize {
         self.painter.max_texture_side()
     }
 
     /// Makes the surface as large as the window is now.
-    pub fn resize(&mut self, size: Size) {
+    pub(crate) fn resize(&mut self, size: Size) {
         if let (Some(width), Some(height)) = (NonZeroU32::new(size.width), NonZeroU32::new(size.height)) {
             self.surface.resize(&self.context, width, height);
         }
@@ -102,7 +102,7 @@ impl WindowGl {
     /// # Errors
     ///
     /// [`Error::Gl`] when the context or the surface is gone.
-    pub fn paint(&mut self, size: Size, shapes: &Shapes, is_wanted: bool) -> Result<Option<Picture>> {
+    pub(crate) fn paint(&mut self, size: Size, shapes: &Shapes, is_wanted: bool) -> Result<Option<Picture>> {
         let failed = |what: &str| {
             let during = format!("{what} the window");
             move |error: glutin::error::Error| Error::gl(during, error.to_string())

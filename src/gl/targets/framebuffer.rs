@@ -20,7 +20,7 @@ pub(super) fn bind(gl: &Gl, framebuffer: Option<&Framebuffer>) {
 }
 
 /// Clears each of the bound framebuffer's colours to one of its own, and depth to 1.
-pub fn clear_each(gl: &Gl, colors: &[[f32; 4]]) {
+pub(crate) fn clear_each(gl: &Gl, colors: &[[f32; 4]]) {
     for (index, [red, green, blue, alpha]) in colors.iter().enumerate() {
         let mut buffers = vec![glow::NONE; colors.len()];
         buffers[index] = glow::COLOR_ATTACHMENT0 + index as u32;

@@ -19,7 +19,7 @@ pub(super) fn square(plan: &mut Plan) -> Result<Omission, String> {
         let Some(drawn) = constant else {
             kept = match draw.facts.where_even {
                 Some(_) => "borders are drawn on the background square".to_owned(),
-                None => "its shaders are not known to give one colour all over".to_owned(),
+                None => "its shaders may not give a uniform colour".to_owned(),
             };
             continue;
         };
@@ -39,9 +39,7 @@ pub(super) fn square(plan: &mut Plan) -> Result<Omission, String> {
         rule: Rule::BackgroundSquare,
         what: format!("the background square in {}: {}", counted(passes.len(), "pass", "passes"), passes.join(", ")),
         reason: "clearing to the colour it draws leaves the same pixels".to_owned(),
-        facts: vec![
-            "it faces the eye from far away: its shaders give one normal, one depth and one tone all over".to_owned(),
-        ],
+        facts: vec!["it faces the eye from far away: its shaders give a uniform normal, depth and tone".to_owned()],
     })
 }
 
@@ -90,7 +88,7 @@ pub(super) fn empty_pixels(plan: &mut Plan, situation: &Situation<'_>) -> Result
         }
     }
     if changed.is_empty() {
-        return Err("no square answers to objects alone, or they fill the picture".to_owned());
+        return Err("no square depends on the objects alone, or the objects fill the picture".to_owned());
     }
     drop_empty_passes(plan);
     confine_maps(plan, situation);
@@ -98,9 +96,8 @@ pub(super) fn empty_pixels(plan: &mut Plan, situation: &Situation<'_>) -> Result
     Ok(Omission {
         rule: Rule::EmptyPixels,
         what: format!("{percent} % of the pixels of the square in {}, and of the map it reads", changed.join(", ")),
-        reason:
-            "no object reaches them, the map is the same all around them, and the filter answers to differences alone"
-                .to_owned(),
+        reason: "no object reaches them, the map is uniform around them, and the filter responds to differences only"
+            .to_owned(),
         facts: vec![match situation.extent() {
             Some(Rectangle { x, y, width, height }) => {
                 format!("objects lie in {width} x {height} pixels from ({x}, {y}) of {}", situation.surface)
@@ -203,7 +200,7 @@ pub(super) fn overwritten_clear(plan: &mut Plan, situation: &Situation<'_>) -> R
         }
     }
     if passes.is_empty() {
-        return Err("no step draws over all that was cleared before it".to_owned());
+        return Err("no step overwrites everything that was cleared before it".to_owned());
     }
     Ok(Omission {
         rule: Rule::OverwrittenClear,

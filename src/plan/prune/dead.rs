@@ -1,4 +1,4 @@
-//! What nothing sees: draws that add nothing, maps and copies without a filter, textures without a shader.
+//! Dead code elimination for plans: draws that add nothing, maps and copies without a filter, textures without a shader.
 
 use super::{Omission, Rule, counted, drop_empty_passes};
 use crate::plan::{Draw, Plan, Step, Target, Texture};
@@ -15,7 +15,7 @@ pub(super) fn border(plan: &mut Plan) -> Result<Omission, String> {
         }
     }
     if what.is_empty() {
-        return Err("there is no border that is multiplied by 0".to_owned());
+        return Err("no border is multiplied by 0".to_owned());
     }
     plan.passes.iter_mut().for_each(|pass| pass.steps.retain(|step| reason(step).is_none()));
     drop_empty_passes(plan);
@@ -76,14 +76,14 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
         pass.steps = kept;
     }
     if dropped.is_empty() {
-        return Err("every pass and every copy is read".to_owned());
+        return Err("the result of every pass and every copy is read".to_owned());
     }
     drop_empty_passes(plan);
     dropped.reverse();
     Ok(Omission {
         rule: Rule::UnreadMap,
         what: format!("{}: {}", counted(dropped.len(), "step", "steps"), dropped.join(", ")),
-        reason: "what they leave is cleared, or never looked at, before the picture is read".to_owned(),
+        reason: "what they draw is cleared or never read before the picture is".to_owned(),
         facts: vec!["no later step reads their texture".to_owned()],
     })
 }

@@ -1,4 +1,4 @@
-//! Where nothing was drawn but one value: what a filter finds nothing in, and need not be run over.
+//! Skips filters over pixels that hold a single value, where they find nothing.
 
 use crate::plan::{Depth, Draw, Geometry, Step, Target, Texture};
 use crate::scene::Rectangle;

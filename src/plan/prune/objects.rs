@@ -117,7 +117,8 @@ pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     let usual_percent = usual / scene.triangle_count().max(1);
     if usual_percent < LEAST_PERCENT {
         return Err(format!(
-            "looking for them in every view costs more than it saves: from most sides {usual_percent} % of the faces could be left out"
+            "looking for them in every view costs more than it saves: from most sides {usual_percent} % of the faces \
+             could be skipped"
         ));
     }
     let is_outside = |object: &Object| scene.is_outside(object, 0.0);
@@ -131,7 +132,7 @@ pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
         (sound + counts.sound_shells, shells + counts.shells, holes + counts.capped_holes)
     });
     let facts = format!(
-        "{sound} of {} closed, {} of them shut",
+        "{sound} of {} closed, with {} capped",
         counted(shells, "surface is", "surfaces are"),
         counted(holes, "hole", "holes")
     );

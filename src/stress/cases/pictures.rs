@@ -10,7 +10,7 @@ use crate::styles::StyleName;
 const STRIP: u32 = 4096;
 
 /// A side that stands for the largest one a backend draws, and that plus one for one more.
-pub const LARGEST: u32 = u32::MAX - 1;
+pub(super) const LARGEST: u32 = u32::MAX - 1;
 
 pub(super) fn cases() -> Vec<Case> {
     let sized = |width, height| Drawing {

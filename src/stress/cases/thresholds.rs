@@ -121,7 +121,7 @@ fn charcoal() -> Vec<Case> {
     let base = Charcoal::default;
     let exponent = |contrast_exponent| with(Charcoal { contrast_exponent, ..base() });
     let density = |density_percent| with(Charcoal { density_percent, ..base() });
-    let lights = |lights| with(Charcoal { lights, ..base() });
+    let lights = |lights: [[f32; 3]; 2]| with(Charcoal { lights: lights.map(Some), ..base() });
     let drawn = [
         ("a contrast exponent of 1", exponent(1.0)),
         ("a contrast exponent of 1000", exponent(1000.0)),

@@ -1,15 +1,11 @@
 //! The charcoal drawing's choices that have names.
 
-use crate::error::ParseError;
-use crate::settings::{Choice, Kind, Problem, Value};
-use std::str::FromStr;
-
-/// The text's ways to draw, in its conclusions.
+/// Ways to draw: the listing as it is, and the two that the text's conclusions name.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum CharcoalRecipe {
-    /// The default settings.
+    /// The default settings: the listing, with values of ours where the text gives none (errata V7).
     #[default]
-    Published,
+    Plain,
     /// Stronger strokes: more grains, less contrast, smudged.
     Darker,
     /// Faint outlines left to the viewer: fewer grains, more contrast, more saturation.
@@ -19,7 +15,7 @@ pub enum CharcoalRecipe {
 impl CharcoalRecipe {
     /// All of them, as the user writes them.
     pub const ALL: [(&'static str, Self); 3] =
-        [("published", Self::Published), ("darker", Self::Darker), ("closure", Self::Closure)];
+        [("plain", Self::Plain), ("darker", Self::Darker), ("closure", Self::Closure)];
 }
 
 /// How the contrast-enhanced texture is filtered.
@@ -85,85 +81,4 @@ impl Noise {
     pub const ALL: [(&'static str, Self); 2] = [("screen", Self::Screen), ("object", Self::Object)];
 }
 
-/// Which of the text's flaws are mended.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Improvements {
-    /// V2: the saturated light is clamped to 1.
-    pub clamp: bool,
-    /// V3: the texture's rows do not wrap, so that lights stay free of specks.
-    pub wrap: bool,
-    /// V4: paper and noise are placed by the pixel.
-    pub paper_coordinate: bool,
-    /// V5: luminance by Rec. 709 (the style sand only).
-    pub luminance: bool,
-}
-
-impl Improvements {
-    /// All of them.
-    pub const ALL: Self = Self { clamp: true, wrap: true, paper_coordinate: true, luminance: true };
-}
-
-impl Improvements {
-    /// Each flaw's name, and whether it is mended.
-    fn named(&mut self) -> [(&'static str, &mut bool); 4] {
-        let Self { clamp, wrap, paper_coordinate, luminance } = self;
-        [("clamp", clamp), ("wrap", wrap), ("paper-coordinate", paper_coordinate), ("luminance", luminance)]
-    }
-}
-
-impl Value for Improvements {
-    fn kind() -> Kind {
-        let names = Self::default().named().map(|(name, _)| name);
-        Kind::Several(names.into_iter().chain(["all", "none"]).collect())
-    }
-
-    fn text(&self) -> String {
-        let mut all = *self;
-        let mended: Vec<&str> =
-            all.named().into_iter().filter(|(_, is_mended)| **is_mended).map(|(name, _)| name).collect();
-        if mended.is_empty() { "none".to_owned() } else { mended.join(",") }
-    }
-
-    fn parse(text: &str) -> Result<Self, Problem> {
-        Ok(text.parse()?)
-    }
-}
-
-impl FromStr for Improvements {
-    type Err = ParseError;
-
-    fn from_str(text: &str) -> Result<Self, ParseError> {
-        match text {
-            "none" => return Ok(Self::default()),
-            "all" => return Ok(Self::ALL),
-            _ => {}
-        }
-        let mut chosen = Self::default();
-        for name in text.split(',').map(str::trim) {
-            let usage = "write all, none, or some of clamp, wrap, paper-coordinate, luminance with commas between";
-            let mut named = chosen.named().into_iter();
-            *named.find(|(known, _)| *known == name).ok_or_else(|| usage.to_owned())?.1 = true;
-        }
-        Ok(chosen)
-    }
-}
-
-impl Choice for CharcoalRecipe {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
-
-impl Choice for CetFilter {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
-
-impl Choice for CetCoordinate {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
-
-impl Choice for ContrastOperator {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
-
-impl Choice for Noise {
-    const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
-}
+tinta_geometry::choices!(CharcoalRecipe, CetFilter, CetCoordinate, ContrastOperator, Noise);

@@ -4,17 +4,17 @@ use super::Charcoal;
 use crate::error::{Error, Result};
 use crate::picture::Picture;
 use crate::settings::{Kind, Problem, Value};
-use crate::textures::{ContrastTexture, LARGEST_SIDE_PX, NoiseTexture, PaperTexture};
+use crate::textures::{ContrastTexture, LARGEST_SIDE_PX, NoiseTexture, PaperTexture, height_of};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The paper a drawing is made on.
+/// Where one of the drawing's textures comes from.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub enum Paper {
+pub enum TextureSource {
     /// Made from the seed.
     #[default]
     Made,
-    /// A picture, stretched over the whole drawing.
+    /// A picture of the user's.
     File {
         /// Where it came from.
         path: PathBuf,
@@ -23,23 +23,39 @@ pub enum Paper {
     },
 }
 
-impl Paper {
+impl TextureSource {
     /// Reads a picture.
     ///
     /// # Errors
     ///
-    /// [`Error::Picture`] when it cannot be read.
+    /// [`Error::File`] when it cannot be read.
     pub fn read(path: &Path) -> Result<Self> {
-        // Transparent paper would make the drawing's own alpha negative.
+        // Transparent paper would make the drawing's own alpha negative, and so would a transparent grain.
         let picture = Arc::new(Picture::read(path)?.opaque());
         Ok(Self::File { path: path.to_path_buf(), picture })
     }
+
+    /// The picture of the file, or else the one that is made.
+    fn or_made(&self, make: impl FnOnce() -> Result<Picture>) -> Result<Arc<Picture>> {
+        match self {
+            Self::Made => make().map(Arc::new),
+            Self::File { picture, .. } => Ok(picture.clone()),
+        }
+    }
+
+    /// Its file.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Made => None,
+            Self::File { path, .. } => Some(path),
+        }
+    }
 }
 
-/// What paper that is made is called.
+/// What a texture that is made is called.
 const MADE: &str = "made";
 
-impl Value for Paper {
+impl Value for TextureSource {
     fn kind() -> Kind {
         Kind::File
     }
@@ -71,7 +87,10 @@ impl PartialEq for CharcoalPictures {
 struct Settings {
     contrast: ContrastTexture,
     noise: NoiseTexture,
-    paper: Paper,
+    /// Of noise, contrast-enhanced texture and paper.
+    sources: [TextureSource; 3],
+    /// Whether the paper's height is wanted.
+    has_tooth: bool,
 }
 
 /// The textures.
@@ -80,18 +99,20 @@ pub(super) struct Made {
     pub noise: Arc<Picture>,
     pub cet: Arc<Picture>,
     pub paper: Arc<Picture>,
+    /// The paper's height, where it is wanted.
+    pub tooth: Option<Arc<Picture>>,
 }
 
 impl CharcoalPictures {
     /// Noise, contrast-enhanced texture and paper of these settings.
     #[cfg(feature = "measuring")]
     pub(crate) fn all(&self, charcoal: &Charcoal) -> Result<(Arc<Picture>, Arc<Picture>, Arc<Picture>)> {
-        self.of(charcoal).map(|Made { noise, cet, paper }| (noise, cet, paper))
+        self.of(charcoal).map(|Made { noise, cet, paper, .. }| (noise, cet, paper))
     }
 
     /// The textures of these settings: those kept, or else made now.
     pub(super) fn of(&self, charcoal: &Charcoal) -> Result<Made> {
-        let (size, seed) = (charcoal.texture_size, charcoal.seed);
+        let (size, seed, random) = (charcoal.texture_size, charcoal.seed, charcoal.random);
         if size.width.max(size.height) > LARGEST_SIDE_PX {
             return Err(Error::value(
                 "texture-size",
@@ -103,12 +124,14 @@ impl CharcoalPictures {
             contrast: ContrastTexture {
                 size,
                 seed,
+                random,
                 density_percent: charcoal.density_percent,
                 exponent: charcoal.cet_exponent,
                 blur_px: charcoal.cet_blur_px,
             },
-            noise: NoiseTexture { size, seed },
-            paper: charcoal.paper.clone(),
+            noise: NoiseTexture { size, seed, random },
+            sources: [&charcoal.noise_texture, &charcoal.cet, &charcoal.paper].map(TextureSource::clone),
+            has_tooth: charcoal.improve.tooth,
         };
         // What is behind the lock is replaced as a whole, so a panic elsewhere leaves nothing half done.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -117,12 +140,16 @@ impl CharcoalPictures {
         {
             return Ok(made.clone());
         }
+        let [noise, cet, paper] = &settings.sources;
+        let sheet = PaperTexture { size, seed, random };
         let made = Made {
-            noise: Arc::new(settings.noise.picture()?),
-            cet: Arc::new(settings.contrast.picture()?),
-            paper: match &settings.paper {
-                Paper::Made => Arc::new(PaperTexture { size, seed }.picture()?),
-                Paper::File { picture, .. } => picture.clone(),
+            noise: noise.or_made(|| settings.noise.picture())?,
+            cet: cet.or_made(|| settings.contrast.picture())?,
+            paper: paper.or_made(|| sheet.picture())?,
+            tooth: match (settings.has_tooth, paper) {
+                (false, _) => None,
+                (true, TextureSource::Made) => Some(Arc::new(sheet.height()?)),
+                (true, TextureSource::File { picture, .. }) => Some(Arc::new(height_of(picture))),
             },
         };
         *kept = Some((settings, made.clone()));

@@ -6,6 +6,14 @@ fn scene() -> Scene {
     Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings::default()).unwrap()
 }
 
+/// Textures that are made at once, as what is on them is tested elsewhere; the published ones where full sizes are asked for.
+fn small() -> Size {
+    match std::env::var_os("TINTA_FULL_SIZES") {
+        Some(_) => Charcoal::default().texture_size,
+        None => Size { width: 16, height: 16 },
+    }
+}
+
 fn fragments(charcoal: &Charcoal, show: Show) -> Vec<&'static str> {
     let plan = charcoal.charcoal(&scene(), show).unwrap();
     let last = plan.steps().filter_map(|(_, step)| if let Step::Draw(draw) = step { Some(draw) } else { None }).last();
@@ -15,7 +23,8 @@ fn fragments(charcoal: &Charcoal, show: Show) -> Vec<&'static str> {
 #[test]
 fn with_any_setting_that_is_a_uniform_the_listing_runs() {
     for recipe in CharcoalRecipe::ALL {
-        let charcoal = Charcoal { cet_filter: CetFilter::Mipmap, seed: 3, ..Charcoal::recipe(recipe.1) };
+        let charcoal =
+            Charcoal { cet_filter: CetFilter::Mipmap, seed: 3, texture_size: small(), ..Charcoal::recipe(recipe.1) };
         assert_eq!(fragments(&charcoal, Show::Final), ["valente/charcoal.frag"], "{}", recipe.0);
     }
 }
@@ -23,10 +32,11 @@ fn with_any_setting_that_is_a_uniform_the_listing_runs() {
 #[test]
 fn each_improvement_exchanges_one_part() {
     let parts = |improve| {
-        fragments(&Charcoal { improve, operator: ContrastOperator::Bias, ..Charcoal::default() }, Show::Final)
+        let operator = ContrastOperator::Bias;
+        fragments(&Charcoal { improve, operator, texture_size: small(), ..Charcoal::default() }, Show::Final)
     };
     let faithful = parts(Improvements::default());
-    for name in ["clamp", "wrap", "paper-coordinate"] {
+    for name in ["clamp", "wrap", "paper-coordinate", "proportion", "tooth", "two-sided", "strokes"] {
         let improved = parts(name.parse().unwrap());
         let different = faithful.iter().zip(&improved).filter(|(a, b)| a != b).count();
         assert_eq!((different, improved.len()), (1, faithful.len()), "{name}");
@@ -48,7 +58,8 @@ fn textures_are_made_once_for_all_plans_of_the_same_settings() {
 
 #[test]
 fn the_paper_is_drawn_first_and_over_the_whole_picture() {
-    let text = Charcoal::default().charcoal(&scene(), Show::Final).unwrap().to_string();
+    let charcoal = Charcoal { texture_size: small(), ..Charcoal::default() };
+    let text = charcoal.charcoal(&scene(), Show::Final).unwrap().to_string();
     let expected = "\
 pass 1: charcoal
   clear to (1, 1, 1, 1), depth to 1
@@ -68,9 +79,12 @@ fn nonsense_is_refused_by_the_options_name() {
         assert!(refused(Charcoal { saturation, ..base() }).starts_with("saturation"));
     }
     for light in [[0.0; 3], [f32::NAN, 0.0, 1.0], [f32::INFINITY, 0.0, 0.0]] {
-        assert!(refused(Charcoal { lights: [light, [0.0, 0.0, 1.0]], ..base() }).starts_with("light-1"));
-        assert!(refused(Charcoal { lights: [[0.0, 0.0, 1.0], light], ..base() }).starts_with("light-2"));
+        let front = Some([0.0, 0.0, 1.0]);
+        assert!(refused(Charcoal { lights: [Some(light), front], ..base() }).starts_with("light-1"));
+        assert!(refused(Charcoal { lights: [front, Some(light)], ..base() }).starts_with("light-2"));
+        assert!(refused(Charcoal { lights: [Some(light), None], ..base() }).starts_with("light-1"));
     }
+    assert!(refused(Charcoal { lights: [None, None], ..base() }).starts_with("light-2: without any light"));
     assert!(refused(Charcoal { density_percent: 101.0, ..base() }).starts_with("density"));
     assert!(refused(Charcoal { cet_exponent: 0.5, ..base() }).starts_with("cet-exponent"));
     let texture_size = Size { width: 5000, height: 1 };

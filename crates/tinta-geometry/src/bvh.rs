@@ -1,0 +1,281 @@
+//! A bounding volume hierarchy: finds the boxes that overlap a given one. Only this module uses the BVH crate.
+//!
+//! Boxes are f32, rounded outwards: they only say what may overlap, f64 decides.
+
+use glam::{DVec3, Vec3A};
+use obvhs::Boundable;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::node::Bvh2Node;
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+
+/// An axis-aligned box.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Box3(Aabb);
+
+impl Box3 {
+    /// The smallest box around points, rounded outwards.
+    pub(crate) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
+        let (low, high) = points
+            .into_iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)));
+        Self::new(low, high)
+    }
+
+    /// The box between two corners, rounded outwards.
+    pub(crate) fn new(low: DVec3, high: DVec3) -> Self {
+        let down = |x: f64| clamped(x).next_down();
+        let up = |x: f64| clamped(x).next_up();
+        Self(Aabb {
+            min: Vec3A::new(down(low.x), down(low.y), down(low.z)),
+            max: Vec3A::new(up(high.x), up(high.y), up(high.z)),
+        })
+    }
+
+    fn overlaps(&self, other: &Self) -> bool {
+        self.0.intersect_aabb(&other.0)
+    }
+}
+
+impl Boundable for Box3 {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
+
+/// Far enough for anything, and its squares are finite.
+fn clamped(x: f64) -> f32 {
+    const FARTHEST: f64 = 1e15;
+    x.clamp(-FARTHEST, FARTHEST) as f32
+}
+
+/// Numbered things with a box each, in a hierarchy of boxes.
+pub(crate) struct BoxTree {
+    nodes: Bvh2,
+    /// The boxes, leaf by leaf.
+    boxes: Vec<Box3>,
+    leaves: Vec<u32>,
+    /// Each node's family, if all things below it are of one, else [`NO_FAMILY`]; empty where there are no families.
+    families: Vec<u32>,
+}
+
+/// Of things that belong to no family.
+pub(crate) const NO_FAMILY: u32 = u32::MAX;
+
+/// Most things in a leaf.
+pub(crate) const LARGEST_LEAF: u32 = 8;
+
+/// What a step down the hierarchy costs, in tests of a thing: more makes larger leaves.
+const STEP_COST: f32 = 3.0;
+
+impl BoxTree {
+    /// Builds the hierarchy over boxes in time n log n, and returns it with the boxes' numbers in its own order: it speaks of
+    /// things by their places in that order, so that whoever keeps them in it has neighbours together.
+    pub(crate) fn new(boxes: &[Box3]) -> (Self, Vec<u32>) {
+        let mut groups: Vec<Bvh2> = groups(boxes).into_iter().map(|numbers| built(boxes, numbers)).collect();
+        let mut nodes = if groups.len() == 1 { groups.swap_remove(0) } else { joined(&groups) };
+        nodes.parents = Vec::new();
+        let order = std::mem::take(&mut nodes.primitive_indices);
+        let leaves = (0..nodes.nodes.len() as u32).filter(|node| nodes.nodes[*node as usize].is_leaf()).collect();
+        let boxes = order.iter().map(|index| boxes[*index as usize]).collect();
+        (Self { boxes, leaves, nodes, families: Vec::new() }, order)
+    }
+
+    /// Says of the thing at each place which family it is of: [`BoxTree::pairs`] then leaves out pairs of one family, and
+    /// takes no time over them.
+    pub(crate) fn set_families(&mut self, family_of: &[u32]) {
+        let nodes = &self.nodes.nodes;
+        let mut families = vec![NO_FAMILY; nodes.len()];
+        let common = |first: u32, second: u32| if first == second { first } else { NO_FAMILY };
+        // Each node after its children: they are found before it, and gone through backwards.
+        let mut order: Vec<u32> = if nodes.is_empty() { Vec::new() } else { vec![0] };
+        let mut next = 0;
+        while let Some(&index) = order.get(next) {
+            let node = &nodes[index as usize];
+            if !node.is_leaf() {
+                order.extend([node.first_index, node.first_index + 1]);
+            }
+            next += 1;
+        }
+        for index in order.into_iter().rev() {
+            let node = &nodes[index as usize];
+            let first = node.first_index as usize;
+            families[index as usize] = if node.is_leaf() {
+                let things = &family_of[range(node.first_index, node.prim_count)];
+                things.iter().copied().reduce(common).unwrap_or(NO_FAMILY)
+            } else {
+                common(families[first], families[first + 1])
+            };
+        }
+        self.families = families;
+    }
+
+    /// Calls `visit` with each thing whose box overlaps `query` until it returns true; returns whether it did.
+    pub(crate) fn any(&self, query: &Box3, mut visit: impl FnMut(u32) -> bool) -> bool {
+        self.any_leaf(query, NO_FAMILY, |leaf| {
+            range(leaf.first_index, leaf.prim_count)
+                .any(|place| query.overlaps(&self.boxes[place]) && visit(place as u32))
+        })
+    }
+
+    /// How many groups [`BoxTree::pairs`] may be asked for.
+    pub(crate) fn group_count(&self) -> usize {
+        self.leaves.len()
+    }
+
+    /// Calls `visit` with each pair of things whose boxes overlap, one of them in one of these groups, until it returns true;
+    /// over all groups each pair comes once. Returns whether it did. Pairs of one family are left out as far as whole leaves
+    /// are of it.
+    pub(crate) fn pairs(&self, groups: std::ops::Range<usize>, mut visit: impl FnMut(u32, u32) -> bool) -> bool {
+        self.leaves[groups].iter().any(|index| {
+            let node = &self.nodes.nodes[*index as usize];
+            let own = range(node.first_index, node.prim_count);
+            self.any_leaf(&Box3(*node.aabb()), self.family(*index), |leaf| {
+                let other = range(leaf.first_index, leaf.prim_count);
+                if other.start < own.start {
+                    return false;
+                }
+                let around = Box3(*leaf.aabb());
+                own.clone().filter(|first| self.boxes[*first].overlaps(&around)).any(|first| {
+                    (other.start.max(first + 1)..other.end).any(|second| {
+                        self.boxes[first].overlaps(&self.boxes[second]) && visit(first as u32, second as u32)
+                    })
+                })
+            })
+        })
+    }
+
+    fn family(&self, node: u32) -> u32 {
+        self.families.get(node as usize).copied().unwrap_or(NO_FAMILY)
+    }
+
+    /// Calls `visit` with each leaf that overlaps and is not of this family, until it returns true.
+    fn any_leaf(&self, query: &Box3, family: u32, mut visit: impl FnMut(&Bvh2Node) -> bool) -> bool {
+        let nodes = &self.nodes.nodes;
+        if nodes.is_empty() || !nodes[0].aabb().intersect_aabb(&query.0) {
+            return false;
+        }
+        let is_other = |node: u32| family == NO_FAMILY || self.family(node) != family;
+        let mut open = Vec::with_capacity(64);
+        open.extend(is_other(0).then_some(0));
+        while let Some(index) = open.pop() {
+            let node = &nodes[index as usize];
+            if node.is_leaf() {
+                if visit(node) {
+                    return true;
+                }
+            } else {
+                let children = [node.first_index, node.first_index + 1];
+                let overlaps = |child: &u32| nodes[*child as usize].aabb().intersect_aabb(&query.0) && is_other(*child);
+                open.extend(children.into_iter().filter(overlaps));
+            }
+        }
+        false
+    }
+}
+
+/// Most things whose hierarchy is built at once. Building joins those that are nearest to one another; of a row in which each is
+/// nearest to the one before, as a railing seen from its end, only two find each other in a pass over all.
+const BUILT_AT_ONCE: usize = 8192;
+
+/// The things' numbers in groups of which none has more than [`BUILT_AT_ONCE`], neighbours together: halved in the middle of the
+/// longest side of where they lie.
+fn groups(boxes: &[Box3]) -> Vec<Vec<u32>> {
+    let middle = |number: &u32| boxes[*number as usize].0.center();
+    let mut open: Vec<Vec<u32>> = vec![(0..boxes.len() as u32).collect()];
+    let mut done = Vec::new();
+    while let Some(mut numbers) = open.pop() {
+        if numbers.len() <= BUILT_AT_ONCE {
+            done.push(numbers);
+            continue;
+        }
+        let (low, high) = numbers
+            .iter()
+            .map(middle)
+            .fold((Vec3A::INFINITY, Vec3A::NEG_INFINITY), |(low, high), middle| (low.min(middle), high.max(middle)));
+        let axis = (high - low).max_position();
+        let half = numbers.len() / 2;
+        numbers.select_nth_unstable_by(half, |a, b| middle(a)[axis].total_cmp(&middle(b)[axis]));
+        let rest = numbers.split_off(half);
+        open.extend([rest, numbers]);
+    }
+    done
+}
+
+/// The hierarchy of some of the things.
+fn built(boxes: &[Box3], numbers: Vec<u32>) -> Bvh2 {
+    let own: Vec<Box3> = numbers.iter().map(|number| boxes[*number as usize]).collect();
+    let mut nodes = hierarchy(&own);
+    collapse(&mut nodes, LARGEST_LEAF, STEP_COST);
+    // Up to here they were counted within the group.
+    nodes.primitive_indices.iter_mut().for_each(|place| *place = numbers[*place as usize]);
+    nodes
+}
+
+fn hierarchy(boxes: &[Box3]) -> Bvh2 {
+    let numbers = (0..boxes.len() as u32).collect();
+    PlocBuilder::with_capacity(boxes.len()).build(PlocSearchDistance::Minimum, boxes, numbers, SortPrecision::U64, 0)
+}
+
+/// Hierarchies as one: a hierarchy of their roots, each of whose leaves is one of them.
+fn joined(groups: &[Bvh2]) -> Bvh2 {
+    let roots: Vec<Box3> = groups.iter().map(|group| Box3(*group.nodes[0].aabb())).collect();
+    let mut whole = hierarchy(&roots);
+    let group_of = std::mem::take(&mut whole.primitive_indices);
+    for top in 0..whole.nodes.len() {
+        if !whole.nodes[top].is_leaf() {
+            continue;
+        }
+        let group = &groups[group_of[whole.nodes[top].first_index as usize] as usize];
+        // All but the group's root are put behind what there is.
+        let (first_node, first_thing) = (whole.nodes.len() as u32 - 1, whole.primitive_indices.len() as u32);
+        let mut moved = group.nodes.iter().map(|node| Bvh2Node {
+            first_index: node.first_index + if node.is_leaf() { first_thing } else { first_node },
+            ..*node
+        });
+        whole.nodes[top] = moved.next().unwrap_or_default();
+        whole.nodes.extend(moved);
+        whole.primitive_indices.extend_from_slice(&group.primitive_indices);
+    }
+    whole
+}
+
+fn range(first: u32, count: u32) -> std::ops::Range<usize> {
+    first as usize..(first + count) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_box_of_a_long_row_is_found_and_each_pair_of_neighbours_once() {
+        // Each a little longer than the one before and touching the next.
+        let ends: Vec<f64> = (0..=40_000).map(|step| 1.000_1f64.powi(step)).collect();
+        let corner = |x: f64, side: f64| DVec3::new(x, side, side);
+        let boxes: Vec<Box3> =
+            ends.windows(2).map(|pair| Box3::new(corner(pair[0], -1.0), corner(pair[1], 1.0))).collect();
+        let (tree, order) = BoxTree::new(&boxes);
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert_eq!(sorted, (0..boxes.len() as u32).collect::<Vec<u32>>());
+        for wanted in (0..boxes.len()).step_by(997) {
+            let middle = corner((ends[wanted] + ends[wanted + 1]) * 0.5, 0.0);
+            let mut found = Vec::new();
+            tree.any(&Box3::around([middle]), |place| {
+                found.push(order[place as usize] as usize);
+                false
+            });
+            assert_eq!(found, [wanted]);
+        }
+        let mut pairs = Vec::new();
+        tree.pairs(0..tree.group_count(), |first, second| {
+            let [a, b] = [first, second].map(|place| order[place as usize]);
+            pairs.push((a.min(b), a.max(b)));
+            false
+        });
+        pairs.sort_unstable();
+        assert_eq!(pairs, (1..boxes.len() as u32).map(|next| (next - 1, next)).collect::<Vec<_>>());
+    }
+}

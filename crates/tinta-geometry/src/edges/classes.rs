@@ -1,0 +1,420 @@
+//! The classes of an edge that do not depend on the view.
+
+use super::{EdgeList, Incidence};
+use crate::choice::Choice;
+use crate::error::{Error, ParseError, Result};
+use crate::mesh::{Mesh, NONE, triangle_normal};
+use crate::settings::{Kind, Problem, Setting, Value};
+use crate::threads::{filled, in_parallel, threads_for};
+use crate::tolerances::PARALLEL_COSINE;
+use glam::DVec3;
+use serde::Serialize;
+
+/// Why an edge is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[repr(u8)]
+pub enum Class {
+    /// It has one face.
+    Boundary,
+    /// It has three faces or more; the text's listing overwrites one of them and never draws it (errata D2).
+    NonManifold,
+    /// One of its two faces is seen from the front, the other from the back.
+    Silhouette,
+    /// The normals of its two faces differ by more than the crease angle.
+    Crease,
+    /// Its two faces have different materials: in the text an inner edge that counts as boundary (errata D10).
+    Material,
+    /// The texture coordinates at it differ between its two faces; likewise.
+    Texture,
+    /// The vertex normals at it differ between its two faces; likewise.
+    Normal,
+    /// No edge of the mesh: two faces pass through one another along it. Only the exact lines find it.
+    Intersection,
+}
+
+impl Class {
+    /// All of them, as the user writes them, in the order in which an edge of several classes belongs to one.
+    pub const ALL: [(&'static str, Self); 8] = [
+        ("boundary", Self::Boundary),
+        ("non-manifold", Self::NonManifold),
+        ("silhouette", Self::Silhouette),
+        ("crease", Self::Crease),
+        ("material", Self::Material),
+        ("texture", Self::Texture),
+        ("normal", Self::Normal),
+        ("intersection", Self::Intersection),
+    ];
+
+    /// As the user writes it.
+    pub fn name(self) -> &'static str {
+        self.choice_name()
+    }
+}
+
+crate::choices!(Class);
+
+/// Some classes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct ClassSet(u8);
+
+impl ClassSet {
+    /// Every class.
+    pub const ALL: Self = Self(u8::MAX >> (u8::BITS as usize - Class::ALL.len()));
+
+    /// Every class that a mesh's edges can be of.
+    pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8));
+
+    /// The set of these classes.
+    pub const fn of(classes: &[Class]) -> Self {
+        let mut bits = 0;
+        let mut index = 0;
+        while index < classes.len() {
+            bits |= 1 << classes[index] as u8;
+            index += 1;
+        }
+        Self(bits)
+    }
+
+    /// Whether the class is in it.
+    pub fn contains(self, class: Class) -> bool {
+        self.0 & 1 << class as u8 != 0
+    }
+
+    /// Whether no class is in it.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The classes in both.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// The classes in either.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// The first class of [`Class::ALL`] in it: the one an edge of several is drawn as.
+    pub fn first(self) -> Option<Class> {
+        self.classes().next()
+    }
+
+    /// Its classes in the order of [`Class::ALL`].
+    pub fn classes(self) -> impl Iterator<Item = Class> {
+        Class::ALL.into_iter().map(|(_, class)| class).filter(move |class| self.contains(*class))
+    }
+}
+
+impl ClassSet {
+    /// The setting of which classes are drawn; `all` are all that there can be.
+    pub fn setting<T: Clone + 'static>(all: Self, field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        let names = Class::ALL.map(|(name, _)| name).into_iter().chain(["all"]);
+        Setting::of(
+            "classes",
+            "CLASSES",
+            Kind::Several(names.collect()),
+            "Edges to draw: boundary, non-manifold, silhouette, crease, material, texture, normal, in style lines also \
+             intersection; separated by commas, or all",
+            move |of: &T| field(&mut of.clone()).classes().map(Class::name).collect::<Vec<_>>().join(","),
+            move |of: &mut T, text: &str| {
+                let named = || -> std::result::Result<Vec<Class>, ParseError> {
+                    text.split(',').map(|name| name.trim().parse()).collect()
+                };
+                *field(of) = match text {
+                    "all" => all,
+                    _ => Self::of(&named().map_err(|problem| format!("{problem}, or all"))?),
+                };
+                Ok(())
+            },
+        )
+        .said("boundary,silhouette,crease; style lines: all but texture and normal")
+        .printed("D, Inking: boundary, crease and silhouette are what the listing asks for")
+    }
+}
+
+impl Serialize for ClassSet {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.classes())
+    }
+}
+
+/// The angle between two faces' normals above which their edge is a crease.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CreaseAngle {
+    /// Its cosine, in [-1, 1].
+    pub cosine: f64,
+}
+
+impl CreaseAngle {
+    /// An angle in degrees, 0 to 180.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for any other.
+    pub fn from_degrees(degrees: f64) -> Result<Self> {
+        if (0.0..=180.0).contains(&degrees) {
+            let cosine = degrees.to_radians().cos();
+            // No angle in f64 has exactly the listing's cosine, which must be possible to write down.
+            let listing = Self::default();
+            let is_the_listings = (cosine - listing.cosine).abs() <= 4.0 * f64::EPSILON;
+            return Ok(if is_the_listings { listing } else { Self { cosine } });
+        }
+        Err(Error::value("crease-angle", degrees, "the angle is between 0 and 180 degrees"))
+    }
+
+    /// The shortest number of degrees that is read back as this angle, or the nearest one where none is.
+    fn written_degrees(self) -> f64 {
+        let degrees = self.degrees();
+        let is_it = |degrees: &f64| CreaseAngle::from_degrees(*degrees).is_ok_and(|found| found == self);
+        let rounded = (0..=14).filter_map(|decimals| format!("{degrees:.decimals$}").parse::<f64>().ok());
+        let near = (0..32).scan((degrees, degrees), |(below, above), _| {
+            (*below, *above) = (below.next_down(), above.next_up());
+            Some([*below, *above])
+        });
+        rounded.chain(near.flatten()).find(is_it).unwrap_or(degrees)
+    }
+
+    /// The setting of whatever asks for creases.
+    pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        let help = "Smallest angle between two faces that makes their edge a crease, in degrees; style lines too";
+        Setting::field("crease-angle", "DEGREES", help, field)
+            .printed("D, Inking: dot < 0.4f, 66 degrees")
+            .said("66.4, a cosine of 0.4")
+    }
+
+    /// The angle in degrees.
+    pub fn degrees(self) -> f64 {
+        self.cosine.clamp(-1.0, 1.0).acos().to_degrees()
+    }
+}
+
+impl Value for CreaseAngle {
+    fn kind() -> Kind {
+        Kind::Numbers { count: 1, range: [0.0, 180.0], decimals: 1 }
+    }
+
+    fn text(&self) -> String {
+        self.written_degrees().text()
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(Self::from_degrees(f64::parse(text)?)?)
+    }
+}
+
+impl Default for CreaseAngle {
+    /// The listing's 0.4, about 66 degrees.
+    fn default() -> Self {
+        Self { cosine: 0.4 }
+    }
+}
+
+/// The static classes of all edges of a mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Classes {
+    /// Each edge's classes.
+    pub of_edges: Vec<ClassSet>,
+    /// The edges that have any, ascending.
+    pub marked: Vec<u32>,
+    /// The crease angle they were found with.
+    pub crease_angle: CreaseAngle,
+}
+
+/// How many edges are of each class.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct ClassCounts {
+    /// One face.
+    pub boundary: usize,
+    /// Three faces or more.
+    #[serde(rename = "non-manifold")]
+    pub non_manifold: usize,
+    /// One face seen from the front, one from the back.
+    pub silhouette: usize,
+    /// Sharper than the crease angle.
+    pub crease: usize,
+    /// Between two materials.
+    pub material: usize,
+    /// Between different texture coordinates.
+    pub texture: usize,
+    /// Between different vertex normals.
+    pub normal: usize,
+    /// Where faces pass through one another; not counted among edges.
+    pub intersection: usize,
+}
+
+impl ClassCounts {
+    /// The count of one class.
+    pub fn of(&mut self, class: Class) -> &mut usize {
+        match class {
+            Class::Boundary => &mut self.boundary,
+            Class::NonManifold => &mut self.non_manifold,
+            Class::Silhouette => &mut self.silhouette,
+            Class::Crease => &mut self.crease,
+            Class::Material => &mut self.material,
+            Class::Texture => &mut self.texture,
+            Class::Normal => &mut self.normal,
+            Class::Intersection => &mut self.intersection,
+        }
+    }
+}
+
+impl Classes {
+    /// Finds the classes in `wanted`; the silhouette is not among them, it needs an eye.
+    ///
+    /// An edge whose faces are wound against each other (errata) is judged with one of them turned round: its crease is the
+    /// angle of the surface, not that of the numbering. Faces without area have no creases.
+    pub fn new(mesh: &Mesh, edges: &EdgeList, crease_angle: CreaseAngle, wanted: ClassSet) -> Self {
+        Self::with_threads(mesh, edges, crease_angle, wanted, threads_for(mesh.triangles.len()))
+    }
+
+    /// As [`Classes::new`] with a number of threads; the result is the same for all of them.
+    pub fn with_threads(
+        mesh: &Mesh,
+        edges: &EdgeList,
+        crease_angle: CreaseAngle,
+        wanted: ClassSet,
+        threads: usize,
+    ) -> Self {
+        let normals = if wanted.contains(Class::Crease) { face_normals(mesh, threads) } else { Vec::new() };
+        let judge =
+            Judge { mesh, edges, normals: &normals, cosine: crease_angle.cosine, seams: Seams::of(mesh, wanted) };
+        let parts = in_parallel(edges.len(), threads, |range| {
+            let mut marked = Vec::new();
+            let classes: Vec<ClassSet> = range
+                .map(|edge| {
+                    let classes = judge.classes(edge).and(wanted);
+                    if !classes.is_empty() {
+                        marked.push(edge as u32);
+                    }
+                    classes
+                })
+                .collect();
+            (classes, marked)
+        });
+        let mut parts = parts.into_iter();
+        let (mut of_edges, mut marked) = parts.next().unwrap_or_default();
+        for (classes, edges) in parts {
+            of_edges.extend(classes);
+            marked.extend(edges);
+        }
+        Self { of_edges, marked, crease_angle }
+    }
+
+    /// How many edges are of each class; an edge of several counts in each.
+    pub fn counts(&self) -> ClassCounts {
+        let mut counts = ClassCounts::default();
+        for edge in &self.marked {
+            self.of_edges[*edge as usize].classes().for_each(|class| *counts.of(class) += 1);
+        }
+        counts
+    }
+}
+
+/// Unit normals of all faces; NaN for one without area, which makes every comparison with it fail.
+fn face_normals(mesh: &Mesh, threads: usize) -> Vec<[f64; 3]> {
+    let normal = |triangle: &[u32; 3]| {
+        let Some([a, b, c]) = corners(mesh, triangle) else { return DVec3::NAN };
+        let product = (b - a).cross(c - a);
+        let squared = product.length_squared();
+        // Plain arithmetic where it neither overflows nor underflows nor loses a needle; the careful way elsewhere.
+        if (1e-200..1e200).contains(&squared) {
+            product / squared.sqrt()
+        } else {
+            triangle_normal([a, b, c]).unwrap_or(DVec3::NAN)
+        }
+    };
+    filled(mesh.triangles.len(), threads, [0.0; 3], |face| normal(&mesh.triangles[face]).to_array())
+}
+
+/// A triangle's corners; `None` where one does not exist.
+pub(super) fn corners(mesh: &Mesh, triangle: &[u32; 3]) -> Option<[DVec3; 3]> {
+    let corner = |position: u32| mesh.positions.get(position as usize).copied();
+    Some([corner(triangle[0])?, corner(triangle[1])?, corner(triangle[2])?])
+}
+
+/// What the classes of an edge are found from.
+struct Judge<'a> {
+    mesh: &'a Mesh,
+    edges: &'a EdgeList,
+    normals: &'a [[f64; 3]],
+    cosine: f64,
+    seams: Seams,
+}
+
+/// Which seams to look for: those wanted that this mesh can have.
+struct Seams {
+    material: bool,
+    texture: bool,
+    normal: bool,
+}
+
+impl Seams {
+    fn of(mesh: &Mesh, wanted: ClassSet) -> Self {
+        Self {
+            material: wanted.contains(Class::Material) && !mesh.triangle_materials.is_empty(),
+            texture: wanted.contains(Class::Texture) && !mesh.triangle_texture_coordinates.is_empty(),
+            normal: wanted.contains(Class::Normal) && !mesh.triangle_normals.is_empty(),
+        }
+    }
+
+    fn any(&self) -> bool {
+        self.material || self.texture || self.normal
+    }
+}
+
+impl Judge<'_> {
+    #[inline(always)]
+    fn classes(&self, edge: usize) -> ClassSet {
+        let incidence = self.edges.incidence[edge];
+        match incidence {
+            Incidence::Boundary => ClassSet::of(&[Class::Boundary]),
+            Incidence::NonManifold => ClassSet::of(&[Class::NonManifold]),
+            Incidence::Inner | Incidence::InnerReversed => {
+                let faces = self.edges.faces[edge].map(|face| face as usize);
+                let mut classes = ClassSet::default();
+                if !self.normals.is_empty() {
+                    let [first, second] = faces.map(|face| DVec3::from_array(self.normals[face]));
+                    let cosine = first.dot(second);
+                    let cosine = if incidence == Incidence::Inner { cosine } else { -cosine };
+                    if cosine < self.cosine - PARALLEL_COSINE {
+                        classes = ClassSet::of(&[Class::Crease]);
+                    }
+                }
+                if self.seams.any() { classes.or(self.seams_at(edge, faces)) } else { classes }
+            }
+        }
+    }
+
+    fn seams_at(&self, edge: usize, faces: [usize; 2]) -> ClassSet {
+        let mesh = self.mesh;
+        let mut classes = ClassSet::default();
+        let material = |face: usize| mesh.triangle_materials.get(face).copied().unwrap_or(NONE);
+        if self.seams.material && material(faces[0]) != material(faces[1]) {
+            classes = classes.or(ClassSet::of(&[Class::Material]));
+        }
+        if self.seams.texture
+            && self.differs(edge, faces, &mesh.triangle_texture_coordinates, &mesh.texture_coordinates)
+        {
+            classes = classes.or(ClassSet::of(&[Class::Texture]));
+        }
+        if self.seams.normal && self.differs(edge, faces, &mesh.triangle_normals, &mesh.normals) {
+            classes = classes.or(ClassSet::of(&[Class::Normal]));
+        }
+        classes
+    }
+
+    /// Whether the faces have different values at either of the edge's positions.
+    fn differs<T: PartialEq>(&self, edge: usize, faces: [usize; 2], corners: &[[u32; 3]], values: &[T]) -> bool {
+        self.edges.positions[edge].iter().any(|position| {
+            let index = faces.map(|face| {
+                let corner = self.mesh.triangles[face].iter().position(|other| other == position);
+                corner.and_then(|corner| corners.get(face).map(|corners| corners[corner])).unwrap_or(NONE)
+            });
+            index[0] != index[1] && values.get(index[0] as usize) != values.get(index[1] as usize)
+        })
+    }
+}

@@ -1,0 +1,415 @@
+//! Everything that can go wrong with what a user gave us, one sentence each.
+//!
+//! A message names the file, option or driver concerned, says what is wrong and what to do about it.
+//! The library returns these and never prints or exits; `main` prints them and exits with code 2.
+//!
+//! ```
+//! let error = tinta_geometry::load("nowhere.obj", &tinta_geometry::LoadOptions::default()).map(drop).unwrap_err();
+//! assert_eq!(error.to_string(), "nowhere.obj: there is no such file; check the name");
+//! assert_eq!(error.kind(), "model");
+//! assert!(error.is_missing_file());
+//! ```
+
+use std::io;
+use std::path::PathBuf;
+
+/// The result of anything in this crate that can fail.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why a text is no value of a type: what it would have to be, without the text itself.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct ParseError(pub String);
+
+impl From<String> for ParseError {
+    fn from(problem: String) -> Self {
+        Self(problem)
+    }
+}
+
+impl From<ParseError> for String {
+    fn from(ParseError(problem): ParseError) -> Self {
+        problem
+    }
+}
+
+/// What a file that is at fault was to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FileKind {
+    /// A model to draw.
+    Model,
+    /// A picture to read, such as a model's skin.
+    Picture,
+    /// A preset to read.
+    Preset,
+    /// Measured rows to read.
+    Rows,
+    /// A list of jobs, or what was written down of them.
+    Batch,
+    /// Something to write.
+    Output,
+}
+
+/// Why tinta could not do what was asked.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file could not be read, is not what it was to be, or cannot be written.
+    #[error("{}{}: {problem}", path.display(), line.map(|line| format!(": line {line}")).unwrap_or_default())]
+    File {
+        /// What the file was to be.
+        kind: FileKind,
+        /// The file as the user named it; `-` for standard output, `builtin:…` for a built-in model.
+        path: PathBuf,
+        /// The line at fault, 1-based, where the format has lines and the reader knows it.
+        line: Option<u64>,
+        /// What is wrong and what to do.
+        problem: String,
+        /// What the system said, where it said anything; `problem` says it too.
+        #[source]
+        cause: Option<io::Error>,
+    },
+    /// A model has defects and `--strict` was asked for.
+    #[error("{}: {defects}; repair the model, or leave out strict to draw it without them", path.display())]
+    Strict {
+        /// The file as the user named it.
+        path: PathBuf,
+        /// The defects with their counts, in words.
+        defects: String,
+    },
+    /// A setting is nonsense.
+    #[error("{name}{}: {problem}", value.as_ref().map(|value| format!(" {value}")).unwrap_or_default())]
+    Setting {
+        /// The setting's name, without dashes: a key of presets and jobs, and with dashes an option.
+        name: String,
+        /// Its value, as a user writes it; `None` where it is no matter of the value, or is too long to say.
+        value: Option<String>,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// Settings are nonsense together.
+    #[error("{}: {problem}", in_a_row(names))]
+    Settings {
+        /// Their names, without dashes.
+        names: Vec<String>,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// Exact lines that were computed cannot be written: a fault of this library.
+    #[error("{problem}")]
+    Lines {
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// A text is no value of the type it was to be read as.
+    #[error(transparent)]
+    Text(#[from] ParseError),
+    /// The command line is not understood.
+    #[error("{problem}; see --help")]
+    CommandLine {
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Another run is at work on the same slice of a batch.
+    #[error("{}: another run is working on this; wait until it ends, or take another slice", path.display())]
+    Busy {
+        /// The slice's file.
+        path: PathBuf,
+    },
+    /// Nobody waits for the work any more.
+    #[error("the drawing was cancelled; ask for it again")]
+    Cancelled,
+    /// No way to an OpenGL 2.1 context worked.
+    #[error(
+        "no OpenGL 2.1 context could be made (tried {}); install Mesa's software renderer, on Debian: apt-get install libegl1 libgl1-mesa-dri libosmesa6",
+        attempts.join("; ")
+    )]
+    NoContext {
+        /// What was tried and why each attempt failed.
+        attempts: Vec<String>,
+    },
+    /// There is no window to show a model in.
+    #[error(
+        "no window can be opened ({reason}); start tinta view where DISPLAY or WAYLAND_DISPLAY names a display with OpenGL, or draw without one: tinta render"
+    )]
+    NoWindow {
+        /// What was tried and why it failed.
+        reason: String,
+    },
+    /// The picture is larger than the context can draw.
+    #[error(
+        "size {width}x{height}: the largest picture {renderer} can draw is {limit_width}x{limit_height}; ask for a smaller one, or see `tinta info` for a backend that draws larger ones"
+    )]
+    PictureTooLarge {
+        /// Width asked for, pixels.
+        width: u32,
+        /// Height asked for, pixels.
+        height: u32,
+        /// Largest width, pixels.
+        limit_width: u32,
+        /// Largest height, pixels.
+        limit_height: u32,
+        /// GL_RENDERER of the context.
+        renderer: String,
+    },
+    /// A plan cannot be drawn for this scene.
+    #[error("the plan cannot be drawn: {flaw}")]
+    Plan {
+        /// What is wrong with it: a `Flaw`, of tinta's plans.
+        #[source]
+        flaw: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// The driver refused one of our shaders.
+    #[error("glsl/{path}: the driver rejects this shader ({log}); another driver may accept it: see `tinta info`")]
+    Shader {
+        /// The shader, or the shaders linked together, below `glsl/`.
+        path: String,
+        /// The driver's log, on one line.
+        log: String,
+    },
+    /// GL reported an error after a plan, or lost what it was given.
+    #[error("the GL driver failed in {during} ({what}); try the backend osmesa, or a smaller size")]
+    Gl {
+        /// The pass or call.
+        during: String,
+        /// The GL error by name.
+        what: String,
+    },
+    /// The driver has taken the GL context away, as it does when a device hangs or its driver is replaced.
+    #[error(
+        "the GL context was lost in {during} ({what}): the driver reset its device; draw again, and if that fails too, \
+         try the backend osmesa or a smaller size"
+    )]
+    ContextLost {
+        /// The pass or call.
+        during: String,
+        /// What said so, by GL's name.
+        what: String,
+    },
+}
+
+/// What [`Error::PictureTooLarge`] ends with.
+const BACKEND_FOR_LARGER: &str = "a backend that draws larger ones";
+
+/// What [`Error::Gl`] and [`Error::ContextLost`] advise.
+const ANOTHER_BACKEND: &str = "the backend osmesa";
+
+/// Names as a sentence has them: `a`, `a and b`, `a, b and c`.
+fn in_a_row(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+impl Error {
+    /// What kind of error this is, in a word: for records, where the sentence would say too much.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::File { .. } if self.is_disk_full() => "disk-full",
+            Self::File { kind, .. } => match kind {
+                FileKind::Model => "model",
+                FileKind::Picture => "picture",
+                FileKind::Preset => "preset",
+                FileKind::Rows => "rows",
+                FileKind::Batch => "batch",
+                FileKind::Output => "output",
+            },
+            Self::Strict { .. } => "strict",
+            Self::Setting { .. } | Self::Settings { .. } => "setting",
+            Self::Lines { .. } => "lines",
+            Self::CommandLine { .. } => "command-line",
+            Self::Text(_) => "text",
+            Self::Busy { .. } => "busy",
+            Self::Cancelled => "cancelled",
+            Self::NoContext { .. } => "no-context",
+            Self::NoWindow { .. } => "no-window",
+            Self::PictureTooLarge { .. } => "picture-too-large",
+            Self::Plan { .. } => "plan",
+            Self::Shader { .. } => "shader",
+            Self::Gl { .. } => "gl",
+            Self::ContextLost { .. } => "context-lost",
+        }
+    }
+
+    /// A file is at fault: what it was to be, its name, what is wrong and what to do.
+    pub fn file(kind: FileKind, path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
+        Self::File { kind, path: path.into(), line: None, problem: problem.into(), cause: None }
+    }
+
+    /// A model is at fault.
+    pub fn model(path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
+        Self::file(FileKind::Model, path, problem)
+    }
+
+    /// A picture to read is at fault.
+    pub fn picture(path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
+        Self::file(FileKind::Picture, path, problem)
+    }
+
+    /// An output cannot be written.
+    pub fn output(path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
+        Self::file(FileKind::Output, path, problem)
+    }
+
+    /// The same at a line of the file, 1-based; other errors are left as they are.
+    #[must_use]
+    pub fn at(mut self, number: impl Into<Option<u64>>) -> Self {
+        if let Self::File { line, .. } = &mut self {
+            *line = number.into();
+        }
+        self
+    }
+
+    /// The same with what the system said, which callers can ask for its kind; other errors are left as they are.
+    #[must_use]
+    pub fn because(mut self, error: &io::Error) -> Self {
+        if let Self::File { cause, .. } = &mut self {
+            *cause = Some(error.raw_os_error().map_or_else(|| error.kind().into(), io::Error::from_raw_os_error));
+        }
+        self
+    }
+
+    /// What the system said of a file, if that is what is wrong.
+    pub fn io_kind(&self) -> Option<io::ErrorKind> {
+        match self {
+            Self::File { cause, .. } => cause.as_ref().map(io::Error::kind),
+            _ => None,
+        }
+    }
+
+    /// Whether a file is not there, rather than unreadable or damaged.
+    pub fn is_missing_file(&self) -> bool {
+        self.io_kind() == Some(io::ErrorKind::NotFound)
+    }
+
+    /// Whether an output cannot be written because the disk, or the user's share of it, is full.
+    pub fn is_disk_full(&self) -> bool {
+        matches!(self.io_kind(), Some(io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded))
+    }
+
+    /// A setting is nonsense, whatever its value.
+    pub fn setting(name: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Setting { name: name.into(), value: None, problem: problem.into() }
+    }
+
+    /// A setting's value is nonsense.
+    pub fn value(name: impl Into<String>, value: impl ToString, problem: impl Into<String>) -> Self {
+        Self::Setting { name: name.into(), value: Some(value.to_string()), problem: problem.into() }
+    }
+
+    /// Settings are nonsense together.
+    pub fn settings(names: &[&str], problem: impl Into<String>) -> Self {
+        Self::Settings { names: names.iter().map(|name| (*name).to_owned()).collect(), problem: problem.into() }
+    }
+
+    /// The sentence for a command line, where settings are options: `--tones 4`. The error's own text has no dashes.
+    pub fn with_dashes(&self) -> String {
+        let sentence = self.to_string();
+        let dash = |name: &str| if name.len() == 1 { format!("-{name}") } else { format!("--{name}") };
+        match self {
+            Self::Setting { name, .. } => sentence.replacen(name.as_str(), &dash(name), 1),
+            Self::Settings { names, problem } => {
+                format!("{}: {problem}", in_a_row(&names.iter().map(|name| dash(name)).collect::<Vec<_>>()))
+            }
+            Self::Strict { path, defects } => {
+                format!(
+                    "{}: {defects}; repair the model, or leave out --strict to draw it without them",
+                    path.display()
+                )
+            }
+            Self::Busy { path } => {
+                format!(
+                    "{}: another run is working on this; wait until it ends, or take another --slice",
+                    path.display()
+                )
+            }
+            Self::PictureTooLarge { .. } => {
+                let sentence = sentence.replacen("size", "--size", 1);
+                sentence
+                    .strip_suffix(BACKEND_FOR_LARGER)
+                    .map_or_else(|| sentence.clone(), |start| format!("{start}a --backend that draws larger ones"))
+            }
+            Self::Gl { .. } | Self::ContextLost { .. } => match sentence.rsplit_once(ANOTHER_BACKEND) {
+                Some((start, end)) => format!("{start}--backend osmesa{}", end.replacen("size", "--size", 1)),
+                None => sentence,
+            },
+            _ => sentence,
+        }
+    }
+
+    /// A GL error.
+    pub fn gl(during: impl Into<String>, what: impl Into<String>) -> Self {
+        Self::Gl { during: during.into(), what: what.into() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_missing_is_told_from_one_that_is_wrong() {
+        use std::error::Error as _;
+        let missing = Error::model("a.obj", "there is none").because(&io::ErrorKind::NotFound.into());
+        let wrong = Error::model("a.obj", "it is damaged").at(7);
+        assert_eq!(
+            (missing.to_string(), wrong.to_string()),
+            ("a.obj: there is none".into(), "a.obj: line 7: it is damaged".into())
+        );
+        assert!(missing.is_missing_file() && missing.source().is_some() && missing.kind() == "model");
+        assert!(!wrong.is_missing_file() && wrong.source().is_none() && wrong.kind() == "model");
+        let full = Error::output("a.png", "no room").because(&io::ErrorKind::StorageFull.into());
+        assert!(full.is_disk_full() && full.kind() == "disk-full" && Error::Cancelled.io_kind().is_none());
+    }
+
+    #[test]
+    fn only_the_command_line_speaks_of_dashes() {
+        let too_large = Error::PictureTooLarge {
+            width: 9000,
+            height: 10,
+            limit_width: 4096,
+            limit_height: 4096,
+            renderer: "Voodoo 2".to_owned(),
+        };
+        let strict = Error::Strict { path: "a.obj".into(), defects: "2 empty faces".to_owned() };
+        let lost = Error::ContextLost { during: "drawing".to_owned(), what: "GL_OUT_OF_MEMORY".to_owned() };
+        for (error, plain, dashed) in [
+            (Error::value("tones", 4, "too many"), "tones 4: too many", "--tones 4: too many"),
+            (Error::setting("o", "it is taken"), "o: it is taken", "-o: it is taken"),
+            (
+                Error::settings(&["fov", "near", "far"], "wrong"),
+                "fov, near and far: wrong",
+                "--fov, --near and --far: wrong",
+            ),
+            (
+                too_large,
+                "size 9000x10: the largest picture Voodoo 2 can draw is 4096x4096; ask for a smaller one, or see `tinta info` \
+                 for a backend that draws larger ones",
+                "--size 9000x10: the largest picture Voodoo 2 can draw is 4096x4096; ask for a smaller one, or see `tinta info` \
+                 for a --backend that draws larger ones",
+            ),
+            (
+                strict,
+                "a.obj: 2 empty faces; repair the model, or leave out strict to draw it without them",
+                "a.obj: 2 empty faces; repair the model, or leave out --strict to draw it without them",
+            ),
+            (
+                Error::gl("drawing", "GL_SIZE"),
+                "the GL driver failed in drawing (GL_SIZE); try the backend osmesa, or a smaller size",
+                "the GL driver failed in drawing (GL_SIZE); try --backend osmesa, or a smaller --size",
+            ),
+            (
+                lost,
+                "the GL context was lost in drawing (GL_OUT_OF_MEMORY): the driver reset its device; draw again, and \
+                 if that fails too, try the backend osmesa or a smaller size",
+                "the GL context was lost in drawing (GL_OUT_OF_MEMORY): the driver reset its device; draw again, and \
+                 if that fails too, try --backend osmesa or a smaller --size",
+            ),
+        ] {
+            assert_eq!((error.to_string(), error.with_dashes()), (plain.to_owned(), dashed.to_owned()));
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Faces that lie on each other, one each way: a thin part modelled as two sheets, as the wings of many games' models are.
+//!
+//! In: a mesh. Out: how many pairs there are of which a picture may show the side that is turned away. Where both sheets have
+//! the same corners chance decides, and where the file's coarse coordinates have moved one through the other the wrong side
+//! is nearer. A plate that is thin but whole is no such pair: each of its faces lies behind the other's back.
+
+use crate::bvh::{Box3, BoxTree};
+use crate::limits::DOUBLED_FACES;
+use crate::mesh::{Mesh, triangle_normal};
+use crate::tolerances::{DOUBLED, DOUBLED_AREA};
+use glam::DVec3;
+
+/// Pairs whose middles are near each other that are looked at, as a multiple of the faces: a sound mesh has hardly any.
+const PAIRS_OF_A_FACE: usize = 100;
+
+/// A face, its middle and how near another must come.
+struct Face {
+    corners: [DVec3; 3],
+    middle: DVec3,
+    near: f64,
+}
+
+/// How many pairs of faces lie on each other, one each way, and do not keep their sides apart. Not counted are faces too small to
+/// matter in a picture, and those of meshes of more than [`DOUBLED_FACES`] faces, where nobody looks.
+///
+/// ```
+/// use tinta_geometry::{LoadOptions, Mesh, hiding::doubled_faces, glam::DVec3};
+///
+/// let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+/// let leaf = Mesh::of_triangles("a leaf", corners, &[[0, 1, 2], [2, 1, 0]], &LoadOptions::default())?;
+/// assert_eq!(doubled_faces(&leaf), 1);
+/// # Ok::<(), tinta_geometry::Error>(())
+/// ```
+pub fn doubled_faces(mesh: &Mesh) -> usize {
+    if mesh.triangles.len() > DOUBLED_FACES {
+        return 0;
+    }
+    let (low, high) = mesh.bounds();
+    let origin = (low + high) * 0.5;
+    let face = |triangle: &[u32; 3]| {
+        let corners @ [a, b, c] = triangle.map(|corner| mesh.positions[corner as usize] - origin);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        Face { corners, middle: (a + b + c) / 3.0, near: longest * DOUBLED }
+    };
+    let faces: Vec<Face> = mesh.triangles.iter().map(face).collect();
+    let area = |face: &Face| {
+        let [a, b, c] = face.corners;
+        (b - a).cross(c - a).length()
+    };
+    let least: f64 = faces.iter().map(area).sum::<f64>() * DOUBLED_AREA;
+    let faces: Vec<Face> = faces.into_iter().filter(|face| area(face) > least).collect();
+    let boxes: Vec<Box3> =
+        faces.iter().map(|face| Box3::new(face.middle - face.near, face.middle + face.near)).collect();
+    let (tree, order) = BoxTree::new(&boxes);
+    let (mut doubled, mut looked_at) = (0, 0);
+    tree.pairs(0..tree.group_count(), |first, second| {
+        let [first, second] = [first, second].map(|place| &faces[order[place as usize] as usize]);
+        doubled += usize::from(are_doubled(first, second));
+        looked_at += 1;
+        looked_at > faces.len().saturating_mul(PAIRS_OF_A_FACE)
+    });
+    doubled
+}
+
+/// Whether the corners of two faces lie near each other, in opposite order, and the second is not behind the first's back.
+fn are_doubled(first: &Face, second: &Face) -> bool {
+    let (near, [a, b, c]) = (first.near.min(second.near), first.corners);
+    let [p, q, r] = second.corners;
+    // Round the other way from each corner of the second.
+    let turned = [[p, r, q], [q, p, r], [r, q, p]];
+    let near_corners =
+        turned.iter().find(|corners| [a, b, c].iter().zip(*corners).all(|(one, other)| one.distance(*other) < near));
+    let (Some(corners), Some(normal)) = (near_corners, triangle_normal([a, b, c])) else { return false };
+    // Corners that both share say nothing of which is in front.
+    let apart = [a, b, c].into_iter().zip(corners).filter(|(one, other)| one != *other);
+    let in_front: Vec<f64> = apart.map(|(one, other)| (*other - one).dot(normal)).collect();
+    in_front.is_empty() || in_front.iter().any(|distance| *distance > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::LoadOptions;
+
+    fn doubled(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> usize {
+        let corners = corners.iter().map(|corner| DVec3::from_array(*corner)).collect();
+        doubled_faces(&Mesh::of_triangles("a leaf", corners, triangles, &LoadOptions::default()).unwrap())
+    }
+
+    #[test]
+    fn faces_with_the_same_corners_are_counted_once_a_pair() {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        assert_eq!(doubled(&corners, &[[0, 1, 2], [0, 1, 3]]), 0);
+        assert_eq!(doubled(&corners, &[[0, 1, 2], [2, 1, 0]]), 1);
+        assert_eq!(doubled(&corners, &[[0, 1, 2], [0, 2, 1], [3, 1, 0], [1, 3, 0]]), 2);
+        // The same from the same side is dropped when it is read.
+        assert_eq!(doubled(&corners, &[[0, 1, 2], [1, 2, 0]]), 0);
+    }
+
+    #[test]
+    fn two_sheets_that_pass_through_each_other_are_doubled_and_a_thin_plate_is_not() {
+        let sheets = |distance: f64, tilt: f64| {
+            let upper = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+            let lower = upper.map(|[x, y, _]| [x, y, tilt * (x + y) - distance]);
+            doubled(&[upper, lower].concat(), &[[0, 1, 2], [3, 5, 4]])
+        };
+        assert_eq!(sheets(0.02, 0.0), 0, "the lower one is below, as its back says");
+        assert_eq!(sheets(-0.02, 0.0), 1, "the lower one is above");
+        assert_eq!(sheets(0.02, 0.04), 1, "they cross");
+        assert_eq!(sheets(-0.5, 0.0), 0, "they are far apart");
+    }
+
+    #[test]
+    fn closed_models_have_none() {
+        for name in ["gear", "open-box", "ant", "bust", "pawn"] {
+            let path = format!("../../models/{name}.obj");
+            let mesh = crate::mesh::load(&path, &LoadOptions::default()).unwrap().mesh;
+            assert_eq!(doubled_faces(&mesh), 0, "{name}");
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Every limit on what is read from a file, with its unit and its reason.
+//!
+//! A file's own numbers are compared with what the file can hold before memory is asked for. What is left is bounded here:
+//! reading a model takes at most [`MEMORY_FACTOR`] times the bytes read and [`MEMORY_SLACK_BYTES`]; a picture has limits of its
+//! own, as a few bytes may rightly be a large one. The document `docs/limits.md` lists them all, which a test checks.
+//!
+//! ```
+//! // Eight thousand pixels a side, four bytes each, is the largest picture believed.
+//! assert_eq!(tinta_geometry::limits::PICTURE_BYTES, 8192 * 8192 * 4);
+//! ```
+
+/// Most main memory that reading a model takes, in its files' bytes, beyond [`MEMORY_SLACK_BYTES`].
+pub const MEMORY_FACTOR: usize = 20;
+
+/// Main memory that reading takes whatever the file's size, bytes: tables, threads' buffers, small files of dense formats.
+pub const MEMORY_SLACK_BYTES: usize = 64 << 20;
+
+/// Largest model file, bytes: vertices and corners are counted in 32 bits.
+pub const MODEL_BYTES: u64 = 4 << 30;
+
+/// Largest material file of an OBJ model, bytes.
+pub const MATERIAL_FILE_BYTES: u64 = 64 << 20;
+
+/// Largest picture file, bytes: the largest picture without any compression, with 16 bits a channel, is little more.
+pub const PICTURE_FILE_BYTES: u64 = 640 << 20;
+
+/// Largest file of measured rows, bytes.
+pub const ROWS_BYTES: u64 = 1 << 30;
+
+/// Largest list of a batch's jobs, and largest file of what is written down of them, bytes.
+pub const BATCH_BYTES: u64 = 1 << 30;
+
+/// Longest line of such a list, bytes: some hundred times what all options need.
+pub const JOB_BYTES: usize = 64 << 10;
+
+/// Longest name of a job, bytes: a table can still show it.
+pub const JOB_ID_BYTES: usize = 200;
+
+/// Longest side of a picture, pixels: the largest texture that OpenGL drivers take.
+pub const PICTURE_SIDE_PX: u32 = 16_384;
+
+/// Most memory for a picture's pixels at four bytes each: 8192 x 8192. A larger picture is read where its file has at least
+/// a [`MEMORY_FACTOR`]th of that, as photographs have and pictures made to fill memory have not.
+pub const PICTURE_BYTES: u64 = 256 << 20;
+
+/// Most memory for all pictures on a model's materials, bytes, by the same rule.
+pub const MODEL_PICTURES_BYTES: u64 = 1 << 30;
+
+/// Most pixels that a byte of a picture file can stand for in any format read here: eight in a byte, of which PNG's
+/// compression makes 1032 from one.
+pub const PIXELS_A_BYTE: u64 = 8 * 1032;
+
+/// Most triangles of a model: their corners are counted in 32 bits.
+pub const TRIANGLES: usize = 1 << 30;
+
+/// Most corners of a polygon that is not convex: cutting it may take up to the square of their number, a third of a second for
+/// the slowest known of this many. Longer ones are left out and counted as triangles without area.
+pub const CONCAVE_CORNERS: usize = 32_768;
+
+/// Most corners of a polygon that crosses itself: cutting it may take their cube. Longer ones are left out likewise.
+pub const CROSSING_CORNERS: usize = 1024;
+
+/// Longest header of a PLY file, bytes.
+pub const PLY_HEADER_BYTES: usize = 64 << 10;
+
+/// Longest line of a text STL file, bytes; the names of its solids aside.
+pub const STL_LINE_BYTES: usize = 1024;
+
+/// Most materials of a model.
+pub const MATERIALS: usize = 16_384;
+
+/// Most material files that an OBJ model may name.
+pub const MATERIAL_FILES: usize = 1024;
+
+/// Most levels of a glTF file's tree of nodes: skeletons have a few dozen.
+pub const NODE_LEVELS: usize = 4096;
+
+/// Most skins of an MD2 model that are looked for; the game's own limit is 32.
+pub const SKINS: usize = 256;
+
+/// Sentences of one kind that are said about a file; the others are counted.
+pub const REMARKS: usize = 8;
+
+/// Faces of a model beyond which nobody looks for faces that lie on each other: models of games have them, and scans would wait.
+pub const DOUBLED_FACES: usize = 50_000;
+
+/// Most characters of a name out of a file that a message shows.
+pub const SHOWN_CHARACTERS: usize = 120;

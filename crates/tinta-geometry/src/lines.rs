@@ -1,0 +1,287 @@
+//! Exact visible lines: which parts of a model's edges are seen, computed in f64 without GL.
+//!
+//! In: a [`Scene`] and the classes of edges wanted. Out: [`VisibleLines`], every piece of every line inside the picture,
+//! marked visible or hidden: the reference that ink is measured against, and what the SVG is drawn from. A point of a line is
+//! seen if on one of its two sides in the picture no face hides what is just beside it, and no other wanted line lies on it
+//! nearer to the eye. Along an edge that can change only where its image crosses that of a nearer edge at which a surface ends
+//! or turns away (boundary, non-manifold, silhouette), where the edge passes through a face (Appel 1967), and where the image
+//! of another edge lies on its own: where that one begins or ends, and where both are equally near. The edge is cut at all these
+//! places, and each piece is decided by one ray.
+//!
+//! ```
+//! # fn main() -> tinta_geometry::Result<()> {
+//! use std::sync::{Arc, LazyLock};
+//! use tinta_geometry::lines::svg;
+//! use tinta_geometry::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, VisibleLines, load};
+//!
+//! let mesh = load("../../models/open-box.obj", &LoadOptions::default())?.mesh;
+//! let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
+//!
+//! let lines = VisibleLines::of(&scene, &LineSettings::default())?;
+//! assert!(lines.segments.iter().any(|segment| segment.is_visible) && lines.segments.iter().any(|segment| !segment.is_visible));
+//! assert!(svg(&lines, &SvgSettings::default())?.contains("<svg"));
+//! # Ok(())
+//! # }
+//! ```
+
+mod cast;
+mod chain;
+mod class_colors;
+mod faces;
+mod features;
+mod image;
+mod intersections;
+mod mend;
+mod pen;
+mod simplify;
+mod space;
+mod svg;
+mod visibility;
+
+pub use cast::{Hit, first_hits};
+pub use chain::{LinePath, chain};
+pub use class_colors::ClassColors;
+pub use class_colors::line_width;
+pub use svg::{ClassWidths, Hidden, PageSize, SvgSettings, svg, svg_of_paths};
+
+use crate::clock::milliseconds_since;
+use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, SilhouetteRule};
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::scene::{Scene, Size};
+use crate::settings::{HasSettings, Kind, Setting, Table, Value as _};
+use crate::threads::both;
+use faces::Faces;
+use features::{Edges, MendedEdges, Part};
+use glam::DVec2;
+use serde::Serialize;
+use space::Space;
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, LazyLock};
+use std::time::Instant;
+use visibility::Lines;
+
+/// Which lines are wanted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineSettings {
+    /// Classes of lines. Default all but the seams of textures and normals, which belong to a model's data, not its shape.
+    pub classes: ClassSet,
+    /// From which angle between faces an edge is a crease. Default a cosine of 0.4; more degrees find fewer lines.
+    pub crease_angle: CreaseAngle,
+}
+
+impl Default for LineSettings {
+    fn default() -> Self {
+        Self {
+            classes: ClassSet::of(&[
+                Class::Boundary,
+                Class::NonManifold,
+                Class::Silhouette,
+                Class::Crease,
+                Class::Material,
+                Class::Intersection,
+            ]),
+            crease_angle: CreaseAngle::default(),
+        }
+    }
+}
+
+impl HasSettings for LineSettings {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<LineSettings>> =
+            LazyLock::new(|| Table { settings: LineSettings::settings(), defaults: vec![LineSettings::default()] });
+        &TABLE
+    }
+}
+
+impl LineSettings {
+    fn settings() -> Vec<Setting<Self>> {
+        // There for who draws both: inking has the other rule too.
+        let silhouette = Setting::of(
+            "silhouette",
+            "RULE",
+            Kind::Choice(vec!["exact"]),
+            SilhouetteRule::HELP,
+            |_: &Self| SilhouetteRule::Exact.text(),
+            |_, text| match SilhouetteRule::parse(text)? {
+                SilhouetteRule::Exact => Ok(()),
+                SilhouetteRule::Published => Err(Error::value(
+                    "silhouette",
+                    "paper",
+                    "style lines finds silhouettes exactly; leave it out, or draw --style inking into a .png",
+                )
+                .into()),
+            },
+        );
+        vec![
+            ClassSet::setting(ClassSet::ALL, |lines: &mut Self| &mut lines.classes),
+            CreaseAngle::setting(|lines: &mut Self| &mut lines.crease_angle),
+            silhouette.said(SilhouetteRule::SAID_DEFAULT),
+        ]
+    }
+}
+
+/// A piece of a line of one class that is seen or hidden as a whole.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineSegment {
+    /// Its class; of several the first in the order of [`Class::ALL`].
+    pub class: Class,
+    /// Whether it is seen.
+    pub is_visible: bool,
+    /// Where it begins and ends in the picture: pixels from the upper left corner, y down. Pieces that meet at a vertex have
+    /// bit for bit the same end there.
+    pub ends_px: [DVec2; 2],
+    /// The mesh edge it is part of: two vertices by their 0-based numbers in the file; `None` where faces intersect.
+    pub edge: Option<[u32; 2]>,
+    /// The angle between its two faces' normals, degrees; `None` for an edge without exactly two faces with area.
+    pub angle_degrees: Option<f64>,
+    /// The object in the scene.
+    pub object: u32,
+}
+
+/// The lines of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VisibleLines {
+    /// The picture's size.
+    pub size: Size,
+    /// All pieces with any length inside the picture and between the near and the far plane, in a stable order: by
+    /// object, then edge, then along it; intersections last.
+    pub segments: Vec<LineSegment>,
+    /// How many edges there are of each class, each counted in its first one.
+    pub edges: ClassCounts,
+    /// How it went.
+    pub times: LineTimes,
+}
+
+/// Milliseconds of the clock.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct LineTimes {
+    /// Mending, edge list, classes that do not depend on the view, the faces' hierarchy.
+    pub topology_ms: f64,
+    /// Which faces are seen from which side, and the edges between them.
+    pub silhouette_ms: f64,
+    /// Intersections, cuts and rays.
+    pub visibility_ms: f64,
+}
+
+/// How far the work is, for whoever watches from another thread, who may also ask for it to be given up.
+#[derive(Debug, Default)]
+pub struct Progress {
+    done: AtomicUsize,
+    total: AtomicUsize,
+    is_cancelled: AtomicBool,
+}
+
+impl Progress {
+    /// Lines decided and lines in all; 0 and 0 until it is known how many there are.
+    pub fn state(&self) -> (usize, usize) {
+        (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
+    }
+
+    /// Asks for the work to be given up: it then ends soon with [`Error::Cancelled`].
+    pub fn cancel(&self) {
+        self.is_cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the work is to be given up.
+    fn is_cancelled(&self) -> bool {
+        self.is_cancelled.load(Ordering::Relaxed)
+    }
+
+    fn go_on(&self) -> Result<()> {
+        if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }
+    }
+
+    fn begin(&self, total: usize) {
+        self.total.store(total, Ordering::Relaxed);
+    }
+
+    fn advance(&self, count: usize) {
+        self.done.fetch_add(count, Ordering::Relaxed);
+    }
+}
+
+impl VisibleLines {
+    /// Finds the lines of a scene.
+    ///
+    /// # Errors
+    ///
+    /// [`crate::Error::Setting`] when no class is wanted, or the scene has more than 2^30 faces or positions.
+    pub fn of(scene: &Scene, settings: &LineSettings) -> Result<Self> {
+        Self::with_progress(scene, settings, &Progress::default())
+    }
+
+    /// As [`VisibleLines::of`], saying how far it is.
+    ///
+    /// # Errors
+    ///
+    /// As there, and [`Error::Cancelled`] after [`Progress::cancel`].
+    pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
+        if settings.classes.is_empty() {
+            return Err(Error::setting("classes", "name at least one class of lines"));
+        }
+        let all_positions: usize = scene.objects.iter().map(|object| object.mesh.positions.len()).sum();
+        if scene.triangle_count().max(all_positions) > u32::MAX as usize / 4 {
+            return Err(Error::setting("copies", "the scene has too many faces to find its lines; ask for fewer"));
+        }
+        let clock = Instant::now();
+        let space = Space::of(scene);
+        let unmended: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
+        // The hierarchy is built on one thread, the edges on another.
+        let (parts, faces) = both(
+            || {
+                let parts = parts(scene);
+                for part in &parts {
+                    part.edges.get().classes(settings.crease_angle, features::asked(settings));
+                }
+                parts
+            },
+            || Faces::new(&space, &unmended),
+        );
+        let is_mended = parts.iter().any(|part| matches!(part.edges, Edges::Mended(_)));
+        let faces = if is_mended {
+            let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.shape().clone())).collect();
+            Faces::new(&space, &meshes)
+        } else {
+            faces
+        };
+        let topology_ms = milliseconds_since(clock);
+        progress.go_on()?;
+
+        let clock = Instant::now();
+        let (mut lines, mut edges) = features::edge_features(scene, &faces, &parts, settings);
+        let silhouette_ms = milliseconds_since(clock);
+        progress.go_on()?;
+
+        let clock = Instant::now();
+        let (intersections, piercings) = intersections::intersections(&space, &faces);
+        if settings.classes.contains(Class::Intersection) {
+            edges.intersection = intersections.len();
+            lines.extend(features::intersection_features(&faces, &parts, &intersections));
+        }
+        lines.extend(features::near_plane_features(&space, &faces));
+        progress.go_on()?;
+        let segments = Lines::new(&space, &faces, &lines, &piercings).segments(progress);
+        progress.go_on()?;
+        let visibility_ms = milliseconds_since(clock);
+        let times = LineTimes { topology_ms, silhouette_ms, visibility_ms };
+        Ok(Self { size: scene.size, segments, edges, times })
+    }
+}
+
+/// The scene's objects with their edges, mended where that is needed; objects of one mesh share them.
+fn parts(scene: &Scene) -> Vec<Part<'_>> {
+    let mut known: HashMap<*const Mesh, Option<Arc<MendedEdges>>> = HashMap::new();
+    let mut parts = Vec::with_capacity(scene.objects.len());
+    for object in &scene.objects {
+        let (mesh, edges) = (&object.mesh, scene.edges(object));
+        let mend = || mend::mended(mesh, edges.list()).map(|mended| Arc::new(MendedEdges::new(mended)));
+        let edges = match known.entry(Arc::as_ptr(mesh)).or_insert_with(mend) {
+            None => Edges::OfScene(edges),
+            Some(edges) => Edges::Mended(edges.clone()),
+        };
+        parts.push(Part { object, edges });
+    }
+    parts
+}

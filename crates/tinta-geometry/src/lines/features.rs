@@ -1,0 +1,247 @@
+//! The lines of a scene before their visibility is known: edges by class, places where surfaces end, intersections.
+
+use super::LineSettings;
+use super::faces::{Faces, Own, near_crossing};
+use super::intersections::Intersection;
+use super::mend::Mended;
+use super::space::Space;
+use crate::edges::{Class, ClassCounts, ClassSet, EdgeList, Incidence, MeshEdges, SilhouetteRule};
+use crate::mesh::{Mesh, triangle_normal};
+use crate::scene::{Object, Scene};
+use glam::DVec3;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A line in the eye's space.
+#[derive(Debug, Clone)]
+pub(super) struct Feature {
+    /// What it is drawn as; `None` for one that is not wanted and only hides others.
+    pub class: Option<Class>,
+    /// Whether a surface ends or turns away at it, so that what is behind may appear or disappear there.
+    pub occludes: bool,
+    pub object: u32,
+    pub own: Own,
+    pub ends: [DVec3; 2],
+    /// The distance below which its object's positions count as one, file units.
+    pub weld: f64,
+    /// Vertices in the file.
+    pub edge: Option<[u32; 2]>,
+    pub angle_degrees: Option<f64>,
+}
+
+/// An object with its edges.
+pub(super) struct Part<'a> {
+    pub object: &'a Object,
+    pub edges: Edges<'a>,
+}
+
+/// The edges of the scene's own mesh, or of a mended one.
+pub(super) enum Edges<'a> {
+    OfScene(&'a MeshEdges),
+    Mended(Arc<MendedEdges>),
+}
+
+/// The edges of a mended mesh with the faces that hide.
+pub(super) struct MendedEdges {
+    edges: MeshEdges,
+    shape: Arc<Mesh>,
+    whole_faces: Vec<u32>,
+}
+
+impl MendedEdges {
+    pub(super) fn new(mended: Mended) -> Self {
+        Self { edges: MeshEdges::new(mended.split), shape: mended.shape, whole_faces: mended.whole_faces }
+    }
+}
+
+impl Edges<'_> {
+    pub(super) fn get(&self) -> &MeshEdges {
+        match self {
+            Self::OfScene(edges) => edges,
+            Self::Mended(mended) => &mended.edges,
+        }
+    }
+}
+
+impl Part<'_> {
+    /// The faces that hide.
+    pub(super) fn shape(&self) -> &Arc<Mesh> {
+        match &self.edges {
+            Edges::OfScene(edges) => edges.mesh(),
+            Edges::Mended(mended) => &mended.shape,
+        }
+    }
+
+    /// Of a face of the edge list the number of the one in the shape that it is a part of.
+    fn whole_face(&self, face: u32) -> u32 {
+        match &self.edges {
+            Edges::OfScene(_) => face,
+            Edges::Mended(mended) => mended.whole_faces[face as usize],
+        }
+    }
+
+    /// Whether an edge runs through the inside of a face that was split.
+    fn is_within_a_face(&self, edge: u32) -> bool {
+        matches!(self.edges, Edges::Mended(_))
+            && matches!(self.edges.get().list().faces(edge), &[first, second] if self.whole_face(first) == self.whole_face(second))
+    }
+}
+
+/// Classes at which a surface ends or turns away.
+const OCCLUDING: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, Class::Silhouette]);
+
+/// The classes of a mesh's edges that have to be known for some settings.
+pub(super) fn asked(settings: &LineSettings) -> ClassSet {
+    settings.classes.or(OCCLUDING).and(ClassSet::EDGES)
+}
+
+/// The edges of all parts that are wanted or hide others, in a stable order, and how many are wanted of each class.
+pub(super) fn edge_features(
+    scene: &Scene,
+    faces: &Faces,
+    parts: &[Part<'_>],
+    settings: &LineSettings,
+) -> (Vec<Feature>, ClassCounts) {
+    let mut features = Vec::new();
+    let mut counts = ClassCounts::default();
+    let (mut first_position, mut first_face) = (0, 0);
+    for (number, part) in parts.iter().enumerate() {
+        let edges = part.edges.get();
+        let list = edges.list();
+        let classes = edges.classes(settings.crease_angle, asked(settings));
+        let silhouette = edges.silhouette(scene.eye(part.object, SilhouetteRule::Exact), SilhouetteRule::Exact);
+        let (mesh, first_number) = (edges.mesh(), first_face);
+        let number_of = |face: u32| first_number + part.whole_face(face);
+        first_face += part.shape().triangles.len() as u32;
+        let edge_on = edges_of_edge_on_faces(faces, list, first_number..first_face, number_of);
+        for edge in merged(merged(classes.marked.iter().copied(), silhouette.iter().copied()), edge_on.iter().copied())
+        {
+            let mut of_edge = classes.of_edges[edge as usize];
+            if part.is_within_a_face(edge) {
+                continue;
+            }
+            let is_beside_edge_on =
+                || edge_on.binary_search(&edge).is_ok() && ends_edge_on(faces, list, edge, number_of);
+            if silhouette.binary_search(&edge).is_ok() || is_beside_edge_on() {
+                of_edge = of_edge.or(ClassSet::of(&[Class::Silhouette]));
+            }
+            let class = of_edge.and(settings.classes).first();
+            if let Some(class) = class {
+                *counts.of(class) += 1;
+            }
+            let occludes = !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
+            if class.is_none() && !occludes {
+                continue;
+            }
+            let ends = list.positions()[edge as usize];
+            features.push(Feature {
+                class,
+                occludes,
+                object: number as u32,
+                own: Own::Edge(ends.map(|position| position + first_position)),
+                ends: ends.map(|position| faces.positions[(position + first_position) as usize]),
+                weld: faces.weld(first_position),
+                edge: Some(ends.map(|position| mesh.file_vertices[position as usize])),
+                angle_degrees: angle(mesh, list, edge),
+            });
+        }
+        first_position += mesh.positions.len() as u32;
+    }
+    (features, counts)
+}
+
+/// The lines where faces intersect, as features.
+pub(super) fn intersection_features(faces: &Faces, parts: &[Part<'_>], intersections: &[Intersection]) -> Vec<Feature> {
+    let starts: Vec<u32> = parts
+        .iter()
+        .scan(0, |next, part| Some(std::mem::replace(next, *next + part.shape().triangles.len() as u32)))
+        .collect();
+    let feature = |intersection: &Intersection| {
+        let [first, second] = intersection.faces.map(|face| triangle_normal(faces.corners(face)));
+        Feature {
+            class: Some(Class::Intersection),
+            occludes: false,
+            object: (starts.partition_point(|start| *start <= faces.numbers[intersection.faces[0] as usize]) - 1)
+                as u32,
+            own: Own::Faces(intersection.faces),
+            ends: intersection.ends,
+            weld: faces.weld(faces.triangles[intersection.faces[0] as usize][0]),
+            edge: None,
+            angle_degrees: first.zip(second).map(|(first, second)| degrees_between(first, second)),
+        }
+    };
+    intersections.iter().map(feature).collect()
+}
+
+/// Where faces are cut off by the near plane: what is behind appears there.
+pub(super) fn near_plane_features(space: &Space, faces: &Faces) -> Vec<Feature> {
+    let cut = |face: &u32| {
+        let corners = faces.corners(*face);
+        let mut points = (0..3).filter_map(|side| near_crossing(space, corners[side], corners[(side + 1) % 3]));
+        Some(Feature {
+            class: None,
+            occludes: true,
+            object: 0,
+            own: Own::Faces([*face; 2]),
+            ends: [points.next()?, points.next()?],
+            weld: 0.0,
+            edge: None,
+            angle_degrees: None,
+        })
+    };
+    faces.cut_by_near.iter().filter_map(cut).collect()
+}
+
+/// Edges of the faces that are seen edge-on: there a surface that faces the eye may go over into one that does not, without
+/// any single edge between the two.
+fn edges_of_edge_on_faces(
+    faces: &Faces,
+    list: &EdgeList,
+    numbers: Range<u32>,
+    number_of: impl Fn(u32) -> u32,
+) -> Vec<u32> {
+    let is_edge_on = |face: &u32| faces.edge_on.binary_search(&number_of(*face)).is_ok();
+    if faces.edge_on.iter().any(|number| numbers.contains(number)) {
+        (0..list.len() as u32).filter(|edge| list.faces(*edge).iter().any(is_edge_on)).collect()
+    } else {
+        Vec::new()
+    }
+}
+
+/// Whether of an edge's two faces one is seen edge-on and the other is not: to an eye just beside this one the first shows its
+/// front or its back, whatever the last digit says of it here, and to one of both the edge is silhouette.
+fn ends_edge_on(faces: &Faces, list: &EdgeList, edge: u32, number_of: impl Fn(u32) -> u32) -> bool {
+    let is_edge_on = |face: u32| faces.edge_on_for_sure.binary_search(&number_of(face)).is_ok();
+    matches!(list.faces(edge), &[first, second] if is_edge_on(first) != is_edge_on(second))
+}
+
+/// The angle between an edge's two faces, of one orientation, degrees.
+fn angle(mesh: &Mesh, list: &EdgeList, edge: u32) -> Option<f64> {
+    let &[first, second] = list.faces(edge) else { return None };
+    let normal =
+        |face: u32| triangle_normal(mesh.triangles[face as usize].map(|corner| mesh.positions[corner as usize]));
+    let (first, second) = (normal(first)?, normal(second)?);
+    let is_reversed = list.incidence()[edge as usize] == Incidence::InnerReversed;
+    Some(degrees_between(first, if is_reversed { -second } else { second }))
+}
+
+/// The angle between two unit vectors, exact also where it is small.
+fn degrees_between(first: DVec3, second: DVec3) -> f64 {
+    first.cross(second).length().atan2(first.dot(second)).to_degrees()
+}
+
+/// Two ascending sequences as one, each number once.
+fn merged(first: impl Iterator<Item = u32>, second: impl Iterator<Item = u32>) -> impl Iterator<Item = u32> {
+    let (mut first, mut second) = (first.peekable(), second.peekable());
+    std::iter::from_fn(move || {
+        let next = match (first.peek(), second.peek()) {
+            (Some(a), Some(b)) => *a.min(b),
+            (Some(a), None) => *a,
+            (None, Some(b)) => *b,
+            (None, None) => return None,
+        };
+        first.next_if_eq(&next);
+        second.next_if_eq(&next);
+        Some(next)
+    })
+}

@@ -1,0 +1,170 @@
+//! glTF 2.0, as JSON with its data beside it (`.gltf`) or all in one file (`.glb`): what its default scene shows, as it rests.
+//!
+//! The gltf-json crate gives the JSON its types. Data, accessors and nodes are followed here, through checked look-ups only: the gltf crate's
+//! readers trust every index and offset once its validation has passed, which does not look at buffers, and its importer
+//! opens whatever file a buffer names. What is read of a file and what is left out: docs/formats.md.
+
+mod accessors;
+mod buffers;
+mod container;
+mod materials;
+mod nodes;
+mod parts;
+mod uri;
+
+use super::folder::Folder;
+use super::load::LoadOptions;
+use super::skin;
+use super::soup::{Soup, is_too_much};
+use crate::error::{Error, Result};
+use crate::files::shown;
+use accessors::Accessors;
+use buffers::Buffers;
+use gltf_json::Root;
+use materials::Materials;
+use nodes::Nodes;
+use parts::Outline;
+
+/// Extensions that change nothing drawn here, or that are read.
+const UNDERSTOOD: [&str; 4] =
+    ["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual", "KHR_xmp_json_ld"];
+
+/// Reads a glTF or GLB file's bytes. `path` is for messages; its data and pictures are looked for in `folder`.
+pub(super) fn read(
+    bytes: &[u8],
+    path: &str,
+    options: &LoadOptions,
+    folder: &Folder,
+    remarks: &mut Vec<String>,
+) -> Result<Soup> {
+    let mut soup = contents(bytes, path, folder, remarks).map_err(|problem| Error::model(path, problem))?;
+    if options.skin.is_none() {
+        skin::find_all(&mut soup, folder, path, remarks);
+    }
+    Ok(soup)
+}
+
+/// The same; the error is a sentence without the file's name.
+fn contents(bytes: &[u8], path: &str, folder: &Folder, remarks: &mut Vec<String>) -> std::result::Result<Soup, String> {
+    let (json, data) = container::open(bytes)?;
+    let root = container::parse(json)?;
+    refuse_unknown_extensions(&root)?;
+    let buffers = Buffers::of(&root, data, folder)?;
+    let accessors = Accessors { root: &root, buffers: &buffers };
+    let nodes = Nodes::of(&root)?;
+    let Materials { list, coordinates, unread_pictures } = Materials::of(&root, &buffers, path)?;
+    let mut soup =
+        Soup { materials: list, files: buffers.files.clone(), bytes_beside: buffers.bytes_beside, ..Soup::default() };
+    let outlines = nodes.outlines(&root, &accessors, &coordinates)?;
+    refuse_too_much(&outlines, bytes.len() + buffers.bytes_beside)?;
+    let mut left_out = LeftOut { unread_pictures, ..LeftOut::of(&root) };
+    for (outline, places) in &outlines {
+        left_out.primitives += outline.others;
+        left_out.has_colors |= outline.has_colors;
+        parts::put(&mut soup, outline, places, &accessors, &nodes)?;
+    }
+    remarks.extend(left_out.sentence(path));
+    Ok(soup)
+}
+
+/// Refuses what cannot be understood without an extension that is not read, and says how to do without it.
+fn refuse_unknown_extensions(root: &Root) -> std::result::Result<(), String> {
+    match root.extensions_required.iter().find(|name| !is_understood(name)) {
+        None => Ok(()),
+        Some(name) => {
+            let remedy = match name.as_str() {
+                "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
+                    "decompress it, for instance with: gltf-transform copy IN.glb OUT.glb"
+                }
+                "KHR_texture_basisu" => "save its pictures as PNG, for instance with: gltf-transform ktxdecompress",
+                "EXT_texture_webp" | "EXT_texture_avif" => {
+                    "save its pictures as PNG, for instance with: gltf-transform png"
+                }
+                _ => "export it without that extension",
+            };
+            Err(format!("it needs the extension {}, which tinta does not read; {remedy}", shown(name)))
+        }
+    }
+}
+
+fn is_understood(extension: &str) -> bool {
+    // Materials' extensions add to the base colour what no style here draws.
+    UNDERSTOOD.contains(&extension) || extension.starts_with("KHR_materials_")
+}
+
+/// Refuses meshes that nodes repeat beyond what the file is worth, before anything is made of them.
+fn refuse_too_much(outlines: &[(Outline<'_>, Vec<usize>)], file_bytes: usize) -> std::result::Result<(), String> {
+    let sum = |count: fn(&Outline<'_>) -> usize| -> usize {
+        outlines
+            .iter()
+            .map(|(outline, places)| count(outline).saturating_mul(places.len()))
+            .fold(0, usize::saturating_add)
+    };
+    let (vertices, triangles) = (sum(|outline| outline.vertices()), sum(|outline| outline.triangles()));
+    if is_too_much(file_bytes, vertices, triangles.saturating_mul(3), triangles) {
+        return Err(format!(
+            "its nodes draw {vertices} vertices and {triangles} triangles, which take more than {} times the file's size in \
+             memory; draw fewer of its parts at once",
+            crate::limits::MEMORY_FACTOR
+        ));
+    }
+    Ok(())
+}
+
+/// What a file holds and is not drawn, to be said in one sentence.
+#[derive(Default)]
+struct LeftOut {
+    /// Primitives that are points or lines.
+    primitives: usize,
+    has_colors: bool,
+    animations: usize,
+    cameras: usize,
+    scenes: usize,
+    see_through: usize,
+    /// Textures that only an extension knows a picture for.
+    unread_pictures: usize,
+    extensions: Vec<String>,
+}
+
+impl LeftOut {
+    fn of(root: &Root) -> Self {
+        let unknown = root.extensions_used.iter().filter(|name| !is_understood(name));
+        Self {
+            animations: root.animations.len(),
+            cameras: root.cameras.len(),
+            scenes: root.scenes.len().saturating_sub(1),
+            see_through: materials::see_through(root),
+            extensions: unknown.map(|name| shown(name)).take(crate::limits::REMARKS).collect(),
+            ..Self::default()
+        }
+    }
+
+    fn sentence(&self, path: &str) -> Option<String> {
+        let counted = |count: usize, one: &str, many: &str| match count {
+            0 => None,
+            1 => Some(format!("1 {one}")),
+            count => Some(format!("{count} {many}")),
+        };
+        let mut parts: Vec<String> = [
+            counted(self.primitives, "primitive of points or lines", "primitives of points or lines"),
+            self.has_colors.then(|| "colours at vertices".to_owned()),
+            counted(self.see_through, "material's transparency", "materials' transparency"),
+            counted(
+                self.unread_pictures,
+                "picture in an unsupported format or at an unsupported address",
+                "pictures in unsupported formats or at unsupported addresses",
+            ),
+            counted(self.animations, "animation (drawn in its rest pose)", "animations (drawn in its rest pose)"),
+            counted(self.scenes, "other scene", "other scenes"),
+            counted(self.cameras, "camera", "cameras"),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        parts.extend(self.extensions.iter().map(|name| format!("the extension {name}")));
+        (!parts.is_empty()).then(|| format!("{path}: not drawn: {}", parts.join(", ")))
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests;

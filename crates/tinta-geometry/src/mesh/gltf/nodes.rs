@@ -1,0 +1,121 @@
+//! A glTF file's nodes: which of them its scene shows, and where each lies.
+
+use super::accessors::Accessors;
+use super::materials::Coordinates;
+use super::parts::Outline;
+use crate::limits::NODE_LEVELS;
+use glam::{DMat4, DQuat, DVec3};
+use gltf_json::{Index, Node, Root, Scene};
+use std::collections::BTreeMap;
+
+/// What the scene shows.
+pub(super) struct Nodes {
+    /// For each node of the file where it lies: scene from node.
+    pub scene_from_node: Vec<DMat4>,
+    /// The nodes of the scene, each once.
+    shown: Vec<usize>,
+}
+
+impl Nodes {
+    /// Follows the tree of nodes, which must be one: without circles, every node below one other at most.
+    pub(super) fn of(root: &Root) -> Result<Self, String> {
+        let parents = parents(root)?;
+        let mut scene_from_node = vec![DMat4::IDENTITY; root.nodes.len()];
+        let tops = (0..parents.len()).filter(|node| parents[*node].is_none());
+        let mut reached = 0;
+        let mut waiting: Vec<(usize, usize)> = tops.map(|node| (node, 1)).collect();
+        while let Some((number, level)) = waiting.pop() {
+            if level > NODE_LEVELS {
+                return Err(format!("its nodes are more than {NODE_LEVELS} levels deep; export it with fewer"));
+            }
+            reached += 1;
+            let node = &root.nodes[number];
+            let above = parents[number].map_or(DMat4::IDENTITY, |parent| scene_from_node[parent]);
+            scene_from_node[number] = above * parent_from_node(node);
+            waiting.extend(children(node).map(|child| (child.value(), level + 1)));
+        }
+        if reached < root.nodes.len() {
+            return Err("its nodes form a cycle; export it again".to_owned());
+        }
+        Ok(Self { scene_from_node, shown: shown(root)? })
+    }
+
+    /// The meshes that are shown, each with the nodes that show it.
+    pub(super) fn outlines<'a>(
+        &self,
+        root: &'a Root,
+        accessors: &Accessors<'a>,
+        coordinates: &'a [Coordinates],
+    ) -> Result<Vec<(Outline<'a>, Vec<usize>)>, String> {
+        let mut places: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for node in &self.shown {
+            if let Some(mesh) = root.nodes[*node].mesh {
+                places.entry(mesh.value()).or_default().push(*node);
+            }
+        }
+        let outline = |(mesh, nodes): (usize, Vec<usize>)| {
+            let mesh =
+                root.meshes.get(mesh).ok_or_else(|| format!("its mesh {mesh} does not exist; export it again"))?;
+            Ok((Outline::of(mesh, root, accessors, coordinates)?, nodes))
+        };
+        places.into_iter().map(outline).collect()
+    }
+}
+
+fn children(node: &Node) -> impl Iterator<Item = Index<Node>> {
+    node.children.iter().flatten().copied()
+}
+
+/// The node that each node lies below.
+fn parents(root: &Root) -> Result<Vec<Option<usize>>, String> {
+    let mut parents = vec![None; root.nodes.len()];
+    for (number, node) in root.nodes.iter().enumerate() {
+        for child in children(node) {
+            match parents.get_mut(child.value()) {
+                None => return Err(format!("its node {child} does not exist; export it again")),
+                Some(Some(_)) => return Err(format!("its node {child} has two parents; export it again")),
+                Some(parent) => *parent = Some(number),
+            }
+        }
+    }
+    Ok(parents)
+}
+
+/// The nodes of the default scene, or of the first; of all where there is no scene.
+fn shown(root: &Root) -> Result<Vec<usize>, String> {
+    let mut waiting: Vec<usize> = match root.scene.unwrap_or(Index::new(0)) {
+        _ if root.scenes.is_empty() => return Ok((0..root.nodes.len()).collect()),
+        scene => {
+            let Scene { nodes, .. } =
+                root.get(scene).ok_or_else(|| format!("its scene {scene} does not exist; export it again"))?;
+            nodes.iter().rev().map(Index::value).collect()
+        }
+    };
+    let (mut is_shown, mut shown) = (vec![false; root.nodes.len()], Vec::new());
+    while let Some(number) = waiting.pop() {
+        let Some(seen) = is_shown.get_mut(number) else {
+            return Err(format!("its node {number} does not exist; export it again"));
+        };
+        // A scene may name a node twice.
+        if !std::mem::replace(seen, true) {
+            shown.push(number);
+            waiting.extend(root.nodes.get(number).into_iter().flat_map(children).map(|child| child.value()));
+        }
+    }
+    Ok(shown)
+}
+
+fn parent_from_node(node: &Node) -> DMat4 {
+    if let Some(matrix) = node.matrix {
+        return DMat4::from_cols_array(&matrix.map(f64::from));
+    }
+    let vector = |given: Option<[f32; 3]>, default| given.map_or(default, |v| DVec3::from_array(v.map(f64::from)));
+    let rotation = DQuat::from_array(node.rotation.unwrap_or_default().0.map(f64::from));
+    // Written with few digits it is not quite of length 1; of length 0 it turns nothing.
+    let rotation = if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
+    DMat4::from_scale_rotation_translation(
+        vector(node.scale, DVec3::ONE),
+        rotation,
+        vector(node.translation, DVec3::ZERO),
+    )
+}

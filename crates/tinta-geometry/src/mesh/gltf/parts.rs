@@ -1,0 +1,338 @@
+//! A glTF mesh's triangles: which of its primitives share vertices, and those vertices in every place that shows them.
+
+use super::accessors::Accessors;
+use super::materials::Coordinates;
+use super::nodes::Nodes;
+use crate::mesh::NONE;
+use crate::mesh::soup::{Corner, Soup};
+use glam::{DMat3, DMat4, DVec3, Vec2};
+use gltf_json::mesh::{Mode, MorphTarget, Primitive, Semantic};
+use gltf_json::validation::Checked::{self, Valid};
+use gltf_json::{Accessor, Index, Mesh, Root, Skin};
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+/// What a mesh holds, before any of it is read.
+pub(super) struct Outline<'a> {
+    mesh: &'a Mesh,
+    sets: Vec<Set<'a>>,
+    pieces: Vec<Piece<'a>>,
+    /// How many primitives are points or lines.
+    pub others: usize,
+    /// Whether vertices have colours.
+    pub has_colors: bool,
+}
+
+/// Vertices that one or several primitives use.
+struct Set<'a> {
+    primitive: &'a Primitive,
+    positions: Index<Accessor>,
+    count: usize,
+    coordinates: Coordinates,
+}
+
+/// A primitive's triangles over the vertices of a set.
+struct Piece<'a> {
+    primitive: &'a Primitive,
+    mode: Mode,
+    set: usize,
+    corners: usize,
+    material: u32,
+}
+
+impl<'a> Outline<'a> {
+    pub(super) fn of(
+        mesh: &'a Mesh,
+        root: &Root,
+        accessors: &Accessors<'a>,
+        coordinates: &'a [Coordinates],
+    ) -> Result<Self, String> {
+        let mut outline = Self { mesh, sets: Vec::new(), pieces: Vec::new(), others: 0, has_colors: false };
+        let mut known = HashMap::new();
+        for primitive in &mesh.primitives {
+            let mode = match primitive.mode {
+                Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => mode,
+                Valid(_) => {
+                    outline.others += 1;
+                    continue;
+                }
+                Checked::Invalid => return Err("it has primitives of an unknown kind; export it again".to_owned()),
+            };
+            // The standard lets data be left out that an extension brings.
+            let Some(positions) = attribute(primitive, Semantic::Positions) else {
+                return Err("it has triangles without positions; export it again".to_owned());
+            };
+            outline.has_colors |= attribute(primitive, Semantic::Colors(0)).is_some();
+            let material = primitive.material.map(|material| material.value());
+            if material.is_some_and(|material| material >= root.materials.len()) {
+                return Err("it uses materials that do not exist; export it again".to_owned());
+            }
+            let read_by =
+                material.and_then(|material| coordinates.get(material)).copied().unwrap_or(Coordinates::DEFAULT);
+            let targets: Vec<_> =
+                primitive.targets.iter().flatten().map(|target| (target.positions, target.normals)).collect();
+            // Materials that change texture coordinates have vertices of their own.
+            let key = (&primitive.attributes, targets, read_by.set, material.filter(|_| read_by.is_changed));
+            let set = match known.get(&key) {
+                Some(set) => *set,
+                None => {
+                    let count = accessors.count(positions)?;
+                    outline.sets.push(Set { primitive, positions, count, coordinates: read_by });
+                    known.insert(key, outline.sets.len() - 1);
+                    outline.sets.len() - 1
+                }
+            };
+            let corners = match primitive.indices {
+                Some(indices) => accessors.count(indices)?,
+                None => outline.sets[set].count,
+            };
+            let material = material.map_or(NONE, |material| material as u32);
+            outline.pieces.push(Piece { primitive, mode, set, corners, material });
+        }
+        Ok(outline)
+    }
+
+    /// How many vertices it has; a set of none counts as one, as it is work too.
+    pub(super) fn vertices(&self) -> usize {
+        self.sets.iter().map(|set| set.count.max(1)).fold(0, usize::saturating_add)
+    }
+
+    /// How many triangles it has at most, likewise.
+    pub(super) fn triangles(&self) -> usize {
+        let triangles = self.pieces.iter().map(|piece| match piece.mode {
+            Mode::Triangles => piece.corners / 3,
+            _ => piece.corners.saturating_sub(2),
+        });
+        triangles.map(|triangles| triangles.max(1)).fold(0, usize::saturating_add)
+    }
+}
+
+fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<Index<Accessor>> {
+    primitive.attributes.get(&Valid(semantic)).copied()
+}
+
+/// A set's vertices as the file has them.
+struct Vertices {
+    positions: Vec<DVec3>,
+    /// Empty or as many as positions, like the next two.
+    normals: Vec<DVec3>,
+    texture_coordinates: Vec<Vec2>,
+    /// The joints that move each vertex, and how much; a vertex has these in each list.
+    weights: Vec<Vec<([f64; 4], [f64; 4])>>,
+}
+
+/// Adds a mesh in all its places.
+pub(super) fn put(
+    soup: &mut Soup,
+    outline: &Outline<'_>,
+    places: &[usize],
+    accessors: &Accessors<'_>,
+    nodes: &Nodes,
+) -> Result<(), String> {
+    let triangles: Vec<Vec<[u32; 3]>> = outline
+        .pieces
+        .iter()
+        .map(|piece| {
+            let indices = match piece.primitive.indices {
+                Some(indices) => accessors.indices(indices, piece.corners)?,
+                None => (0..piece.corners as u32).collect(),
+            };
+            Ok(triangles(&indices, piece.mode))
+        })
+        .collect::<Result<_, String>>()?;
+    let mut skins: HashMap<usize, Vec<DMat4>> = HashMap::new();
+    for place in places {
+        let node = &accessors.root.nodes[*place];
+        let weights = node.weights.as_ref().or(outline.mesh.weights.as_ref()).map_or(&[][..], Vec::as_slice);
+        let joints = match node.skin {
+            None => None,
+            Some(skin) => Some(match skins.entry(skin.value()) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(unknown) => {
+                    let found = accessors.root.get(skin);
+                    let skin = found.ok_or_else(|| format!("its skin {skin} does not exist; export it again"))?;
+                    unknown.insert(joint_matrices(skin, accessors, nodes)?)
+                }
+            }),
+        };
+        let joints = joints.map(|joints| joints.as_slice());
+        let put = |set| {
+            let vertices = Vertices::read(set, weights, joints.is_some(), accessors)?;
+            Placed::put(soup, &vertices, &nodes.scene_from_node[*place], joints)
+        };
+        let sets: Vec<Placed> = outline.sets.iter().map(put).collect::<Result<_, String>>()?;
+        for (piece, triangles) in outline.pieces.iter().zip(&triangles) {
+            sets[piece.set].put_faces(soup, triangles, piece.material);
+        }
+    }
+    Ok(())
+}
+
+/// The triangles that indices stand for, counter-clockwise.
+fn triangles(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
+    // Strips repeat indices to go on elsewhere.
+    let is_triangle = |[a, b, c]: &[u32; 3]| a != b && b != c && a != c;
+    match (mode, indices) {
+        (Mode::TriangleStrip, _) => {
+            let turned = |(place, corners): (usize, &[u32])| match place % 2 {
+                0 => [corners[0], corners[1], corners[2]],
+                _ => [corners[0], corners[2], corners[1]],
+            };
+            indices.windows(3).enumerate().map(turned).filter(is_triangle).collect()
+        }
+        (Mode::TriangleFan, [first, rest @ ..]) => rest.windows(2).map(|pair| [pair[0], pair[1], *first]).collect(),
+        _ => indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect(),
+    }
+}
+
+/// For each joint of a skin: scene from the mesh as it was bound to it.
+fn joint_matrices(skin: &Skin, accessors: &Accessors<'_>, nodes: &Nodes) -> Result<Vec<DMat4>, String> {
+    if skin.joints.len() > nodes.scene_from_node.len() {
+        return Err("its skin has more joints than there are nodes; export it again".to_owned());
+    }
+    let bound: Option<Vec<[f64; 16]>> =
+        skin.inverse_bind_matrices.map(|index| accessors.numbers(index, skin.joints.len())).transpose()?;
+    let matrix = |(place, joint): (usize, &Index<gltf_json::Node>)| {
+        let scene_from_joint = nodes.scene_from_node.get(joint.value());
+        let scene_from_joint =
+            scene_from_joint.ok_or_else(|| format!("its node {joint} does not exist; export it again"))?;
+        let joint_from_mesh = bound.as_ref().and_then(|bound| bound.get(place)).map(DMat4::from_cols_array);
+        Ok(*scene_from_joint * joint_from_mesh.unwrap_or(DMat4::IDENTITY))
+    };
+    skin.joints.iter().enumerate().map(matrix).collect()
+}
+
+impl Vertices {
+    fn read(set: &Set<'_>, morphs: &[f32], is_skinned: bool, accessors: &Accessors<'_>) -> Result<Self, String> {
+        let (primitive, count) = (set.primitive, set.count);
+        let vectors = |index| -> Result<Vec<DVec3>, String> {
+            Ok(accessors.numbers::<3>(index, count)?.into_iter().map(DVec3::from_array).collect())
+        };
+        let mut positions = vectors(set.positions)?;
+        let mut normals = attribute(primitive, Semantic::Normals).map_or(Ok(Vec::new()), vectors)?;
+        let moved = |list: &mut Vec<DVec3>, by: fn(&MorphTarget) -> Option<Index<Accessor>>| {
+            let targets = primitive.targets.iter().flatten().zip(morphs).filter(|(_, share)| **share != 0.0);
+            for (index, share) in targets.filter_map(|(target, share)| Some((by(target)?, f64::from(*share)))) {
+                list.iter_mut().zip(vectors(index)?).for_each(|(vector, step)| *vector += step * share);
+            }
+            Ok::<(), String>(())
+        };
+        moved(&mut positions, |target| target.positions)?;
+        if !normals.is_empty() {
+            moved(&mut normals, |target| target.normals)?;
+        }
+        let texture_coordinates = match attribute(primitive, Semantic::TexCoords(set.coordinates.set)) {
+            None => Vec::new(),
+            Some(index) => {
+                let pair = |[u, v]: [f64; 2]| set.coordinates.to_lower_left(Vec2::new(u as f32, v as f32));
+                accessors.numbers::<2>(index, count)?.into_iter().map(pair).collect()
+            }
+        };
+        let mut weights = Vec::new();
+        for number in (0..).take_while(|_| is_skinned) {
+            let list = |semantic| attribute(primitive, semantic).map(|index| accessors.numbers::<4>(index, count));
+            let (Some(joints), Some(shares)) = (list(Semantic::Joints(number)), list(Semantic::Weights(number))) else {
+                break;
+            };
+            weights.push(joints?.into_iter().zip(shares?).collect());
+        }
+        Ok(Self { positions, normals, texture_coordinates, weights })
+    }
+
+    /// What moves a vertex where joints do; `None` where none of them has a share.
+    fn matrix(&self, vertex: usize, joints: &[DMat4]) -> Result<Option<DMat4>, String> {
+        let (mut sum, mut shares) = (DMat4::ZERO, 0.0);
+        for (numbers, weights) in self.weights.iter().filter_map(|list| list.get(vertex)) {
+            for (number, share) in numbers.iter().zip(weights).filter(|(_, share)| **share != 0.0) {
+                let joint = joints
+                    .get(*number as usize)
+                    .ok_or("its vertices use joints that its skin lacks; export it again")?;
+                sum += *joint * *share;
+                shares += *share;
+            }
+        }
+        Ok((shares > 0.0).then(|| sum * (1.0 / shares)))
+    }
+}
+
+/// A set's vertices in the soup.
+struct Placed {
+    count: usize,
+    first_position: u32,
+    /// [`NONE`] where it has none, like the next.
+    first_normal: u32,
+    first_texture: u32,
+    /// Which vertices lie where left and right have changed places; one for all, or one each.
+    mirrored: Vec<bool>,
+}
+
+impl Placed {
+    fn put(soup: &mut Soup, vertices: &Vertices, place: &DMat4, joints: Option<&[DMat4]>) -> Result<Self, String> {
+        let first = |is_empty: bool, length: usize| if is_empty { NONE } else { length as u32 };
+        let mut placed = Self {
+            count: vertices.positions.len(),
+            first_position: soup.positions.len() as u32,
+            first_normal: first(vertices.normals.is_empty(), soup.normals.len()),
+            first_texture: first(vertices.texture_coordinates.is_empty(), soup.texture_coordinates.len()),
+            mirrored: Vec::new(),
+        };
+        let linear = |matrix: &DMat4| DMat3::from_mat4(*matrix);
+        match joints.filter(|_| !vertices.weights.is_empty()) {
+            None => {
+                soup.positions.extend(vertices.positions.iter().map(|position| place.transform_point3(*position)));
+                let turn = Turn::of(linear(place));
+                soup.normals.extend(vertices.normals.iter().map(|normal| turn.normal(*normal).as_vec3()));
+                placed.mirrored.push(turn.is_mirrored);
+            }
+            Some(joints) => {
+                for (vertex, position) in vertices.positions.iter().enumerate() {
+                    let matrix = vertices.matrix(vertex, joints)?.unwrap_or(*place);
+                    soup.positions.push(matrix.transform_point3(*position));
+                    let turn = Turn::of(linear(&matrix));
+                    soup.normals.extend(vertices.normals.get(vertex).map(|normal| turn.normal(*normal).as_vec3()));
+                    placed.mirrored.push(turn.is_mirrored);
+                }
+            }
+        }
+        soup.texture_coordinates.extend(&vertices.texture_coordinates);
+        Ok(placed)
+    }
+
+    fn put_faces(&self, soup: &mut Soup, triangles: &[[u32; 3]], material: u32) {
+        for triangle in triangles {
+            if triangle.iter().any(|index| *index as usize >= self.count) {
+                soup.defects.out_of_range_faces += 1;
+                continue;
+            }
+            let mirrored = self.mirrored.get(triangle[0] as usize).or(self.mirrored.first());
+            let [a, b, c] = *triangle;
+            let from = |first: u32, index: u32| if first == NONE { NONE } else { first + index };
+            soup.corners.extend((if mirrored == Some(&true) { [a, c, b] } else { [a, b, c] }).map(|index| Corner {
+                position: self.first_position + index,
+                normal: from(self.first_normal, index),
+                texture: from(self.first_texture, index),
+            }));
+            soup.polygon_materials.push(material);
+        }
+    }
+}
+
+/// How a matrix turns normals: by its cofactors, which a matrix without volume has too.
+struct Turn {
+    cofactors: DMat3,
+    is_mirrored: bool,
+}
+
+impl Turn {
+    fn of(linear: DMat3) -> Self {
+        let DMat3 { x_axis: x, y_axis: y, z_axis: z } = linear;
+        let is_mirrored = linear.determinant() < 0.0;
+        let sign = if is_mirrored { -1.0 } else { 1.0 };
+        Self { cofactors: DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign, is_mirrored }
+    }
+
+    /// Of length 1, or 0 where the file's has none: a normal is then computed.
+    fn normal(&self, file: DVec3) -> DVec3 {
+        (self.cofactors * file).normalize_or_zero()
+    }
+}

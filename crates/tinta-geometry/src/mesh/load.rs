@@ -1,0 +1,478 @@
+//! From a path to a [`Mesh`]: built-in or file, its format found by content first and by name second.
+
+use super::folder::Folder;
+use super::format::Format;
+#[cfg(feature = "gltf")]
+use super::gltf;
+use super::obj::Materials;
+use super::{Defects, Mesh, ModelFrame, assimp, md2, obj, ply, skin, soup::Soup, stl, three_ds};
+use crate::error::{Error, FileKind, Result};
+use crate::files;
+use crate::limits::MODEL_BYTES;
+use crate::settings::{HasSettings, Setting, Table, under};
+use crate::tolerances::{LARGEST_WELD, WELD};
+use glam::DVec3;
+use serde::{Serialize, Serializer};
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+/// How a model is read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadOptions {
+    /// Vertices nearer than this share of the bounding-box diagonal become one. Default 1e-7, one unit in the last
+    /// place of an f32 file; 0 welds equal ones only; more closes cracks, too much eats small parts.
+    pub weld: f64,
+    /// Where normals come from. Default: the file, computed where it has none.
+    pub normals: Normals,
+    /// Neighbouring faces that differ by more than this angle do not share a computed normal. Default 60 degrees;
+    /// more rounds edges off, less makes facets.
+    pub smooth_angle_degrees: f64,
+    /// The axis that points up in the file. Default: its format's, z for MD2 and 3DS, y for the others.
+    pub up_axis: UpAxis,
+    /// Whether a defect is an error. Default: no, it is counted.
+    pub strict: bool,
+    /// The frame of an animated model (MD2). Default 0, the first; a fraction lies between two.
+    pub model_frame: ModelFrame,
+    /// A picture for all of the model's surfaces. Default: those the file names, found beside it; for MD2 also one that
+    /// has the model's own name.
+    pub skin: Option<PathBuf>,
+    /// Whether files that the model names, materials, data and pictures, may lie outside its folder. Default: no, they are not
+    /// followed, whether named by `..`, absolutely or through links, and that is said.
+    pub allow_external: bool,
+}
+
+impl Default for LoadOptions {
+    fn default() -> Self {
+        Self {
+            weld: WELD,
+            normals: Normals::File,
+            smooth_angle_degrees: 60.0,
+            up_axis: UpAxis::Auto,
+            strict: false,
+            model_frame: ModelFrame::default(),
+            skin: None,
+            allow_external: false,
+        }
+    }
+}
+
+impl HasSettings for LoadOptions {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<LoadOptions>> =
+            LazyLock::new(|| Table { settings: LoadOptions::settings(), defaults: vec![LoadOptions::default()] });
+        &TABLE
+    }
+}
+
+impl LoadOptions {
+    fn settings() -> Vec<Setting<Self>> {
+        let settings = vec![
+            Setting::field(
+                "up-axis",
+                "AXIS",
+                "Axis that points up in the file: auto (z in MD2 and 3DS, else y), x, y, z, -x, -y, -z",
+                |load: &mut Self| &mut load.up_axis,
+            ),
+            Setting::field(
+                "weld",
+                "SHARE",
+                "Join vertices closer than this share of the model's size",
+                |load: &mut Self| &mut load.weld,
+            )
+            .range(0.0, 0.001, 6)
+            .said("1e-7"),
+            Setting::field(
+                "normals",
+                "WHERE",
+                "Normals: file (computed where it has none), smooth, flat, dachsbacher (his text's: one a vertex, never split)",
+                |load: &mut Self| &mut load.normals,
+            ),
+            Setting::field(
+                "smooth-angle",
+                "DEGREES",
+                "Largest angle between two faces that computed normals smooth, in degrees",
+                |load: &mut Self| &mut load.smooth_angle_degrees,
+            )
+            .range(0.0, 180.0, 1),
+            Setting::flag(
+                "strict",
+                "Refuse models with defects",
+                |load: &Self| load.strict,
+                |load, is_on| load.strict = is_on,
+            )
+            .said("off, defects are counted and skipped"),
+            Setting::open_field(
+                "skin",
+                "FILE",
+                "",
+                "Picture for all surfaces (PCX, PNG, TGA, BMP, JPEG, PPM)",
+                |load: &mut Self| &mut load.skin,
+            )
+            .said("the picture that the model names"),
+            Setting::flag(
+                "allow-external",
+                "Read material files, data and pictures outside the model's folder, too",
+                |load: &Self| load.allow_external,
+                |load, is_on| load.allow_external = is_on,
+            )
+            .said("off, each is reported and skipped"),
+            Setting::field(
+                "model-frame",
+                "N|NAME",
+                "Frame of an animated model (MD2): a number from 0, or a name; 1.5 is halfway between 1 and 2",
+                |load: &mut Self| &mut load.model_frame,
+            ),
+        ];
+        under("Models", settings).collect()
+    }
+}
+
+/// Each setting under its name; of a path whose bytes are no text what can be kept.
+impl Serialize for LoadOptions {
+    fn serialize<S: Serializer>(&self, to: S) -> std::result::Result<S::Ok, S::Error> {
+        Self::table().record(self).serialize(to)
+    }
+}
+
+/// Where a mesh's normals come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Normals {
+    /// From the file; computed smooth where the file has none.
+    File,
+    /// Computed: smooth up to the smoothing angle.
+    Smooth,
+    /// Computed: each face its own.
+    Flat,
+    /// Computed by the listing of C. Dachsbacher's article: one normal a vertex, to which each triangle there adds its unit
+    /// normal; nothing is split at creases.
+    Dachsbacher,
+}
+
+impl Normals {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 4] =
+        [("file", Self::File), ("smooth", Self::Smooth), ("flat", Self::Flat), ("dachsbacher", Self::Dachsbacher)];
+}
+
+crate::choices!(Normals);
+
+/// The model's axis that shall point up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UpAxis {
+    /// As the file's format has it: z up in MD2 (where x is the front) and 3DS (where -y is), y in the others.
+    Auto,
+    /// +x is up.
+    X,
+    /// +y is up, as here.
+    Y,
+    /// +z is up; -y is then the front.
+    Z,
+    /// -x is up.
+    MinusX,
+    /// -y is up.
+    MinusY,
+    /// -z is up.
+    MinusZ,
+}
+
+impl UpAxis {
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 7] = [
+        ("auto", Self::Auto),
+        ("x", Self::X),
+        ("y", Self::Y),
+        ("z", Self::Z),
+        ("-x", Self::MinusX),
+        ("-y", Self::MinusY),
+        ("-z", Self::MinusZ),
+    ];
+
+    /// Rotates a vector so that this axis becomes +y; exact, components only change places and signs. For `Auto` the
+    /// vector stays: the formats' readers have turned it.
+    pub fn to_y_up(self, v: DVec3) -> DVec3 {
+        match self {
+            Self::X => DVec3::new(-v.y, v.x, v.z),
+            Self::Auto | Self::Y => v,
+            Self::Z => DVec3::new(v.x, v.z, -v.y),
+            Self::MinusX => DVec3::new(v.y, -v.x, v.z),
+            Self::MinusY => DVec3::new(-v.x, -v.y, v.z),
+            Self::MinusZ => DVec3::new(v.x, -v.z, v.y),
+        }
+    }
+}
+
+crate::choices!(UpAxis);
+
+/// What [`load`] read and what it noticed on the way, to be said once.
+#[derive(Debug)]
+pub struct Loaded {
+    /// The model.
+    pub mesh: Mesh,
+    /// The names of the file's frames in order, as `LoadOptions::model_frame` takes them; empty where it has none.
+    pub frames: Vec<String>,
+    /// The files that were read besides the model's own: its material libraries, its data. Pictures are read when a style needs them.
+    pub files: Vec<PathBuf>,
+    /// Sentences about the file, each naming it: a format other than the name says, defects, missing materials, skins.
+    pub remarks: Vec<String>,
+}
+
+/// Reads a model: an OBJ, PLY, STL, MD2, 3DS or glTF file.
+///
+/// # Errors
+///
+/// [`Error::File`] when the file is missing, unreadable, empty, damaged, of no known format or holds nothing to draw;
+/// [`Error::Strict`] when it has defects and `options.strict`; [`Error::Setting`] when an option is nonsense or not for
+/// this model; [`Error::File`] when `options.skin` is no file.
+pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
+    load_watched(path, options, &|_| {})
+}
+
+/// What is being done while a model is read, in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LoadStage {
+    /// Its bytes come from the disk.
+    Reading,
+    /// They are understood.
+    Parsing,
+    /// Vertices become one, faces that are none are dropped, normals are made.
+    Joining,
+}
+
+/// As [`load`], for whoever shows how far it is: `watch` is told of each stage when it begins.
+///
+/// # Errors
+///
+/// Those of [`load`].
+pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
+    check(options)?;
+    let mut remarks = Vec::new();
+    watch(LoadStage::Reading);
+    let bytes = files::read(Path::new(path), MODEL_BYTES)
+        .map_err(|failure| failure.into_error(FileKind::Model, path, "a model file"))?;
+    watch(LoadStage::Parsing);
+    let folder = Folder::of(path, options.allow_external);
+    let soup = soup(&bytes, path, options, &Materials::Beside(&folder), &folder, &mut remarks)?;
+    watch(LoadStage::Joining);
+    made(soup, path, options, remarks)
+}
+
+/// Reads a model out of memory: an OBJ, PLY, STL, MD2, 3DS or glTF file's bytes. No other file is read: the materials of an OBJ
+/// model are looked for in `materials`, an MTL file's bytes, and pictures that the model names are left out.
+///
+/// `name` is for messages, and its extension tells the format where the bytes do not.
+///
+/// # Errors
+///
+/// Those of [`load`].
+pub fn read_bytes(bytes: &[u8], name: &str, materials: &[u8], options: &LoadOptions) -> Result<Loaded> {
+    check(options)?;
+    let mut remarks = Vec::new();
+    let mut soup = soup(bytes, name, options, &Materials::Text(materials), &Folder::none(), &mut remarks)?;
+    soup.materials.iter_mut().for_each(|material| material.texture = None);
+    made(soup, name, options, remarks)
+}
+
+/// The mesh of what was read.
+fn made(mut soup: Soup, path: &str, options: &LoadOptions, mut remarks: Vec<String>) -> Result<Loaded> {
+    if soup.frames.is_empty() {
+        options.model_frame.check_still(path)?;
+    }
+    if let Some(skin) = &options.skin {
+        skin::put_on(&mut soup, skin, path)?;
+    }
+    let frames = std::mem::take(&mut soup.frames);
+    let files = std::mem::take(&mut soup.files);
+    let mesh = soup.into_mesh(path, options)?;
+    // Missing materials have had a remark of their own from the reader, which knows their names.
+    let others = Defects { missing_materials: 0, ..mesh.defects.clone() };
+    if !others.is_empty() {
+        remarks.push(format!("{path}: {others}"));
+    }
+    Ok(Loaded { mesh, frames, files, remarks })
+}
+
+pub(super) fn check(options: &LoadOptions) -> Result<()> {
+    if !(0.0..=LARGEST_WELD).contains(&options.weld) {
+        return Err(Error::value(
+            "weld",
+            options.weld,
+            format!("the tolerance is a share of the model's size from 0 to {LARGEST_WELD}"),
+        ));
+    }
+    if !(0.0..=180.0).contains(&options.smooth_angle_degrees) {
+        return Err(Error::value(
+            "smooth-angle",
+            options.smooth_angle_degrees,
+            "the angle is between 0 and 180 degrees",
+        ));
+    }
+    options.skin.as_deref().map_or(Ok(()), skin::check)
+}
+
+fn soup(
+    bytes: &[u8],
+    path: &str,
+    options: &LoadOptions,
+    materials: &Materials<'_>,
+    folder: &Folder,
+    remarks: &mut Vec<String>,
+) -> Result<Soup> {
+    if bytes.is_empty() {
+        return Err(Error::model(path, "the file is empty; export the model again"));
+    }
+    // Some programs begin UTF-8 files with a byte order mark.
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").filter(|_| !stl::is_binary(bytes));
+    let bytes = text.unwrap_or(bytes);
+    let named = Format::by_name(path);
+    let found =
+        Format::by_content(bytes).filter(|found| !matches!(named, Some(Format::Assimp(_))) || found.is_unmistakable());
+    let format = found.or(named).ok_or_else(|| {
+        Error::model(path, format!("this is not a model in a supported format; use an {} file", Format::NAMES))
+    })?;
+    if let (Some(named), Some(found)) = (named, found)
+        && named != found
+    {
+        remarks.push(format!(
+            "{path}: the name says {} but the content is {}, and is read as that",
+            named.name(),
+            found.name()
+        ));
+    }
+    let soup = match format {
+        Format::Obj => {
+            let mut soup = obj::read(bytes, path, materials, remarks)?;
+            if options.skin.is_none() {
+                skin::find_all(&mut soup, folder, path, remarks);
+            }
+            soup
+        }
+        Format::Ply => ply::read(bytes, path)?,
+        Format::Stl => stl::read(bytes, path)?,
+        Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
+        Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,
+        #[cfg(feature = "gltf")]
+        Format::Gltf => gltf::read(bytes, path, options, folder, remarks)?,
+        #[cfg(not(feature = "gltf"))]
+        Format::Gltf => {
+            return Err(Error::model(
+                path,
+                "this build does not read glTF; build with the feature gltf, or save it as OBJ",
+            ));
+        }
+        Format::Assimp(format) => assimp::read(bytes, format, path, options, folder, remarks)?,
+    };
+    soup.check_memory(bytes.len(), path)?;
+    Ok(soup)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_up_axis_turns_into_y_by_a_rotation() {
+        let axes = [
+            ("x", DVec3::X),
+            ("y", DVec3::Y),
+            ("z", DVec3::Z),
+            ("-x", DVec3::NEG_X),
+            ("-y", DVec3::NEG_Y),
+            ("-z", DVec3::NEG_Z),
+        ];
+        for (text, up) in axes {
+            let axis = <UpAxis as crate::settings::Value>::parse(text).unwrap();
+            assert_eq!(axis.to_y_up(up), DVec3::Y, "{text}");
+            let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|v| axis.to_y_up(v));
+            assert_eq!(x.cross(y), z, "{text} keeps handedness");
+        }
+    }
+
+    #[test]
+    fn a_byte_order_mark_does_not_cost_the_first_vertex() {
+        for (name, bytes) in valid_files().into_iter().filter(|(name, _)| !name.starts_with('b')) {
+            let marked = [b"\xef\xbb\xbf".as_slice(), &bytes].concat();
+            assert_eq!(mesh_of(&marked, name).unwrap(), mesh_of(&bytes, name).unwrap(), "{name}");
+        }
+    }
+
+    /// Small valid files of every format, each with all that its reader knows.
+    fn valid_files() -> [(&'static str, Vec<u8>); 9] {
+        let obj =
+            "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -4//-1 -2 -1\n";
+        let header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
+            property list uchar int vertex_indices\nend_header\n";
+        let text_ply = format!("ply\nformat ascii 1.0\n{header}0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+        let mut binary_ply = format!("ply\nformat binary_little_endian 1.0\n{header}").into_bytes();
+        [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().for_each(|x| binary_ply.extend(x.to_le_bytes()));
+        binary_ply.push(3);
+        [0i32, 1, 2].iter().for_each(|index| binary_ply.extend(index.to_le_bytes()));
+        let text_stl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n\
+            endsolid a\n";
+        let mut binary_stl = vec![b' '; 80];
+        binary_stl.extend(1u32.to_le_bytes());
+        binary_stl.extend([0u8; 12]);
+        [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().for_each(|x| binary_stl.extend(x.to_le_bytes()));
+        binary_stl.extend([0u8; 2]);
+        [
+            ("a.obj", obj.into()),
+            ("t.ply", text_ply.into()),
+            ("b.ply", binary_ply),
+            ("t.stl", text_stl.into()),
+            ("b.stl", binary_stl),
+            ("b.md2", md2::tests::pyramid()),
+            ("b.3ds", three_ds::tests::square()),
+            ("t.gltf", gltf::tests::json()),
+            ("b.glb", gltf::tests::binary()),
+        ]
+    }
+
+    fn mesh_of(bytes: &[u8], name: &str) -> Result<Mesh> {
+        let options = LoadOptions::default();
+        Ok(read_bytes(bytes, name, b"", &options)?.mesh)
+    }
+
+    #[test]
+    fn the_valid_files_are_valid() {
+        for (name, bytes) in valid_files() {
+            let mesh = mesh_of(&bytes, name).unwrap();
+            assert!(mesh.defects.is_empty() || name == "a.obj", "{name}: {}", mesh.defects);
+        }
+    }
+
+    proptest::proptest! {
+        #![proptest_config(proptest::prelude::ProptestConfig::with_cases(6000))]
+
+        /// Changed bytes, inserted numbers, cut ends: a mesh of finite numbers or an error that names the file.
+        #[test]
+        fn damaged_files_give_a_sound_mesh_or_an_error_and_never_a_panic(
+            file in 0usize..9,
+            changes in proptest::collection::vec((0usize..600, proptest::num::u8::ANY), 0..6),
+            insertion in (0usize..600, proptest::sample::select(vec!["", "nan", "-1", "1e999", "4294967296", "\\\n", "\n", "/", "#"])),
+            keep in 0usize..600,
+        ) {
+            let (name, mut bytes) = valid_files()[file].clone();
+            for (place, byte) in changes {
+                let length = bytes.len();
+                bytes[place % length] = byte;
+            }
+            let place = insertion.0 % bytes.len();
+            bytes.splice(place..place, insertion.1.bytes());
+            if keep < bytes.len() {
+                bytes.truncate(keep);
+            }
+            match mesh_of(&bytes, name) {
+                Ok(mesh) => {
+                    assert!(mesh.positions.iter().all(|position| position.is_finite()));
+                    assert!(mesh.normals.iter().all(|normal| normal.is_finite()));
+                    let count = mesh.positions.len() as u32;
+                    assert!(mesh.triangles.as_flattened().iter().all(|index| *index < count));
+                    let normals = mesh.normals.len() as u32;
+                    assert!(mesh.triangle_normals.as_flattened().iter().all(|index| *index < normals));
+                    super::super::VertexArrays::new(&mesh, 1.0);
+                }
+                Err(error) => assert!(error.to_string().starts_with(name), "{error}"),
+            }
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! PLY, text and binary: vertices with normals and texture coordinates, polygon faces.
+//!
+//! `header.rs` reads the header, `payload.rs` what follows it.
+
+mod header;
+mod payload;
+
+use super::NONE;
+use super::soup::{Corner, Soup};
+use crate::error::{Error, Result};
+use crate::limits::PLY_HEADER_BYTES;
+use glam::{DVec3, Vec2, Vec3};
+use header::{Element, Header};
+use payload::{Damage, Payload, Value};
+
+/// Reads a PLY file's bytes. `path` is for messages.
+pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
+    if !bytes.starts_with(b"ply") {
+        return Err(Error::model(
+            path,
+            "it does not begin like a PLY file; it is damaged or misnamed, export it again",
+        ));
+    }
+    let head = &bytes[..bytes.len().min(PLY_HEADER_BYTES)];
+    if head.len() < bytes.len() && memchr::memmem::find(head, b"end_header").is_none() {
+        let problem =
+            format!("its header does not end within {PLY_HEADER_BYTES} bytes; it is damaged, export it again");
+        return Err(Error::model(path, problem));
+    }
+    let damaged = |line: Option<u64>, cause: &str| {
+        Error::model(path, format!("it is damaged or cut off ({cause}); export it again")).at(line)
+    };
+    let header = Header::read(head).map_err(|(line, cause)| damaged(Some(line), cause))?;
+    check_header(&header).map_err(|problem| Error::model(path, problem))?;
+    let mut payload = Payload::new(&bytes[header.bytes..], header.encoding, header.lines);
+    let mut contents = Contents::new(&header);
+    for element in &header.elements {
+        let name = element.name.as_str();
+        let read = match name {
+            "vertex" => contents.vertices(&mut payload, element),
+            "face" => contents.faces(&mut payload, element),
+            _ => (0..element.count).try_for_each(|_| payload.element(element, |_, _| {})),
+        };
+        read.map_err(|Damage(cause)| {
+            damaged(payload.line(), &format!("{cause} of the file's {} {name}", element.count))
+        })?;
+    }
+    Ok(contents.soup)
+}
+
+/// Refuses what would otherwise be misread or never end.
+fn check_header(header: &Header) -> std::result::Result<(), &'static str> {
+    // An element without properties takes no bytes, so any number of them fits into any file.
+    if header.elements.iter().any(|element| element.properties.is_empty() && element.count > 0) {
+        return Err("its header has an element without properties; export it again");
+    }
+    let has = |element: &str, property: &str| header.element(element).is_some_and(|element| element.has(property));
+    if !["x", "y", "z"].into_iter().all(|axis| has("vertex", axis)) {
+        return Err("its vertices have no x, y and z; export it again");
+    }
+    if header.element("face").is_some() && !has("face", "vertex_indices") && !has("face", "vertex_index") {
+        return Err("its faces have no list of vertex_indices; export it again");
+    }
+    if header.element("tristrips").is_some() {
+        return Err("its faces are triangle strips, which tinta does not read; export it with single faces");
+    }
+    Ok(())
+}
+
+/// What is read of a file.
+struct Contents {
+    soup: Soup,
+    /// How many vertices the header promises: faces may come before them.
+    vertices: u32,
+    has_normals: bool,
+    has_texture: bool,
+}
+
+impl Contents {
+    fn new(header: &Header) -> Self {
+        let vertex = header.element("vertex");
+        let has = |property: &str| vertex.is_some_and(|vertex| vertex.has(property));
+        Self {
+            soup: Soup::default(),
+            vertices: vertex.map_or(0, |vertex| u32::try_from(vertex.count).unwrap_or(NONE)),
+            has_normals: ["nx", "ny", "nz"].into_iter().all(has),
+            has_texture: [["u", "v"], ["s", "t"], ["texture_u", "texture_v"]]
+                .into_iter()
+                .any(|names| names.into_iter().all(has)),
+        }
+    }
+
+    fn vertices(&mut self, payload: &mut Payload<'_>, element: &Element) -> std::result::Result<(), Damage> {
+        let count = payload.at_most(element);
+        self.soup.positions.reserve_exact(count);
+        self.soup.normals.reserve_exact(if self.has_normals { count } else { 0 });
+        self.soup.texture_coordinates.reserve_exact(if self.has_texture { count } else { 0 });
+        for _ in 0..element.count {
+            let (mut position, mut normal, mut texture) = (DVec3::ZERO, Vec3::ZERO, Vec2::ZERO);
+            payload.element(element, |name, value| {
+                let Value::Scalar(number) = value else { return };
+                match name {
+                    "x" => position.x = number,
+                    "y" => position.y = number,
+                    "z" => position.z = number,
+                    "nx" => normal.x = number as f32,
+                    "ny" => normal.y = number as f32,
+                    "nz" => normal.z = number as f32,
+                    "u" | "s" | "texture_u" => texture.x = number as f32,
+                    "v" | "t" | "texture_v" => texture.y = number as f32,
+                    _ => {}
+                }
+            })?;
+            self.soup.positions.push(position);
+            if self.has_normals {
+                self.soup.normals.push(normal);
+            }
+            if self.has_texture {
+                self.soup.texture_coordinates.push(texture);
+            }
+        }
+        Ok(())
+    }
+
+    fn faces(&mut self, payload: &mut Payload<'_>, element: &Element) -> std::result::Result<(), Damage> {
+        let Self { soup, vertices, has_normals, has_texture } = self;
+        /// Corners for which there is room before a face is read.
+        const LIST: usize = 1024;
+        let with = |used: bool, index: u32| if used { index } else { NONE };
+        soup.polygon_sizes.reserve_exact(payload.at_most(element));
+        for _ in 0..element.count {
+            let start = soup.corners.len();
+            let mut is_in_range = true;
+            payload.element(element, |name, value| {
+                if name != "vertex_indices" && name != "vertex_index" {
+                    return;
+                }
+                match value {
+                    Value::List { at_most } => {
+                        soup.corners.truncate(start);
+                        is_in_range = true;
+                        // Doubled as ever, but never beyond what the bytes left can hold.
+                        if soup.corners.capacity() - soup.corners.len() < at_most.min(LIST) {
+                            soup.corners.reserve_exact(at_most.min(soup.corners.len() + LIST));
+                        }
+                    }
+                    Value::Item(index) if (0..i64::from(*vertices)).contains(&index) => {
+                        let index = index as u32;
+                        let (normal, texture) = (with(*has_normals, index), with(*has_texture, index));
+                        soup.corners.push(Corner { position: index, normal, texture });
+                    }
+                    Value::Item(_) => is_in_range = false,
+                    Value::Scalar(_) => {}
+                }
+            })?;
+            let count = soup.corners.len() - start;
+            if count >= 3 && is_in_range {
+                soup.polygon_sizes.push(count as u32);
+                continue;
+            }
+            soup.corners.truncate(start);
+            let defects = &mut soup.defects;
+            *(if is_in_range { &mut defects.degenerate_triangles } else { &mut defects.out_of_range_faces }) += 1;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEADER: &str = "ply\nformat ascii 1.0\ncomment test\nelement vertex 4\nproperty float x\nproperty float y\n\
+        property double z\nelement face 2\nproperty list uchar int vertex_indices\nproperty uchar red\n\
+        element edge 1\nproperty int a\nend_header\n";
+
+    #[test]
+    fn a_text_file_with_polygons_and_foreign_elements_is_read() {
+        let text = format!("{HEADER}0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4 0 1 2 3 9\n3 0 1 7 9\n5\n");
+        let soup = read(text.as_bytes(), "t.ply").unwrap();
+        assert_eq!(soup.positions[2], DVec3::new(1.0, 1.0, 0.5));
+        assert_eq!(soup.polygon_sizes, [4]);
+        assert_eq!(soup.defects.out_of_range_faces, 1);
+    }
+
+    #[test]
+    fn every_type_of_number_is_read_at_its_extremes_from_both_kinds_of_binary_file() {
+        /// A value with its bytes, little end first.
+        type Written = (f64, &'static [u8]);
+        // Of each type its largest and its smallest value.
+        let types: [(&str, Written, Written); 8] = [
+            ("char", (127.0, &[0x7f]), (-128.0, &[0x80])),
+            ("uchar", (255.0, &[0xff]), (0.0, &[0])),
+            ("short", (32_767.0, &[0xff, 0x7f]), (-32_768.0, &[0, 0x80])),
+            ("ushort", (65_535.0, &[0xff, 0xff]), (0.0, &[0, 0])),
+            ("int", (2_147_483_647.0, &[0xff, 0xff, 0xff, 0x7f]), (-2_147_483_648.0, &[0, 0, 0, 0x80])),
+            ("uint", (4_294_967_295.0, &[0xff; 4]), (0.0, &[0; 4])),
+            ("float", (1.5, &[0, 0, 0xc0, 0x3f]), (-1.5, &[0, 0, 0xc0, 0xbf])),
+            ("double", (1.5, &[0, 0, 0, 0, 0, 0, 0xf8, 0x3f]), (-1.5, &[0, 0, 0, 0, 0, 0, 0xf8, 0xbf])),
+        ];
+        for (name, (largest, largest_bytes), (smallest, smallest_bytes)) in types {
+            for (encoding, is_big) in [("binary_little_endian", false), ("binary_big_endian", true)] {
+                let mut file = format!(
+                    "ply\nformat {encoding} 1.0\nelement vertex 1\nproperty {name} x\nproperty {name} y\n\
+                     property {name} z\nend_header\n"
+                )
+                .into_bytes();
+                for bytes in [largest_bytes, smallest_bytes, largest_bytes] {
+                    let in_order: Vec<u8> = if is_big { bytes.iter().rev().copied().collect() } else { bytes.to_vec() };
+                    file.extend(in_order);
+                }
+                let soup = read(&file, "t.ply").unwrap();
+                assert_eq!(soup.positions, [DVec3::new(largest, smallest, largest)], "{name} in {encoding}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_cut_off_file_is_an_error_with_its_line() {
+        let message = read(format!("{HEADER}0 0 0\n1 0\n").as_bytes(), "t.ply").unwrap_err().to_string();
+        assert!(message.starts_with("t.ply: line 15: it is damaged or cut off"), "{message}");
+    }
+
+    #[test]
+    fn headers_that_cannot_be_a_model_are_refused_with_the_reason() {
+        let refused = |header: &str, reason: &str| {
+            let text = format!("ply\nformat ascii 1.0\n{header}end_header\n");
+            let message = read(text.as_bytes(), "t.ply").unwrap_err().to_string();
+            assert!(message.contains(reason), "{message}");
+            assert!(!message.contains('{'), "{message}");
+        };
+        let xyz = "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+        refused("element vertex 1\nproperty float x\nproperty float y\n", "no x, y and z");
+        refused(&format!("{xyz}element face 1\nproperty int a\n"), "no list of vertex_indices");
+        refused(&format!("{xyz}element tristrips 1\nproperty list int int vertex_indices\n"), "triangle strips");
+        refused("forma", "damaged");
+    }
+
+    #[test]
+    fn a_header_that_promises_billions_is_refused_without_the_memory() {
+        let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n\
+            property float z\nend_header\nabc";
+        assert!(read(text.as_bytes(), "t.ply").is_err());
+        let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nend_header\n";
+        let message = read(text.as_bytes(), "t.ply").unwrap_err().to_string();
+        assert!(message.contains("element without properties"), "{message}");
+    }
+}

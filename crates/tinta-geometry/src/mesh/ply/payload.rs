@@ -1,0 +1,173 @@
+//! What follows a PLY file's header: elements one after the other, as lines of words or as bytes.
+
+use super::header::{Element, Encoding, PropertyType, ScalarType};
+use crate::bytes::Bytes;
+
+/// Why an element cannot be read, in words that go on with "of the file's 9 vertex".
+#[derive(Debug)]
+pub(super) struct Damage(pub &'static str);
+
+const TOO_FEW: Damage = Damage("it ends before the last");
+const NO_NUMBER: Damage = Damage("a number of the wrong type is in one");
+
+/// A part of an element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Value {
+    /// A single number.
+    Scalar(f64),
+    /// A list begins; no more items than this can follow in the whole file.
+    List {
+        /// As many as the bytes left can hold.
+        at_most: usize,
+    },
+    /// An item of a list of whole numbers.
+    Item(i64),
+}
+
+/// The part of a file behind its header, from where it was read to.
+pub(super) struct Payload<'a> {
+    rest: Bytes<'a>,
+    encoding: Encoding,
+    /// The lines read so far, those of the header among them.
+    lines: u64,
+}
+
+impl<'a> Payload<'a> {
+    pub(super) fn new(bytes: &'a [u8], encoding: Encoding, lines: u64) -> Self {
+        Self { rest: Bytes(bytes), encoding, lines }
+    }
+
+    /// The line read last, where the file has lines.
+    pub(super) fn line(&self) -> Option<u64> {
+        (self.encoding == Encoding::Ascii).then_some(self.lines)
+    }
+
+    /// How many of an element's promised ones the bytes left can hold; each has a property.
+    pub(super) fn at_most(&self, element: &Element) -> usize {
+        let smallest = element.properties.iter().map(|property| match (&property.data_type, self.encoding) {
+            // A digit and what ends it.
+            (_, Encoding::Ascii) => 2,
+            (PropertyType::Scalar(kind) | PropertyType::List(kind, _), _) => size_of(kind),
+        });
+        element.count.min(self.rest.0.len() / smallest.sum::<usize>().max(1) + 1)
+    }
+
+    /// Reads the next element and hands over its properties' names and values.
+    pub(super) fn element(&mut self, element: &Element, value: impl FnMut(&str, Value)) -> Result<(), Damage> {
+        match self.encoding {
+            Encoding::Ascii => self.line_of(element, value),
+            Encoding::BinaryLittleEndian => self.bytes_of::<false>(element, value),
+            Encoding::BinaryBigEndian => self.bytes_of::<true>(element, value),
+        }
+    }
+
+    fn line_of(&mut self, element: &Element, mut value: impl FnMut(&str, Value)) -> Result<(), Damage> {
+        self.lines += 1;
+        if self.rest.0.is_empty() {
+            return Err(TOO_FEW);
+        }
+        let end = memchr::memchr(b'\n', self.rest.0).map_or(self.rest.0.len(), |end| end + 1);
+        let line = self.rest.take(end).unwrap_or_default();
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let mut word = || words.next().and_then(|word| std::str::from_utf8(word).ok());
+        for property in element.properties.iter() {
+            let name = property.name.as_str();
+            match &property.data_type {
+                PropertyType::Scalar(kind) => {
+                    value(name, Value::Scalar(word().and_then(|word| number(word, kind)).ok_or(NO_NUMBER)?));
+                }
+                PropertyType::List(_, kind) => {
+                    let count: u64 = word().and_then(|word| word.parse().ok()).ok_or(NO_NUMBER)?;
+                    value(name, Value::List { at_most: line.len() / 2 + 1 });
+                    for _ in 0..count {
+                        let item = word().and_then(|word| number(word, kind)).ok_or(NO_NUMBER)?;
+                        if is_whole(kind) {
+                            value(name, Value::Item(item as i64));
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn bytes_of<const IS_BIG: bool>(
+        &mut self,
+        element: &Element,
+        mut value: impl FnMut(&str, Value),
+    ) -> Result<(), Damage> {
+        for property in element.properties.iter() {
+            let name = property.name.as_str();
+            match &property.data_type {
+                PropertyType::Scalar(kind) => {
+                    value(name, Value::Scalar(scalar::<IS_BIG>(&mut self.rest, kind).ok_or(TOO_FEW)?));
+                }
+                PropertyType::List(count, kind) => {
+                    if !is_whole(count) {
+                        return Err(Damage("a list whose length is not a whole number is in each"));
+                    }
+                    let count = scalar::<IS_BIG>(&mut self.rest, count).ok_or(TOO_FEW)?;
+                    if count < 0.0 {
+                        return Err(Damage("a list of negative length is in one"));
+                    }
+                    value(name, Value::List { at_most: self.rest.0.len() / size_of(kind) });
+                    let items = self.rest.records(count as usize, size_of(kind)).ok_or(TOO_FEW)?;
+                    if is_whole(kind) {
+                        let item = |bytes| scalar::<IS_BIG>(&mut Bytes(bytes), kind).unwrap_or_default();
+                        items.for_each(|bytes| value(name, Value::Item(item(bytes) as i64)));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn is_whole(kind: &ScalarType) -> bool {
+    !matches!(kind, ScalarType::Float | ScalarType::Double)
+}
+
+/// Bytes of a number.
+fn size_of(kind: &ScalarType) -> usize {
+    match kind {
+        ScalarType::Char | ScalarType::UChar => 1,
+        ScalarType::Short | ScalarType::UShort => 2,
+        ScalarType::Int | ScalarType::UInt | ScalarType::Float => 4,
+        ScalarType::Double => 8,
+    }
+}
+
+/// A word as a number of its type.
+fn number(word: &str, kind: &ScalarType) -> Option<f64> {
+    match kind {
+        ScalarType::Char => word.parse::<i8>().ok().map(f64::from),
+        ScalarType::UChar => word.parse::<u8>().ok().map(f64::from),
+        ScalarType::Short => word.parse::<i16>().ok().map(f64::from),
+        ScalarType::UShort => word.parse::<u16>().ok().map(f64::from),
+        ScalarType::Int => word.parse::<i32>().ok().map(f64::from),
+        ScalarType::UInt => word.parse::<u32>().ok().map(f64::from),
+        ScalarType::Float => word.parse::<f32>().ok().map(f64::from),
+        ScalarType::Double => word.parse().ok(),
+    }
+}
+
+/// A number out of bytes; f64 holds all of them exactly.
+fn scalar<const IS_BIG: bool>(bytes: &mut Bytes<'_>, kind: &ScalarType) -> Option<f64> {
+    fn in_order<const N: usize, const IS_BIG: bool>(bytes: &mut Bytes<'_>) -> Option<[u8; N]> {
+        let mut array: [u8; N] = *bytes.take(N)?.first_chunk()?;
+        if IS_BIG {
+            array.reverse();
+        }
+        Some(array)
+    }
+    Some(match kind {
+        ScalarType::Char => f64::from(i8::from_le_bytes(in_order::<1, IS_BIG>(bytes)?)),
+        ScalarType::UChar => f64::from(u8::from_le_bytes(in_order::<1, IS_BIG>(bytes)?)),
+        ScalarType::Short => f64::from(i16::from_le_bytes(in_order::<2, IS_BIG>(bytes)?)),
+        ScalarType::UShort => f64::from(u16::from_le_bytes(in_order::<2, IS_BIG>(bytes)?)),
+        ScalarType::Int => f64::from(i32::from_le_bytes(in_order::<4, IS_BIG>(bytes)?)),
+        ScalarType::UInt => f64::from(u32::from_le_bytes(in_order::<4, IS_BIG>(bytes)?)),
+        ScalarType::Float => f64::from(f32::from_le_bytes(in_order::<4, IS_BIG>(bytes)?)),
+        ScalarType::Double => f64::from_le_bytes(in_order::<8, IS_BIG>(bytes)?),
+    })
+}

@@ -1,0 +1,217 @@
+//! Pictures that belong on a model: found beside it, or given with `--skin`.
+
+use super::folder::{Folder, Found};
+use super::soup::Soup;
+use super::{Material, NONE};
+use crate::error::{Error, Result};
+use crate::files::shown;
+use crate::limits::REMARKS;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// Extensions of pictures, in the order they are tried.
+pub(super) const EXTENSIONS: [&str; 6] = ["pcx", "png", "tga", "bmp", "jpg", "jpeg"];
+
+/// A picture that a model file names, as the file writes it: where it says, or in the model's folder whatever folder it
+/// says, in any case and, where it is not there, with any other extension of a picture.
+///
+/// Models name pictures as they lay on their author's disk, `C:\ART\SKIN.PCX`.
+pub(super) fn find(folder: &Folder, name: &str) -> Found {
+    let slashes = name.replace('\\', "/");
+    let written = [name, &slashes].map(|name| folder.find(Path::new(name)));
+    let base = slashes.rsplit('/').next().unwrap_or_default();
+    let places = written.into_iter().chain(std::iter::once_with(|| beside(folder, base)));
+    let mut best = Found::Nowhere;
+    for found in places {
+        match found {
+            Found::Here(_) => return found,
+            Found::Outside => best = found,
+            Found::Nowhere => {}
+        }
+    }
+    best
+}
+
+/// The picture of this name in a folder, in any case, or else the first with its stem and an extension of a picture.
+fn beside(folder: &Folder, base: &str) -> Found {
+    let Some(stem) = Path::new(base).file_stem().and_then(|stem| stem.to_str()) else { return Found::Nowhere };
+    let rank = |name: &str| {
+        if name.eq_ignore_ascii_case(base) {
+            return Some(0);
+        }
+        let path = Path::new(name);
+        let same_stem = path.file_stem().is_some_and(|other| other.eq_ignore_ascii_case(stem));
+        let extension = path.extension().and_then(|extension| extension.to_str()).filter(|_| same_stem)?;
+        Some(EXTENSIONS.iter().position(|known| known.eq_ignore_ascii_case(extension))? + 1)
+    };
+    let mut candidates: Vec<(usize, &String)> =
+        folder.names().iter().filter_map(|name| Some((rank(name)?, name))).collect();
+    // The order of a folder's entries is nobody's promise: rank, then name decide.
+    candidates.sort_unstable();
+    let mut best = Found::Nowhere;
+    for (_, name) in candidates {
+        match folder.find(Path::new(name)) {
+            found @ Found::Here(_) => return found,
+            Found::Outside => best = Found::Outside,
+            Found::Nowhere => {}
+        }
+    }
+    best
+}
+
+/// Puts where each material's picture lies in place of the name the file has for it; a sentence for each that is
+/// nowhere, or outside the model's folder.
+pub(super) fn find_all(soup: &mut Soup, folder: &Folder, path: &str, remarks: &mut Vec<String>) {
+    let mut known: HashMap<PathBuf, Found> = HashMap::new();
+    let mut lost = Vec::new();
+    for material in &mut soup.materials {
+        let Some(name) = material.texture.take().filter(|_| folder.is_some()) else { continue };
+        let found = known.entry(name).or_insert_with_key(|name| {
+            let name = name.to_string_lossy();
+            let found = find(folder, &name);
+            match found {
+                Found::Here(_) => {}
+                Found::Outside => lost.push(outside("picture", &name)),
+                Found::Nowhere => lost.push(format!(
+                    "the picture {} is not beside it; its faces get the material's colour; --skin names another \
+                     picture",
+                    shown(&name)
+                )),
+            }
+            found
+        });
+        if let Found::Here(place) = found {
+            material.texture = Some(place.clone());
+            material.texture_within = folder.within().map(Path::to_path_buf);
+        }
+    }
+    remark(path, lost, "pictures are missing or were not read", remarks);
+}
+
+/// Why a file that is there is not read.
+pub(super) fn outside(what: &str, name: &str) -> String {
+    format!("the {what} {} is outside its folder and was not read; --allow-external reads it", shown(name))
+}
+
+/// Says the first of some sentences about a file, and how many more there are.
+pub(super) fn remark(path: &str, sentences: Vec<String>, others: &str, remarks: &mut Vec<String>) {
+    let more = sentences.len().saturating_sub(REMARKS);
+    remarks.extend(sentences.iter().take(REMARKS).map(|sentence| format!("{path}: {sentence}")));
+    if more > 0 {
+        remarks.push(format!("{path}: {more} more {others}"));
+    }
+}
+
+/// Refuses a skin that is not there.
+pub(super) fn check(skin: &Path) -> Result<()> {
+    if skin.is_file() {
+        return Ok(());
+    }
+    let problem = if skin.is_dir() {
+        "this is a directory; name a picture in it"
+    } else if skin.exists() {
+        "this is not a regular file; name a picture"
+    } else {
+        "there is no such file; check the name after --skin"
+    };
+    Err(Error::picture(skin, problem))
+}
+
+/// Makes a picture the texture of every material; faces without one get one.
+pub(super) fn put_on(soup: &mut Soup, skin: &Path, path: &str) -> Result<()> {
+    if soup.corners.iter().all(|corner| corner.texture == NONE) {
+        return Err(Error::value(
+            "skin",
+            skin.display(),
+            format!("{path} has no texture coordinates; export it with them, or leave the option out"),
+        ));
+    }
+    for material in &mut soup.materials {
+        // Whoever names it himself may have it anywhere.
+        (material.texture, material.texture_within, material.embedded) = (Some(skin.to_path_buf()), None, None);
+    }
+    soup.polygon_materials.resize(soup.polygon_count(), NONE);
+    if soup.polygon_materials.contains(&NONE) {
+        let added = soup.materials.len() as u32;
+        let texture = Some(skin.to_path_buf());
+        soup.materials.push(Material {
+            name: "skin".to_owned(),
+            color: None,
+            texture,
+            texture_within: None,
+            embedded: None,
+        });
+        soup.polygon_materials.iter_mut().filter(|material| **material == NONE).for_each(|material| *material = added);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::soup::Corner;
+    use glam::{DVec3, Vec2};
+
+    #[test]
+    fn pictures_are_found_where_written_then_beside_in_any_case_then_by_their_stem() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::create_dir(at("art")).unwrap();
+        std::fs::create_dir(at("trap.pcx")).unwrap();
+        for name in ["art/deep.png", "Skin.PCX", "skin.bmp", "two words.png", "trap.jpg", "model.3ds"] {
+            std::fs::write(at(name), "").unwrap();
+        }
+        let model = at("model.3ds");
+        let found = |name: &str| match find(&Folder::of(model.to_str().unwrap(), false), name) {
+            Found::Here(path) => Some(path),
+            other => {
+                assert_eq!(other, Found::Nowhere, "{name}");
+                None
+            }
+        };
+        assert_eq!(found("art\\deep.png"), Some(at("art/deep.png")));
+        assert_eq!(found("players/female/SKIN.BMP"), Some(at("skin.bmp")));
+        assert_eq!(found("C:\\ART\\SKIN.TGA"), Some(at("Skin.PCX")), "pcx comes before bmp");
+        assert_eq!(found("skin"), Some(at("Skin.PCX")));
+        assert_eq!(found("my\\two words.tif"), Some(at("two words.png")));
+        assert_eq!(found("trap.pcx"), Some(at("trap.jpg")), "a folder is no picture");
+        for name in ["other.png", "model", "", "..", "art", "/", "\\"] {
+            assert_eq!(found(name), None, "{name}");
+        }
+        assert_eq!(find(&Folder::of("/no/such/folder/a.obj", false), "skin.png"), Found::Nowhere);
+        assert_eq!(find(&Folder::none(), "/etc/passwd"), Found::Nowhere);
+    }
+
+    #[test]
+    fn a_skin_goes_onto_all_materials_and_faces_without_one_get_one() {
+        let corner = |position| Corner { texture: 0, ..Corner::at(position) };
+        let material = Material {
+            name: "red".to_owned(),
+            color: Some([1.0, 0.0, 0.0]),
+            texture: None,
+            texture_within: None,
+            embedded: None,
+        };
+        let mut soup = Soup {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            texture_coordinates: vec![Vec2::ZERO],
+            corners: [0, 1, 2, 2, 1, 0].map(corner).to_vec(),
+            polygon_materials: vec![0, NONE],
+            materials: vec![material],
+            ..Soup::default()
+        };
+        put_on(&mut soup, Path::new("a.png"), "a.obj").unwrap();
+        assert_eq!(soup.polygon_materials, [0, 1]);
+        assert!(soup.materials.iter().all(|material| material.texture.as_deref() == Some(Path::new("a.png"))));
+        soup.corners.iter_mut().for_each(|corner| corner.texture = NONE);
+        let message = put_on(&mut soup, Path::new("a.png"), "a.obj").unwrap_err().to_string();
+        assert!(message.starts_with("skin a.png: a.obj has no texture coordinates"), "{message}");
+    }
+
+    #[test]
+    fn a_skin_that_is_not_there_is_refused_by_name() {
+        let message = |path: &str| check(Path::new(path)).unwrap_err().to_string();
+        assert!(message("no-such.pcx").starts_with("no-such.pcx: there is no such file"));
+        assert!(message("/").contains("directory"));
+    }
+}

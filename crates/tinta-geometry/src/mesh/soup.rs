@@ -1,0 +1,356 @@
+//! A polygon soup: a file's vertices and polygons as a reader found them, and how they become a [`Mesh`].
+//!
+//! The one place where all formats are treated alike: bad faces are dropped and counted, vertices welded, polygons
+//! cut into triangles, missing normals computed, unused vertices left out.
+
+use super::pieces::Pieces;
+use super::{Defects, LoadOptions, Material, Mesh, NONE, Normals, normals, weld};
+use crate::error::{Error, Result};
+use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
+use crate::tolerances::LARGEST_COORDINATE;
+use glam::{DVec3, Vec2, Vec3};
+use std::borrow::Cow;
+use std::path::PathBuf;
+
+/// A file's contents, unchecked but for two things: every index is [`NONE`] or within its array, and every polygon has at
+/// least three corners.
+#[derive(Debug, Default)]
+pub(super) struct Soup {
+    /// All vertices in the file's order and units.
+    pub positions: Vec<DVec3>,
+    /// All normals; any length.
+    pub normals: Vec<Vec3>,
+    /// All texture coordinates.
+    pub texture_coordinates: Vec<Vec2>,
+    /// The polygons' corners one after the other.
+    pub corners: Vec<Corner>,
+    /// How many corners each polygon has; empty when all are triangles.
+    pub polygon_sizes: Vec<u32>,
+    /// Each polygon's material or [`NONE`]; empty when there are none.
+    pub polygon_materials: Vec<u32>,
+    /// The materials.
+    pub materials: Vec<Material>,
+    /// The names of the file's frames, of which this is one or lies between two; empty where the format has none.
+    pub frames: Vec<String>,
+    /// What the reader already found.
+    pub defects: Defects,
+    /// The files that were read besides the model's own: its material libraries, its data.
+    pub files: Vec<PathBuf>,
+    /// Bytes of those that hold vertices and faces.
+    pub bytes_beside: usize,
+}
+
+/// One corner of a polygon: indices into the soup's arrays, [`NONE`] where it has none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Corner {
+    /// Into `positions`; never [`NONE`].
+    pub position: u32,
+    /// Into `normals`.
+    pub normal: u32,
+    /// Into `texture_coordinates`.
+    pub texture: u32,
+}
+
+impl Corner {
+    /// A corner that has a position only.
+    pub(super) fn at(position: u32) -> Self {
+        Self { position, normal: NONE, texture: NONE }
+    }
+}
+
+/// Whether a mesh of so many vertices, corners and triangles takes more memory than files of `file_bytes` may.
+pub(super) fn is_too_much(file_bytes: usize, vertices: usize, corners: usize, triangles: usize) -> bool {
+    /// What a vertex, a corner and a triangle take at the moment when a mesh takes most, bytes.
+    const BYTES: [usize; 3] = [80, 12, 90];
+    let needed =
+        [vertices, corners, triangles].into_iter().zip(BYTES).map(|(count, bytes)| count.saturating_mul(bytes));
+    let most = file_bytes.saturating_mul(MEMORY_FACTOR).saturating_add(MEMORY_SLACK_BYTES);
+    needed.fold(0, usize::saturating_add) > most || triangles > TRIANGLES
+}
+
+impl Soup {
+    /// How many polygons there are.
+    pub(super) fn polygon_count(&self) -> usize {
+        if self.polygon_sizes.is_empty() { self.corners.len() / 3 } else { self.polygon_sizes.len() }
+    }
+
+    /// Refuses what would take more memory as a mesh than a file of `file_bytes` may: no exporter writes so few bytes for so
+    /// many vertices and faces, but two bytes can name a polygon's corner.
+    pub(super) fn check_memory(&self, file_bytes: usize, name: &str) -> Result<()> {
+        let triangles = self.corners.len().saturating_sub(2 * self.polygon_count());
+        let file_bytes = file_bytes.saturating_add(self.bytes_beside);
+        if !is_too_much(file_bytes, self.positions.len(), self.corners.len(), triangles) {
+            return Ok(());
+        }
+        Err(Error::model(
+            name,
+            format!(
+                "its {} vertices and {triangles} triangles take more than {MEMORY_FACTOR} times the file's size in memory; \
+                 export it again as triangles, or in another format",
+                self.positions.len()
+            ),
+        ))
+    }
+
+    /// Makes the mesh. Fails if nothing is left to draw, or with `options.strict` if anything was wrong.
+    pub(super) fn into_mesh(mut self, name: &str, options: &LoadOptions) -> Result<Mesh> {
+        for position in &mut self.positions {
+            *position = options.up_axis.to_y_up(*position);
+        }
+        let finite: Vec<bool> = self.positions.iter().map(|position| position.is_finite()).collect();
+        let mut defects = std::mem::take(&mut self.defects);
+        defects.non_finite_vertices += finite.iter().filter(|finite| !**finite).count();
+
+        let used = self.used(&finite);
+        let welded = self.welded(&used, options.weld, name)?;
+        let mut pieces = Pieces::of(&self, &finite, &welded);
+        pieces.drop_duplicates();
+        defects.degenerate_triangles += pieces.degenerate;
+        defects.duplicate_triangles += pieces.duplicate;
+        if pieces.triangles.is_empty() {
+            return Err(nothing_to_draw(name, &self, &defects));
+        }
+        // A large model's corners are most of its soup.
+        self.corners = Vec::new();
+        defects.unused_vertices += finite.iter().zip(&used).filter(|(finite, used)| **finite && !**used).count();
+
+        let (positions, file_vertices) = compact(&self.positions, &mut pieces.triangles);
+        let mut mesh = Mesh {
+            name: name.to_owned(),
+            positions,
+            file_vertices,
+            triangles: pieces.triangles,
+            normals: Vec::new(),
+            triangle_normals: pieces.normals,
+            texture_coordinates: std::mem::take(&mut self.texture_coordinates),
+            triangle_texture_coordinates: pieces.texture_coordinates,
+            materials: std::mem::take(&mut self.materials),
+            triangle_materials: pieces.materials,
+            defects,
+        };
+        if mesh.triangle_texture_coordinates.as_flattened().iter().all(|index| *index == NONE) {
+            mesh.triangle_texture_coordinates.clear();
+        }
+        if mesh.triangle_materials.iter().all(|index| *index == NONE) {
+            mesh.triangle_materials.clear();
+        }
+        mesh.take_normals(&self.normals, &pieces.face_normals, options);
+        if options.strict && !mesh.defects.is_empty() {
+            return Err(Error::Strict { path: name.into(), defects: mesh.defects.to_string() });
+        }
+        Ok(mesh)
+    }
+
+    /// For each vertex the one it is welded to, by a tolerance relative to the used vertices' bounding-box diagonal; vertices
+    /// that nobody uses stay alone and do not count.
+    fn welded(&self, used: &[bool], tolerance: f64, name: &str) -> Result<Vec<u32>> {
+        let alone = DVec3::NAN;
+        let points: Cow<'_, [DVec3]> = match used.contains(&false) {
+            false => Cow::Borrowed(&self.positions),
+            true => {
+                let points = self.positions.iter().zip(used);
+                points.map(|(point, used)| if *used { *point } else { alone }).collect()
+            }
+        };
+        let (low, high) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| {
+            if point.is_nan() { (low, high) } else { (low.min(*point), high.max(*point)) }
+        });
+        if low.abs().max(high.abs()).max_element() > LARGEST_COORDINATE && low.cmple(high).all() {
+            let problem = format!("its coordinates reach beyond {LARGEST_COORDINATE:e}; scale it down");
+            return Err(Error::model(name, problem));
+        }
+        let diagonal = if low.cmple(high).all() { (high - low).length() } else { 0.0 };
+        Ok(weld::weld(&points, tolerance * diagonal))
+    }
+
+    /// Which vertices are finite and named by a polygon.
+    fn used(&self, finite: &[bool]) -> Vec<bool> {
+        let mut used = vec![false; self.positions.len()];
+        for corner in &self.corners {
+            used[corner.position as usize] = finite[corner.position as usize];
+        }
+        used
+    }
+}
+
+/// Renumbers the triangles to the positions they use, in the file's order; returns those and their file vertices.
+fn compact(all: &[DVec3], triangles: &mut [[u32; 3]]) -> (Vec<DVec3>, Vec<u32>) {
+    let mut number = vec![NONE; all.len()];
+    for index in triangles.as_flattened() {
+        number[*index as usize] = 0;
+    }
+    let count = number.iter().filter(|slot| **slot == 0).count();
+    let (mut positions, mut file_vertices) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    for (index, slot) in number.iter_mut().enumerate().filter(|(_, slot)| **slot == 0) {
+        *slot = positions.len() as u32;
+        positions.push(all[index]);
+        file_vertices.push(index as u32);
+    }
+    for index in triangles.as_flattened_mut() {
+        *index = number[*index as usize];
+    }
+    (positions, file_vertices)
+}
+
+impl Mesh {
+    /// Takes over the file's normals as far as asked for and usable, and computes the rest.
+    fn take_normals(&mut self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) {
+        let cos_smooth = options.smooth_angle_degrees.to_radians().cos();
+        let (file_normals, cos_smooth): (&[Vec3], f64) = match options.normals {
+            Normals::File => (file_normals, cos_smooth),
+            Normals::Smooth => (&[], cos_smooth),
+            Normals::Flat => (&[], 2.0),
+            Normals::Dachsbacher => {
+                self.normals = normals::one_a_position(self.positions.len(), &self.triangles, face_normals);
+                self.triangle_normals.clone_from(&self.triangles);
+                return;
+            }
+        };
+        let mut number = vec![NONE; file_normals.len()];
+        for slot in self.triangle_normals.as_flattened_mut() {
+            let Some(normal) = file_normals.get(*slot as usize).and_then(|normal| normal.try_normalize()) else {
+                *slot = NONE;
+                continue;
+            };
+            let file_index = std::mem::replace(slot, number[*slot as usize]) as usize;
+            if *slot == NONE {
+                *slot = self.normals.len() as u32;
+                number[file_index] = *slot;
+                self.normals.push(options.up_axis.to_y_up(normal.as_dvec3()).as_vec3());
+            }
+        }
+        let (normals, triangle_normals) = (&mut self.normals, &mut self.triangle_normals);
+        normals::fill_missing(&self.positions, &self.triangles, face_normals, cos_smooth, normals, triangle_normals);
+    }
+}
+
+fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
+    let problem = if soup.positions.is_empty() && soup.corners.is_empty() {
+        "it holds no vertices and no faces; is it the right file?".to_owned()
+    } else if soup.corners.is_empty() && defects.is_empty() {
+        format!("it holds {} vertices but no faces; export it with its faces", soup.positions.len())
+    } else {
+        format!("nothing is left to draw ({defects}); export it again with faces that have area")
+    };
+    Error::model(name, problem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::UpAxis;
+
+    fn square() -> Soup {
+        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
+        let corners = (0..4).map(Corner::at).collect();
+        Soup { positions, corners, polygon_sizes: vec![4], ..Soup::default() }
+    }
+
+    fn mesh(soup: Soup) -> Mesh {
+        soup.into_mesh("test", &LoadOptions::default()).unwrap()
+    }
+
+    #[test]
+    fn a_square_becomes_two_triangles_over_four_positions() {
+        let mesh = mesh(square());
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(mesh.normals, [Vec3::Z; 4]);
+        assert!(mesh.defects.is_empty());
+    }
+
+    #[test]
+    fn defects_are_counted_and_left_out() {
+        let mut soup = square();
+        soup.positions.extend([DVec3::splat(9.0), DVec3::new(f64::NAN, 0.0, 0.0), DVec3::X * 2.0]);
+        let mut face = |indices: &[u32]| {
+            soup.corners.extend(indices.iter().map(|index| Corner::at(*index)));
+            soup.polygon_sizes.push(indices.len() as u32);
+        };
+        face(&[1, 2, 0]); // repeats half of the square, turned
+        face(&[2, 1, 0]); // its other side
+        face(&[0, 1, 1]);
+        face(&[0, 1, 6]); // on one line
+        face(&[0, 1, 5]); // not finite
+        let mesh = mesh(soup);
+        assert_eq!(mesh.triangles.len(), 3);
+        let expected = Defects {
+            degenerate_triangles: 2,
+            duplicate_triangles: 1,
+            non_finite_vertices: 1,
+            unused_vertices: 1,
+            ..Defects::default()
+        };
+        assert_eq!(mesh.defects, expected);
+        assert_eq!(mesh.file_vertices, [0, 1, 2, 3]);
+    }
+
+    #[test]
+    fn strict_makes_a_defect_an_error_that_counts_it() {
+        let mut soup = square();
+        soup.positions.push(DVec3::splat(9.0));
+        let error = soup.into_mesh("a.obj", &LoadOptions { strict: true, ..LoadOptions::default() }).unwrap_err();
+        assert!(error.to_string().starts_with("a.obj: 1 unused vertex;"), "{error}");
+    }
+
+    #[test]
+    fn a_tiny_triangle_has_area_and_a_huge_one_too() {
+        for size in [1e-160, 1e-30, 1.0, 1e30, 1e59] {
+            let positions = [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p * size).to_vec();
+            let soup = Soup { positions, corners: (0..3).map(Corner::at).collect(), ..Soup::default() };
+            assert_eq!(mesh(soup).normals, [Vec3::Z; 3], "size {size}");
+        }
+    }
+
+    #[test]
+    fn a_stray_vertex_does_not_weld_a_far_away_model_together() {
+        let mut soup = square();
+        soup.positions.iter_mut().for_each(|position| *position += DVec3::new(5e5, 4.6e6, 0.0));
+        soup.positions.push(DVec3::ZERO);
+        let mesh = mesh(soup);
+        assert_eq!((mesh.triangles.len(), mesh.defects.unused_vertices), (2, 1));
+    }
+
+    #[test]
+    fn needles_have_unit_normals_and_coordinates_beyond_reason_are_refused() {
+        let soup = |points: [DVec3; 3]| Soup {
+            positions: points.to_vec(),
+            corners: (0..3).map(Corner::at).collect(),
+            ..Soup::default()
+        };
+        let needle = mesh(soup([DVec3::ZERO, DVec3::X, DVec3::new(0.5, 1e-200, 0.0)]));
+        assert_eq!(needle.normals, [Vec3::Z; 3]);
+        let huge = soup([DVec3::ZERO, DVec3::X * 1e200, DVec3::Y]);
+        let message = huge.into_mesh("huge.obj", &LoadOptions::default()).unwrap_err().to_string();
+        assert!(message.starts_with("huge.obj: its coordinates reach beyond"), "{message}");
+    }
+
+    #[test]
+    fn by_the_articles_rule_there_is_one_normal_a_vertex_whatever_the_file_says() {
+        let options = LoadOptions { normals: Normals::Dachsbacher, ..LoadOptions::default() };
+        let mut soup = square();
+        soup.normals = vec![Vec3::X];
+        soup.corners.iter_mut().for_each(|corner| corner.normal = 0);
+        // A wall along one side, its two corners given again, and a face without area.
+        soup.positions.extend([DVec3::ZERO, DVec3::Y, DVec3::Z]);
+        soup.corners.extend([4, 5, 6, 0, 1, 1].map(Corner::at));
+        soup.polygon_sizes.extend([3, 3]);
+        let mesh = soup.into_mesh("test", &options).unwrap();
+        assert_eq!((mesh.positions.len(), mesh.normals.len()), (5, 5));
+        assert_eq!(mesh.triangle_normals, mesh.triangles);
+        assert_eq!((mesh.defects.degenerate_triangles, mesh.normals[1]), (1, Vec3::Z));
+        // The square is cut from the first corner, so that two of its triangles meet the wall's there, and one at the other.
+        assert!(mesh.normals[0].distance(Vec3::new(1.0, 0.0, 2.0).normalize()) < 1e-6, "{}", mesh.normals[0]);
+        assert!(mesh.normals[3].distance(Vec3::new(1.0, 0.0, 1.0).normalize()) < 1e-6, "{}", mesh.normals[3]);
+    }
+
+    #[test]
+    fn a_model_that_is_z_up_is_turned_to_stand_with_its_front_towards_z() {
+        let options = LoadOptions { up_axis: UpAxis::Z, ..LoadOptions::default() };
+        let mut soup = square();
+        soup.normals = vec![Vec3::Z];
+        soup.corners.iter_mut().for_each(|corner| corner.normal = 0);
+        let mesh = soup.into_mesh("test", &options).unwrap();
+        assert_eq!(mesh.normals, [Vec3::Y]);
+        assert_eq!(mesh.positions[3], DVec3::NEG_Z, "the model's back, +y, is away from the front view");
+    }
+}

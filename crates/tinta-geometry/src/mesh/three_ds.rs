@@ -1,0 +1,297 @@
+//! 3D Studio models (3DS): all meshes of the file as one, with their materials. The reader is our own, since the
+//! crate for it (ds3) reads no colours and no textures; every byte it looks at goes through [`Bytes`].
+//!
+//! The file is a tree of chunks, each a number, a length that counts itself, and data that may be followed by chunks.
+//! Vertices are in world space already, so the meshes' local matrices are not used; nor are smoothing groups: normals are
+//! computed. In the file z is up and -y the front, which is turned to y up (unless `--up-axis` says otherwise).
+
+use super::folder::Folder;
+use super::load::{LoadOptions, UpAxis};
+use super::soup::{Corner, Soup};
+use super::{Material, NONE, skin};
+use crate::bytes::Bytes;
+use crate::error::{Error, Result};
+use crate::limits::MATERIALS;
+use glam::{DVec3, Vec2};
+use std::collections::{BTreeSet, HashMap};
+use std::path::PathBuf;
+
+/// The chunks that are looked into; all others are passed over.
+mod chunk {
+    pub(super) const MAIN: u16 = 0x4d4d;
+    pub(super) const VERSION: u16 = 0x0002;
+    pub(super) const EDITOR: u16 = 0x3d3d;
+    pub(super) const KEYFRAMER: u16 = 0xb000;
+    pub(super) const OBJECT: u16 = 0x4000;
+    pub(super) const MESH: u16 = 0x4100;
+    pub(super) const VERTICES: u16 = 0x4110;
+    pub(super) const FACES: u16 = 0x4120;
+    pub(super) const FACE_MATERIAL: u16 = 0x4130;
+    pub(super) const TEXTURE_COORDINATES: u16 = 0x4140;
+    pub(super) const MATERIAL: u16 = 0xafff;
+    pub(super) const MATERIAL_NAME: u16 = 0xa000;
+    pub(super) const DIFFUSE: u16 = 0xa020;
+    pub(super) const TEXTURE: u16 = 0xa200;
+    pub(super) const TEXTURE_FILE: u16 = 0xa300;
+    pub(super) const COLOR_FLOATS: [u16; 2] = [0x0010, 0x0013];
+    pub(super) const COLOR_BYTES: [u16; 2] = [0x0011, 0x0012];
+}
+
+const CHUNK_HEADER_BYTES: usize = 6;
+
+/// Whether a file begins with a main chunk and, in it, a chunk that may be its first; TIFF pictures begin with MM too.
+pub(super) fn looks_like(head: &[u8]) -> bool {
+    let mut bytes = Bytes(head);
+    bytes.u16() == Some(chunk::MAIN)
+        && bytes.u32().is_some()
+        && bytes.u16().is_some_and(|first| [chunk::VERSION, chunk::EDITOR, chunk::KEYFRAMER].contains(&first))
+}
+
+/// Why a file is not read to its end.
+#[derive(Debug)]
+enum Damage {
+    /// A chunk's length is wrong, or its data ends too early.
+    Part(u16),
+    /// There are more materials than are read.
+    Materials,
+}
+
+/// The chunks that lie one after the other in `bytes`; a rest shorter than a chunk's header is padding.
+fn chunks<'a>(mut bytes: Bytes<'a>) -> impl Iterator<Item = std::result::Result<(u16, Bytes<'a>), Damage>> {
+    std::iter::from_fn(move || {
+        if bytes.0.len() < CHUNK_HEADER_BYTES {
+            return None;
+        }
+        let (number, length) = (bytes.u16()?, bytes.u32()? as usize);
+        let data = length.checked_sub(CHUNK_HEADER_BYTES).and_then(|length| bytes.take(length));
+        if data.is_none() {
+            bytes = Bytes(&[]);
+        }
+        Some(data.map(|data| (number, Bytes(data))).ok_or(Damage::Part(number)))
+    })
+}
+
+/// What is read of a file before faces know their materials.
+#[derive(Default)]
+struct Contents {
+    soup: Soup,
+    /// For each face the place of its material's name in `material_names`, or [`NONE`].
+    face_materials: Vec<u32>,
+    /// The names that faces use, as they come; a name may come more than once.
+    material_names: Vec<String>,
+}
+
+/// Reads a 3DS file's bytes. `path` is for messages; its textures are looked for in `folder`.
+pub(super) fn read(
+    bytes: &[u8],
+    path: &str,
+    options: &LoadOptions,
+    folder: &Folder,
+    remarks: &mut Vec<String>,
+) -> Result<Soup> {
+    let mut main = Bytes(bytes);
+    let (number, length) = (main.u16(), main.u32());
+    if number != Some(chunk::MAIN) {
+        return Err(Error::model(
+            path,
+            "it does not begin like a 3DS file; it is damaged or misnamed, export it again",
+        ));
+    }
+    let length = length.map_or(CHUNK_HEADER_BYTES, |length| length as usize);
+    let Some(data) = length.checked_sub(CHUNK_HEADER_BYTES).and_then(|length| main.take(length)) else {
+        let has = bytes.len();
+        let problem = format!(
+            "its header promises {length} bytes but the file has {has}; it is damaged or cut off, export it again"
+        );
+        return Err(Error::model(path, problem));
+    };
+    let mut contents = Contents::default();
+    contents.main(Bytes(data)).map_err(|damage| {
+        let problem = match damage {
+            Damage::Part(number) => format!("its part {number:04x} is damaged or cut off; export it again"),
+            Damage::Materials => format!("it has more than {MATERIALS} materials; export it with fewer"),
+        };
+        Error::model(path, problem)
+    })?;
+    let mut soup = contents.with_materials(path, remarks);
+    if options.up_axis == UpAxis::Auto {
+        soup.positions.iter_mut().for_each(|position| *position = UpAxis::Z.to_y_up(*position));
+    }
+    if options.skin.is_none() {
+        skin::find_all(&mut soup, folder, path, remarks);
+    }
+    Ok(soup)
+}
+
+impl Contents {
+    fn main(&mut self, bytes: Bytes<'_>) -> std::result::Result<(), Damage> {
+        for item in chunks(bytes) {
+            let (number, data) = item?;
+            if number == chunk::EDITOR {
+                self.editor(data)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn editor(&mut self, bytes: Bytes<'_>) -> std::result::Result<(), Damage> {
+        for item in chunks(bytes) {
+            match item? {
+                (chunk::MATERIAL, _) if self.soup.materials.len() >= MATERIALS => return Err(Damage::Materials),
+                (chunk::MATERIAL, data) => self.soup.materials.push(material(data)?),
+                (chunk::OBJECT, mut data) => {
+                    data.text().ok_or(Damage::Part(chunk::OBJECT))?;
+                    for item in chunks(data) {
+                        if let (chunk::MESH, data) = item? {
+                            self.mesh(data)?;
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// One mesh: its parts may come in any order, so they are gathered first.
+    fn mesh(&mut self, bytes: Bytes<'_>) -> std::result::Result<(), Damage> {
+        let (mut vertices, mut texture_coordinates, mut faces) = (Vec::new(), Vec::new(), None);
+        for item in chunks(bytes) {
+            match item? {
+                (chunk::VERTICES, data) => {
+                    vertices = numbers::<3>(data).ok_or(Damage::Part(chunk::VERTICES))?;
+                }
+                (chunk::TEXTURE_COORDINATES, data) => {
+                    texture_coordinates = numbers::<2>(data).ok_or(Damage::Part(chunk::TEXTURE_COORDINATES))?;
+                }
+                (chunk::FACES, data) => faces = Some(data),
+                _ => {}
+            }
+        }
+        if let Some(faces) = faces {
+            self.faces(faces, vertices.len(), texture_coordinates.len())?;
+        }
+        self.soup.positions.extend(vertices.into_iter().map(|v| DVec3::from_array(v.map(f64::from))));
+        self.soup.texture_coordinates.extend(texture_coordinates.into_iter().map(Vec2::from_array));
+        Ok(())
+    }
+
+    /// A mesh's faces and their materials. Its vertices will follow those that are already there.
+    fn faces(&mut self, mut bytes: Bytes<'_>, vertices: usize, textures: usize) -> std::result::Result<(), Damage> {
+        /// Three indices and flags that say which sides are seen.
+        const FACE_BYTES: usize = 8;
+        let records = bytes.u16().and_then(|count| bytes.records(count.into(), FACE_BYTES));
+        let records = records.ok_or(Damage::Part(chunk::FACES))?;
+        let mut materials = vec![NONE; records.len()];
+        for item in chunks(bytes) {
+            if let (chunk::FACE_MATERIAL, data) = item? {
+                let (name, faces) = face_material(data).ok_or(Damage::Part(chunk::FACE_MATERIAL))?;
+                let place = self.material_names.len() as u32;
+                self.material_names.push(name);
+                for face in faces {
+                    if let Some(material) = materials.get_mut(usize::from(face)) {
+                        *material = place;
+                    }
+                }
+            }
+        }
+        let first_position = self.soup.positions.len() as u32;
+        let first_texture = self.soup.texture_coordinates.len() as u32;
+        for (face, material) in records.zip(materials) {
+            let mut face = Bytes(face);
+            let indices = [face.u16(), face.u16(), face.u16()].map(Option::unwrap_or_default);
+            if indices.iter().any(|index| usize::from(*index) >= vertices) {
+                self.soup.defects.out_of_range_faces += 1;
+                continue;
+            }
+            self.face_materials.push(material);
+            self.soup.corners.extend(indices.map(|index| Corner {
+                texture: if usize::from(index) < textures { first_texture + u32::from(index) } else { NONE },
+                ..Corner::at(first_position + u32::from(index))
+            }));
+        }
+        Ok(())
+    }
+
+    /// Gives faces the materials of the names they use; materials may have come after them.
+    fn with_materials(self, path: &str, remarks: &mut Vec<String>) -> Soup {
+        let Self { mut soup, face_materials, material_names } = self;
+        // Where a name comes more than once the first counts.
+        let by_name: HashMap<&str, usize> =
+            soup.materials.iter().enumerate().rev().map(|(place, material)| (material.name.as_str(), place)).collect();
+        let places: Vec<Option<usize>> =
+            material_names.iter().map(|name| by_name.get(name.as_str()).copied()).collect();
+        let unknown: BTreeSet<&String> =
+            material_names.iter().zip(&places).filter(|(_, place)| place.is_none()).map(|(name, _)| name).collect();
+        if !unknown.is_empty() {
+            remarks.push(format!(
+                "{path}: {} of the materials it uses are not in it; their faces get the default colour",
+                unknown.len()
+            ));
+        }
+        soup.defects.missing_materials = unknown.len();
+        let known = |slot: u32| places.get(slot as usize).copied().flatten().map_or(NONE, |place| place as u32);
+        soup.polygon_materials = face_materials.into_iter().map(known).collect();
+        soup
+    }
+}
+
+/// A count and that many groups of `N` floats.
+fn numbers<const N: usize>(mut bytes: Bytes<'_>) -> Option<Vec<[f32; N]>> {
+    let count = bytes.u16()?;
+    bytes.records(count.into(), N * size_of::<f32>())?.map(|record| Bytes(record).floats()).collect()
+}
+
+/// A material's name and the numbers of the faces that have it.
+fn face_material(mut bytes: Bytes<'_>) -> Option<(String, Vec<u16>)> {
+    let name = bytes.text()?;
+    let count = bytes.u16()?;
+    let faces = bytes.records(count.into(), size_of::<u16>())?.filter_map(|record| Bytes(record).u16()).collect();
+    Some((name, faces))
+}
+
+/// A material; its texture is the file's name for it until it is looked for.
+fn material(bytes: Bytes<'_>) -> std::result::Result<Material, Damage> {
+    let mut material =
+        Material { name: String::new(), color: None, texture: None, texture_within: None, embedded: None };
+    for item in chunks(bytes) {
+        match item? {
+            (chunk::MATERIAL_NAME, mut data) => {
+                material.name = data.text().ok_or(Damage::Part(chunk::MATERIAL_NAME))?;
+            }
+            (chunk::DIFFUSE, data) => material.color = color(data)?,
+            (chunk::TEXTURE, data) => {
+                for item in chunks(data) {
+                    if let (chunk::TEXTURE_FILE, mut data) = item? {
+                        let name = data.text().ok_or(Damage::Part(chunk::TEXTURE_FILE))?;
+                        material.texture = (!name.is_empty()).then(|| PathBuf::from(name));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(material)
+}
+
+/// The first colour among the chunks: files may repeat it corrected for the screen's gamma.
+fn color(bytes: Bytes<'_>) -> std::result::Result<Option<[f32; 3]>, Damage> {
+    for item in chunks(bytes) {
+        let (number, mut data) = item?;
+        let color = if chunk::COLOR_FLOATS.contains(&number) {
+            data.floats()
+        } else if chunk::COLOR_BYTES.contains(&number) {
+            data.take(3)
+                .and_then(|bytes| bytes.first_chunk())
+                .map(|bytes: &[u8; 3]| bytes.map(|c| f32::from(c) / 255.0))
+        } else {
+            continue;
+        };
+        let color = color.ok_or(Damage::Part(number))?;
+        return Ok(color.iter().all(|channel| channel.is_finite()).then(|| color.map(|c| c.clamp(0.0, 1.0))));
+    }
+    Ok(None)
+}
+
+#[cfg(test)]
+pub(super) mod tests;

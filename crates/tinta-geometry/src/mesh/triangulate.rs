@@ -1,0 +1,229 @@
+//! Polygons to triangles, each keeping the polygon's orientation.
+//!
+//! Convex polygons become fans; the others go to the earcut crate in the plane of Newell's normal. Long ones, for which earcut
+//! would not come to an end, are cut by [`ears`] if they do not cross themselves.
+
+mod blockers;
+mod ears;
+mod simple;
+
+use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS};
+use earcut::Earcut;
+use ears::cut_ears;
+use glam::{DVec2, DVec3};
+use simple::is_simple;
+
+/// Splits one polygon (its corners' positions, in order) into triangles of corner numbers.
+///
+/// `out` is cleared and gets `corners.len() - 2` triangles for a simple polygon, fewer where it has no area to cut, none where
+/// it has more than [`CONCAVE_CORNERS`] and is not convex, or more than [`CROSSING_CORNERS`] and crosses itself.
+/// Time grows with n log n for most long polygons; the slowest known of 32,768 corners takes a third of a second.
+pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u32; 3]>) {
+    out.clear();
+    match corners.len() {
+        0..=2 => {}
+        3 => out.push([0, 1, 2]),
+        count => {
+            let corners = &of_size_one(corners);
+            let normal = newell_normal(corners);
+            if normal == DVec3::ZERO || is_convex(corners, normal) {
+                out.extend((1..count as u32 - 1).map(|i| [0, i, i + 1]));
+            } else {
+                if count > CONCAVE_CORNERS {
+                    return;
+                }
+                let plane: Vec<DVec2> = project(corners, normal).collect();
+                if count > CROSSING_CORNERS {
+                    if is_simple(&plane) {
+                        cut_ears(&plane, out);
+                    }
+                    return;
+                }
+                let mut indices: Vec<u32> = Vec::new();
+                earcut.earcut(plane.iter().map(|point| point.to_array()), &[], &mut indices);
+                out.extend(indices.chunks_exact(3).map(|t| oriented([t[0], t[1], t[2]], corners, normal)));
+            }
+        }
+    }
+}
+
+/// The corners moved to the first one and scaled to a size of 1 to 2, so that products of lengths stay ordinary numbers. The
+/// scale is a power of two: no division rounds, and corners in line stay so.
+fn of_size_one(corners: &[DVec3]) -> Vec<DVec3> {
+    let size = corners.iter().map(|corner| (corner - corners[0]).abs().max_element()).fold(0.0, f64::max);
+    let power_of_two = f64::from_bits(size.to_bits() & f64::INFINITY.to_bits());
+    let scale = if power_of_two > 0.0 { power_of_two } else { 1.0 };
+    corners.iter().map(|corner| (corner - corners[0]) / scale).collect()
+}
+
+/// Twice the polygon's area as a vector along its normal.
+fn newell_normal(corners: &[DVec3]) -> DVec3 {
+    let origin = corners[0];
+    corners.windows(2).map(|pair| (pair[0] - origin).cross(pair[1] - origin)).sum()
+}
+
+/// Whether no corner turns the other way; a star polygon that winds twice is not convex either.
+fn is_convex(corners: &[DVec3], normal: DVec3) -> bool {
+    let count = corners.len();
+    let corner = |i: usize| corners[i % count];
+    let turns_left =
+        (0..count).all(|i| (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i + 1)).dot(normal) >= 0.0);
+    let fan_is_left =
+        (1..count - 1).all(|i| (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]).dot(normal) >= 0.0);
+    turns_left && fan_is_left
+}
+
+/// The corners in a plane's coordinates, seen from the side the normal points to.
+fn project(corners: &[DVec3], normal: DVec3) -> impl Iterator<Item = DVec2> {
+    let across = normal.any_orthogonal_vector().normalize_or_zero();
+    let along = normal.cross(across).normalize_or_zero();
+    corners.iter().map(move |corner| DVec2::new(corner.dot(across), corner.dot(along)))
+}
+
+/// The triangle turned so that it winds like its polygon: earcut does not promise an order.
+fn oriented(triangle: [u32; 3], corners: &[DVec3], normal: DVec3) -> [u32; 3] {
+    let [a, b, c] = triangle.map(|index| corners[index as usize]);
+    if (b - a).cross(c - a).dot(normal) < 0.0 { [triangle[0], triangle[2], triangle[1]] } else { triangle }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn area_vector(corners: &[DVec3], triangles: &[[u32; 3]]) -> (DVec3, f64) {
+        let mut sum = DVec3::ZERO;
+        let mut total = 0.0;
+        for triangle in triangles {
+            let [a, b, c] = triangle.map(|i| corners[i as usize]);
+            let area = (b - a).cross(c - a) * 0.5;
+            sum += area;
+            total += area.length();
+        }
+        (sum, total)
+    }
+
+    fn cut(corners: &[DVec3]) -> Vec<[u32; 3]> {
+        let mut out = Vec::new();
+        triangulate(corners, &mut Earcut::new(), &mut out);
+        out
+    }
+
+    #[test]
+    fn a_convex_polygon_becomes_a_fan() {
+        let square = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
+        assert_eq!(cut(&square), [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn a_concave_polygon_keeps_its_area_and_orientation() {
+        // An L of area 3 in a tilted plane, entered at the corner from which a fan would leave the polygon.
+        let flat = [(1.0, 1.0), (1.0, 2.0), (0.0, 2.0), (0.0, 0.0), (2.0, 0.0), (2.0, 1.0)];
+        let (u, v) = (DVec3::new(0.6, 0.8, 0.0), DVec3::new(-0.48, 0.36, 0.8));
+        for (start, size) in (0..flat.len()).flat_map(|start| [(start, 1.0), (start, 1e-60)]) {
+            let corners: Vec<DVec3> =
+                (0..flat.len()).map(|i| flat[(start + i) % flat.len()]).map(|(x, y)| (u * x + v * y) * size).collect();
+            let triangles = cut(&corners);
+            let (sum, total) = area_vector(&corners, &triangles);
+            assert_eq!(triangles.len(), 4);
+            let (sum, total) = (sum / size / size, total / size / size);
+            assert!((total - 3.0).abs() < 1e-12, "area {total}");
+            assert!(sum.distance(u.cross(v) * 3.0) < 1e-12, "orientation {sum}");
+        }
+    }
+
+    /// A comb of this many corners, with teeth as long as it is wide.
+    fn comb(count: u32) -> Vec<DVec2> {
+        let height = |i: u32| f64::from(matches!(i % 4, 1 | 2)) - f64::from(i == 0 || i == count - 1);
+        (0..count).map(|i| DVec2::new(f64::from(i) / f64::from(count), height(i))).rev().collect()
+    }
+
+    /// A star of this many corners whose inner ones lie at `inner` of the outer ones' distance.
+    fn star(count: u32, inner: f64) -> Vec<DVec2> {
+        let radius = |i: u32| if i % 2 == 1 { inner } else { 1.0 };
+        let turn = |i: u32| f64::from(i) / f64::from(count) * std::f64::consts::TAU;
+        (0..count).map(|i| DVec2::from_angle(turn(i)) * radius(i)).collect()
+    }
+
+    /// A ring with a ring-shaped hole, joined to it by a cut.
+    fn keyhole(count: u32) -> Vec<DVec2> {
+        let rim = star(count - count / 2, 1.0);
+        let mut keyhole: Vec<DVec2> = rim.into_iter().map(|point| point * 2.0).collect();
+        keyhole.push(keyhole[0]);
+        let hole = star(count / 2, 1.0);
+        keyhole.push(hole[0]);
+        keyhole.extend(hole.into_iter().rev());
+        keyhole
+    }
+
+    /// A thin band in zigzag: only its ends are ears.
+    fn zigzag(count: u32) -> Vec<DVec2> {
+        let half = count / 2;
+        let point = |i: u32, up: f64| DVec2::new(f64::from(i) / f64::from(half), f64::from(i % 2) + up);
+        (0..half).map(|i| point(i, 0.0)).chain((0..half).rev().map(|i| point(i, 0.25))).collect()
+    }
+
+    /// A band that winds around a point forty times.
+    fn spiral(count: u32) -> Vec<DVec2> {
+        let half = count / 2;
+        let point = |i: u32, out: f64| {
+            let way = f64::from(i) / f64::from(half);
+            DVec2::from_angle(way * 40.0 * std::f64::consts::TAU) * (0.05 + way + out)
+        };
+        (0..half).map(|i| point(i, 0.0125)).chain((0..half).rev().map(|i| point(i, 0.0))).collect()
+    }
+
+    #[test]
+    fn combs_stars_keyholes_zigzags_and_spirals_of_up_to_the_promised_corners_keep_their_area() {
+        let (u, v) = (DVec3::new(0.6, 0.8, 0.0), DVec3::new(-0.48, 0.36, 0.8));
+        let mut counts: Vec<u32> = (2..=15).map(|power| 1 << power).collect();
+        counts.extend([5, 7, 33, 1023, 1025, 1027, 1029, 8001, 16_383, 32_766]);
+        for count in counts {
+            let shapes = [
+                ("comb", comb(count)),
+                ("blunt star", star(count, 0.9)),
+                ("sharp star", star(count, 1e-3)),
+                ("keyhole", keyhole(count.saturating_sub(2).max(6))),
+                ("zigzag", zigzag(count.max(6))),
+                ("spiral", if count < 2000 { star(count, 0.5) } else { spiral(count) }),
+            ];
+            for (name, flat) in shapes {
+                assert!(flat.len() <= CONCAVE_CORNERS);
+                let corners: Vec<DVec3> = flat.iter().map(|point| u * point.x + v * point.y).collect();
+                let area = (0..flat.len()).map(|i| flat[i].perp_dot(flat[(i + 1) % flat.len()])).sum::<f64>() / 2.0;
+                let triangles = cut(&corners);
+                let (sum, total) = area_vector(&corners, &triangles);
+                assert_eq!(triangles.len(), corners.len() - 2, "{name} of {count}");
+                assert!((total - area.abs()).abs() < 1e-9, "{name} of {count}: {total} instead of {area}");
+                assert!(sum.distance(u.cross(v) * area) < 1e-9, "{name} of {count} is turned round");
+            }
+        }
+    }
+
+    #[test]
+    fn polygons_of_many_corners_that_cross_wind_or_go_back_come_to_an_end() {
+        let many = CONCAVE_CORNERS as u32;
+        let knot = |i: u32| [2_654_435_761, 2_246_822_519].map(|factor: u32| f64::from(i.wrapping_mul(factor)));
+        let flat = |points: Vec<DVec2>| -> Vec<DVec3> { points.into_iter().map(|point| point.extend(0.0)).collect() };
+        assert_eq!(cut(&flat((0..many).map(|i| DVec2::from_array(knot(i))).collect())), [[0; 3]; 0]);
+        let there_and_back = comb(many / 2).into_iter().chain(comb(many / 2).into_iter().rev());
+        let mut none = Vec::new();
+        cut_ears(&there_and_back.collect::<Vec<_>>(), &mut none);
+        assert_eq!(none, [[0; 3]; 0]);
+        cut(&flat((0..many as usize).map(|i| star(64, 0.5)[i % 64]).collect()));
+        assert_eq!(cut(&vec![DVec3::ONE; many as usize]).len(), many as usize - 2);
+        cut(&(0..many).map(|i| DVec3::X * f64::from(i % 7)).collect::<Vec<_>>());
+        // A spike without area stands out of a comb, bent, and nothing is drawn beside it.
+        let mut spiked = comb(2000);
+        let area = area_vector(&flat(spiked.clone()), &cut(&flat(spiked.clone()))).1;
+        let tip = spiked[0];
+        spiked.splice(0..0, [tip, tip + DVec2::X, tip + DVec2::ONE, tip + DVec2::X]);
+        let spiked = flat(spiked);
+        assert!((area_vector(&spiked, &cut(&spiked)).1 - area).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_polygon_without_area_does_not_panic() {
+        assert_eq!(cut(&[DVec3::ZERO; 5]).len(), 3);
+        assert_eq!(cut(&[DVec3::ZERO, DVec3::X]).len(), 0);
+    }
+}

@@ -1,0 +1,488 @@
+//! What is drawn: meshes at their places, colours, a camera and a picture size.
+//!
+//! GL draws in scene space: the scene's centre is the origin and its radius 1, so that f32 suffices wherever the model
+//! lies and however large it is, and so that the papers' light, given in eye space without a unit, always stands at the
+//! same place relative to what it lights (errata E11). Scene space only moves and scales world space; nothing turns.
+//!
+//! ```
+//! # fn main() -> tinta_geometry::Result<()> {
+//! use std::sync::Arc;
+//! use tinta_geometry::{Background, LoadOptions, Scene, SceneSettings, Size, load};
+//!
+//! let ant = Arc::new(load("../../models/ant.obj", &LoadOptions::default())?.mesh);
+//! let settings = SceneSettings {
+//!     copies: 4,
+//!     size: Size { width: 320, height: 240 },
+//!     background: Background::Transparent,
+//!     ..SceneSettings::default()
+//! };
+//! let scene = Scene::new(vec![ant], &settings)?;
+//! assert_eq!((scene.objects.len(), scene.triangle_count()), (4, 4 * 3964));
+//! # Ok(())
+//! # }
+//! ```
+
+mod extent;
+mod precision;
+mod turntable;
+
+pub use crate::values::{Background, Color, Rectangle, Size};
+
+use crate::camera::{Camera, CameraSettings, Projection};
+use crate::edges::{Eye, MeshEdges, SilhouetteRule};
+use crate::error::{Error, Result};
+use crate::hiding::{Hiding, ObjectView};
+use crate::mesh::{Mesh, NONE, VertexArrays, bounds};
+use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
+use crate::tolerances::SCENE_RADIUS;
+use glam::{DMat4, DVec3, Mat4, Vec3};
+use std::sync::{Arc, LazyLock, OnceLock, Weak};
+
+/// A mesh at a place.
+#[derive(Debug, Clone)]
+pub struct Object {
+    /// The mesh, shared between copies.
+    pub mesh: Arc<Mesh>,
+    /// Where its own origin goes, world space.
+    pub offset: DVec3,
+    /// What GL draws of the mesh, made when first asked for, shared between copies.
+    arrays: Arc<OnceLock<VertexArrays>>,
+    /// Boxes around them, likewise.
+    boxes: Arc<OnceLock<Vec<[Vec3; 2]>>>,
+    /// Which of its faces hide which, likewise.
+    hiding: Arc<OnceLock<Hiding>>,
+    /// Its edges, likewise.
+    edges: Arc<OnceLock<MeshEdges>>,
+}
+
+/// Which object something was made for: copies of one object share theirs. It keeps nothing of the object alive.
+#[derive(Debug, Clone)]
+pub struct ObjectIdentity(Weak<OnceLock<VertexArrays>>);
+
+impl ObjectIdentity {
+    /// Whether the object is the one, or a copy of it.
+    pub fn is_of(&self, object: &Object) -> bool {
+        std::ptr::eq(self.0.as_ptr(), Arc::as_ptr(&object.arrays))
+    }
+}
+
+/// All that a style needs to know to plan a picture, and `gl` to draw it.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The meshes at their places.
+    pub objects: Vec<Object>,
+    /// Middle of the objects' bounding box, world space.
+    pub centre: DVec3,
+    /// Half the bounding box's diagonal, file units: the unit of scene space.
+    pub radius: f64,
+    /// The camera, world space.
+    pub camera: Camera,
+    /// The picture's size.
+    pub size: Size,
+    /// What is behind the objects.
+    pub background: Background,
+    /// The objects' colour where the model gives none, or everywhere with `recolor`.
+    pub color: Color,
+    /// Whether `color` replaces the model's own colours.
+    pub recolor: bool,
+}
+
+/// What the user asks of the scene.
+#[derive(Debug, Clone)]
+pub struct SceneSettings {
+    /// How often the models are repeated, on a square grid on the ground, as the first paper's scenes grow. Default 1.
+    pub copies: u32,
+    /// The camera.
+    pub camera: CameraSettings,
+    /// The picture's size. Default 512 x 512, the first paper's.
+    pub size: Size,
+    /// What is behind the objects. Default white.
+    pub background: Background,
+    /// One colour for everything instead of the model's own.
+    pub color: Option<Color>,
+}
+
+impl Default for SceneSettings {
+    fn default() -> Self {
+        Self {
+            copies: 1,
+            camera: CameraSettings::default(),
+            size: Size { width: 512, height: 512 },
+            background: Background::Color(Color([1.0; 3])),
+            color: None,
+        }
+    }
+}
+
+impl HasSettings for SceneSettings {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<SceneSettings>> =
+            LazyLock::new(|| Table { settings: SceneSettings::settings(), defaults: vec![SceneSettings::default()] });
+        &TABLE
+    }
+}
+
+impl SceneSettings {
+    fn settings() -> Vec<Setting<Self>> {
+        let default = || Self::default().background;
+        let background = Setting::of(
+            "background",
+            "COLOUR",
+            Color::kind(),
+            "Colour behind the scene: a CSS name, #rrggbb or rgb(r,g,b)",
+            move |scene: &Self| match (scene.background, default()) {
+                (Background::Color(color), _) | (Background::Transparent, Background::Color(color)) => color.text(),
+                _ => String::new(),
+            },
+            |scene, text| {
+                scene.background = Background::Color(Color::parse(text)?);
+                Ok(())
+            },
+        );
+        let settings = vec![
+            Setting::field("size", "WxH", "Size in pixels, or one number for a square", |scene: &mut Self| {
+                &mut scene.size
+            }),
+            background.said("white"),
+            Setting::flag(
+                "transparent",
+                "No background: alpha 0 where nothing is drawn",
+                |scene: &Self| scene.background == Background::Transparent,
+                |scene, is_on| {
+                    if is_on {
+                        scene.background = Background::Transparent;
+                    } else if scene.background == Background::Transparent {
+                        scene.background = Self::default().background;
+                    }
+                },
+            ),
+            Setting::open_field("color", "COLOUR", "own", "One colour for all surfaces", |scene: &mut Self| {
+                &mut scene.color
+            })
+            .said("the model's own, #edbd85 where it has none"),
+            Setting::field(
+                "copies",
+                "N",
+                "Repeat the models on a square grid, up to 10000 times",
+                |scene: &mut Self| &mut scene.copies,
+            )
+            .range(1.0, 100.0, 0),
+        ];
+        let camera = within(CameraSettings::settings(), |scene: &mut Self| Some(&mut scene.camera));
+        under("Scene", settings).chain(camera).collect()
+    }
+}
+
+/// The colour of models that bring none: a warm light clay on which all three tones show.
+pub const DEFAULT_COLOR: Color = Color([0.93, 0.74, 0.52]);
+
+/// Gap between copies on the grid, as a share of the models' largest extent.
+const COPY_GAP: f64 = 0.15;
+
+/// Most copies: each is drawn by itself in every pass.
+const LARGEST_COPIES: u32 = 10_000;
+
+/// Points looked at one by one to fit the camera; larger scenes are fitted by their objects' boxes.
+const FITTED_POINTS: usize = 4_000_000;
+
+impl Scene {
+    /// Puts meshes together, each at its own coordinates, and fits the camera to them; takes meshes and shared ones alike.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for what cannot be drawn: no mesh, no copy, a size of 0, a nonsensical camera, planes so far apart that
+    /// depth cannot tell what is in front, a scene whose coordinates are beyond [`SCENE_RADIUS`].
+    pub fn new(meshes: impl IntoIterator<Item: Into<Arc<Mesh>>>, settings: &SceneSettings) -> Result<Self> {
+        let meshes: Vec<Arc<Mesh>> = meshes.into_iter().map(Into::into).collect();
+        if meshes.is_empty() || !(1..=LARGEST_COPIES).contains(&settings.copies) {
+            return Err(Error::value(
+                "copies",
+                settings.copies,
+                format!("a scene has at least one model and 1 to {LARGEST_COPIES} copies of it"),
+            ));
+        }
+        check_size(settings.size)?;
+        let objects = on_grid(&meshes, settings.copies);
+        let corners: Vec<DVec3> = objects.iter().flat_map(Object::box_corners).collect();
+        let (low, high) = bounds(&corners);
+        let (centre, radius) = (low * 0.5 + high * 0.5, (high * 0.5 - low * 0.5).length());
+        if !SCENE_RADIUS.contains(&radius) {
+            return Err(Error::model(
+                &objects[0].mesh.name,
+                format!(
+                    "the scene's radius is {radius:e}; scale the model to between {:e} and {:e} units",
+                    SCENE_RADIUS.start(),
+                    SCENE_RADIUS.end()
+                ),
+            ));
+        }
+        Self::seen(objects, centre, radius, settings)
+    }
+
+    /// The same objects, with all that was found out about them, as other settings show them; `copies` is left as it is.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scene::new`].
+    pub fn seen_with(&self, settings: &SceneSettings) -> Result<Self> {
+        check_size(settings.size)?;
+        Self::seen(self.objects.clone(), self.centre, self.radius, settings)
+    }
+
+    /// Objects with what is known of where they are, as settings show them.
+    fn seen(objects: Vec<Object>, centre: DVec3, radius: f64, settings: &SceneSettings) -> Result<Self> {
+        let camera = fitted_camera(&objects, centre, radius, settings)?;
+        let scene = Self {
+            objects,
+            centre,
+            radius,
+            camera,
+            size: settings.size,
+            background: settings.background,
+            color: settings.color.unwrap_or(DEFAULT_COLOR),
+            recolor: settings.color.is_some(),
+        };
+        scene.check_precision()?;
+        Ok(scene)
+    }
+
+    /// What GL draws of an object of this scene: in scene radii, around the mesh's own centre.
+    pub fn arrays<'a>(&self, object: &'a Object) -> &'a VertexArrays {
+        object.arrays.get_or_init(|| VertexArrays::new(&object.mesh, self.radius))
+    }
+
+    /// Boxes around an object's vertices, as its arrays have them.
+    fn boxes<'a>(&self, object: &'a Object) -> &'a [[Vec3; 2]] {
+        object.boxes.get_or_init(|| extent::boxes(self.arrays(object)))
+    }
+
+    /// Makes every object's arrays now, on the thread that has the time.
+    pub fn make_arrays(&self) {
+        self.objects.iter().for_each(|object| {
+            self.arrays(object);
+        });
+    }
+
+    /// What holds for every view of an object's faces; made when first asked for, which takes as long as drawing it some
+    /// dozen times.
+    pub fn hiding<'a>(&self, object: &'a Object) -> &'a Hiding {
+        object.hiding.get_or_init(|| Hiding::new(&object.mesh, self.arrays(object)))
+    }
+
+    /// What [`Scene::hiding`] is asked with.
+    pub fn view_of<'a>(&'a self, object: &'a Object) -> ObjectView<'a> {
+        let arrays = self.arrays(object);
+        ObjectView {
+            arrays,
+            camera: &self.camera,
+            offset: object.offset,
+            scene_radius: self.radius,
+            aspect: self.size.aspect(),
+            clip_from_object: self.clip_from_view() * self.view_from_object(object, arrays.centre),
+        }
+    }
+
+    /// Whether [`Scene::hiding`] has been made.
+    pub fn has_hiding(&self, object: &Object) -> bool {
+        object.hiding.get().is_some()
+    }
+
+    /// The edges of an object's mesh.
+    pub fn edges<'a>(&self, object: &'a Object) -> &'a MeshEdges {
+        object.edges.get_or_init(|| MeshEdges::new(object.mesh.clone()))
+    }
+
+    /// Prepares every object's edges for an animation; see [`MeshEdges::prepare_for_many_views`].
+    pub fn prepare_for_many_views(&self) {
+        self.objects.iter().for_each(|object| self.edges(object).prepare_for_many_views());
+    }
+
+    /// Where an object is seen from, in its mesh's own coordinates; for the listing's rule always the camera's axis.
+    pub fn eye(&self, object: &Object, rule: SilhouetteRule) -> Eye {
+        match (rule, self.camera.projection) {
+            (SilhouetteRule::Exact, Projection::Perspective { .. }) => Eye::Point(self.camera.eye - object.offset),
+            _ => Eye::Direction(self.camera.backward()),
+        }
+    }
+
+    /// The matrix from a mesh's arrays (recentred on `mesh_centre`, in scene radii) to eye space, rigid.
+    pub fn view_from_object(&self, object: &Object, mesh_centre: DVec3) -> Mat4 {
+        let view = self.camera.view_from_world();
+        // Everything relative to the eye in f64, so that a far-away scene loses nothing.
+        let from_eye = mesh_centre + object.offset - self.camera.eye;
+        let translation = view.transform_vector3(from_eye) / self.radius;
+        let rotation = DMat4::from_mat3(glam::DMat3::from_mat4(view));
+        (DMat4::from_translation(translation) * rotation).as_mat4()
+    }
+
+    /// The projection in scene radii.
+    pub fn clip_from_view(&self) -> Mat4 {
+        let mut camera = self.camera;
+        camera.near /= self.radius;
+        camera.far /= self.radius;
+        if let Projection::Parallel { height } = &mut camera.projection {
+            *height /= self.radius;
+        }
+        camera.clip_from_view(self.size.aspect()).as_mat4()
+    }
+
+    /// The colour of a run of triangles with this material (or [`NONE`]).
+    pub fn material_color(&self, mesh: &Mesh, material: u32) -> Color {
+        if self.recolor || material == NONE {
+            return self.color;
+        }
+        mesh.materials.get(material as usize).and_then(|material| material.color).map_or(self.color, Color)
+    }
+
+    /// Triangles of all objects together.
+    pub fn triangle_count(&self) -> usize {
+        self.objects.iter().map(|object| object.mesh.triangles.len()).sum()
+    }
+}
+
+impl Object {
+    /// A mesh at its own coordinates.
+    fn at_home(mesh: Arc<Mesh>) -> Self {
+        Self {
+            mesh,
+            offset: DVec3::ZERO,
+            arrays: Arc::default(),
+            boxes: Arc::default(),
+            hiding: Arc::default(),
+            edges: Arc::default(),
+        }
+    }
+
+    /// What tells this object and its copies from others, for as long as one of them is there.
+    pub fn identity(&self) -> ObjectIdentity {
+        ObjectIdentity(Arc::downgrade(&self.arrays))
+    }
+
+    /// Another mesh in this object's place.
+    #[must_use]
+    pub fn with_mesh(&self, mesh: Arc<Mesh>) -> Self {
+        Self { offset: self.offset, ..Self::at_home(mesh) }
+    }
+
+    fn box_corners(&self) -> [DVec3; 8] {
+        let (low, high) = self.mesh.bounds();
+        std::array::from_fn(|i| {
+            let pick = |bit: usize, low: f64, high: f64| if i >> bit & 1 == 1 { high } else { low };
+            self.offset + DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
+        })
+    }
+}
+
+fn check_size(size: Size) -> Result<()> {
+    match size.pixel_count() {
+        0 => Err(Error::value("size", size, "a picture has at least one pixel")),
+        _ => Ok(()),
+    }
+}
+
+/// The camera that the settings ask for, fitted to the objects.
+fn fitted_camera(objects: &[Object], centre: DVec3, radius: f64, settings: &SceneSettings) -> Result<Camera> {
+    let aspect = settings.size.aspect();
+    let point_count: usize = objects.iter().map(|object| object.mesh.positions.len()).sum();
+    if point_count <= FITTED_POINTS {
+        let points = objects.iter().flat_map(|o| o.mesh.positions.iter().map(|point| *point + o.offset));
+        return settings.camera.fit(centre, radius, aspect, points);
+    }
+    let corners: Vec<DVec3> = objects.iter().flat_map(Object::box_corners).collect();
+    settings.camera.fit(centre, radius, aspect, corners.iter().copied())
+}
+
+/// The models repeated in rows along x, rows going back along -z.
+fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
+    let all: Vec<DVec3> = meshes.iter().map(|mesh| mesh.bounds()).flat_map(|(low, high)| [low, high]).collect();
+    let (low, high) = bounds(&all);
+    // Models that are flat along an axis would otherwise stand in one another.
+    let step = (high - low) + (high - low).max_element() * COPY_GAP;
+    let columns = f64::from(copies).sqrt().ceil() as u32;
+    let originals: Vec<Object> = meshes.iter().map(|mesh| Object::at_home(mesh.clone())).collect();
+    (0..copies)
+        .flat_map(|copy| {
+            let offset = DVec3::new(f64::from(copy % columns) * step.x, 0.0, -f64::from(copy / columns) * step.z);
+            originals.iter().map(move |object| Object { offset, ..object.clone() })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{LoadOptions, load};
+
+    fn open_box(settings: &SceneSettings) -> Scene {
+        let mesh = load("../../models/open-box.obj", &LoadOptions::default()).unwrap().mesh;
+        Scene::new(vec![Arc::new(mesh)], settings).unwrap()
+    }
+
+    #[test]
+    fn scene_space_puts_every_corner_where_world_space_does() {
+        let scene = open_box(&SceneSettings { copies: 3, ..SceneSettings::default() });
+        let clip_from_world = scene.camera.clip_from_view(1.0) * scene.camera.view_from_world();
+        for object in &scene.objects {
+            let (low, high) = object.mesh.bounds();
+            let mesh_centre = low * 0.5 + high * 0.5;
+            let clip_from_object = scene.clip_from_view() * scene.view_from_object(object, mesh_centre);
+            for point in &object.mesh.positions {
+                let exact = clip_from_world.project_point3(*point + object.offset);
+                let local = ((*point - mesh_centre) / scene.radius).as_vec3();
+                let drawn = clip_from_object.project_point3(local).as_dvec3();
+                assert!(exact.distance(drawn) < 1e-5, "{exact} {drawn}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_scene_far_from_the_origin_gives_the_same_matrices() {
+        let near = open_box(&SceneSettings::default());
+        let mut far_mesh = (*near.objects[0].mesh).clone();
+        let shift = DVec3::new(1e9, -2e9, 5e8);
+        far_mesh.positions.iter_mut().for_each(|position| *position += shift);
+        let far = Scene::new(vec![Arc::new(far_mesh)], &SceneSettings::default()).unwrap();
+        let view = |scene: &Scene| scene.view_from_object(&scene.objects[0], scene.centre);
+        assert!(view(&near).abs_diff_eq(view(&far), 1e-6));
+        assert!(near.clip_from_view().abs_diff_eq(far.clip_from_view(), 1e-5));
+    }
+
+    #[test]
+    fn copies_stand_on_a_grid_without_touching() {
+        let scene = open_box(&SceneSettings { copies: 5, ..SceneSettings::default() });
+        assert_eq!(scene.objects.len(), 5);
+        let offsets: Vec<DVec3> = scene.objects.iter().map(|object| object.offset).collect();
+        assert!(offsets.iter().all(|offset| offset.y == 0.0));
+        let (low, high) = scene.objects[0].mesh.bounds();
+        let size = high - low;
+        for (i, a) in offsets.iter().enumerate() {
+            for b in &offsets[..i] {
+                assert!((a.x - b.x).abs() > size.x || (a.z - b.z).abs() > size.z);
+            }
+        }
+    }
+
+    #[test]
+    fn copies_of_a_flat_model_do_not_stand_in_one_another() {
+        let mut settings = SceneSettings { copies: 9, ..SceneSettings::default() };
+        let scene = Scene::new(vec![Arc::new(Mesh::triangle())], &settings).unwrap();
+        let rows: std::collections::BTreeSet<u64> = scene.objects.iter().map(|o| (-o.offset.z).to_bits()).collect();
+        assert_eq!(rows.len(), 3);
+        settings.copies = u32::MAX;
+        assert!(Scene::new(vec![Arc::new(Mesh::triangle())], &settings).is_err());
+    }
+
+    #[test]
+    fn a_camera_beyond_f32_is_refused_by_name() {
+        let refused = |camera: CameraSettings| {
+            let settings = SceneSettings { camera, ..SceneSettings::default() };
+            Scene::new(vec![Arc::new(Mesh::triangle())], &settings).unwrap_err().to_string()
+        };
+        let base = CameraSettings::default;
+        for fov_y_degrees in [1e-320, 1e-160, 1e-15] {
+            assert!(refused(CameraSettings { fov_y_degrees, ..base() }).contains("fov"));
+        }
+        assert!(refused(CameraSettings { fov_y_degrees: 1e-6, ..base() }).contains("--parallel"));
+        assert!(refused(CameraSettings { eye: Some(DVec3::Z * 1e30), ..base() }).contains("eye"));
+    }
+}

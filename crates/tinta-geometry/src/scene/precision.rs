@@ -1,0 +1,49 @@
+//! Refuses cameras beyond the precision of GL's numbers before anything is drawn.
+
+use super::Scene;
+use crate::camera::{Camera, Projection};
+use crate::error::{Error, Result};
+use crate::tolerances::{LARGEST_DISTANCE, LEAST_DEPTH_STEPS};
+
+impl Scene {
+    /// Refuses a camera whose matrices f32 cannot hold with the precision depth needs.
+    pub(super) fn check_precision(&self) -> Result<()> {
+        let distance = (self.camera.eye - self.centre).length() / self.radius;
+        if distance > LARGEST_DISTANCE || !self.clip_from_view().is_finite() {
+            return Err(Error::settings(
+                &["fov", "eye", "near", "far"],
+                format!(
+                    "the eye is {distance:.3e} scene radii away, more than the {LARGEST_DISTANCE:e} GL can resolve, or the \
+                     planes are too far apart; use --parallel, or bring them closer"
+                ),
+            ));
+        }
+        self.check_depth()
+    }
+
+    /// Refuses planes so far apart that the depth buffer has next to no steps left for the scene between them.
+    fn check_depth(&self) -> Result<()> {
+        let Camera { near, far, .. } = self.camera;
+        let middle = (self.centre - self.camera.eye).dot(-self.camera.backward());
+        let (nearest, farthest) = (near.max(middle - self.radius), far.min(middle + self.radius));
+        // Nothing between the planes, or an eye within the scene, before which something may be as near as the plane.
+        if nearest >= farthest || nearest == near {
+            return Ok(());
+        }
+        let share = match self.camera.projection {
+            Projection::Perspective { .. } => near * far / (far - near) * (1.0 / nearest - 1.0 / farthest),
+            Projection::Parallel { .. } => (farthest - nearest) / (far - near),
+        };
+        let steps = share * f64::from(1u32 << 24);
+        if steps < LEAST_DEPTH_STEPS {
+            return Err(Error::settings(
+                &["near", "far"],
+                format!(
+                    "the planes, {near} and {far} away, are so far apart that {steps:.0} of the depth buffer's 16777216 steps are left for the scene, \
+                     which is {nearest:.3} to {farthest:.3} away; leave the options out, or bring the planes closer to that"
+                ),
+            ));
+        }
+        Ok(())
+    }
+}

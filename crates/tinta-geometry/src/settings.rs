@@ -1,0 +1,584 @@
+//! What a setting is: its name, what it can be, its help, and how it is read from and written to the struct it belongs to.
+//!
+//! Each setting is declared once, beside its struct: [`crate::scene`] has those of [`crate::SceneSettings`]. Everything
+//! else is a loop over a [`Table`]: options of the command line with their help and defaults, completions, manual pages,
+//! presets, recipes, jobs of a batch, keys of JSON records, the viewer's panel, the test that all of them go there and back.
+//! This module knows none of them.
+//!
+//! In: values as the texts that a user writes. Out: structs with their settings, and from these the same texts.
+//!
+//! ```
+//! # fn main() -> tinta_geometry::Result<()> {
+//! use tinta_geometry::settings::{HasSettings, OptionValue, Options};
+//! use tinta_geometry::{SceneSettings, Size};
+//!
+//! let options: Options = [("size", "640x480"), ("fov", "40")]
+//!     .map(|(name, value)| (name.to_owned(), OptionValue::text(value)))
+//!     .into();
+//! let scene = SceneSettings::from_options(&options)?;
+//! assert_eq!(scene.size, Size { width: 640, height: 480 });
+//! // What is as by default is not written.
+//! assert_eq!(scene.to_options()?, options);
+//! # Ok(())
+//! # }
+//! ```
+
+mod provenance;
+mod value;
+
+pub use crate::choice::Choice;
+pub use provenance::{Provenance, Whose};
+pub use value::{Value, names_of};
+
+use crate::error::{Error, ParseError, Result};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt::{Debug, Formatter};
+
+/// Options by their long names without dashes, each at most once.
+pub type Options = BTreeMap<String, OptionValue>;
+
+/// What is given for an option.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum OptionValue {
+    /// `true` or `false`: an option without a value that is given or not, or `on` and `off`.
+    Switch(bool),
+    /// The value as it is written on the command line.
+    Text(String),
+    /// Several, which are one with commas between where an option is not repeated.
+    Texts(Vec<String>),
+}
+
+impl OptionValue {
+    /// A value that is written as a text.
+    pub fn text(text: impl Into<String>) -> Self {
+        Self::Text(text.into())
+    }
+}
+
+/// What options that are on or off call their value.
+pub const ON_OFF: &str = "ON|OFF";
+
+/// What a setting can be.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// Numbers with commas between.
+    Numbers {
+        /// How many.
+        count: usize,
+        /// Least and most that a panel offers; what is beyond may be refused or not.
+        range: [f64; 2],
+        /// So many decimals are worth showing; none where only whole numbers are read.
+        decimals: usize,
+    },
+    /// One of a few names; a shell and a panel offer them, and other texts may be read too.
+    Choice(Vec<&'static str>),
+    /// The same, and each name stands for values of several other settings. It is set before these, and never written.
+    Recipe(Vec<&'static str>),
+    /// Some of a few names with commas between.
+    Several(Vec<&'static str>),
+    /// `on` or `off`.
+    Switch,
+    /// `on` or `off`, and on the command line an option without a value where it is on.
+    Flag,
+    /// The path of a file that is read.
+    File,
+    /// A text of its own grammar: colours, a size.
+    Text {
+        /// Some values worth offering.
+        offered: &'static [&'static str],
+        /// One that is not the default.
+        example: &'static str,
+    },
+}
+
+impl Kind {
+    /// The texts that a shell offers.
+    pub fn offered(&self) -> Vec<&'static str> {
+        /// Whole numbers are offered where there are no others.
+        const NUMBERS: [&str; 5] = ["0", "1", "2", "3", "4"];
+        match self {
+            Self::Numbers { count: 1, range: [low, high], decimals: 0 } if (0.0..5.0).contains(high) => {
+                NUMBERS[*low as usize..=*high as usize].to_vec()
+            }
+            Self::Choice(names) | Self::Recipe(names) | Self::Several(names) => names.clone(),
+            Self::Text { offered, .. } => offered.to_vec(),
+            Self::Switch => vec!["on", "off"],
+            Self::Numbers { .. } | Self::Flag | Self::File => Vec::new(),
+        }
+    }
+
+    /// Texts to try: each is read, and one at least is not `default`. A file is made by whoever tries.
+    pub fn samples(&self, default: &str) -> Vec<String> {
+        match self {
+            Self::Numbers { count, range: [low, high], decimals } => {
+                let number = |share: f64| {
+                    let text = format!("{:.decimals$}", low + (high - low) * share);
+                    text.parse::<f64>().map_or(text, |number| number.to_string())
+                };
+                [0.0, 0.4, 0.7, 1.0].map(|share| vec![number(share); *count].join(",")).to_vec()
+            }
+            Self::Switch | Self::Flag => vec![on_off(default != "on").to_owned()],
+            Self::Text { example, .. } => vec![(*example).to_owned()],
+            Self::Choice(names) | Self::Recipe(names) | Self::Several(names) => {
+                names.iter().map(|name| (*name).to_owned()).collect()
+            }
+            Self::File => Vec::new(),
+        }
+    }
+}
+
+/// `on` or `off`.
+pub fn on_off(is_on: bool) -> &'static str {
+    if is_on { "on" } else { "off" }
+}
+
+/// Why a text is no value of a setting.
+#[derive(Debug)]
+pub enum Problem {
+    /// It does not say such a value, whatever the rest is. A sentence without the setting's name.
+    Text(String),
+    /// It says one, which cannot be had.
+    Refused(Error),
+}
+
+impl From<String> for Problem {
+    fn from(problem: String) -> Self {
+        Self::Text(problem)
+    }
+}
+
+impl From<ParseError> for Problem {
+    fn from(ParseError(problem): ParseError) -> Self {
+        Self::Text(problem)
+    }
+}
+
+impl From<Error> for Problem {
+    fn from(error: Error) -> Self {
+        Self::Refused(error)
+    }
+}
+
+/// How a setting is read; `None` where there is none.
+type Get<T> = Box<dyn Fn(&T) -> Option<String> + Send + Sync>;
+
+/// How it is set.
+type Set<T> = Box<dyn Fn(&mut T, &str) -> std::result::Result<(), Problem> + Send + Sync>;
+
+/// A setting of a `T`.
+pub struct Setting<T> {
+    /// Its name: that of the option, without dashes, and the key in presets, jobs and records.
+    pub name: &'static str,
+    /// What it can be.
+    pub kind: Kind,
+    /// What its value is called in the option's help.
+    pub value_name: &'static str,
+    /// What it does to the picture.
+    pub help: &'static str,
+    /// What the help says of the default, where the plain text would not say enough.
+    pub said_default: Option<&'static str>,
+    /// What it is listed under.
+    pub heading: &'static str,
+    /// The text for a value that is left open.
+    pub open: Option<&'static str>,
+    /// Whose its default is, where somebody asked.
+    pub provenance: Option<Provenance>,
+    /// Texts of earlier versions with those that say the same now: they are read, and neither written nor offered.
+    pub former: &'static [(&'static str, &'static str)],
+    label: Option<&'static str>,
+    get: Get<T>,
+    set: Set<T>,
+}
+
+impl<T> Debug for Setting<T> {
+    fn fmt(&self, out: &mut Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("Setting").field("name", &self.name).field("kind", &self.kind).finish_non_exhaustive()
+    }
+}
+
+impl<T: Clone + 'static> Setting<T> {
+    /// A setting that is one field.
+    pub fn field<V: Value + 'static>(
+        name: &'static str,
+        value_name: &'static str,
+        help: &'static str,
+        field: fn(&mut T) -> &mut V,
+    ) -> Self {
+        let get = move |of: &T| field(&mut of.clone()).text();
+        let set = move |of: &mut T, text: &str| {
+            *field(of) = V::parse(text)?;
+            Ok(())
+        };
+        Self::of(name, value_name, V::kind(), help, get, set)
+    }
+
+    /// A field that may be left open, for which there is a word.
+    pub fn open_field<V: Value + 'static>(
+        name: &'static str,
+        value_name: &'static str,
+        open: &'static str,
+        help: &'static str,
+        field: fn(&mut T) -> &mut Option<V>,
+    ) -> Self {
+        let get = move |of: &T| field(&mut of.clone()).as_ref().map_or(open.to_owned(), V::text);
+        let set = move |of: &mut T, text: &str| {
+            let parsed = || match V::parse(text) {
+                Err(Problem::Text(problem)) if !open.is_empty() => Err(format!("{problem}, or {open}").into()),
+                parsed => parsed,
+            };
+            *field(of) = if text == open { None } else { Some(parsed()?) };
+            Ok(())
+        };
+        let kind = match V::kind() {
+            Kind::Choice(names) => Kind::Choice([open].into_iter().chain(names).collect()),
+            kind => kind,
+        };
+        Self { open: Some(open), said_default: Some(open), ..Self::of(name, value_name, kind, help, get, set) }
+    }
+
+    /// A field that is one of two, `false` first.
+    pub fn either(
+        name: &'static str,
+        value_name: &'static str,
+        names: [&'static str; 2],
+        help: &'static str,
+        field: fn(&mut T) -> &mut bool,
+    ) -> Self {
+        let get = move |of: &T| names[usize::from(*field(&mut of.clone()))].to_owned();
+        let set = move |of: &mut T, text: &str| {
+            let found = names.iter().position(|name| *name == text);
+            *field(of) = found.ok_or_else(|| format!("choose {} or {}", names[0], names[1]))? == 1;
+            Ok(())
+        };
+        Self::of(name, value_name, Kind::Choice(names.to_vec()), help, get, set)
+    }
+
+    /// A setting that is on or off, and an option without a value.
+    pub fn flag(name: &'static str, help: &'static str, get: fn(&T) -> bool, set: fn(&mut T, bool)) -> Self {
+        let get = move |of: &T| on_off(get(of)).to_owned();
+        let set = move |of: &mut T, text: &str| {
+            set(of, bool::parse(text)?);
+            Ok(())
+        };
+        Self::of(name, "", Kind::Flag, help, get, set)
+    }
+
+    /// A setting that is read and set by two functions.
+    pub fn of(
+        name: &'static str,
+        value_name: &'static str,
+        kind: Kind,
+        help: &'static str,
+        get: impl Fn(&T) -> String + Send + Sync + 'static,
+        set: impl Fn(&mut T, &str) -> std::result::Result<(), Problem> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            name,
+            kind,
+            value_name,
+            help,
+            said_default: None,
+            heading: "",
+            open: None,
+            provenance: None,
+            former: &[],
+            label: None,
+            get: Box::new(move |of| Some(get(of))),
+            set: Box::new(set),
+        }
+    }
+
+    /// With the numbers that a panel offers, and how many decimals of them are worth showing.
+    #[must_use]
+    pub fn range(mut self, low: f64, high: f64, decimals: usize) -> Self {
+        let count = if let Kind::Numbers { count, .. } = self.kind { count } else { 1 };
+        self.kind = Kind::Numbers { count, range: [low, high], decimals };
+        self
+    }
+
+    /// With texts that a shell and a panel offer.
+    #[must_use]
+    pub fn offering(mut self, texts: &[&'static str]) -> Self {
+        self.kind = Kind::Choice(texts.to_vec());
+        self
+    }
+
+    /// With this text for a value that is left open.
+    #[must_use]
+    pub fn open(mut self, text: &'static str) -> Self {
+        self.open = Some(text);
+        self
+    }
+
+    /// With texts that earlier versions had, each before what says the same now.
+    #[must_use]
+    pub fn formerly(mut self, texts: &'static [(&'static str, &'static str)]) -> Self {
+        self.former = texts;
+        self
+    }
+
+    /// With other words for the default.
+    #[must_use]
+    pub fn said(mut self, default: &'static str) -> Self {
+        self.said_default = Some(default);
+        self
+    }
+
+    /// With another name in a panel than its own.
+    #[must_use]
+    pub fn labelled(mut self, label: &'static str) -> Self {
+        self.label = Some(label);
+        self
+    }
+
+    /// What its panel calls it.
+    pub fn label(&self) -> String {
+        self.label.map_or_else(|| self.name.replace('-', " "), str::to_owned)
+    }
+
+    /// The same setting of a whole that may have a `T` in it; where it has none it has no such setting.
+    pub fn within<S: Clone + 'static>(self, part: fn(&mut S) -> Option<&mut T>) -> Setting<S> {
+        let Self { name, kind, value_name, help, said_default, heading, open, provenance, former, label, get, set } =
+            self;
+        let get = move |whole: &S| part(&mut whole.clone()).and_then(|part| get(part));
+        let set = move |whole: &mut S, text: &str| part(whole).map_or(Ok(()), |part| set(part, text));
+        let (get, set): (Get<S>, Set<S>) = (Box::new(get), Box::new(set));
+        Setting { name, kind, value_name, help, said_default, heading, open, provenance, former, label, get, set }
+    }
+
+    /// A text as it is written now: another where earlier versions had this one.
+    pub fn present<'t>(&self, text: &'t str) -> &'t str {
+        self.former.iter().find(|(former, _)| *former == text).map_or(text, |(_, present)| present)
+    }
+
+    /// Its value, as it is written; `None` where there is no such setting, empty where there is no text for what it is.
+    pub fn value(&self, of: &T) -> Option<String> {
+        (self.get)(of)
+    }
+
+    /// Sets it; what has no such setting stays as it is.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a text that is no value of it, [`Error::File`] for a file that cannot be read. What no value
+    /// of its own can tell is refused by whoever uses it, for a style by its plan.
+    pub fn set(&self, of: &mut T, text: &str) -> Result<()> {
+        if self.value(of).is_none() {
+            return Ok(());
+        }
+        (self.set)(of, self.present(text)).map_err(|problem| match problem {
+            Problem::Text(problem) => Error::value(self.name, text, problem),
+            Problem::Refused(error) => error,
+        })
+    }
+
+    /// The text that this is of what is given; the error says what should be given instead.
+    fn text_of(&self, value: &OptionValue) -> std::result::Result<String, String> {
+        match (&self.kind, value) {
+            (Kind::Flag, OptionValue::Text(_) | OptionValue::Texts(_)) => {
+                Err("write true or false, without quotes".to_owned())
+            }
+            (_, OptionValue::Text(text)) => Ok(text.clone()),
+            (_, OptionValue::Texts(texts)) => Ok(texts.join(",")),
+            (Kind::Flag | Kind::Switch, OptionValue::Switch(is_on)) => Ok(on_off(*is_on).to_owned()),
+            (_, OptionValue::Switch(_)) => Err(format!("this takes a value ({}), not true or false", self.value_name)),
+        }
+    }
+
+    /// Whether it stands for several others.
+    pub fn is_recipe(&self) -> bool {
+        matches!(self.kind, Kind::Recipe(_))
+    }
+
+    /// When it is set among others: recipes before what they set, and what takes something away last.
+    fn turn(&self) -> usize {
+        match self.kind {
+            Kind::Recipe(_) => 0,
+            Kind::Flag => 2,
+            _ => 1,
+        }
+    }
+}
+
+/// Settings listed under this heading.
+pub fn under<T>(heading: &'static str, settings: Vec<Setting<T>>) -> impl Iterator<Item = Setting<T>> {
+    settings.into_iter().map(move |setting| Setting { heading, ..setting })
+}
+
+/// The same settings of a whole that may have a `T` in it.
+pub fn within<S: Clone + 'static, T: Clone + 'static>(
+    settings: Vec<Setting<T>>,
+    part: fn(&mut S) -> Option<&mut T>,
+) -> impl Iterator<Item = Setting<S>> {
+    settings.into_iter().map(move |setting| setting.within(part))
+}
+
+/// All settings of a `T`, which may come in several forms with settings of their own, as styles do. Settings of the same name
+/// in different forms are one option.
+#[derive(Debug)]
+pub struct Table<T> {
+    /// The settings, as help lists them.
+    pub settings: Vec<Setting<T>>,
+    /// Every form as it is by default.
+    pub defaults: Vec<T>,
+}
+
+impl<T: Clone + 'static> Table<T> {
+    /// The settings of one form, or of all where none is given, each name once.
+    pub fn of(&self, form: Option<&T>) -> Vec<&Setting<T>> {
+        let is_first = |index: usize, name: &str| self.settings[..index].iter().all(|earlier| earlier.name != name);
+        let is_of_it = |(index, setting): &(usize, &Setting<T>)| match form {
+            Some(form) => setting.value(form).is_some(),
+            None => is_first(*index, setting.name),
+        };
+        self.settings.iter().enumerate().filter(is_of_it).map(|(_, setting)| setting).collect()
+    }
+
+    /// A form's setting of this name.
+    pub fn find(&self, form: &T, name: &str) -> Option<&Setting<T>> {
+        self.settings.iter().find(|setting| setting.name == name && setting.value(form).is_some())
+    }
+
+    /// Whether any form has a setting of this name.
+    pub fn has(&self, name: &str) -> bool {
+        self.settings.iter().any(|setting| setting.name == name)
+    }
+
+    /// The first form's default of a setting.
+    pub fn default_of(&self, setting: &Setting<T>) -> String {
+        self.defaults.iter().find_map(|form| setting.value(form)).unwrap_or_default()
+    }
+
+    /// Refuses a text that is no value of this setting in any form; the error is without the setting's name.
+    pub fn check(&self, name: &str, text: &str) -> std::result::Result<(), String> {
+        let mut first = Ok(());
+        for setting in self.settings.iter().filter(|setting| setting.name == name) {
+            // A file is read when it is used.
+            if setting.kind == Kind::File {
+                return if text.is_empty() { Err("name a file".to_owned()) } else { Ok(()) };
+            }
+            let forms = self.defaults.iter().filter(|form| setting.value(form).is_some());
+            for form in forms.take(1) {
+                match (setting.set)(&mut form.clone(), setting.present(text)) {
+                    Err(Problem::Text(problem)) => first = first.and(Err(problem)),
+                    _ => return Ok(()),
+                }
+            }
+        }
+        first
+    }
+
+    /// Sets what the options set; what is no setting of this form is left alone.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Setting::set`], and [`Error::Setting`] for `true` or `false` where another value is due.
+    pub fn apply(&self, to: &mut T, options: &Options) -> Result<()> {
+        let mut given: Vec<_> =
+            self.settings.iter().filter_map(|setting| Some((setting, options.get(setting.name)?))).collect();
+        given.sort_by_key(|(setting, _)| setting.turn());
+        for (setting, value) in given {
+            if setting.value(to).is_none() {
+                continue;
+            }
+            let text = setting.text_of(value);
+            setting.set(to, &text.map_err(|problem| Error::setting(setting.name, problem))?)?;
+        }
+        Ok(())
+    }
+
+    /// What differs from `default`, as options.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a value that no text says: a file whose name is none, no class at all.
+    pub fn options(&self, of: &T, default: &T) -> Result<Options> {
+        let mut options = Options::new();
+        for setting in self.of(Some(of)).into_iter().filter(|setting| !setting.is_recipe()) {
+            let value = setting.value(of).unwrap_or_default();
+            if setting.value(default).as_ref() == Some(&value) {
+                continue;
+            }
+            // A name that was no text has lost something.
+            if setting.kind == Kind::File && value.contains(char::REPLACEMENT_CHARACTER) {
+                let problem = "this file name is not valid UTF-8 and cannot be saved; rename the file";
+                return Err(Error::value(setting.name, value, problem));
+            }
+            if value.is_empty() {
+                let problem = match setting.kind {
+                    Kind::File => "it does not come from a file and cannot be saved; keep its default",
+                    _ => "nothing is chosen; choose at least one",
+                };
+                return Err(Error::setting(setting.name, problem));
+            }
+            let value = match setting.kind {
+                Kind::Flag => OptionValue::Switch(value == "on"),
+                _ => OptionValue::Text(value),
+            };
+            options.insert(setting.name.to_owned(), value);
+        }
+        Ok(options)
+    }
+
+    /// Every setting of a form with its value as JSON has it.
+    pub fn record(&self, of: &T) -> serde_json::Map<String, serde_json::Value> {
+        let settings = self.of(Some(of)).into_iter().filter(|setting| !setting.is_recipe());
+        settings.map(|setting| (setting.name.to_owned(), setting.json(of))).collect()
+    }
+}
+
+/// What has a table of its settings.
+pub trait HasSettings: Clone + Send + Sync + 'static {
+    /// All of them.
+    fn table() -> &'static Table<Self>;
+
+    /// The default with what the options set; options that are none of these settings are left alone.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Table::apply`].
+    fn from_options(options: &Options) -> Result<Self>
+    where
+        Self: Default,
+    {
+        let mut made = Self::default();
+        Self::table().apply(&mut made, options)?;
+        Ok(made)
+    }
+
+    /// The options that make this: what differs from the default.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Table::options`].
+    fn to_options(&self) -> Result<Options>
+    where
+        Self: Default,
+    {
+        Self::table().options(self, &Self::default())
+    }
+}
+
+impl<T: Clone + 'static> Setting<T> {
+    /// Its value as JSON has it: numbers as numbers, `null` for what is left open.
+    fn json(&self, of: &T) -> serde_json::Value {
+        let text = self.value(of).unwrap_or_default();
+        let is_whole = !matches!(self.kind, Kind::Numbers { decimals: 1.., .. });
+        let number = |text: &str| {
+            let whole = text.parse::<u64>().ok().filter(|_| is_whole).map(Into::into);
+            let float = || text.parse().ok().and_then(serde_json::Number::from_f64);
+            whole.or_else(float).map(serde_json::Value::Number)
+        };
+        let plain = |text: &str| number(text).unwrap_or_else(|| text.into());
+        match &self.kind {
+            _ if self.open == Some(&text) => serde_json::Value::Null,
+            Kind::Switch | Kind::Flag => (text == "on").into(),
+            Kind::Several(_) if text.is_empty() || text == "none" => serde_json::Value::Array(Vec::new()),
+            Kind::Several(_) => text.split(',').map(Into::<serde_json::Value>::into).collect(),
+            Kind::Numbers { count, .. } if *count > 1 => text.split(',').map(plain).collect(),
+            _ => plain(&text),
+        }
+    }
+}

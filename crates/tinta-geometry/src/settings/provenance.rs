@@ -1,0 +1,71 @@
+//! Whose a value is: a text's, drawn from a text, or ours. Declared with the setting or the constant it is said of.
+
+use super::Setting;
+
+/// Whose a value is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Whose {
+    /// A text prints it.
+    Printed,
+    /// It follows from what a text says.
+    Deduced,
+    /// No text gives it; it was chosen here.
+    Ours,
+}
+
+impl Whose {
+    /// As it is written in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Printed => "printed",
+            Self::Deduced => "deduced",
+            Self::Ours => "ours",
+        }
+    }
+}
+
+/// Whose a value is, and how one knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Provenance {
+    /// Whose.
+    pub whose: Whose,
+    /// Where it is printed, what it follows from, or why it was chosen: a phrase.
+    pub why: &'static str,
+}
+
+impl Provenance {
+    /// A text prints it there.
+    pub const fn printed(place: &'static str) -> Self {
+        Self { whose: Whose::Printed, why: place }
+    }
+
+    /// It follows from this.
+    pub const fn deduced(from: &'static str) -> Self {
+        Self { whose: Whose::Deduced, why: from }
+    }
+
+    /// It was chosen here for this reason.
+    pub const fn ours(reason: &'static str) -> Self {
+        Self { whose: Whose::Ours, why: reason }
+    }
+}
+
+impl<T> Setting<T> {
+    /// With the place where a text prints its default.
+    #[must_use]
+    pub fn printed(self, place: &'static str) -> Self {
+        Self { provenance: Some(Provenance::printed(place)), ..self }
+    }
+
+    /// With what its default follows from.
+    #[must_use]
+    pub fn deduced(self, from: &'static str) -> Self {
+        Self { provenance: Some(Provenance::deduced(from)), ..self }
+    }
+
+    /// With the reason why its default was chosen here.
+    #[must_use]
+    pub fn ours(self, reason: &'static str) -> Self {
+        Self { provenance: Some(Provenance::ours(reason)), ..self }
+    }
+}

@@ -1,0 +1,249 @@
+//! How values are written and read: each type's text, which reads back as the same value.
+
+use super::{Choice, Kind, Problem, on_off};
+use crate::values::{Color, Size};
+use glam::DVec3;
+use std::path::PathBuf;
+
+/// What a field of a setting can be.
+pub trait Value: Sized {
+    /// What texts it has.
+    fn kind() -> Kind;
+
+    /// Its text.
+    fn text(&self) -> String;
+
+    /// The value of a text.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the text.
+    fn parse(text: &str) -> Result<Self, Problem>;
+}
+
+/// The names of a choice.
+pub fn names_of<T: Choice>() -> Vec<&'static str> {
+    T::NAMED.iter().map(|(name, _)| *name).collect()
+}
+
+impl<T: Choice> Value for T {
+    fn kind() -> Kind {
+        Kind::Choice(names_of::<T>())
+    }
+
+    fn text(&self) -> String {
+        self.choice_name().to_owned()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        Ok(T::of_name(text)?)
+    }
+}
+
+/// A number of a type of its own: whole where it has no decimals.
+trait Number: std::str::FromStr + ToString + Copy {
+    const DECIMALS: usize;
+    const USAGE: &'static str;
+}
+
+impl Number for f32 {
+    const DECIMALS: usize = 2;
+    const USAGE: &'static str = "give a number";
+}
+
+impl Number for f64 {
+    const DECIMALS: usize = 2;
+    const USAGE: &'static str = "give a number";
+}
+
+impl Number for u8 {
+    const DECIMALS: usize = 0;
+    const USAGE: &'static str = "give a whole number from 0 to 255";
+}
+
+impl Number for u32 {
+    const DECIMALS: usize = 0;
+    const USAGE: &'static str = "give a whole number, 0 or more";
+}
+
+impl Number for u64 {
+    const DECIMALS: usize = 0;
+    const USAGE: &'static str = "give a whole number, 0 or more";
+}
+
+fn kind_of<N: Number>(count: usize) -> Kind {
+    Kind::Numbers { count, range: [0.0, 1.0], decimals: N::DECIMALS }
+}
+
+fn number<N: Number>(text: &str) -> Result<N, Problem> {
+    text.trim().parse().map_err(|_| Problem::Text(N::USAGE.to_owned()))
+}
+
+fn numbers<N: Number, const COUNT: usize>(text: &str) -> Result<[N; COUNT], Problem> {
+    let numbers: Option<Vec<N>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+    numbers.ok_or_else(|| format!("give {COUNT} numbers separated by commas, without blanks").into())
+}
+
+fn joined<N: Number>(numbers: &[N]) -> String {
+    numbers.iter().map(N::to_string).collect::<Vec<_>>().join(",")
+}
+
+impl Value for f32 {
+    fn kind() -> Kind {
+        kind_of::<Self>(1)
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        number(text)
+    }
+}
+
+impl Value for f64 {
+    fn kind() -> Kind {
+        kind_of::<Self>(1)
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        number(text)
+    }
+}
+
+impl Value for u8 {
+    fn kind() -> Kind {
+        kind_of::<Self>(1)
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        number(text)
+    }
+}
+
+impl Value for u32 {
+    fn kind() -> Kind {
+        kind_of::<Self>(1)
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        number(text)
+    }
+}
+
+impl Value for u64 {
+    fn kind() -> Kind {
+        kind_of::<Self>(1)
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        number(text)
+    }
+}
+
+impl<const COUNT: usize> Value for [f32; COUNT] {
+    fn kind() -> Kind {
+        kind_of::<f32>(COUNT)
+    }
+
+    fn text(&self) -> String {
+        joined(self)
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        numbers(text)
+    }
+}
+
+impl Value for DVec3 {
+    fn kind() -> Kind {
+        Kind::Numbers { count: 3, range: [-1.0, 1.0], decimals: 2 }
+    }
+
+    fn text(&self) -> String {
+        joined(&self.to_array())
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        numbers(text).map(Self::from_array)
+    }
+}
+
+impl Value for bool {
+    fn kind() -> Kind {
+        Kind::Switch
+    }
+
+    fn text(&self) -> String {
+        on_off(*self).to_owned()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        match text {
+            "on" => Ok(true),
+            "off" => Ok(false),
+            _ => Err("choose on or off".to_owned().into()),
+        }
+    }
+}
+
+impl Value for Size {
+    fn kind() -> Kind {
+        Kind::Text { offered: &[], example: "96x64" }
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        Ok(text.parse()?)
+    }
+}
+
+impl Value for Color {
+    fn kind() -> Kind {
+        Kind::Text { offered: &[], example: "rgb(10.5 20 30)" }
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        Ok(text.parse()?)
+    }
+}
+
+impl Value for PathBuf {
+    fn kind() -> Kind {
+        Kind::File
+    }
+
+    /// Of bytes that are no text what can be kept.
+    fn text(&self) -> String {
+        self.to_string_lossy().into_owned()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        Ok(Self::from(text))
+    }
+}

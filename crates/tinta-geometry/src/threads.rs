@@ -1,0 +1,132 @@
+//! Work on several threads: results never depend on how many there are, and where none can be had the caller's does all.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+/// Faces below which a second thread costs more than it brings.
+const FACES_WORTH_A_THREAD: usize = 100_000;
+
+/// Threads the machine runs at once.
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// How many threads work on so many faces is worth.
+pub fn threads_for(faces: usize) -> usize {
+    cores().min(faces / FACES_WORTH_A_THREAD).max(1)
+}
+
+/// Cuts `0..count` into at most `pieces` ranges of nearly one length.
+pub fn ranges(count: usize, pieces: usize) -> Vec<std::ops::Range<usize>> {
+    let length = count.div_ceil(pieces.max(1)).max(1);
+    (0..count).step_by(length).map(|start| start..(start + length).min(count)).collect()
+}
+
+/// Puts `value` of each number into a list, each thread its own piece of it in place.
+///
+/// `blank` is what zeroed memory means: the system then hands out the list's pages where they are first written.
+pub fn filled<T: Copy + Send>(count: usize, threads: usize, blank: T, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let mut list = vec![blank; count];
+    each_piece(&mut list, threads, |start, places| {
+        places.iter_mut().enumerate().for_each(|(index, place)| *place = value(start + index));
+    });
+    list
+}
+
+/// Sorts a list of which no two elements are equal, each thread a piece of it.
+pub fn sort_by<T: Send>(list: &mut [T], threads: usize, order: impl Fn(&T, &T) -> std::cmp::Ordering + Sync) {
+    each_piece(list, threads, |_, piece| piece.sort_unstable_by(&order));
+    if threads > 1 {
+        // The stable sort finds runs that are in order and merges them.
+        list.sort_by(order);
+    }
+}
+
+/// Does `work` for as many pieces of a list as there are threads; it gets each piece's place in the list, too.
+fn each_piece<T: Send>(list: &mut [T], threads: usize, work: impl Fn(usize, &mut [T]) + Sync) {
+    let length = list.len().div_ceil(threads.max(1)).max(1);
+    let pieces = Mutex::new(list.chunks_mut(length).enumerate());
+    // Every thread takes pieces while there are any, this one too: where no other can be had, it does them all.
+    let take = || {
+        let next = || pieces.lock().unwrap_or_else(PoisonError::into_inner).next();
+        while let Some((piece, places)) = next() {
+            work(piece * length, places);
+        }
+    };
+    std::thread::scope(|scope| {
+        let others: Vec<_> =
+            (1..threads).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, take).ok()).collect();
+        take();
+        for other in others {
+            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
+    });
+}
+
+/// Does `work` for each piece of `0..count`, one thread each, and returns the results in order.
+pub fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(std::ops::Range<usize>) -> T + Sync) -> Vec<T> {
+    let mut pieces = ranges(count, threads);
+    let Some(last) = pieces.pop() else { return Vec::new() };
+    let work = &work;
+    std::thread::scope(|scope| {
+        let others: Vec<_> = pieces
+            .into_iter()
+            .map(|piece| {
+                let started = std::thread::Builder::new().spawn_scoped(scope, {
+                    let piece = piece.clone();
+                    move || work(piece)
+                });
+                // Where no thread can be had, this one does it all.
+                started.map_err(|_| piece)
+            })
+            .collect();
+        let last = work(last);
+        let join = |started: Result<std::thread::ScopedJoinHandle<'_, T>, _>| match started {
+            Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            Err(piece) => work(piece),
+        };
+        others.into_iter().map(join).chain([last]).collect()
+    })
+}
+
+/// Does `work` for pieces of `length` of `0..count`, each thread taking the next piece when it has done one, and returns the
+/// results in order: for work whose pieces take very different times.
+pub fn in_chunks<T: Send + Sync>(
+    count: usize,
+    length: usize,
+    threads: usize,
+    work: impl Fn(std::ops::Range<usize>) -> T + Sync,
+) -> Vec<T> {
+    let pieces = ranges(count, count.div_ceil(length.max(1)));
+    let next = AtomicUsize::new(0);
+    let results: Vec<OnceLock<T>> = pieces.iter().map(|_| OnceLock::new()).collect();
+    let take = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(piece) = pieces.get(index) else { return };
+            // Each index is taken once, so that nothing was there.
+            let _ = results[index].set(work(piece.clone()));
+        }
+    };
+    std::thread::scope(|scope| {
+        let wanted = threads.min(pieces.len());
+        let others: Vec<_> =
+            (1..wanted).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, take).ok()).collect();
+        take();
+        for other in others {
+            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
+    });
+    results.into_iter().filter_map(OnceLock::into_inner).collect()
+}
+
+/// Does two things at once, the second on a thread of its own.
+pub fn both<A, B: Send>(first: impl FnOnce() -> A, second: impl Fn() -> B + Sync) -> (A, B) {
+    std::thread::scope(|scope| match std::thread::Builder::new().spawn_scoped(scope, &second) {
+        Ok(thread) => {
+            let first = first();
+            (first, thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+        }
+        Err(_) => (first(), second()),
+    })
+}

@@ -1,0 +1,138 @@
+//! Every number that decides "near enough", with its unit and its reason.
+//!
+//! ```
+//! // The cosine of the angle between equal normals, rounded, still counts as parallel.
+//! assert!(1.0 - tinta_geometry::tolerances::PARALLEL_COSINE < 1.0);
+//! ```
+
+/// Default of `--weld`, a share of the model's bounding-box diagonal: one unit in the last place of an f32 file.
+pub const WELD: f64 = 1e-7;
+
+/// Largest `--weld`: a tenth of the model would no longer be a model.
+pub const LARGEST_WELD: f64 = 0.1;
+
+/// What rounding may move a projection by when vertices are swept for welding, as a share of its size: a few of f64's last
+/// places.
+pub const SWEEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Largest coordinate of a model, eye or target, file units: fourth powers of lengths stay finite f64 numbers.
+pub const LARGEST_COORDINATE: f64 = 1e60;
+
+/// Smallest and largest scene radius drawn, file units, for the same reason at both ends.
+pub const SCENE_RADIUS: std::ops::RangeInclusive<f64> = 1e-60..=2e60;
+
+/// Distance of eye and target, as a share of their coordinates, below which they count as the same point.
+pub const SAME_POINT: f64 = 1e-12;
+
+/// Sine of the angle below which an up vector counts as being along the view: rounding then turns the picture.
+pub const CAMERA_ALIGNMENT: f64 = 1e-6;
+
+/// Share of the picture's half-width and half-height that the fitted scene fills; the rest is margin for ink.
+pub const FRAME_FILL: f64 = 0.92;
+
+/// Share of the scene's depth added before the nearest and behind the farthest point: the map's 8-bit depth (errata E8)
+/// has 255 steps for all of it, so the margin is kept small.
+pub const DEPTH_MARGIN: f64 = 0.01;
+
+/// Smallest near distance as a share of the far distance, and smallest extent as a share of the scene's radius: with the
+/// eye inside the scene the depth buffer's 24 bits then still separate thousandths of the radius.
+pub const NEAREST_FRACTION: f64 = 1e-3;
+
+/// Largest distance of the eye from the scene's centre, scene radii: beyond it f32 depth in eye space has fewer than a
+/// thousand steps for the whole scene.
+pub const LARGEST_DISTANCE: f64 = 2e4;
+
+/// Least steps of a 24-bit depth buffer from the scene's nearest point to its farthest: with fewer, what is behind shows through
+/// what is in front of it.
+pub const LEAST_DEPTH_STEPS: f64 = 256.0;
+
+/// Distance of the background square from the eye, scene radii: so far that light, view and normal are parallel on all of
+/// it and the article's highlight tone, 1, leaves its colour as given.
+pub const BACKGROUND_DISTANCE: f32 = 1000.0;
+
+/// Distance, in rows, from the edge of two texture rows at which a grain counts as lying on it: far more than a platform's
+/// `pow` is off by, far less than a grain.
+pub const ROW_EDGE: f64 = 1e-9;
+
+/// What rounding may take from the cosine between two equal unit normals: without it a crease angle of 0 would make creases
+/// of flat surfaces.
+pub const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;
+
+/// Distance of a point from a face, as a share of the shorter of the face's longest side and the line's length, below which
+/// they touch: then the face does not hide the line, and does not pass through its neighbour. Models that stand on one
+/// another meet as well as six printed digits let them.
+pub const CONTACT: f64 = 1e-5;
+
+/// Distance of a point from the image of a line, as a share of the picture's larger side, below which it lies on it: what is
+/// exactly behind the rim of something nearer is hidden on that thing's side only, whatever the last digit says.
+pub const TIE: f64 = 2e-11;
+
+/// Distance between the images of two lines, as a share of the picture's larger side, below which they lie on one another: both
+/// are cut where one ends or they are equally near, and only the nearest is seen. A cut too many costs a ray, one too few an
+/// error.
+pub const TOUCH: f64 = 1e-7;
+
+/// Length, as a share of the picture's larger side, below which a line or a piece of one is a point: an edge seen end-on.
+pub const SHORTEST_LINE: f64 = 1e-7;
+
+/// What rounding may take from a coordinate as a share of the largest one in the scene: a few of f64's last places.
+pub const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
+
+/// Sine of the angle between a face and the view below which the face is seen edge-on: all its sides are then places where
+/// a surface may end, and those it shares with a face that is not edge-on are silhouette. One too many costs a ray.
+pub const EDGE_ON: f64 = 1e-9;
+
+/// Sine of the angle to straight across a line below which a face's side runs across it: a point moved aside from the line then
+/// stays on that side, which hides what is on either face at it.
+pub const ACROSS: f64 = 1e-9;
+
+/// How far a drawn line may pass by a point it leaves out, pixels: one step of the numbers in an SVG, which have three decimals.
+pub const STRAIGHT_PX: f64 = 1e-3;
+
+/// How far beyond the picture or between the planes a point must be, as a share of its distance, before f32 matrices agree
+/// that it is: some hundred of f32's last places.
+pub const CLIP_ROUNDING: f64 = 1e-5;
+
+/// How far a vertex can be drawn from where its coordinates say, pixels: f32 in the largest pictures is off by a hundredth, and
+/// GL's own sub-pixels may be sixteenths.
+pub const WINDOW_ROUNDING_PX: f64 = 0.125;
+
+/// Light that no surface reaches: diffuse and specular values are cosines of unit vectors, which rounding leaves below it.
+pub const UNREACHED_LIGHT: f32 = 1.001;
+
+/// How far from the middle between two steps of 8 bits a colour must be, steps, before every driver rounds it to the same one.
+pub const EIGHT_BIT_TIE: f64 = 0.02;
+
+/// Least distance of a face from its own shell's other faces for it to be left out where it cannot be seen, as a share of the
+/// mesh's mean edge length: less flags fewer faces, more asks of fewer faces that they are seen steeply.
+pub const SHELL_THICKNESS: f64 = 0.2;
+
+/// Most of that distance, in the mesh's radii: in a picture of 512 pixels half of one, which is enough.
+pub const LARGEST_THICKNESS: f64 = 3e-3;
+
+/// Share of that distance by which what hides a face is nearer than it; the rest is room for what moves sideways.
+pub const HIDING_DEPTH: f64 = 0.5;
+
+/// How far GL may move a vertex sideways before it fills a face, in steps of its sub-pixel grid: half a step by rounding, as
+/// much again for safety and for f32.
+pub const SUBPIXEL_STEPS: f64 = 1.0;
+
+/// Cosines between a face and the view between which it is asked for the angle from which on it is surely a back face: the
+/// first is far above what f32 is off by, beyond the second too few faces are left to be worth asking.
+pub const SURELY_BACK: std::ops::RangeInclusive<f64> = 1e-3..=0.5;
+
+/// Steps of a 24-bit depth buffer by which what hides a face must be nearer: rounding is off by a handful of them.
+pub const HIDING_DEPTH_STEPS: f64 = 256.0;
+
+/// What f32 may be off by in the depth of a point, as a share of its largest possible distance from the eye.
+pub const NEAR_PLANE_NOISE: f64 = 1e-5;
+
+/// Length of a sum of unit normals up to which its direction is nothing but rounding: a million of them lose less.
+pub const CANCELLED_NORMALS: f64 = 1e-9;
+
+/// How far corners of two faces may lie apart, as a share of the longest side, where both are the two sides of one thin part:
+/// some steps of the bytes that Quake 2 models have for coordinates, on a wing of a quarter of the model.
+pub const DOUBLED: f64 = 1.0 / 12.0;
+
+/// Least area of such a face, as a share of its model's: in a picture of 512 pixels a dozen or so.
+pub const DOUBLED_AREA: f64 = 5e-4;

@@ -1,0 +1,11 @@
+#version 120
+// Paper and noise stretched once over the picture, as published.
+// In: a place in the picture, 0 to 1. Out: the texture's coordinate.
+
+vec2 onPaper(vec2 place) {
+    return place;
+}
+
+vec2 onNoise(vec2 place) {
+    return place;
+}

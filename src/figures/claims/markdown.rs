@@ -1,0 +1,100 @@
+//! docs/claims.md: the claims with the numbers of one run.
+
+use super::{Claim, ClaimRecord, tally};
+use crate::figures::Text;
+use crate::figures::measure::HowToMeasure;
+use crate::figures::reasons::Host;
+
+impl Text {
+    /// The letter that errata and claims know it by.
+    pub fn letter(self) -> char {
+        match self {
+            Self::Evangelista => 'E',
+            Self::Valente => 'V',
+            Self::Dachsbacher => 'D',
+        }
+    }
+}
+
+/// Where a claim stands: `E:145, section 4.1`.
+pub(crate) fn place(text: Text, section: &str, line: u32) -> String {
+    let section = if section.starts_with(char::is_numeric) { format!("section {section}") } else { section.to_owned() };
+    format!("{}:{line}, {section}", text.letter())
+}
+
+impl Claim {
+    /// What of its row in docs/claims.md no measurement changes: place, sentence, rule, command.
+    pub fn cells(&self) -> [String; 4] {
+        [
+            place(self.text, self.section, self.line),
+            self.says.to_owned(),
+            self.rule.to_owned(),
+            format!("`{}`", self.command),
+        ]
+    }
+}
+
+impl ClaimRecord {
+    /// The measured numbers in a line, or why there are none.
+    pub(crate) fn measured(&self) -> String {
+        let numbers: Vec<String> = self.finding.numbers.iter().map(ToString::to_string).collect();
+        match self.finding.reason {
+            Some(reason) => reason.to_owned(),
+            None => numbers.join("; "),
+        }
+    }
+}
+
+/// The document.
+pub fn markdown(records: &[ClaimRecord], host: &Host, how: &HowToMeasure) -> String {
+    let mut out = String::from(HEAD);
+    out.push_str(&format!(
+        "\n{} Measured at {} with {} {} of each timed setting, on {}, {} {} of the processor.\n",
+        tally(records),
+        how.size,
+        how.frames,
+        if how.frames == 1 { "frame" } else { "frames" },
+        host.renderer,
+        host.threads,
+        if host.threads == 1 { "thread" } else { "threads" },
+    ));
+    for text in Text::ALL {
+        let of_text: Vec<&ClaimRecord> = records.iter().filter(|record| record.of_text(text)).collect();
+        if of_text.is_empty() {
+            continue;
+        }
+        out.push_str(&format!("\n## {}\n\n{COLUMNS}", text.name()));
+        for record in of_text {
+            out.push_str(&format!(
+                "| {} | {} | {} | {} | {} | `{}` |\n",
+                place(text, record.section, record.line),
+                record.says,
+                record.finding.verdict.name(),
+                record.measured(),
+                record.rule,
+                record.command
+            ));
+        }
+    }
+    out
+}
+
+const COLUMNS: &str = "\
+| where | the text says | verdict | measured here | confirmed if | shown by |
+|---|---|---|---|---|---|
+";
+
+const HEAD: &str = "\
+# Claims
+
+Every sentence of the three texts that says something which can be measured, beside what is measured here. A rule in the code
+decides between confirmed and refuted; nobody wrote a verdict down. A verdict is about this program on this machine: the texts had
+other hardware, and what they measured they measured there.
+
+E stands for Evangelista et al. 2005, V for Valente 2007, D for Dachsbacher; the number is the line of the transcript that this
+project was made from, and the section is the text's own. The words are ours. `tinta figures` measures them all and shows them on its
+page with pictures. This document is what it writes as `claims.md`:
+
+    tinta figures -o figures --only evangelista-claims,valente-claims,dachsbacher-claims
+    cp figures/claims.md docs/claims.md
+";

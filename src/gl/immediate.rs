@@ -1,0 +1,180 @@
+//! glBegin to glEnd, and display lists: the calls by which vertices reached GL before buffers, loaded by name, as glow lacks
+//! them.
+//!
+//! In: vertices on this side, in the order they are drawn. Out: the same picture as by buffers, by a call for each vertex and
+//! attribute. Only what a draw reads is sent: normals go to shaders, texture coordinates to the units that have them.
+
+use super::legacy::FIXED_UNITS;
+use std::ffi::{CStr, c_void};
+
+/// `GL_COMPILE`
+const COMPILE: u32 = 0x1300;
+
+type Mode = unsafe extern "system" fn(u32);
+type End = unsafe extern "system" fn();
+type Floats = unsafe extern "system" fn(*const f32);
+type FloatsOf = unsafe extern "system" fn(u32, *const f32);
+type NewList = unsafe extern "system" fn(u32, u32);
+type GenerateLists = unsafe extern "system" fn(i32) -> u32;
+type DeleteLists = unsafe extern "system" fn(u32, i32);
+
+/// The functions, each of the type the specification gives it.
+pub(super) struct Immediate {
+    begin: Mode,
+    end: End,
+    vertex_3: Floats,
+    vertex_4: Floats,
+    normal: Floats,
+    color: Floats,
+    coordinate: Floats,
+    coordinate_of: FloatsOf,
+    generate_lists: GenerateLists,
+    new_list: NewList,
+    end_list: End,
+    call_list: Mode,
+    delete_lists: DeleteLists,
+}
+
+/// Vertices in the order they are drawn.
+pub(super) struct Vertices<'a> {
+    /// GL_TRIANGLES, GL_LINES, …
+    pub mode: u32,
+    /// Where they are.
+    pub places: Places<'a>,
+    /// Which of the places, in order.
+    pub indices: &'a [u32],
+    /// The colour of each place; without any the current colour holds.
+    pub colors: Option<&'a [[f32; 4]]>,
+    /// The texture coordinates of each place, by texture unit.
+    pub coordinates: [Option<&'a [[f32; 2]]>; FIXED_UNITS as usize],
+}
+
+/// Where vertices are.
+#[derive(Clone, Copy)]
+pub(super) enum Places<'a> {
+    /// Positions, with normals behind them that are not sent.
+    Positions(&'a [[f32; 6]]),
+    /// Positions and normals.
+    PositionsAndNormals(&'a [[f32; 6]]),
+    /// Positions in clip space.
+    Clip(&'a [[f32; 4]]),
+}
+
+impl<'a> Vertices<'a> {
+    /// Vertices that have neither colours nor texture coordinates of their own.
+    pub(super) fn new(mode: u32, places: Places<'a>, indices: &'a [u32]) -> Self {
+        Self { mode, places, indices, colors: None, coordinates: [None; FIXED_UNITS as usize] }
+    }
+}
+
+impl Immediate {
+    /// Loads the table; the error is the name of the first function the driver does not have.
+    ///
+    /// # Safety
+    ///
+    /// `load` returns null or the address of the GL function of that name for the current context.
+    pub(super) unsafe fn load(mut load: impl FnMut(&CStr) -> *const c_void) -> std::result::Result<Self, String> {
+        let mut find = |name: &'static CStr| {
+            let address = load(name);
+            if address.is_null() { Err(name.to_string_lossy().into_owned()) } else { Ok(address) }
+        };
+        // SAFETY: each address is that of the function named, whose C type is the one in the table.
+        unsafe {
+            Ok(Self {
+                begin: std::mem::transmute::<*const c_void, Mode>(find(c"glBegin")?),
+                end: std::mem::transmute::<*const c_void, End>(find(c"glEnd")?),
+                vertex_3: std::mem::transmute::<*const c_void, Floats>(find(c"glVertex3fv")?),
+                vertex_4: std::mem::transmute::<*const c_void, Floats>(find(c"glVertex4fv")?),
+                normal: std::mem::transmute::<*const c_void, Floats>(find(c"glNormal3fv")?),
+                color: std::mem::transmute::<*const c_void, Floats>(find(c"glColor4fv")?),
+                coordinate: std::mem::transmute::<*const c_void, Floats>(find(c"glTexCoord2fv")?),
+                coordinate_of: std::mem::transmute::<*const c_void, FloatsOf>(find(c"glMultiTexCoord2fv")?),
+                generate_lists: std::mem::transmute::<*const c_void, GenerateLists>(find(c"glGenLists")?),
+                new_list: std::mem::transmute::<*const c_void, NewList>(find(c"glNewList")?),
+                end_list: std::mem::transmute::<*const c_void, End>(find(c"glEndList")?),
+                call_list: std::mem::transmute::<*const c_void, Mode>(find(c"glCallList")?),
+                delete_lists: std::mem::transmute::<*const c_void, DeleteLists>(find(c"glDeleteLists")?),
+            })
+        }
+    }
+
+    /// Sends the vertices, to be drawn now or to be compiled.
+    ///
+    /// # Safety
+    ///
+    /// The context is current, and nothing stands between glBegin and glEnd.
+    pub(super) unsafe fn send(&self, vertices: &Vertices<'_>) {
+        // SAFETY: the caller's promise; every pointer is to as many numbers as the function's name says, which the arrays'
+        // types give.
+        unsafe {
+            (self.begin)(vertices.mode);
+            for index in vertices.indices {
+                let index = *index as usize;
+                if let Some(colors) = vertices.colors {
+                    (self.color)(colors[index].as_ptr());
+                }
+                if let Some(coordinates) = vertices.coordinates[0] {
+                    (self.coordinate)(coordinates[index].as_ptr());
+                }
+                for (unit, coordinates) in (0..).zip(vertices.coordinates).skip(1) {
+                    if let Some(coordinates) = coordinates {
+                        (self.coordinate_of)(glow::TEXTURE0 + unit, coordinates[index].as_ptr());
+                    }
+                }
+                match vertices.places {
+                    Places::Positions(places) => (self.vertex_3)(places[index].as_ptr()),
+                    Places::PositionsAndNormals(places) => {
+                        (self.normal)(places[index][3..].as_ptr());
+                        (self.vertex_3)(places[index].as_ptr());
+                    }
+                    Places::Clip(places) => (self.vertex_4)(places[index].as_ptr()),
+                }
+            }
+            (self.end)();
+        }
+    }
+
+    /// A new list's name, or 0 if there is none left.
+    ///
+    /// # Safety
+    ///
+    /// The context is current.
+    pub(super) unsafe fn new_list(&self) -> u32 {
+        // SAFETY: the caller's promise.
+        unsafe { (self.generate_lists)(1) }
+    }
+
+    /// Compiles vertices into a list, and draws nothing.
+    ///
+    /// # Safety
+    ///
+    /// As [`Immediate::send`], and the list is one of the context's own.
+    pub(super) unsafe fn compile(&self, list: u32, vertices: &Vertices<'_>) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            (self.new_list)(list, COMPILE);
+            self.send(vertices);
+            (self.end_list)();
+        }
+    }
+
+    /// Draws what was compiled into a list.
+    ///
+    /// # Safety
+    ///
+    /// The context is current and the list one of its own.
+    pub(super) unsafe fn call(&self, list: u32) {
+        // SAFETY: the caller's promise.
+        unsafe { (self.call_list)(list) }
+    }
+
+    /// Deletes a list.
+    ///
+    /// # Safety
+    ///
+    /// The context is current and the list one of its own.
+    pub(super) unsafe fn delete_list(&self, name: u32) {
+        // SAFETY: the caller's promise.
+        unsafe { (self.delete_lists)(name, 1) }
+    }
+}

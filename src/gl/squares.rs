@@ -1,0 +1,69 @@
+//! The squares that fill the picture, and what lies on their corners.
+
+use super::display_lists::Content;
+use super::execute::Resources;
+use super::immediate::{Places, Vertices};
+use super::legacy::{self, MODELVIEW, PROJECTION};
+use super::objects::Buffer;
+use crate::error::Result;
+use crate::plan::Submission;
+use glam::Mat4;
+use glow::HasContext;
+
+/// Position and normal of each corner: the background square, then the screen square at the near plane.
+const SQUARES: [[f32; 6]; 8] = [
+    [-1.0, -1.0, 0.0, 0.0, 0.0, 1.0],
+    [1.0, -1.0, 0.0, 0.0, 0.0, 1.0],
+    [1.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+    [-1.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+    [-1.0, -1.0, -1.0, 0.0, 0.0, 1.0],
+    [1.0, -1.0, -1.0, 0.0, 0.0, 1.0],
+    [1.0, 1.0, -1.0, 0.0, 0.0, 1.0],
+    [-1.0, 1.0, -1.0, 0.0, 0.0, 1.0],
+];
+
+impl Resources {
+    /// Uploads them, if they are not there yet.
+    pub(super) fn upload_squares(&mut self) -> Result<()> {
+        if self.squares.is_none() {
+            self.squares = Some(Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&SQUARES))?);
+        }
+        Ok(())
+    }
+
+    /// The square from this corner on.
+    pub(super) fn draw_square(
+        &self,
+        first: u32,
+        color: [f32; 4],
+        view_from_square: &Mat4,
+        clip_from_view: &Mat4,
+    ) -> Result<()> {
+        // SAFETY: the context is current.
+        unsafe {
+            self.gl.legacy.load_matrix(PROJECTION, clip_from_view);
+            self.gl.legacy.load_matrix(MODELVIEW, view_from_square);
+            self.gl.legacy.color(color);
+        }
+        self.draw_corners(legacy::QUADS, first, 4)
+    }
+
+    /// What lies on some corners of the squares.
+    pub(super) fn draw_corners(&self, mode: u32, first: u32, count: u32) -> Result<()> {
+        if self.submission != Submission::Buffers {
+            let indices: Vec<u32> = (first..first + count).collect();
+            let places = Places::PositionsAndNormals(&SQUARES);
+            let vertices = Vertices::new(mode, places, &indices);
+            return self.lists.draw(&self.gl, self.submission, Content::Corners(mode, first), &vertices);
+        }
+        if let Some(squares) = &self.squares {
+            squares.bind();
+        }
+        // SAFETY: the context is current and the bound buffer holds both squares, four vertices each.
+        unsafe {
+            self.gl.legacy.position_and_normal_arrays();
+            self.gl.glow.draw_arrays(mode, first as i32, count as i32);
+        }
+        Ok(())
+    }
+}

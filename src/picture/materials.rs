@@ -1,0 +1,87 @@
+//! The pictures on a mesh's materials.
+
+use super::Picture;
+use crate::error::Result;
+use crate::limits::{MEMORY_FACTOR, MODEL_PICTURES_BYTES};
+use crate::mesh::{EmbeddedPicture, Material};
+use crate::scene::{Object, ObjectIdentity};
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Where a material's picture is read from.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Source<'a> {
+    /// A file, and the folder that it must lie in.
+    File(&'a Path, Option<&'a Path>),
+    /// The model's own file: the picture's place in memory, which materials share.
+    Embedded(*const EmbeddedPicture),
+}
+
+/// The pictures on the materials of a scene's objects, each read once for all copies of an object.
+#[derive(Debug, Default)]
+pub(crate) struct MaterialPictures(Vec<(ObjectIdentity, Vec<Option<Arc<Picture>>>)>);
+
+impl MaterialPictures {
+    /// Reads what these objects have and is not there yet, and lets go of what is no longer theirs.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::File`](crate::Error::Picture) when one cannot be read.
+    pub(crate) fn prepare(&mut self, objects: &[Object]) -> Result<()> {
+        self.0.retain(|(identity, _)| objects.iter().any(|object| identity.is_of(object)));
+        for object in objects {
+            if self.0.iter().all(|(identity, _)| !identity.is_of(object)) {
+                self.0.push((object.identity(), material_pictures(&object.mesh.materials)?));
+            }
+        }
+        Ok(())
+    }
+
+    /// An object's, by material; `None` for a material without one, and no list before [`MaterialPictures::prepare`].
+    pub(crate) fn of(&self, object: &Object) -> &[Option<Arc<Picture>>] {
+        self.0.iter().find(|(identity, _)| identity.is_of(object)).map_or(&[], |(_, pictures)| pictures)
+    }
+}
+
+/// A mesh's pictures, by material, each file read once, all of them together within [`MODEL_PICTURES_BYTES`]; `None` for a
+/// material without one.
+///
+/// # Errors
+///
+/// [`Error::File`](crate::Error::File) when one cannot be read.
+pub fn material_pictures(materials: &[Material]) -> Result<Vec<Option<Arc<Picture>>>> {
+    let mut known: HashMap<Source<'_>, Arc<Picture>> = HashMap::new();
+    let (mut file_bytes, mut bytes) = (0u64, 0u64);
+    let mut pictures = Vec::with_capacity(materials.len());
+    for material in materials {
+        let source = match (&material.texture, &material.embedded) {
+            (Some(path), _) => Source::File(path, material.texture_within.as_deref()),
+            (None, Some(picture)) => Source::Embedded(Arc::as_ptr(picture)),
+            (None, None) => {
+                pictures.push(None);
+                continue;
+            }
+        };
+        let picture = match known.entry(source) {
+            Entry::Occupied(known) => known.get().clone(),
+            Entry::Vacant(place) => {
+                let most = MODEL_PICTURES_BYTES.max(file_bytes.saturating_mul(MEMORY_FACTOR as u64));
+                let most = most.saturating_sub(bytes);
+                let (picture, size) = match (source, &material.embedded) {
+                    (Source::Embedded(_), Some(file)) => {
+                        (Picture::from_bytes_of(&file.bytes, &file.name, most)?, file.bytes.len() as u64)
+                    }
+                    (Source::File(path, within), _) => Picture::read_within(path, within, most)?,
+                    (Source::Embedded(_), None) => continue,
+                };
+                file_bytes += size;
+                bytes += picture.pixels.len() as u64;
+                place.insert(Arc::new(picture)).clone()
+            }
+        };
+        pictures.push(Some(picture));
+    }
+    Ok(pictures)
+}

@@ -1,0 +1,92 @@
+//! How the textures lie on the picture: what the shaders' parts are told of sizes.
+//!
+//! In: the textures and the picture's size. Out: uniforms.
+
+use super::pictures::Made;
+use crate::plan::{Uniform, Value};
+use crate::scene::Size;
+
+/// The textures' places.
+pub(super) struct Layout {
+    noise: Size,
+    cet: Size,
+    /// Shares of the textures that the picture's width and height cover.
+    noise_spread: [f32; 2],
+    paper_spread: [f32; 2],
+}
+
+impl Layout {
+    /// Of these textures: stretched once over the picture, or each in its own proportion.
+    pub(super) fn of(made: &Made, picture: Size, is_even: bool) -> Self {
+        let spread = |texture: Size| if is_even { even(picture, texture) } else { [1.0; 2] };
+        Self {
+            noise: made.noise.size,
+            cet: made.cet.size,
+            noise_spread: spread(made.noise.size),
+            paper_spread: spread(made.paper.size),
+        }
+    }
+
+    /// What spread-even reads.
+    pub(super) fn spreads(&self) -> Vec<Uniform> {
+        vec![vec2("noiseSpread", self.noise_spread), vec2("paperSpread", self.paper_spread)]
+    }
+
+    /// What the parts read.
+    pub(super) fn uniforms(&self, picture: Size) -> Vec<Uniform> {
+        let (sides, shorter) = ([picture.width, picture.height].map(|side| side as f32), shorter(picture));
+        // About as many texels a pixel as on the screen, where the scene's radius is about half the picture.
+        let [x, y] = self.noise_spread;
+        let across = [x * shorter / sides[0] * 0.5, y * shorter / sides[1] * 0.5];
+        let mut uniforms = self.spreads();
+        uniforms.extend([
+            Uniform { name: "cetTexel", value: Value::Float(1.0 / self.cet.height as f32) },
+            vec2("textureUnit", sides.map(|side| 1.0 / side)),
+            vec2("noiseScale", across),
+            vec2("noiseSize", [self.noise.width as f32, self.noise.height as f32]),
+            vec2("strokeScale", sides.map(|side| side / shorter)),
+        ]);
+        uniforms
+    }
+}
+
+fn vec2(name: &'static str, value: [f32; 2]) -> Uniform {
+    Uniform { name, value: Value::Vec2(value) }
+}
+
+fn shorter(picture: Size) -> f32 {
+    picture.width.min(picture.height) as f32
+}
+
+/// The share of a texture along each side of a picture that it covers whole and unstretched: all of it along one side.
+fn even(picture: Size, texture: Size) -> [f32; 2] {
+    let pixels_a_texel =
+        [f64::from(picture.width) / f64::from(texture.width), f64::from(picture.height) / f64::from(texture.height)];
+    let larger = pixels_a_texel[0].max(pixels_a_texel[1]);
+    pixels_a_texel.map(|pixels| (pixels / larger) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn size(width: u32, height: u32) -> Size {
+        Size { width, height }
+    }
+
+    #[test]
+    fn a_texture_in_its_own_proportion_covers_the_picture_and_its_texels_stay_square() {
+        assert_eq!(even(size(900, 400), size(512, 512)), [1.0, (400.0f64 / 900.0) as f32]);
+        assert_eq!(even(size(300, 900), size(512, 512)), [(1.0f64 / 3.0) as f32, 1.0]);
+        assert_eq!(even(size(640, 640), size(512, 512)), [1.0; 2], "nothing changes where both are square");
+        assert_eq!(even(size(600, 300), size(200, 100)), [1.0; 2]);
+        for (picture, texture) in [(size(900, 400), size(300, 700)), (size(31, 77), size(100, 3))] {
+            let [x, y] = even(picture, texture);
+            // Pixels of the picture a texel, along both sides.
+            let across = picture.width as f32 / (x * texture.width as f32);
+            let down = picture.height as f32 / (y * texture.height as f32);
+            assert!((across / down - 1.0).abs() < 1e-5, "{across} {down}");
+            assert!(x.max(y) == 1.0 && x.min(y) > 0.0);
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! The settings of `charcoal` and `sand`: names, ranges and help, as every command has them.
+
+use super::{Charcoal, CharcoalRecipe};
+use crate::settings::{Kind, ON_OFF, Setting, Value as _, names_of, under};
+use crate::styles::{ALL_STYLES, CHARCOAL, cull};
+
+impl Charcoal {
+    /// Its settings.
+    pub(in crate::styles) fn settings() -> Vec<Setting<Self>> {
+        let common = vec![cull(|charcoal: &mut Self| &mut charcoal.cull_back_faces)];
+        let recipe = Setting::of(
+            "charcoal",
+            "RECIPE",
+            Kind::Recipe(names_of::<CharcoalRecipe>()),
+            "Recipe: plain (the listing as it is), darker (density 85, contrast exponent 1.2, smudged), closure (density 35, contrast \
+             exponent 2, saturation 1.4); options given beside it override it",
+            |_: &Self| CharcoalRecipe::default().text(),
+            |charcoal, text| {
+                let recipe = Self::recipe(CharcoalRecipe::parse(text)?);
+                (charcoal.density_percent, charcoal.contrast_exponent) =
+                    (recipe.density_percent, recipe.contrast_exponent);
+                (charcoal.smudge, charcoal.saturation) = (recipe.smudge, recipe.saturation);
+                Ok(())
+            },
+        )
+        // The old name made values of ours look like the text's.
+        .formerly(&[("published", "plain")])
+        .ours("V, section 5 lists which parameters to raise and lower, not by how much");
+        let grain = vec![
+            recipe,
+            Setting::field(
+                "seed",
+                "N",
+                "Seed of the random numbers; the same seed gives the same textures",
+                |charcoal: &mut Self| &mut charcoal.seed,
+            )
+            .ours("V seeds rand() with something it does not print")
+            .range(0.0, 1000.0, 0),
+            Setting::field(
+                "random",
+                "GENERATOR",
+                "Random numbers: splitmix, or rand() as C libraries of the report's time had it: msvc, glibc",
+                |charcoal: &mut Self| &mut charcoal.random,
+            )
+            .ours("V, section 5: rand(), without saying whose (V8)")
+            .labelled("random numbers"),
+            Setting::field(
+                "density",
+                "PERCENT",
+                "Percentage of black pixels in the grain's texture before they are moved (the text: a density of 60, \
+                 without a unit); more is darker",
+                |charcoal: &mut Self| &mut charcoal.density_percent,
+            )
+            .deduced("V, figures 2 and 3: density 60, without a unit; read as percent (V10)")
+            .range(0.0, 100.0, 0),
+            Setting::field(
+                "cet-exponent",
+                "M",
+                "Exponent m that moves black pixels along t to t^m; more leaves fewer grains in light tones",
+                |charcoal: &mut Self| &mut charcoal.cet_exponent,
+            )
+            .deduced("V, figure 3: the middle one of three; which the drawings have is not said")
+            .range(1.0, 20.0, 1)
+            .labelled("grain exponent"),
+            Setting::field(
+                "cet-blur",
+                "PIXELS",
+                "Standard deviation of the blur that follows, in pixels; more makes the grain softer",
+                |charcoal: &mut Self| &mut charcoal.cet_blur_px,
+            )
+            .ours("V, section 3.1 blurs by a Gaussian of a width it does not print (V7)")
+            .range(0.0, 5.0, 2)
+            .labelled("grain blur"),
+        ];
+        let drawing = vec![
+            Setting::field(
+                "contrast-exponent",
+                "M",
+                "Exponent of the light's contrast; more darkens all but the brightest parts",
+                |charcoal: &mut Self| &mut charcoal.contrast_exponent,
+            )
+            .ours("V, section 2.1.2 asks for more than 1 (V7)")
+            .range(0.1, 6.0, 2),
+            Setting::field(
+                "saturation",
+                "FACTOR",
+                "Factor for the light; above 1 faint lines vanish (closure)",
+                |charcoal: &mut Self| &mut charcoal.saturation,
+            )
+            .printed("V, section 3.3: 1.0 by default, 1.2 for 20 percent")
+            .range(0.0, 3.0, 2),
+            Setting::field("smudge", ON_OFF, "Smudge the drawing, on or off; on is darker", |charcoal: &mut Self| {
+                &mut charcoal.smudge
+            })
+            .printed("V, figure 6: without it; the effect is optional"),
+            light(
+                "light-1",
+                "Direction towards the first light, in eye space, or none for the second light alone",
+                |charcoal| &mut charcoal.lights[0],
+            )
+            .ours("V has two directional lights and prints no directions (V7)")
+            .labelled("first light"),
+            light(
+                "light-2",
+                "Direction towards the second light, or none for the first light alone",
+                |charcoal| &mut charcoal.lights[1],
+            )
+            .ours("V has two directional lights and prints no directions (V7)")
+            .labelled("second light"),
+            Setting::field(
+                "cet",
+                "FILE",
+                "Picture of the grain's texture, the darkest tone in its lowest row; replaces --density, --cet-exponent and \
+                 --cet-blur",
+                |charcoal: &mut Self| &mut charcoal.cet,
+            )
+            .deduced("V, section 3.1 makes it in its program")
+            .said("made from the seed")
+            .labelled("grain"),
+            Setting::field(
+                "noise-texture",
+                "FILE",
+                "Picture of the noise that chooses the grain: the mean of red, green and blue is its place along the width",
+                |charcoal: &mut Self| &mut charcoal.noise_texture,
+            )
+            .deduced("V, section 3.1 makes it in its program")
+            .said("made from the seed"),
+            Setting::field(
+                "paper",
+                "FILE",
+                "Picture of the paper, stretched over the whole drawing; replaces --background",
+                |charcoal: &mut Self| &mut charcoal.paper,
+            )
+            .ours("V shows no paper that one could be made from (V7)")
+            .said("made from the seed"),
+            Setting::field(
+                "texture-size",
+                "WxH",
+                "Size of grain, noise and paper, stretched over the drawing; more is finer",
+                |charcoal: &mut Self| &mut charcoal.texture_size,
+            )
+            .ours("V gives no size (V7)"),
+            Setting::field(
+                "cet-filter",
+                "FILTER",
+                "Filter of the grain's texture: linear, mipmap (blurs the grain away)",
+                |charcoal: &mut Self| &mut charcoal.cet_filter,
+            )
+            .printed("V, section 3: GL_LINEAR")
+            .labelled("grain filter"),
+            Setting::field(
+                "cet-coordinate",
+                "LIGHT",
+                "Light that chooses the grain: original, saturated",
+                |charcoal: &mut Self| &mut charcoal.cet_coordinate,
+            )
+            .printed("V, section 3.3: cetCoord.t = origCeo")
+            .labelled("grain chosen by"),
+            Setting::field(
+                "contrast-operator",
+                "OPERATOR",
+                "Operator that enhances contrast: power (as published), sigmoid, bias",
+                |charcoal: &mut Self| &mut charcoal.operator,
+            )
+            .printed("V, section 2.1.2: b = a^m"),
+            Setting::field(
+                "noise",
+                "WHERE",
+                "What the noise sticks to: screen (as published), object (turns with the model)",
+                |charcoal: &mut Self| &mut charcoal.noise,
+            )
+            .printed("V, section 3.3: the paper's coordinate"),
+            Setting::field(
+                "improve",
+                "WHAT",
+                "What to draw better: flaws of the text (clamp, wrap, paper-coordinate, luminance; together: all) and more \
+                 (proportion, tooth, two-sided, strokes; with all: everything); separated by commas",
+                |charcoal: &mut Self| &mut charcoal.improve,
+            )
+            .printed("V, the listing as it stands")
+            .labelled("improved"),
+        ];
+        under(ALL_STYLES, common).chain(under(CHARCOAL, grain)).chain(under(CHARCOAL, drawing)).collect()
+    }
+}
+
+/// The setting of a light that may be left out.
+fn light(
+    name: &'static str,
+    help: &'static str,
+    field: fn(&mut Charcoal) -> &mut Option<[f32; 3]>,
+) -> Setting<Charcoal> {
+    let mut light = Setting::open_field(name, "X,Y,Z|none", "none", help, field).range(-1.0, 1.0, 2);
+    // The default is no light left out but a direction, which the help then says.
+    light.said_default = None;
+    light
+}

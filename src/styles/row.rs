@@ -1,0 +1,132 @@
+//! What stands in a style's row, and the macro that makes the styles of their rows.
+
+use super::{Show, Style, StyleName};
+use crate::settings::Setting;
+
+/// A style's row: what is known of it besides its settings, which stand beside their struct.
+#[derive(Debug)]
+pub struct StyleInfo {
+    /// Which style.
+    pub style: StyleName,
+    /// Its name as the user writes it.
+    pub name: &'static str,
+    /// Its pictures, the finished one first.
+    pub shows: &'static [Show],
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Its mark in plots; without one a grey circle.
+    pub mark: Option<Mark>,
+    /// The style with the published settings.
+    pub(super) published: fn() -> Style,
+    /// Its settings.
+    pub(super) settings: fn() -> Vec<Setting<Style>>,
+}
+
+/// Where a style comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// A text, with the values that are the defaults.
+    Published,
+    /// A text that names it without values.
+    Named,
+    /// This project.
+    Own,
+}
+
+/// A style's mark in plots: a colour and a shape, so that neither is needed alone. The colours can be told apart by the
+/// colour-blind (Okabe and Ito 2008) and be seen on white and near black.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mark {
+    /// Red, green and blue.
+    pub rgb: [u8; 3],
+    /// The shape.
+    pub outline: Outline,
+}
+
+/// The shape of a mark.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Outline {
+    /// A circle.
+    Circle,
+    /// A regular polygon.
+    Polygon {
+        /// How many corners.
+        corners: usize,
+        /// Of the first corner from the top, radians.
+        turn: f64,
+    },
+    /// A star of five points.
+    Star,
+}
+
+/// Makes of the rows [`Style`], [`StyleName`], and what each style does in its own way.
+///
+/// A macro because a style is a variant of two types, an arm of each match over them and a table's entry: six places without one.
+macro_rules! styles {
+    ($($(#[$about:meta])* $style:ident($settings:ty) {
+        name: $name:literal, plan: $plan:expr, has_lines: $has_lines:expr, $($field:ident: $value:expr),*,
+    })*) => {
+        /// A style with its settings.
+        #[derive(Debug, Clone, PartialEq)]
+        #[non_exhaustive]
+        pub enum Style {
+            $($(#[$about])* $style($settings),)*
+        }
+
+        /// The styles' names.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum StyleName {
+            $(#[doc = concat!("`", $name, "`")] $style,)*
+        }
+
+        /// Every style, in the order in which they are listed.
+        static STYLES: [StyleInfo; StyleName::ALL.len()] = [$(StyleInfo {
+            style: StyleName::$style,
+            name: $name,
+            $($field: $value,)*
+            published: || Style::$style(<$settings>::default()),
+            settings: || {
+                within(<$settings>::settings(), |style| if let Style::$style(it) = style { Some(it) } else { None })
+                    .collect()
+            },
+        }),*];
+
+        impl StyleName {
+            /// All of them, as the user writes them.
+            pub const ALL: [(&'static str, Self); [$($name),*].len()] = [$(($name, Self::$style)),*];
+        }
+
+        impl Style {
+            /// Which style it is.
+            pub fn style_name(&self) -> StyleName {
+                match self {
+                    $(Self::$style(_) => StyleName::$style,)*
+                }
+            }
+
+            /// Whether it draws lines that can be shown by themselves.
+            pub fn has_lines(&self) -> bool {
+                match self {
+                    $(Self::$style(settings) => {
+                        let has_lines: fn(&$settings) -> bool = $has_lines;
+                        has_lines(settings)
+                    })*
+                }
+            }
+
+            /// What GL has to do for this scene.
+            ///
+            /// # Errors
+            ///
+            /// [`crate::Error::Setting`] when a setting is nonsense, by itself or with this scene or `show`.
+            pub fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
+                match self {
+                    $(Self::$style(settings) => $plan(settings, scene, show),)*
+                }
+            }
+        }
+    };
+}
+
+pub(super) use styles;

@@ -1,0 +1,145 @@
+//! `docs/adding-a-style.md` holds: its blocks, put where it says into a copy of the sources, make a style, and its one setting is
+//! found at every door.
+
+use crate::support::root;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A block of code that belongs into a file.
+struct Block {
+    path: String,
+    /// The line it stands before; `None` for a new file.
+    before: Option<String>,
+    text: String,
+}
+
+/// The page's blocks, each under a line that names its file: `` `FILE`: `` or `` `FILE`, before `LINE`: ``.
+fn blocks() -> Vec<Block> {
+    let page = std::fs::read_to_string(root().join("docs/adding-a-style.md")).unwrap();
+    let mut all = Vec::new();
+    let mut parts = page.split("\n```");
+    let mut above = parts.next().unwrap();
+    while let (Some(block), Some(below)) = (parts.next(), parts.next()) {
+        let label: Vec<&str> = above.trim_end().lines().last().unwrap().split('`').collect();
+        let text = block.split_once('\n').unwrap().1.to_owned() + "\n";
+        let (path, before) = match label.as_slice() {
+            ["", path, ":"] => (*path, None),
+            ["", path, ", before ", line, ":"] => (*path, Some((*line).to_owned())),
+            _ => panic!("no file is named above the block\n{text}"),
+        };
+        all.push(Block { path: path.to_owned(), before, text });
+        above = below;
+    }
+    all
+}
+
+/// The files that the page makes, which are not there.
+pub fn new_files() -> Vec<String> {
+    blocks().into_iter().filter(|block| block.before.is_none()).map(|block| block.path).collect()
+}
+
+fn copy(from: &Path, to: &Path) {
+    if from.is_dir() {
+        std::fs::create_dir_all(to).unwrap();
+        for entry in std::fs::read_dir(from).unwrap() {
+            let name = entry.unwrap().file_name();
+            copy(&from.join(&name), &to.join(&name));
+        }
+    } else {
+        std::fs::copy(from, to).unwrap();
+    }
+}
+
+/// A copy of what the program is built of, always in the same folder: in another one cargo would build all of it again.
+fn copy_of_the_sources() -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("adding-a-style/sources");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(folder.join("tests")).unwrap();
+    // Without the tests and benchmarks that Cargo.toml names it is refused.
+    let files = ["Cargo.toml", "Cargo.lock", "tests/main.rs", "tests/leaks.rs"];
+    for part in files.into_iter().chain(["benches", "crates", "glsl", "models", "presets", "src"]) {
+        copy(&root().join(part), &folder.join(part));
+    }
+    folder
+}
+
+impl Block {
+    fn put_into(&self, folder: &Path) {
+        let path = folder.join(&self.path);
+        let text = match &self.before {
+            None => {
+                assert!(!path.exists(), "{} is there already", self.path);
+                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+                self.text.clone()
+            }
+            Some(line) => {
+                let text = std::fs::read_to_string(&path).unwrap();
+                let is_it = |candidate: &&str| candidate.trim() == line;
+                assert_eq!(text.lines().filter(is_it).count(), 1, "{}: {line}", self.path);
+                let of_line =
+                    |candidate| if is_it(&candidate) { self.text.clone() + candidate } else { candidate.into() };
+                text.lines().map(of_line).collect::<Vec<String>>().join("\n") + "\n"
+            }
+        };
+        std::fs::write(path, text).unwrap();
+    }
+}
+
+fn succeeds(command: &mut Command) -> String {
+    let Output { status, stdout, stderr } = command.output().unwrap();
+    assert!(status.success(), "{command:?}\n{}", String::from_utf8_lossy(&stderr));
+    String::from_utf8(stdout).unwrap()
+}
+
+#[test]
+#[ignore = "exhaustive: builds a copy of the program"]
+fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
+    let folder = copy_of_the_sources();
+    blocks().iter().for_each(|block| block.put_into(&folder));
+    let build = folder.with_file_name("build");
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args([
+        "build",
+        "--offline",
+        "--locked",
+        "--bin",
+        "tinta",
+        "--no-default-features",
+        "--features",
+        "cli,measuring",
+    ]);
+    succeeds(cargo.current_dir(&folder).env("CARGO_TARGET_DIR", &build));
+    let tinta = |words: &str| {
+        let mut command = Command::new(build.join("debug/tinta"));
+        succeeds(command.args(words.split(' ')).current_dir(&folder))
+    };
+
+    // Help, completions, manual.
+    let help = tinta("render --help");
+    assert!(help.contains("sand, stripes, lines"), "{help}");
+    assert!(help.contains("Style stripes:") && help.contains("--stripe-distance <PIXELS>"), "{help}");
+    assert!(tinta("completions bash").contains("--stripe-distance"));
+    tinta("man -o manuals");
+    assert!(std::fs::read_to_string(folder.join("manuals/tinta-render.1")).unwrap().contains("stripe\\-distance"));
+
+    // An option, a preset, a job, and a picture that says how it was made draw the same.
+    let record = tinta("render builtin:bust --size 96 -o option.png --style stripes --stripe-distance 12 --json");
+    let record: serde_json::Value = serde_json::from_str(&record).unwrap();
+    assert_eq!((&record["style"]["name"], &record["style"]["stripe-distance"]), (&"stripes".into(), &12.into()));
+    tinta("render builtin:bust --size 96 -o default.png --style stripes");
+    tinta("render builtin:bust --size 96 -o preset.png --preset stripes.toml");
+    tinta("again option.png -o again.png");
+    let job = r#"{"id": 1, "command": "render", "model": "builtin:bust", "output": "job.png", "size": 96, "style": "stripes", "stripe-distance": 12}"#;
+    std::fs::write(folder.join("jobs.jsonl"), job).unwrap();
+    tinta("batch jobs.jsonl -o .");
+    let pixels = |name: &str| image::open(folder.join(name)).unwrap().into_rgba8().into_raw();
+    for other in ["preset.png", "again.png", "job.png"] {
+        assert!(pixels(other) == pixels("option.png"), "{other}");
+    }
+    assert!(pixels("default.png") != pixels("option.png"));
+
+    // It is measured as it is by default.
+    tinta("measure builtin:open-box --styles stripes --quick --size 64 -o measured");
+    let rows = std::fs::read_to_string(folder.join("measured/results.csv")).unwrap();
+    assert!(rows.contains("--style stripes"), "{rows}");
+}
