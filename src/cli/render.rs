@@ -345,7 +345,7 @@ fn pictures_of(scene: &Scene) -> Inputs {
 fn make_dump_folder(arguments: &Arguments) -> Result<()> {
     let Some(folder) = &arguments.run.dump else { return Ok(()) };
     let output = Path::new(&arguments.output);
-    let parent = output.parent().map(|parent| if parent == "" { Path::new(".") } else { parent });
+    let parent = output.parent().map(|parent| if parent.as_os_str().is_empty() { Path::new(".") } else { parent });
     let is_folder = |parent: &Path| {
         parent.canonicalize().is_ok_and(|parent| folder.canonicalize().is_ok_and(|folder| folder == parent))
     };
