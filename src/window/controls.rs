@@ -52,6 +52,16 @@ impl<T: Clone + 'static> Control<T> {
         format!("--{}", self.setting.name)
     }
 
+    /// Numbers to begin with where it is no longer left open: the default's if it has any, else the range's upper ends.
+    pub(super) fn given(&self) -> String {
+        match self.setting.kind {
+            Kind::Numbers { count, range: [_, high], .. } if self.setting.open == Some(&*self.default) => {
+                vec![high.to_string(); count].join(",")
+            }
+            _ => self.default.clone(),
+        }
+    }
+
     /// Whether it is as published.
     pub(super) fn is_default(&self) -> bool {
         self.value == self.default
@@ -134,6 +144,19 @@ mod tests {
             }
         }
         assert!(count > 200, "{count}");
+    }
+
+    #[test]
+    fn what_can_be_left_open_is_given_numbers_and_left_open_again() {
+        for mut style in styles() {
+            for control in of(&style) {
+                let (Some(open), Kind::Numbers { .. }) = (control.setting.open, &control.setting.kind) else { continue };
+                turn(&mut style, &control.option(), &control.given()).unwrap();
+                assert_ne!(control.setting.value(&style).as_deref(), Some(open), "{}", control.option());
+                turn(&mut style, &control.option(), open).unwrap();
+                assert_eq!(control.setting.value(&style).as_deref(), Some(open), "{}", control.option());
+            }
+        }
     }
 
     #[test]

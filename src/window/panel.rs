@@ -139,6 +139,15 @@ fn one(ui: &mut Ui, control: &Control<Style>, side: Side, events: &mut Vec<Viewe
             }
         });
     });
+    if let Some(open) = setting.open
+        && matches!(setting.kind, Kind::Numbers { .. })
+    {
+        let mut is_open = value == open;
+        if ui.checkbox(&mut is_open, open).changed() {
+            let text = if is_open { open.to_owned() } else { control.given() };
+            events.push(ViewerEvent::Set(side, control.option(), text));
+        }
+    }
     if let Kind::Numbers { .. } | Kind::Several(_) | Kind::File | Kind::Text { .. } = setting.kind
         && let Some(text) = widget(ui, &setting.kind, value)
     {
