@@ -20,6 +20,10 @@
 //! # }
 //! ```
 
+mod framing;
+
+pub use framing::Framing;
+
 use crate::error::{Error, ParseError, Result};
 use crate::settings::{Kind, Problem, Setting, Value, under};
 use crate::tolerances::{
@@ -27,7 +31,7 @@ use crate::tolerances::{
 };
 use glam::dcamera::rh::proj::opengl;
 use glam::dcamera::rh::view::look_at_mat4;
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 use serde::Serialize;
 use std::str::FromStr;
 
@@ -175,6 +179,8 @@ impl Value for View {
 pub struct CameraSettings {
     /// Direction of the view where no eye is given. Default 30,15.
     pub view: View,
+    /// What stands in the middle where neither eye nor target are given. Default the middle of the scene's box.
+    pub framing: Framing,
     /// The eye, world space; fitted by default.
     pub eye: Option<DVec3>,
     /// The point looked at, world space; the scene's centre by default.
@@ -197,6 +203,7 @@ impl Default for CameraSettings {
     fn default() -> Self {
         Self {
             view: View::DEFAULT,
+            framing: Framing::Middle,
             eye: None,
             target: None,
             up: None,
@@ -238,6 +245,13 @@ impl CameraSettings {
                 "Parallel projection instead of perspective",
                 |camera: &Self| camera.parallel,
                 |camera, is_on| camera.parallel = is_on,
+            ),
+            Setting::field(
+                "framing",
+                "WHAT",
+                "In the picture's middle: the middle of the model's box, which stays there in every view (middle), or of what is \
+                 seen, which then fills the picture (outline)",
+                |camera: &mut Self| &mut camera.framing,
             ),
             Setting::open_field(
                 "height",
@@ -303,11 +317,23 @@ impl CameraSettings {
         let up = self.up_for(back)?;
         let right = up.cross(back).normalize();
         let true_up = back.cross(right);
-        let in_frame = move |point: DVec3| {
+        let in_frame = |point: DVec3| {
             let from_target = point - target;
             DVec3::new(from_target.dot(right), from_target.dot(true_up), from_target.dot(back))
         };
-        let frame = points.map(in_frame);
+        let across = match self.framing {
+            Framing::Outline if self.eye.is_none() && self.target.is_none() => {
+                let points = points.clone().map(in_frame);
+                let tan_half = (self.fov_y_degrees.to_radians() * 0.5).tan();
+                match self.parallel {
+                    true => framing::middle_of_parallel(points),
+                    false => framing::middle_of_perspective(points, DVec2::new(tan_half * aspect, tan_half)),
+                }
+            }
+            _ => DVec2::ZERO,
+        };
+        let frame = points.map(|point| in_frame(point) - across.extend(0.0));
+        let target = target + right * across.x + true_up * across.y;
         let half_height = frame.clone().map(|p| p.y.abs().max(p.x.abs() / aspect)).fold(0.0, f64::max);
         let projection = if self.parallel {
             let fitted = (2.0 * half_height / FRAME_FILL).max(radius * NEAREST_FRACTION);
@@ -470,6 +496,32 @@ mod tests {
         assert!(refused(CameraSettings { eye: Some(DVec3::NAN), ..base() }).contains("eye"));
         for view in ["sideways", "1", "1,2,3", "0,91", "nan,0"] {
             assert!(view.parse::<View>().is_err(), "{view}");
+        }
+    }
+
+    #[test]
+    fn by_its_outline_a_scene_is_centred_and_reaches_the_margin() {
+        let lopsided: Vec<DVec3> = (0..40)
+            .map(|n| f64::from(n) * 0.7)
+            .map(|a| DVec3::new(a.sin() * 3.0 + a, (a * 1.7).cos() * (2.0 + a * 0.1), (a * 0.3).sin() * a))
+            .collect();
+        for (parallel, fov_y_degrees, aspect) in [(false, 30.0, 1.0), (false, 90.0, 2.5), (false, 60.0, 0.3), (true, 30.0, 1.5)]
+        {
+            for view in ["30,15", "front", "200,-70", "top"] {
+                let view = view.parse().unwrap();
+                let settings =
+                    CameraSettings { view, parallel, fov_y_degrees, framing: Framing::Outline, ..CameraSettings::default() };
+                let camera = fit(&settings, &lopsided, aspect).unwrap();
+                let clip_from_world = camera.clip_from_view(aspect) * camera.view_from_world();
+                let seen = lopsided.iter().map(|point| clip_from_world.project_point3(*point));
+                let (low, high) = seen.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), ndc| (low.min(ndc), high.max(ndc)));
+                // A thousandth of the half width is a quarter of a pixel of 512.
+                assert!((low + high).truncate().abs().max_element() < 1e-3, "{settings:?}: {low} to {high}");
+                assert!((high.truncate().max_element() - FRAME_FILL).abs() < 1e-3, "{settings:?}: {high}");
+                // What is given is not moved.
+                let settings = CameraSettings { target: Some(DVec3::X), ..settings };
+                assert_eq!(fit(&settings, &lopsided, aspect).unwrap().target, DVec3::X);
+            }
         }
     }
 

@@ -100,6 +100,8 @@ pub struct SceneSettings {
     pub background: Background,
     /// One colour for everything instead of the model's own.
     pub color: Option<Color>,
+    /// The colour of what the model gives none. Default [`DEFAULT_COLOR`].
+    pub bare_color: Color,
 }
 
 impl Default for SceneSettings {
@@ -110,6 +112,7 @@ impl Default for SceneSettings {
             size: Size { width: 512, height: 512 },
             background: Background::Color(Color([1.0; 3])),
             color: None,
+            bare_color: DEFAULT_COLOR,
         }
     }
 }
@@ -159,7 +162,13 @@ impl SceneSettings {
             Setting::open_field("color", "COLOUR", "own", "One colour for all surfaces", |scene: &mut Self| {
                 &mut scene.color
             })
-            .said("the model's own, #edbd85 where it has none"),
+            .said("the model's own"),
+            Setting::field(
+                "bare-color",
+                "COLOUR",
+                "Colour of surfaces to which the model gives none",
+                |scene: &mut Self| &mut scene.bare_color,
+            ),
             Setting::field(
                 "copies",
                 "N",
@@ -239,7 +248,7 @@ impl Scene {
             camera,
             size: settings.size,
             background: settings.background,
-            color: settings.color.unwrap_or(DEFAULT_COLOR),
+            color: settings.color.unwrap_or(settings.bare_color),
             recolor: settings.color.is_some(),
         };
         scene.check_precision()?;
