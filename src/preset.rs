@@ -15,9 +15,11 @@
 //! # }
 //! ```
 
+mod looks;
 mod shipped;
 
 pub use crate::settings::{OptionValue, Options};
+pub use looks::{LOOKS, Look};
 pub use shipped::SHIPPED;
 
 use crate::error::{Error, FileKind, Result};
@@ -118,6 +120,15 @@ impl Preset {
             preset.options.insert(key, value);
         }
         Ok(preset)
+    }
+
+    /// The same over another: what this one does not set is as the other has it.
+    #[must_use]
+    pub fn over(mut self, below: Self) -> Self {
+        below.options.into_iter().for_each(|(name, value)| {
+            self.options.entry(name).or_insert(value);
+        });
+        self
     }
 
     /// Where an option stands, 1-based.

@@ -29,6 +29,7 @@ mod gradients;
 mod ink;
 mod inking;
 mod lens;
+mod line_width;
 mod map;
 mod mrt;
 mod phong;
@@ -48,6 +49,7 @@ pub use charcoal::{
 pub use dietrich::Dietrich;
 pub use ink::{Ink, Quality};
 pub use inking::{Inking, LightOn, PaintMode};
+pub use line_width::LineWidth;
 pub use map::{MapEncoding, MapTarget};
 pub use mrt::Mrt;
 pub use phong::Phong;

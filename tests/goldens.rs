@@ -252,7 +252,7 @@ fn gear_float() {
 
 #[test]
 fn gear_wide() {
-    golden("gear-wide", GEAR, &border(Border { width_px: Some(5), ..Border::default() }), Show::Borders);
+    golden("gear-wide", GEAR, &border(Border { width: Some(LineWidth::Pixels(5)), ..Border::default() }), Show::Borders);
 }
 
 #[test]

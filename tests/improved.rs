@@ -7,7 +7,7 @@ use std::sync::Arc;
 use tinta::mesh::Normals;
 use tinta::plan::{Step, Value};
 use tinta::renderer::StepPicture;
-use tinta::styles::{Border, Cartoon, Filter, Ink, MapEncoding, Quality, Supersample};
+use tinta::styles::{Border, Cartoon, Filter, Ink, LineWidth, MapEncoding, Quality, Supersample};
 use tinta::{CameraSettings, LoadOptions, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, load};
 
 const SIZE: Size = Size { width: 160, height: 160 };
@@ -146,10 +146,10 @@ fn a_straight_outline_is_as_wide_as_asked_for() {
     };
     for width in 1..=7 {
         for (name, filter) in Filter::ALL {
-            let border = Border { filter, detection_factor: 50.0, width_px: Some(width), slope_threshold: false };
+            let border = Border { filter, detection_factor: 50.0, width: Some(LineWidth::Pixels(width)), slope_threshold: false };
             check(name, &three_pass(border, MapEncoding::DepthTexture), width);
         }
-        let threshold = Border { slope_threshold: true, width_px: Some(width), ..Border::default() };
+        let threshold = Border { slope_threshold: true, width: Some(LineWidth::Pixels(width)), ..Border::default() };
         check("slope threshold", &three_pass(threshold, MapEncoding::DepthTexture), width);
         for supersample in [Supersample::One, Supersample::Two] {
             let ink = Ink { line_width_px: width, supersample: Some(supersample), ..Ink::default() };

@@ -8,7 +8,7 @@ use crate::support::{BACKENDS, failure_folder, public_models, renderer, scene, s
 use std::sync::Arc;
 use tinta::picture::write_rgba_png;
 use tinta::plan::{Attachment, Attachments, Drawn, Format, Plan, SettingValue, Target};
-use tinta::styles::{Border, Cartoon, Filter, Ink, MapEncoding, MapTarget, Mrt, Supersample, ToneLookup, Tones};
+use tinta::styles::{Border, Cartoon, Filter, Ink, LineWidth, MapEncoding, MapTarget, Mrt, Supersample, ToneLookup, Tones};
 use tinta::{
     Backend, Background, Color, LoadOptions, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName,
     load,
@@ -105,7 +105,7 @@ fn check_settings(backends: &[Backend], models: &[&str]) {
         ("no borders".to_owned(), pair(|cartoon| cartoon.border = None)),
         ("no square".to_owned(), pair(|cartoon| cartoon.background_square = false)),
         ("culled".to_owned(), pair(|cartoon| cartoon.cull_back_faces = true)),
-        ("wide".to_owned(), with(Border { width_px: Some(5), ..Border::default() })),
+        ("wide".to_owned(), with(Border { width: Some(LineWidth::Pixels(5)), ..Border::default() })),
         ("slope".to_owned(), with(Border { slope_threshold: true, ..Border::default() })),
         ("dark".to_owned(), with(Border { detection_factor: 1.0, ..Border::default() })),
         ("supersampled".to_owned(), pair(|cartoon| cartoon.supersample = Supersample::Two)),

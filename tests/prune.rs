@@ -5,7 +5,7 @@ use glam::DVec3;
 use std::sync::Arc;
 use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
 use tinta::plan::{Draw, Faces, Geometry, Plan, Step};
-use tinta::styles::{Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, MapEncoding, Phong, Supersample};
+use tinta::styles::{Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, LineWidth, MapEncoding, Phong, Supersample};
 use tinta::{
     Background, CameraSettings, Color, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, View,
     load,
@@ -289,7 +289,7 @@ pub fn many_styles() -> Vec<Style> {
         styles.push(with(Box::new(|cartoon| cartoon.cull_back_faces = true)));
         styles.push(with(Box::new(|cartoon| cartoon.background_square = false)));
         styles.push(with(Box::new(border(|border| border.filter = Filter::Sobel))));
-        styles.push(with(Box::new(border(|border| border.width_px = Some(5)))));
+        styles.push(with(Box::new(border(|border| border.width = Some(LineWidth::Pixels(5))))));
         styles.push(with(Box::new(border(|border| border.slope_threshold = true))));
         styles.push(with(Box::new(border(|border| border.detection_factor = 0.0))));
         styles.push(with(Box::new(|cartoon| cartoon.supersample = Supersample::Two)));

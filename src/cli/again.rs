@@ -121,7 +121,8 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
             recipe.command
         )));
     }
-    let mut words: Vec<OsString> = ["tinta", "render"].map(OsString::from).to_vec();
+    // The recipe says all that the picture's look was made of, and of a style not named means the published one.
+    let mut words: Vec<OsString> = ["tinta", "render", "--look=published"].map(OsString::from).to_vec();
     for (name, value) in &recipe.options {
         if !super::preset::is_kept(name) || name.contains(['=', ' ']) {
             return Err(refuse(format!(

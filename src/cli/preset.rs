@@ -1,4 +1,5 @@
-//! `--preset`: a file's options put before those of the command line, so that clap reads and checks both alike.
+//! `--preset` and `--look`: a file's options put before those of the command line, so that clap reads and checks both alike. A
+//! preset's beat a look's.
 //!
 //! The words are read twice: once as given, to know the preset and what else is given; then with the preset's options before
 //! them. An option given on the command line beats the preset's, and so does one that excludes it.
@@ -11,7 +12,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
-use tinta::preset::{OptionValue, Options, Preset};
+use tinta::preset::{LOOKS, Look, OptionValue, Options, Preset};
 use tinta::settings::{HasSettings, ON_OFF};
 use tinta::{Error, Result, Style};
 
@@ -23,13 +24,24 @@ pub(super) struct PresetArguments {
     preset: Option<String>,
 }
 
+#[derive(clap::Args)]
+pub(super) struct LookArguments {
+    #[arg(long, value_name = "LOOK", value_parser = Look::of_name, help = format!(
+        "What the picture looks like: {}; --preset, --style and every option override it [default: {}, unless --style or --preset \
+         is given, or lines are drawn]",
+        Look::list(), LOOKS[0].name
+    ))]
+    look: Option<Look>,
+}
+
 /// Options that say what is done with a picture, not which picture it is: they are in no preset and no recipe.
-const OF_ONE_RUN: [&str; 18] = [
+const OF_ONE_RUN: [&str; 19] = [
     "dump",
     "explain",
     "frames",
     "help",
     "json",
+    "look",
     "machine",
     "merge",
     "no-recipe",
@@ -123,6 +135,8 @@ fn refused(error: clap::Error) -> Stop {
 /// A preset on its way into a command line.
 struct Merge<'a> {
     preset: Preset,
+    /// What of it is a look's: an option that a command does not have is left out.
+    of_look: Vec<String>,
     name: &'a str,
     command: &'a Command,
     /// What the command line gives by itself.
@@ -137,14 +151,28 @@ struct Words<'a> {
 }
 
 impl<'a> Merge<'a> {
-    /// Reads the preset that is named, if one is.
+    /// Reads the preset and the look that are named, if one is, or the look of who asks for nothing.
     fn of(whole: &'a Command, matches: &'a ArgMatches) -> Result<Option<Self>> {
         let Some((name, given)) = matches.subcommand() else { return Ok(None) };
-        let (Some(command), Ok(Some(file))) = (whole.find_subcommand(name), given.try_get_one::<String>("preset"))
-        else {
-            return Ok(None);
+        let Some(command) = whole.find_subcommand(name) else { return Ok(None) };
+        let file = given.try_get_one::<String>("preset").ok().flatten();
+        let look = given.try_get_one::<Look>("look").map(|look| look.copied());
+        let preset = file.map(|file| Preset::read(file)).transpose()?;
+        let look = match look {
+            // The command has no looks.
+            Err(_) => None,
+            Ok(None) if preset.is_none() && has_default_look(given) => Some(LOOKS[0]),
+            Ok(look) => look,
         };
-        Ok(Some(Self { preset: Preset::read(file)?, name, command, given }))
+        let look = look.map(Look::preset).transpose()?;
+        let is_of_look = |key: &&String| !preset.as_ref().is_some_and(|preset| preset.options.contains_key(*key));
+        let of_look = look.iter().flat_map(|look| look.options.keys()).filter(is_of_look).cloned().collect();
+        let preset = match (preset, look) {
+            (Some(preset), Some(look)) => preset.over(look),
+            (Some(preset), None) | (None, Some(preset)) => preset,
+            (None, None) => return Ok(None),
+        };
+        Ok(Some(Self { preset, of_look, name, command, given }))
     }
 
     /// The command line with the preset's options.
@@ -166,6 +194,8 @@ impl<'a> Merge<'a> {
                 own.push(Words { arg, key: key.clone(), words: self.words(arg, key, value)? });
             } else if let (true, Some(arg)) = (self.name == "measure", long(&of_styles, option)) {
                 setting.extend(self.words(arg, key, value)?);
+            } else if self.of_look.contains(key) {
+                continue;
             } else {
                 return Err(self.unknown(whole, key));
             }
@@ -226,6 +256,13 @@ impl<'a> Merge<'a> {
         };
         self.preset.refuse(key, problem)
     }
+}
+
+/// Whether nothing is asked for that has a look of its own: a style, or lines by their file's name.
+fn has_default_look(given: &ArgMatches) -> bool {
+    let has_style = given.value_source("style") == Some(ValueSource::CommandLine);
+    let output = given.try_get_one::<String>("output").ok().flatten();
+    !has_style && !output.is_some_and(|output| super::render::is_of_lines(output))
 }
 
 /// An option's words: what a switch is, the option itself knows. The error says what is wrong with the value.

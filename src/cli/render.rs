@@ -9,6 +9,8 @@ mod prune;
 #[cfg(test)]
 mod round_trip;
 
+pub(super) use lines::is_of_lines;
+
 use super::Verdict;
 use super::inputs::Inputs;
 use super::model_cache::ModelCache;

@@ -1,7 +1,7 @@
 //! `tinta view`: models in a window.
 
 use super::options::{Chosen, ModelArguments, Selection, StyleArguments};
-use super::preset::PresetArguments;
+use super::preset::{LookArguments, PresetArguments};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::settings::{HasSettings, Setting};
@@ -51,6 +51,9 @@ pub(super) struct Arguments {
     /// Print one JSON record of a recording: time to the first picture and of each frame [default: off]
     #[arg(long, requires = "replay")]
     json: bool,
+
+    #[command(flatten)]
+    look: LookArguments,
 
     #[command(flatten)]
     preset: PresetArguments,

@@ -1,7 +1,7 @@
 //! The border of the cartoon styles: which filter finds it in the map, and how strongly (section 4.1).
 
 use super::supersample::texture_unit;
-use super::{CARTOON, IMAGE_SPACE, MapEncoding, lens};
+use super::{CARTOON, IMAGE_SPACE, LineWidth, MapEncoding, lens};
 use crate::error::{Error, Result};
 use crate::plan::{Depth, Draw, Facts, Geometry, Program, Texture, Uniform, Value, WhereEven};
 use crate::scene::{Scene, Size};
@@ -15,15 +15,12 @@ pub struct Border {
     pub filter: Filter,
     /// What its response is multiplied by. Default 0.2; more makes fainter edges darker.
     pub detection_factor: f32,
-    /// Width of a line in pixels of the picture, where the map has a step; `None` leaves the filter's taps where the listing
+    /// Width of a line, where the map has a step; `None` leaves the filter's taps where the listing
     /// has them, 2 pixels (1 with Roberts' cross). Default none; more pixels also join what lies near each other.
-    pub width_px: Option<u32>,
+    pub width: Option<LineWidth>,
     /// Whether depth answers by a threshold that knows the surface's slope instead of by the filter. Default no.
     pub slope_threshold: bool,
 }
-
-/// Widest line, pixels: beyond it taps miss whatever is narrower.
-const WIDEST: u32 = 64;
 
 /// The least step in depth that is a line: widths of a picture's pixel on the surface, and steps of the map's rounding,
 /// by 2 of which a second difference can be off.
@@ -85,7 +82,7 @@ tinta_geometry::choices!(Filter);
 
 impl Default for Border {
     fn default() -> Self {
-        Self { filter: Filter::Laplacian4, detection_factor: 0.2, width_px: None, slope_threshold: false }
+        Self { filter: Filter::Laplacian4, detection_factor: 0.2, width: None, slope_threshold: false }
     }
 }
 
@@ -118,13 +115,13 @@ impl Border {
         ];
         let width = Setting::open_field(
             "border-width",
-            "PIXELS",
+            "WIDTH",
             "paper",
-            "Width of the borders in pixels, 1 to 64, or paper: as the filter draws them, about 2; ink has 2",
-            |border: &mut Self| &mut border.width_px,
+            "Width of the borders in pixels, 1 to 64, as a share of the picture's height such as 0.35%, or paper: as the filter \
+             draws them, about 2; ink has 2",
+            |border: &mut Self| &mut border.width,
         )
-        .printed("E, appendix 1: the filter reads the next pixels")
-        .offering(&["paper", "1", "2", "3", "4", "5", "6", "8", "12", "16", "24", "32", "64"]);
+        .printed("E, appendix 1: the filter reads the next pixels");
         under(CARTOON, filter).chain(under(IMAGE_SPACE, vec![width])).collect()
     }
 
@@ -137,7 +134,7 @@ impl Border {
         if !self.detection_factor.is_finite() {
             return Err(Error::value("detection-factor", self.detection_factor, "it must be a finite number"));
         }
-        check_width(self.width_px)
+        self.width.map_or(Ok(()), LineWidth::check)
     }
 
     /// The fragment shader that holds the whole filter with its factor as a uniform, and its parts: for a style that draws more
@@ -160,7 +157,7 @@ impl Border {
 
     /// A filter's shader and what it calls.
     fn parts(&self, filter: &'static str, encoding: MapEncoding) -> [&'static str; 4] {
-        let tap = if self.width_px.is_some() { "improved/tap-apart.frag" } else { "evangelista/tap-next.frag" };
+        let tap = if self.width.is_some() { "improved/tap-apart.frag" } else { "evangelista/tap-next.frag" };
         let depth = match self.slope_threshold {
             true => "improved/slope-threshold.frag",
             false => "evangelista/depth-as-filtered.frag",
@@ -213,9 +210,13 @@ impl Border {
 
     /// How far the filter looks in a map of this size, pixels; one more costs nothing.
     pub(super) fn reach_px(&self, scene: &Scene, surface: Size) -> u32 {
-        let [before, behind] = taps(self.width_px, surface.width / scene.size.width, self.is_one_sided());
+        let [before, behind] = taps(self.width_px(scene.size), surface.width / scene.size.width, self.is_one_sided());
         // The slope's threshold looks twice as far.
         before.max(behind) * if self.slope_threshold { 2 } else { 1 } + 1
+    }
+
+    fn width_px(&self, picture: Size) -> Option<u32> {
+        self.width.map(|width| width.pixels(picture))
     }
 
     fn is_one_sided(&self) -> bool {
@@ -232,8 +233,8 @@ impl Border {
         let scale = surface.width / scene.size.width;
         let mut uniforms = Self::published_uniforms(surface);
         uniforms.push(Uniform { name: "detectionFactor", value: Value::Float(self.detection_factor) });
-        if self.width_px.is_some() || self.slope_threshold {
-            uniforms.push(reach(self.width_px, scale, self.is_one_sided()));
+        if self.width.is_some() || self.slope_threshold {
+            uniforms.push(reach(self.width_px(scene.size), scale, self.is_one_sided()));
         }
         if self.slope_threshold {
             let gap = [LEAST_GAP[0] * scale as f32, LEAST_GAP[1] * encoding.depth_step()];
@@ -241,18 +242,6 @@ impl Border {
             uniforms.push(Uniform { name: "leastGap", value: Value::Vec2(gap) });
         }
         uniforms
-    }
-}
-
-/// Refuses widths no filter can draw.
-pub(super) fn check_width(width_px: Option<u32>) -> Result<()> {
-    match width_px {
-        Some(width) if !(1..=WIDEST).contains(&width) => Err(Error::value(
-            "border-width",
-            width,
-            format!("a border is 1 to {WIDEST} pixels wide; --style inking draws wider lines"),
-        )),
-        _ => Ok(()),
     }
 }
 

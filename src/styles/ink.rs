@@ -3,11 +3,11 @@
 //! Evangelista's three passes with another map and another filter: the map holds each pixel's own plane, the filter asks
 //! whether neighbouring planes meet. What was measured is in `docs/ink.md`.
 
-use super::border::{check_width, reach, taps};
+use super::border::{reach, taps};
 use super::lens::DepthRange;
 use super::map::map_texture;
 use super::{
-    ALL_STYLES, IMAGE_SPACE, INK, INKING, MapTarget, Show, Supersample, Tones, cull, lens, no_borders, supersample,
+    ALL_STYLES, IMAGE_SPACE, INK, INKING, LineWidth, MapTarget, Show, Supersample, Tones, cull, lens, no_borders, supersample,
 };
 use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
@@ -26,8 +26,8 @@ pub struct Ink {
     pub is_inked: bool,
     /// From which angle between planes there is a crease. Default a cosine of 0.4; more degrees draw fewer lines.
     pub crease_angle: CreaseAngle,
-    /// Width of the lines, pixels, 1 to 64. Default 2; more also joins what lies near each other.
-    pub line_width_px: u32,
+    /// Width of the lines. Default 2 pixels; more also joins what lies near each other.
+    pub line_width: LineWidth,
     /// The least step from one surface to another that is a line, in widths of a pixel. Default 1.5; more draws fewer lines.
     pub least_gap_px: f32,
     /// What is added to it for each unit of a surface's slope towards the eye, which the map knows less exactly the steeper.
@@ -75,7 +75,7 @@ impl Default for Ink {
             crease_angle: CreaseAngle::default(),
             least_gap_px: 1.5,
             gap_per_slope: 0.3,
-            line_width_px: 2,
+            line_width: LineWidth::Pixels(2),
             tones: Tones::default(),
             cull_back_faces: false,
             map_target: MapTarget::Copy,
@@ -92,18 +92,18 @@ impl Ink {
         ];
         let width = Setting::of(
             "border-width",
-            "PIXELS",
-            u32::kind(),
-            "Width of the lines in pixels, 1 to 64",
-            |ink: &Self| ink.line_width_px.text(),
+            "WIDTH",
+            LineWidth::kind(),
+            "Width of the lines in pixels, 1 to 64, or as a share of the picture's height such as 0.35%, then at least 2",
+            |ink: &Self| ink.line_width.text(),
             |ink, text| {
-                ink.line_width_px = if text == "paper" { Self::default().line_width_px } else { u32::parse(text)? };
+                ink.line_width = if text == "paper" { Self::default().line_width } else { LineWidth::parse(text)? };
                 Ok(())
             },
         )
         .ours("as wide as the lines of inking, whose text prints 2");
         let image_space = vec![
-            width.range(1.0, 64.0, 0).labelled("line width"),
+            width.labelled("line width"),
             Setting::open_field("supersample", "N", "auto", Supersample::HELP, |ink: &mut Self| &mut ink.supersample)
                 .ours("the quality decides"),
             MapTarget::setting(|ink: &mut Self| &mut ink.map_target),
@@ -172,7 +172,7 @@ impl Ink {
         if !self.is_inked && matches!(show, Show::Borders | Show::Map) {
             return Err(Error::setting("show", "there is no ink with --no-borders; leave out one of the two"));
         }
-        check_width(Some(self.line_width_px))?;
+        self.line_width.check()?;
         self.tones.check()
     }
 
@@ -216,17 +216,17 @@ impl Ink {
     /// The filter over the whole picture; `alone` on a white ground.
     fn ink_pass(&self, scene: &Scene, surface: Size, alone: bool) -> Pass {
         let float = |name, value: f64| Uniform { name, value: Value::Float(value as f32) };
-        let scale = self.supersample().factor();
+        let (scale, width) = (self.supersample().factor(), self.line_width.pixels(scene.size));
         let gap = [self.least_gap_px * scale as f32, self.gap_per_slope];
         let mut uniforms = vec![
             supersample::texture_unit(surface),
             lens::footprint(scene, surface, DepthRange::of_scene(scene)),
             Uniform { name: "gapThreshold", value: Value::Vec2(gap) },
             float("creaseCosine", self.crease_angle.cosine),
-            reach(Some(self.line_width_px), scale, false),
+            reach(Some(width), scale, false),
         ];
         uniforms.extend(lens::rays(scene, surface));
-        let [before, behind] = taps(Some(self.line_width_px), scale, false);
+        let [before, behind] = taps(Some(width), scale, false);
         let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/plane-ink.frag"] };
         let square = Draw {
             uniforms,

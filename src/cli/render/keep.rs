@@ -1,7 +1,7 @@
 //! What is kept of a rendering besides the picture: its recipe in the picture, its options as a preset.
 
 use super::super::inputs::Inputs;
-use super::super::preset::PresetArguments;
+use super::super::preset::{LookArguments, PresetArguments};
 use super::Arguments;
 use std::path::PathBuf;
 use tinta::gl::ContextInfo;
@@ -12,6 +12,9 @@ use tinta::{Error, Recipe, Result, Scene, Size, Style, TextTarget};
 #[derive(clap::Args)]
 #[command(next_help_heading = "Presets")]
 pub(super) struct KeepArguments {
+    #[command(flatten)]
+    look: LookArguments,
+
     #[command(flatten)]
     preset: PresetArguments,
 

@@ -46,15 +46,30 @@ pub(super) enum Format {
     Json,
 }
 
+impl Format {
+    /// What a file of this name is, if it holds lines.
+    fn of(output: &str) -> Option<Self> {
+        match extension(output).map(str::to_ascii_lowercase).as_deref() {
+            Some("svg") => Some(Self::Svg),
+            Some("json") => Some(Self::Json),
+            _ => None,
+        }
+    }
+}
+
+/// Whether a file of this name holds lines.
+pub(in crate::cli) fn is_of_lines(output: &str) -> bool {
+    Format::of(output).is_some()
+}
+
+fn extension(output: &str) -> Option<&str> {
+    Path::new(output).extension().and_then(|extension| extension.to_str())
+}
+
 /// The format if lines are asked for: by the file's name, or by the style for standard output.
 pub(super) fn format(arguments: &Arguments) -> Result<Option<Format>> {
     let output = &arguments.output;
-    let extension = Path::new(output).extension().and_then(|extension| extension.to_str());
-    let format = match extension.map(str::to_ascii_lowercase).as_deref() {
-        Some("svg") => Some(Format::Svg),
-        Some("json") => Some(Format::Json),
-        _ => None,
-    };
+    let (extension, format) = (extension(output), Format::of(output));
     let refuse = |problem: String| Err(Error::output(output.clone(), problem));
     match (arguments.style, format) {
         (None | Some(StyleChoice::Lines), Some(format)) => Ok(Some(format)),

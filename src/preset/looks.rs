@@ -1,0 +1,60 @@
+//! The looks: what a picture looks like to whom no paper's way matters, each a TOML file in `presets/looks`.
+
+use super::Preset;
+use crate::error::{ParseError, Result};
+
+/// A look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Look {
+    /// Its name.
+    pub name: &'static str,
+    /// What it looks like, a line.
+    pub about: &'static str,
+    text: &'static str,
+}
+
+/// All of them, the one first that is drawn where nothing is asked for.
+pub const LOOKS: [Look; 4] = [
+    Look {
+        name: "print",
+        about: "ink for paper at any size: even lines, two tones, the model's own colours",
+        text: include_str!("../../presets/looks/print.toml"),
+    },
+    Look {
+        name: "technical",
+        about: "vectors as in a manual: parallel projection, thick outline, thin inner lines",
+        text: include_str!("../../presets/looks/technical.toml"),
+    },
+    Look {
+        name: "charcoal",
+        about: "charcoal on paper with tooth, strokes of a hand and faint outlines",
+        text: include_str!("../../presets/looks/charcoal.toml"),
+    },
+    Look { name: "published", about: "every style as its text has it; three-pass where none is named", text: "" },
+];
+
+impl Look {
+    /// The one of this name.
+    ///
+    /// # Errors
+    ///
+    /// Which names there are.
+    pub fn of_name(name: &str) -> std::result::Result<Self, ParseError> {
+        let found = LOOKS.into_iter().find(|look| look.name == name);
+        found.ok_or_else(|| format!("there is no look {name}; there are {}", Self::list()).into())
+    }
+
+    /// All names with commas between.
+    pub fn list() -> String {
+        LOOKS.map(|look| look.name).join(", ")
+    }
+
+    /// Its settings.
+    ///
+    /// # Errors
+    ///
+    /// None: a test reads them all.
+    pub fn preset(self) -> Result<Preset> {
+        Preset::parse(&format!("look {}", self.name), self.text)
+    }
+}
