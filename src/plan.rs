@@ -109,8 +109,8 @@ pub struct Draw {
     pub textures: Vec<(&'static str, Texture)>,
     /// How it meets the depth buffer.
     pub depth: Depth,
-    /// Whether the colour is blended over what is there by its alpha.
-    pub blend: bool,
+    /// How the colour meets what is there.
+    pub blend: Blend,
     /// Whether faces turned away from the eye (clockwise in the picture) are left out.
     pub cull_back_faces: bool,
     /// glPolygonOffset's factor and units: how far faces are pushed back, by their slope and in steps of depth.
@@ -152,7 +152,7 @@ impl Draw {
             uniforms: Vec::new(),
             textures: Vec::new(),
             depth: Depth::TestAndWrite,
-            blend: false,
+            blend: Blend::Replace,
             cull_back_faces: false,
             polygon_offset: None,
             scissor: None,
@@ -323,8 +323,22 @@ pub enum Depth {
     TestAndWrite,
     /// Drawn where nearer than what is there (GL_LESS), not written.
     TestOnly,
+    /// Drawn where exactly as near as what is there (GL_EQUAL), not written: on what an earlier draw left to be seen.
+    Equal,
     /// Neither tested nor written.
     Ignore,
+}
+
+/// How a colour meets what is there.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Blend {
+    /// It takes its place.
+    #[default]
+    Replace,
+    /// Over it, by its alpha.
+    Over,
+    /// It is multiplied with it; alpha stays.
+    Multiply,
 }
 
 /// Two functions of one number as a one-dimensional texture.

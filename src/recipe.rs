@@ -25,6 +25,7 @@ use crate::gl::ContextInfo;
 use crate::markup::{RECIPE_BEGIN, RECIPE_END};
 use crate::picture::{Note, png_text};
 use crate::preset::{OptionValue, Options};
+use crate::scene::Scene;
 use crate::shell;
 use crate::styles::Style;
 use serde::{Deserialize, Serialize};
@@ -138,8 +139,9 @@ pub fn files_of(style: &Style) -> Vec<PathBuf> {
 }
 
 /// Whether a style draws with the pictures on the models.
-pub fn draws_with_textures(style: &Style) -> bool {
+pub fn draws_with_textures(style: &Style, scene: &Scene) -> bool {
     match style {
+        _ if scene.has_textured_surfaces() => true,
         Style::Inking(inking) => inking.has_texture,
         Style::Sand(_) => true,
         _ => false,

@@ -37,6 +37,7 @@ mod ramp;
 mod row;
 mod shading;
 mod supersample;
+mod textured;
 mod tones;
 
 pub use crate::lines::ClassColors;
@@ -260,8 +261,19 @@ impl Style {
     pub fn remarks(&self, scene: &Scene) -> Vec<String> {
         match self {
             Self::Charcoal(charcoal) | Self::Sand(charcoal) => charcoal.remarks(scene),
+            _ if self.leaves_textures_out(scene) => {
+                vec!["the model's textures are not drawn; --surface textured draws them".to_owned()]
+            }
             _ => Vec::new(),
         }
+    }
+
+    /// Whether the scene brings textures, and they could be drawn and are not.
+    fn leaves_textures_out(&self, scene: &Scene) -> bool {
+        let draws_own = matches!(self, Self::Inking(inking) if inking.has_texture || inking.paint == PaintMode::None);
+        let brings = |object: &crate::scene::Object| object.mesh.materials.iter().any(|it| it.has_texture());
+        let is_free = scene.surface == crate::scene::Surface::Plain && !scene.recolor;
+        is_free && !draws_own && self.style_name() != StyleName::Dietrich && scene.objects.iter().any(brings)
     }
 
     /// Whether its tones can be shown by themselves.
@@ -439,7 +451,9 @@ picture: the framebuffer
     fn two_passes_have_no_third_and_no_blending() {
         let plan = plan(&Style::named(StyleName::TwoPass), Show::Final);
         assert_eq!(plan.passes.iter().map(|pass| pass.name).collect::<Vec<_>>(), ["map", "tones-and-border"]);
-        assert!(plan.steps().all(|(_, step)| !matches!(step, Step::Draw(draw) if draw.blend)));
+        assert!(
+            plan.steps().all(|(_, step)| !matches!(step, Step::Draw(draw) if draw.blend == crate::plan::Blend::Over))
+        );
     }
 
     #[test]
@@ -468,7 +482,13 @@ picture: the framebuffer
             whole.passes.iter().map(|pass| pass.name).collect::<Vec<_>>(),
             ["map", "tones", "border-normals", "border-depth"]
         );
-        assert_eq!(whole.steps().filter(|(_, step)| matches!(step, Step::Draw(draw) if draw.blend)).count(), 2);
+        assert_eq!(
+            whole
+                .steps()
+                .filter(|(_, step)| matches!(step, Step::Draw(draw) if draw.blend == crate::plan::Blend::Over))
+                .count(),
+            2
+        );
         assert_eq!(plan(&mrt, Show::Final).passes.len(), 3);
         let refused = two.plan(&scene(Background::Color(Color([1.0; 3]))), Show::Final).unwrap_err().to_string();
         assert!(refused.starts_with("filter mitchell-two: its two programs are blended"), "{refused}");

@@ -7,7 +7,8 @@ use crate::support::{BACKENDS, failure_folder, renderer, root, scene_with, side_
 use tinta::edges::SilhouetteRule;
 use tinta::picture::write_rgba_png;
 use tinta::styles::{
-    Border, Cartoon, Charcoal, CharcoalRecipe, ClassColors, Filter, Ink, Inking, MapEncoding, PaintMode, Quality, Tones,
+    Border, Cartoon, Charcoal, CharcoalRecipe, ClassColors, Filter, Ink, Inking, LineWidth, MapEncoding, PaintMode,
+    Quality, Tones,
 };
 use tinta::{Picture, SceneSettings, Show, Size, Style, StyleName};
 
@@ -252,7 +253,12 @@ fn gear_float() {
 
 #[test]
 fn gear_wide() {
-    golden("gear-wide", GEAR, &border(Border { width: Some(LineWidth::Pixels(5)), ..Border::default() }), Show::Borders);
+    golden(
+        "gear-wide",
+        GEAR,
+        &border(Border { width: Some(LineWidth::Pixels(5)), ..Border::default() }),
+        Show::Borders,
+    );
 }
 
 #[test]

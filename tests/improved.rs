@@ -146,13 +146,18 @@ fn a_straight_outline_is_as_wide_as_asked_for() {
     };
     for width in 1..=7 {
         for (name, filter) in Filter::ALL {
-            let border = Border { filter, detection_factor: 50.0, width: Some(LineWidth::Pixels(width)), slope_threshold: false };
+            let border = Border {
+                filter,
+                detection_factor: 50.0,
+                width: Some(LineWidth::Pixels(width)),
+                slope_threshold: false,
+            };
             check(name, &three_pass(border, MapEncoding::DepthTexture), width);
         }
         let threshold = Border { slope_threshold: true, width: Some(LineWidth::Pixels(width)), ..Border::default() };
         check("slope threshold", &three_pass(threshold, MapEncoding::DepthTexture), width);
         for supersample in [Supersample::One, Supersample::Two] {
-            let ink = Ink { line_width_px: width, supersample: Some(supersample), ..Ink::default() };
+            let ink = Ink { line_width: LineWidth::Pixels(width), supersample: Some(supersample), ..Ink::default() };
             check("ink", &Style::Ink(ink), width);
         }
     }
@@ -168,8 +173,9 @@ fn a_supersampled_picture_is_the_large_one_with_its_pixels_averaged() {
             let cartoon = |supersample| Cartoon { supersample, ..Cartoon::default() };
             let ink = |supersample, scale: i64| {
                 let plain = Ink::default();
-                let (line_width_px, least_gap_px) = (2 * scale as u32, plain.least_gap_px * scale as f32);
-                Style::Ink(Ink { supersample: Some(supersample), line_width_px, least_gap_px, ..plain })
+                let (line_width, least_gap_px) =
+                    (LineWidth::Pixels(2 * scale as u32), plain.least_gap_px * scale as f32);
+                Style::Ink(Ink { supersample: Some(supersample), line_width, least_gap_px, ..plain })
             };
             let one = Supersample::One;
             for (name, [plain, sampled]) in [

@@ -8,7 +8,9 @@ use crate::support::{BACKENDS, failure_folder, public_models, renderer, scene, s
 use std::sync::Arc;
 use tinta::picture::write_rgba_png;
 use tinta::plan::{Attachment, Attachments, Drawn, Format, Plan, SettingValue, Target};
-use tinta::styles::{Border, Cartoon, Filter, Ink, LineWidth, MapEncoding, MapTarget, Mrt, Supersample, ToneLookup, Tones};
+use tinta::styles::{
+    Border, Cartoon, Filter, Ink, LineWidth, MapEncoding, MapTarget, Mrt, Supersample, ToneLookup, Tones,
+};
 use tinta::{
     Backend, Background, Color, LoadOptions, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName,
     load,

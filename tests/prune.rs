@@ -5,7 +5,9 @@ use glam::DVec3;
 use std::sync::Arc;
 use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
 use tinta::plan::{Draw, Faces, Geometry, Plan, Step};
-use tinta::styles::{Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, LineWidth, MapEncoding, Phong, Supersample};
+use tinta::styles::{
+    Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, LineWidth, MapEncoding, Phong, Supersample,
+};
 use tinta::{
     Background, CameraSettings, Color, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, View,
     load,

@@ -10,7 +10,7 @@ use super::targets::{Targets, clear_each};
 use super::textures::Textures;
 use crate::error::{Error, Result};
 use crate::glsl;
-use crate::plan::{self, Depth, Draw, Geometry, LineDrawing, Plan, Step, Submission, Target};
+use crate::plan::{self, Blend, Depth, Draw, Geometry, LineDrawing, Plan, Step, Submission, Target};
 use crate::scene::{Rectangle, Scene, Size};
 use crate::tolerances::BACKGROUND_DISTANCE;
 use glam::{Mat4, Vec3, Vec4};
@@ -249,9 +249,9 @@ impl Resources {
             // Drivers can be told to smooth every polygon, which C. Dachsbacher's article warns of (errata D13).
             gl.disable(glow::POLYGON_SMOOTH);
             match draw.depth {
-                Depth::TestAndWrite | Depth::TestOnly => {
+                Depth::TestAndWrite | Depth::TestOnly | Depth::Equal => {
                     gl.enable(glow::DEPTH_TEST);
-                    gl.depth_func(glow::LESS);
+                    gl.depth_func(if draw.depth == Depth::Equal { glow::EQUAL } else { glow::LESS });
                     gl.depth_mask(draw.depth == Depth::TestAndWrite);
                 }
                 Depth::Ignore => {
@@ -273,17 +273,22 @@ impl Resources {
                 }
                 None => gl.disable(glow::POLYGON_OFFSET_FILL),
             }
-            if draw.blend {
-                gl.enable(glow::BLEND);
-                // Colour as the article blends; alpha adds up to the picture's coverage, which plain blending would square.
-                gl.blend_func_separate(
-                    glow::SRC_ALPHA,
-                    glow::ONE_MINUS_SRC_ALPHA,
-                    glow::ONE,
-                    glow::ONE_MINUS_SRC_ALPHA,
-                );
-            } else {
-                gl.disable(glow::BLEND);
+            match draw.blend {
+                Blend::Replace => gl.disable(glow::BLEND),
+                Blend::Over => {
+                    gl.enable(glow::BLEND);
+                    // Colour as the article blends; alpha adds up to the picture's coverage, which plain blending would square.
+                    gl.blend_func_separate(
+                        glow::SRC_ALPHA,
+                        glow::ONE_MINUS_SRC_ALPHA,
+                        glow::ONE,
+                        glow::ONE_MINUS_SRC_ALPHA,
+                    );
+                }
+                Blend::Multiply => {
+                    gl.enable(glow::BLEND);
+                    gl.blend_func_separate(glow::DST_COLOR, glow::ZERO, glow::ZERO, glow::ONE);
+                }
             }
         }
     }

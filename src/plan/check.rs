@@ -4,7 +4,7 @@
 //! In: a plan and the scene it is to be drawn for. Out: nothing, or the first [`Flaw`], a sentence. The renderer asks before it
 //! draws: what an earlier plan left in a texture or a buffer never becomes part of a picture.
 
-use super::{Depth, Draw, Drawn, Faces, Format, Geometry, Paint, Plan, Step, Target, Texture};
+use super::{Blend, Depth, Draw, Drawn, Faces, Format, Geometry, Paint, Plan, Step, Target, Texture};
 use crate::scene::{Rectangle, Scene, Size};
 
 /// What makes a plan unfit to be drawn.
@@ -289,7 +289,7 @@ fn has_depth(target: Target) -> bool {
 fn fills(draw: &Draw) -> bool {
     matches!(draw.geometry, Geometry::ScreenSquare | Geometry::PictureSquare | Geometry::BackgroundSquare { .. })
         && draw.depth == Depth::Ignore
-        && !draw.blend
+        && draw.blend == Blend::Replace
         && draw.scissor.is_none()
 }
 

@@ -1,8 +1,8 @@
 //! Plans as text, for `--explain` and for tests.
 
 use super::{
-    Depth, Draw, EdgeRun, Faces, Facts, Geometry, LineDrawing, Mark, Paint, Plan, Program, Step, Submission, Texture,
-    Value,
+    Blend, Depth, Draw, EdgeRun, Faces, Facts, Geometry, LineDrawing, Mark, Paint, Plan, Program, Step, Submission,
+    Texture, Value,
 };
 use crate::scene::Rectangle;
 use std::fmt;
@@ -105,6 +105,7 @@ impl fmt::Display for Draw {
         match self.depth {
             Depth::TestAndWrite => {}
             Depth::TestOnly => write!(out, ", depth not written")?,
+            Depth::Equal => write!(out, ", where depth is equal")?,
             Depth::Ignore => write!(out, ", no depth test")?,
         }
         if self.cull_back_faces {
@@ -113,8 +114,10 @@ impl fmt::Display for Draw {
         if let Some([factor, units]) = self.polygon_offset {
             write!(out, ", pushed back by ({factor}, {units})")?;
         }
-        if self.blend {
-            write!(out, ", blended")?;
+        match self.blend {
+            Blend::Replace => {}
+            Blend::Over => write!(out, ", blended")?,
+            Blend::Multiply => write!(out, ", multiplied")?,
         }
         write_scissor(out, self.scissor)?;
         if let Some(faces) = &self.faces {

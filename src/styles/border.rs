@@ -3,7 +3,7 @@
 use super::supersample::texture_unit;
 use super::{CARTOON, IMAGE_SPACE, LineWidth, MapEncoding, lens};
 use crate::error::{Error, Result};
-use crate::plan::{Depth, Draw, Facts, Geometry, Program, Texture, Uniform, Value, WhereEven};
+use crate::plan::{Blend, Depth, Draw, Facts, Geometry, Program, Texture, Uniform, Value, WhereEven};
 use crate::scene::{Scene, Size};
 use crate::settings::{ON_OFF, Setting, under};
 use serde::Serialize;
@@ -191,7 +191,7 @@ impl Border {
                 uniforms,
                 textures: textures.to_vec(),
                 depth: Depth::Ignore,
-                blend: true,
+                blend: Blend::Over,
                 facts: Facts {
                     reach_px: Some(self.reach_px(scene, surface)),
                     // No difference is an alpha of 0.

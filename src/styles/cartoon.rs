@@ -3,6 +3,7 @@
 //! With the article's settings the published shaders run; any other setting runs their twins in which the constants are
 //! uniforms (`*-settings.frag`). A test shows that the twins draw the same picture.
 
+use super::textured::textured;
 use super::{
     ALL_STYLES, Border, CARTOON, IMAGE_SPACE, MapEncoding, MapTarget, Show, Supersample, Tones, cull, no_borders,
 };
@@ -254,7 +255,10 @@ impl Cartoon {
             // It follows the clear and is behind everything, so it needs no depth.
             steps.push(Step::Draw(Draw { geometry, depth: Depth::Ignore, ..draw(true) }));
         }
-        steps.push(Step::Draw(draw(false)));
+        let objects = draw(false);
+        let texture = textured(scene, &objects);
+        steps.push(Step::Draw(objects));
+        steps.extend(texture);
         steps
     }
 

@@ -6,8 +6,10 @@
 use super::border::{reach, taps};
 use super::lens::DepthRange;
 use super::map::map_texture;
+use super::textured::textured;
 use super::{
-    ALL_STYLES, IMAGE_SPACE, INK, INKING, LineWidth, MapTarget, Show, Supersample, Tones, cull, lens, no_borders, supersample,
+    ALL_STYLES, IMAGE_SPACE, INK, INKING, LineWidth, MapTarget, Show, Supersample, Tones, cull, lens, no_borders,
+    supersample,
 };
 use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
@@ -210,7 +212,10 @@ impl Ink {
             facts: Facts { shorter: self.tones.shorter(&program), ..Facts::plain() },
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
-        Pass::new("tones", vec![Step::clear(scene.background.clear_color()), Step::Draw(objects)])
+        let texture = textured(scene, &objects);
+        let mut steps = vec![Step::clear(scene.background.clear_color()), Step::Draw(objects)];
+        steps.extend(texture);
+        Pass::new("tones", steps)
     }
 
     /// The filter over the whole picture; `alone` on a white ground.

@@ -6,13 +6,14 @@
 
 use super::gradients::Gradients;
 use super::shading::{faces_by_tone, vertex_colors};
+use super::textured::textured;
 use super::{ALL_STYLES, INKING, Ramp, RampRow, Show, cull, no_borders};
 use crate::edges::{Class, ClassSet, CreaseAngle, Side, SilhouetteRule, side_of_face};
 use crate::error::{Error, Result};
 use crate::lines::{ClassColors, line_width};
 use crate::plan::{
-    Depth, Draw, EdgeRun, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
-    Texture,
+    Blend, Depth, Draw, EdgeRun, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling,
+    Step, Texture,
 };
 use crate::scene::{Background, Color, Scene};
 use crate::settings::{ON_OFF, Setting, under};
@@ -243,7 +244,11 @@ impl Inking {
         self.check(scene, show)?;
         let (fill, pictures) = self.fill(scene, show);
         let ground = if show == Show::Borders { blank(scene) } else { scene.background.clear_color() };
-        let paint = std::iter::once(Step::clear(ground)).chain(fill.into_iter().map(Step::Draw));
+        let texture = match (show, self.paint) {
+            (Show::Borders, _) | (_, PaintMode::None) => None,
+            _ => fill.first().and_then(|draw| textured(scene, &Draw { faces: None, ..draw.clone() })),
+        };
+        let paint = std::iter::once(Step::clear(ground)).chain(fill.into_iter().map(Step::Draw)).chain(texture);
         let mut passes = vec![Pass::new("paint", paint.collect())];
         if self.is_inked && show != Show::Tones {
             let runs = Arc::new(self.runs(scene));
@@ -256,7 +261,8 @@ impl Inking {
                     line_drawing: self.line_drawing,
                 };
                 let depth = if self.writes_depth { Depth::TestAndWrite } else { Depth::TestOnly };
-                Step::Draw(Draw { blend: self.is_smooth, depth, ..Draw::new(geometry, None) })
+                let blend = if self.is_smooth { Blend::Over } else { Blend::Replace };
+                Step::Draw(Draw { blend, depth, ..Draw::new(geometry, None) })
             };
             let marks = if self.has_joints { vec![Mark::Lines, Mark::Points] } else { vec![Mark::Lines] };
             passes.push(Pass::new("ink", marks.into_iter().map(mark).collect()));

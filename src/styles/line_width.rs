@@ -68,7 +68,9 @@ impl Value for LineWidth {
             Some(percent) => percent.trim().parse().ok().filter(|percent: &f64| percent.is_finite()).map(Self::Percent),
             None => text.parse().ok().map(Self::Pixels),
         };
-        width.ok_or_else(|| "a width is a whole number of pixels, or a share of the picture's height such as 0.35%".to_owned().into())
+        width.ok_or_else(|| {
+            "a width is a whole number of pixels, or a share of the picture's height such as 0.35%".to_owned().into()
+        })
     }
 }
 

@@ -104,7 +104,9 @@ impl Mrt {
     /// Tones and map, border blended on top.
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
         let cartoon = self.cartoon();
-        let Some(border) = self.border.filter(|_| show == Show::Final) else {
+        // Textures are multiplied with the tones alone, while here tones and map are drawn at once.
+        let at_once = show == Show::Final && !scene.has_textured_surfaces();
+        let Some(border) = self.border.filter(|_| at_once) else {
             // Its map, tones and borders by themselves are those of the three passes.
             return cartoon.three_pass(scene, show);
         };

@@ -1,5 +1,6 @@
 //! `phong`: the realistic rendering the first article compares its cartoons with (figures 5a and 8).
 
+use super::textured::textured;
 use super::{ALL_STYLES, Show, cull};
 use crate::error::{Error, Result};
 use crate::plan::{Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
@@ -77,7 +78,9 @@ impl Phong {
             facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
-        let steps = vec![Step::clear(scene.background.clear_color()), Step::Draw(draw)];
+        let texture = textured(scene, &draw);
+        let mut steps = vec![Step::clear(scene.background.clear_color()), Step::Draw(draw)];
+        steps.extend(texture);
         Ok(Plan::new(vec![Pass::new("phong", steps)]))
     }
 }

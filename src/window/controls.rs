@@ -150,7 +150,9 @@ mod tests {
     fn what_can_be_left_open_is_given_numbers_and_left_open_again() {
         for mut style in styles() {
             for control in of(&style) {
-                let (Some(open), Kind::Numbers { .. }) = (control.setting.open, &control.setting.kind) else { continue };
+                let (Some(open), Kind::Numbers { .. }) = (control.setting.open, &control.setting.kind) else {
+                    continue;
+                };
                 turn(&mut style, &control.option(), &control.given()).unwrap();
                 assert_ne!(control.setting.value(&style).as_deref(), Some(open), "{}", control.option());
                 turn(&mut style, &control.option(), open).unwrap();

@@ -79,7 +79,7 @@ fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Sav
 fn whole_recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save) -> Result<Recipe> {
     let mut paths = surroundings.files.clone();
     if let Some((_, style, _)) = job.drawings.iter().find(|(side, ..)| *side == state.active && save != Save::Lines) {
-        if draws_with_textures(style) {
+        if draws_with_textures(style, &job.scene) {
             let materials = job.scene.objects.iter().flat_map(|object| &object.mesh.materials);
             paths.extend(materials.filter_map(|material| material.texture.clone()));
         }

@@ -505,16 +505,23 @@ mod tests {
             .map(|n| f64::from(n) * 0.7)
             .map(|a| DVec3::new(a.sin() * 3.0 + a, (a * 1.7).cos() * (2.0 + a * 0.1), (a * 0.3).sin() * a))
             .collect();
-        for (parallel, fov_y_degrees, aspect) in [(false, 30.0, 1.0), (false, 90.0, 2.5), (false, 60.0, 0.3), (true, 30.0, 1.5)]
+        for (parallel, fov_y_degrees, aspect) in
+            [(false, 30.0, 1.0), (false, 90.0, 2.5), (false, 60.0, 0.3), (true, 30.0, 1.5)]
         {
             for view in ["30,15", "front", "200,-70", "top"] {
                 let view = view.parse().unwrap();
-                let settings =
-                    CameraSettings { view, parallel, fov_y_degrees, framing: Framing::Outline, ..CameraSettings::default() };
+                let settings = CameraSettings {
+                    view,
+                    parallel,
+                    fov_y_degrees,
+                    framing: Framing::Outline,
+                    ..CameraSettings::default()
+                };
                 let camera = fit(&settings, &lopsided, aspect).unwrap();
                 let clip_from_world = camera.clip_from_view(aspect) * camera.view_from_world();
                 let seen = lopsided.iter().map(|point| clip_from_world.project_point3(*point));
-                let (low, high) = seen.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), ndc| (low.min(ndc), high.max(ndc)));
+                let (low, high) =
+                    seen.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), ndc| (low.min(ndc), high.max(ndc)));
                 // A thousandth of the half width is a quarter of a pixel of 512.
                 assert!((low + high).truncate().abs().max_element() < 1e-3, "{settings:?}: {low} to {high}");
                 assert!((high.truncate().max_element() - FRAME_FILL).abs() < 1e-3, "{settings:?}: {high}");

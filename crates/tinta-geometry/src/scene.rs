@@ -32,10 +32,11 @@ use crate::camera::{Camera, CameraSettings, Projection};
 use crate::edges::{Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::hiding::{Hiding, ObjectView};
-use crate::mesh::{Mesh, NONE, VertexArrays, bounds};
+use crate::mesh::{Material, Mesh, NONE, VertexArrays, bounds};
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
 use crate::tolerances::SCENE_RADIUS;
 use glam::{DMat4, DVec3, Mat4, Vec3};
+use serde::Serialize;
 use std::sync::{Arc, LazyLock, OnceLock, Weak};
 
 /// A mesh at a place.
@@ -85,7 +86,27 @@ pub struct Scene {
     pub color: Color,
     /// Whether `color` replaces the model's own colours.
     pub recolor: bool,
+    /// What surfaces look like.
+    pub surface: Surface,
 }
+
+/// What surfaces look like before a style shades them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Surface {
+    /// Each material has one colour.
+    #[default]
+    Plain,
+    /// With the textures that the model brings; a material is white under its texture.
+    Textured,
+}
+
+impl Surface {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("plain", Self::Plain), ("textured", Self::Textured)];
+}
+
+crate::choices!(Surface);
 
 /// What the user asks of the scene.
 #[derive(Debug, Clone)]
@@ -102,6 +123,8 @@ pub struct SceneSettings {
     pub color: Option<Color>,
     /// The colour of what the model gives none. Default [`DEFAULT_COLOR`].
     pub bare_color: Color,
+    /// What surfaces look like. Default plain, as in the three texts' pictures.
+    pub surface: Surface,
 }
 
 impl Default for SceneSettings {
@@ -113,6 +136,7 @@ impl Default for SceneSettings {
             background: Background::Color(Color([1.0; 3])),
             color: None,
             bare_color: DEFAULT_COLOR,
+            surface: Surface::Plain,
         }
     }
 }
@@ -168,6 +192,12 @@ impl SceneSettings {
                 "COLOUR",
                 "Colour of surfaces to which the model gives none",
                 |scene: &mut Self| &mut scene.bare_color,
+            ),
+            Setting::field(
+                "surface",
+                "SURFACE",
+                "Surfaces in one colour a material (plain), or with the model's own textures under every shading (textured)",
+                |scene: &mut Self| &mut scene.surface,
             ),
             Setting::field(
                 "copies",
@@ -250,6 +280,7 @@ impl Scene {
             background: settings.background,
             color: settings.color.unwrap_or(settings.bare_color),
             recolor: settings.color.is_some(),
+            surface: settings.surface,
         };
         scene.check_precision()?;
         Ok(scene)
@@ -340,7 +371,22 @@ impl Scene {
         if self.recolor || material == NONE {
             return self.color;
         }
-        mesh.materials.get(material as usize).and_then(|material| material.color).map_or(self.color, Color)
+        match mesh.materials.get(material as usize) {
+            Some(material) if self.is_textured(mesh, material) => Color([1.0; 3]),
+            material => material.and_then(|material| material.color).map_or(self.color, Color),
+        }
+    }
+
+    /// Whether a material of the mesh is drawn with its texture, in styles that leave it to the scene.
+    fn is_textured(&self, mesh: &Mesh, material: &Material) -> bool {
+        let has_coordinates = !mesh.triangle_texture_coordinates.is_empty();
+        self.surface == Surface::Textured && !self.recolor && has_coordinates && material.has_texture()
+    }
+
+    /// Whether anything is drawn with its texture, in styles that leave it to the scene.
+    pub fn has_textured_surfaces(&self) -> bool {
+        let is_textured = |object: &Object| object.mesh.materials.iter().any(|it| self.is_textured(&object.mesh, it));
+        self.objects.iter().any(is_textured)
     }
 
     /// Triangles of all objects together.

@@ -88,7 +88,7 @@ pub(super) fn files(
         arguments.models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
     paths.extend(beside.iter().cloned());
     if let Some(style) = style {
-        if recipe::draws_with_textures(style) {
+        if recipe::draws_with_textures(style, scene) {
             let objects = scene.objects.iter().take(arguments.models.len());
             paths.extend(
                 objects.flat_map(|object| &object.mesh.materials).filter_map(|material| material.texture.clone()),

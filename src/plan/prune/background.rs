@@ -2,7 +2,7 @@
 
 use super::ground::{Ground, covers, stays_in_objects};
 use super::{Omission, Rule, Situation, counted, drop_empty_passes};
-use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Step, Target, Texture, WhereEven};
+use crate::plan::{Blend, Depth, Draw, Geometry, Pass, Plan, Step, Target, Texture, WhereEven};
 use crate::scene::Rectangle;
 use crate::tolerances::EIGHT_BIT_TIE;
 
@@ -172,7 +172,7 @@ fn reach_beyond_objects(draw: &Draw, before: &[Step], ground: &Ground) -> Option
         WhereEven::Unchanged => true,
         WhereEven::Color(even) => match before {
             [Step::Clear { color: Some(cleared), .. }] => {
-                *cleared == even && !draw.blend && even.iter().all(|channel| rounds_alike(*channel))
+                *cleared == even && draw.blend == Blend::Replace && even.iter().all(|channel| rounds_alike(*channel))
             }
             _ => false,
         },

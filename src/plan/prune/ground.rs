@@ -1,6 +1,6 @@
 //! Skips filters over pixels that hold a single value, where they find nothing.
 
-use crate::plan::{Depth, Draw, Geometry, Step, Target, Texture};
+use crate::plan::{Blend, Depth, Draw, Geometry, Step, Target, Texture};
 use crate::scene::Rectangle;
 
 /// What of a plan holds one value wherever no object reaches, as far as its steps have been followed.
@@ -110,7 +110,7 @@ pub(super) fn stays_in_objects(draw: &Draw) -> bool {
 pub(super) fn covers(draw: &Draw) -> bool {
     matches!(draw.geometry, Geometry::ScreenSquare | Geometry::BackgroundSquare { .. })
         && draw.depth == Depth::Ignore
-        && !draw.blend
+        && draw.blend == Blend::Replace
         && draw.scissor.is_none()
         && draw.keeps_places()
         && draw.keeps_pixels()

@@ -3,7 +3,7 @@
 use super::ground::stays_in_objects;
 use super::{Omission, Rule, Situation, counted};
 use crate::hiding::{DrawnFaces, faces_not_culled};
-use crate::plan::{Depth, Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
+use crate::plan::{Blend, Depth, Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
 use crate::scene::{Object, Scene};
 use std::sync::Arc;
 
@@ -154,7 +154,7 @@ fn is_hiding(draw: &Draw) -> bool {
     draw.is_of_objects()
         && draw.depth == Depth::TestAndWrite
         && draw.polygon_offset.is_none()
-        && !draw.blend
+        && draw.blend == Blend::Replace
         && !draw.cull_back_faces
         && draw.keeps_places()
         && draw.keeps_pixels()

@@ -1,0 +1,22 @@
+//! The model's own textures under a style's shading: multiplied with what has been drawn, so that no style's shaders know of them.
+
+use crate::plan::{Blend, Depth, Draw, Facts, Geometry, Paint, Step, Texture};
+use crate::scene::Scene;
+
+/// The objects that `shaded` drew once more, unlit with their textures, multiplied with what of them is seen; `None` where nothing
+/// has a texture, or the scene is to be without.
+pub(super) fn textured(scene: &Scene, shaded: &Draw) -> Option<Step> {
+    scene.has_textured_surfaces().then(|| {
+        let Draw { cull_back_faces, polygon_offset, .. } = *shaded;
+        Step::Draw(Draw {
+            textures: vec![("own", Texture::Material)],
+            depth: Depth::Equal,
+            blend: Blend::Multiply,
+            cull_back_faces,
+            polygon_offset,
+            faces: shaded.faces.clone(),
+            facts: Facts::plain(),
+            ..Draw::new(Geometry::Objects(Paint::Uniform([1.0; 4])), None)
+        })
+    })
+}
