@@ -237,7 +237,11 @@ impl Panel {
         match &self.drawing {
             Drawing::Scene(scene) => {
                 let model = scene.model.name(textured);
-                format!("tinta render {model} -o {} --size {size} {}", self.file, scene.options).trim_end().to_owned()
+                // Without a style a look would be drawn.
+                let style = if scene.options.contains("--style ") { "" } else { " --style three-pass" };
+                format!("tinta render {model} -o {}{style} --size {size} {}", self.file, scene.options)
+                    .trim_end()
+                    .to_owned()
             }
             Drawing::Grains { name, .. } => format!("tinta textures -o textures --size {size}  # textures/{name}"),
             Drawing::Ramp => "tinta textures -o textures  # textures/ramp.png".to_owned(),

@@ -194,7 +194,8 @@ fn outputs_are_checked_before_the_work_and_kept_when_it_fails() {
 fn the_record_says_what_was_drawn_and_how_long_it_took() {
     let folder = Folder::new();
     let out = folder.path("out.png");
-    let options = ["--json", "--frames", "3", "--size", "80x60", "--view", "front", "--copies", "4"];
+    let options =
+        ["--json", "--frames", "3", "--size", "80x60", "--view", "front", "--copies", "4", "--look", "published"];
     let mut arguments = vec!["render", "builtin:open-box", "-o", &out];
     arguments.extend(options);
     let output = tinta(&arguments);
@@ -238,7 +239,17 @@ fn the_record_says_what_was_drawn_and_how_long_it_took() {
 #[test]
 fn the_plan_is_explained_with_times() {
     let folder = Folder::new();
-    let output = tinta(&["render", "builtin:open-box", "-o", &folder.path("a.png"), "--explain", "--size", "50"]);
+    let output = tinta(&[
+        "render",
+        "builtin:open-box",
+        "-o",
+        &folder.path("a.png"),
+        "--explain",
+        "--size",
+        "50",
+        "--look",
+        "published",
+    ]);
     let text = String::from_utf8(output.stdout).unwrap();
     for words in ["pass 1: map", "copy the framebuffer", "evangelista/border.frag", "whole picture"] {
         assert!(text.contains(words), "{words}: {text}");
@@ -249,7 +260,18 @@ fn the_plan_is_explained_with_times() {
 fn a_dump_holds_every_step() {
     let folder = Folder::new();
     let steps = folder.path("steps");
-    let output = tinta(&["render", "builtin:ant", "-o", &folder.path("a.png"), "--size", "50", "--dump", &steps]);
+    let output = tinta(&[
+        "render",
+        "builtin:ant",
+        "-o",
+        &folder.path("a.png"),
+        "--size",
+        "50",
+        "--style",
+        "three-pass",
+        "--dump",
+        &steps,
+    ]);
     assert_eq!(output.status.code(), Some(0));
     let mut names: Vec<String> =
         std::fs::read_dir(&steps).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();

@@ -287,7 +287,8 @@ fn a_shader_the_driver_refuses_ends_the_program_with_its_name_and_the_drivers_re
         let shaders = Folder::new();
         let place = PathBuf::from(shaders.path(""));
         let out = shaders.path("a.png");
-        let arguments = ["render", "builtin:ant", "-o", &out, "--size", "32", "--backend", backend];
+        let arguments =
+            ["render", "builtin:ant", "-o", &out, "--style", "three-pass", "--size", "32", "--backend", backend];
         let off: (&str, &Path) = ("MESA_SHADER_CACHE_DISABLE", Path::new("true"));
         let output = tinta(&[("MESA_SHADER_DUMP_PATH", &place), off], &arguments);
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));

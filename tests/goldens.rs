@@ -12,6 +12,9 @@ use tinta::styles::{
 };
 use tinta::{Picture, SceneSettings, Show, Size, Style, StyleName};
 
+/// Of borders.
+const WIDE: LineWidth = LineWidth::Pixels(5);
+
 /// A pixel counts as different beyond this, in 1/255: what another version of Mesa may round differently.
 const LARGEST_DIFFERENCE: u8 = 3;
 
@@ -253,12 +256,7 @@ fn gear_float() {
 
 #[test]
 fn gear_wide() {
-    golden(
-        "gear-wide",
-        GEAR,
-        &border(Border { width: Some(LineWidth::Pixels(5)), ..Border::default() }),
-        Show::Borders,
-    );
+    golden("gear-wide", GEAR, &border(Border { width: Some(WIDE), ..Border::default() }), Show::Borders);
 }
 
 #[test]

@@ -21,7 +21,7 @@ fn replay() -> Option<BTreeMap<String, Picture>> {
     let recording = std::fs::read_to_string(root().join("tests/recordings/tour.jsonl")).unwrap();
     let file = folder.path().join("tour.jsonl");
     std::fs::write(&file, recording.replace("OUT/", &format!("{}/", folder.path().display()))).unwrap();
-    let output = display.view(&["builtin:bust", "--replay", file.to_str().unwrap(), "--json"]);
+    let output = display.view(&["builtin:bust", "--look", "published", "--replay", file.to_str().unwrap(), "--json"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert!(record["first_picture_ms"].as_f64().unwrap() > 0.0);

@@ -41,8 +41,23 @@ fn pictures_of_every_kind_are_made_again_byte_for_byte() {
     for (kind, options) in [
         ("png", &["--style", "sand", "--light-1=-1,0.5,2"][..]),
         ("png", &["--style", "inking", "--texture", "on", "--transparent", "--backend", "osmesa"]),
-        ("png", &["--style", "ink", "--background", "rgb(10.5 20 30)", "--full"]),
-        ("png", &["--preset", &preset, "--view=-20,30", "--copies", "3", "--show", "borders", "--backend", "egl"]),
+        ("png", &["--style", "ink", "--background", "rgb(10.5 20 30)", "--full", "--surface", "textured"]),
+        (
+            "png",
+            &[
+                "--preset",
+                &preset,
+                "--surface",
+                "textured",
+                "--view=-20,30",
+                "--copies",
+                "3",
+                "--show",
+                "borders",
+                "--backend",
+                "egl",
+            ],
+        ),
         ("svg", &["--hidden", "dashed", "--class-colors", "silhouette=red", "--provenance"]),
         ("svg", &["--style", "lines", "--pen", "--dpi", "96.5", "--transparent"]),
     ] {

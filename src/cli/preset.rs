@@ -7,6 +7,7 @@
 use super::inputs::Inputs;
 #[cfg(feature = "measuring")]
 use super::measure::StyleOptions;
+use super::options::ignored::is_ignored;
 use super::{Arguments, in_one_sentence};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
@@ -186,6 +187,9 @@ impl<'a> Merge<'a> {
             // The style of a comparison is the one on the left.
             let option = if self.name == "compare" && key == "style" { "left" } else { key };
             let find = |command: &'a Command| command.get_arguments().find(|arg| arg.get_long() == Some(option));
+            if self.of_look.contains(key) && self.is_of_another_style(option) {
+                continue;
+            }
             if !is_kept(option) {
                 let problem = "this applies to one run and cannot be in a preset; give it on the command line";
                 return Err(self.preset.refuse(key, format!("{key}: {problem}")));
@@ -215,6 +219,17 @@ impl<'a> Merge<'a> {
             head.chain(left.iter().flat_map(|option| &option.words)).chain(words.iter().skip(2)).cloned().collect();
         let setting = setting.iter().map(|word| word.to_string_lossy().into_owned()).collect();
         Ok((Given { setting, preset: Some(self.preset), used, ..Given::default() }, words))
+    }
+
+    /// Whether a picture in the style that is drawn has no use for this option.
+    fn is_of_another_style(&self, option: &str) -> bool {
+        let given = self.given.try_get_raw("style").ok().flatten().and_then(|mut words| words.next());
+        let style = match (given, self.preset.options.get("style")) {
+            (Some(word), _) => word.to_string_lossy().into_owned(),
+            (None, Some(OptionValue::Text(style))) => style.clone(),
+            _ => return false,
+        };
+        self.name == "render" && is_ignored(option, &[&style])
     }
 
     fn words(&self, arg: &Arg, key: &str, value: &OptionValue) -> Result<Vec<OsString>> {

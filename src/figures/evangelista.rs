@@ -50,7 +50,7 @@ pub(super) fn figures() -> Vec<Figure> {
             "“Rendez-vous”: borders and uniform shading in two tones.",
             Content::NotDrawn(
                 "it is Decaudin's picture of his own scene, made by his own program; figure 5 (c) has two tones, and with borders \
-                 tinta render builtin:bust -o cartoon.png --tones 2 draws them",
+                 tinta render builtin:bust -o cartoon.png --style three-pass --tones 2 draws them",
             ),
         ),
         figure(

@@ -30,7 +30,7 @@ pub(super) fn claims() -> Vec<Claim> {
             41,
             "Mitchell's filter of normals and depth finds most borders, and finds them precisely.",
             "more than half of the exact lines' length is found, and nine tenths of the ink lies on a line",
-            "tinta render builtin:bust -o mitchell.png --filter mitchell --show borders",
+            "tinta render builtin:bust -o mitchell.png --style three-pass --filter mitchell --show borders",
             Here(lines::mitchell),
         ),
         claim(
@@ -39,7 +39,7 @@ pub(super) fn claims() -> Vec<Claim> {
             72,
             "Tones are not smoothed: one ends where the next begins.",
             "a model of one colour has at most the listing's three colours",
-            "tinta render builtin:gear -o tones.png --no-borders --color white --background black",
+            "tinta render builtin:gear -o tones.png --style three-pass --no-borders --color white --background black",
             Here(maps::tones_are_flat),
         ),
         claim(
@@ -57,7 +57,7 @@ pub(super) fn claims() -> Vec<Claim> {
             76,
             "The light's result can also be looked up in a one-dimensional texture.",
             "the texture gives another tone to at most 1 % of the model's pixels",
-            "tinta render builtin:bust -o tones.png --no-borders --tone-lookup texture",
+            "tinta render builtin:bust -o tones.png --style three-pass --no-borders --tone-lookup texture",
             Here(maps::tone_texture),
         ),
         claim(
@@ -93,7 +93,7 @@ pub(super) fn claims() -> Vec<Claim> {
             118,
             "Depth in the alpha channel has no more than 8 bits.",
             "the map holds at most 256 different depths",
-            "tinta render builtin:bust -o depth.png --show depth",
+            "tinta render builtin:bust -o depth.png --style three-pass --show depth",
             Here(maps::eight_bits),
         ),
         claim(
@@ -102,7 +102,7 @@ pub(super) fn claims() -> Vec<Claim> {
             128,
             "A Laplacian over eight neighbours reads the map nine times, Mitchell's filter and the paper's own five times.",
             "so many reads stand in the shaders",
-            "tinta render builtin:gear -o gear.png --filter laplacian8 --explain",
+            "tinta render builtin:gear -o gear.png --style three-pass --filter laplacian8 --explain",
             Here(maps::reads),
         ),
         claim(
@@ -111,7 +111,7 @@ pub(super) fn claims() -> Vec<Claim> {
             143,
             "Mitchell had to make his five reads twice, in two programs.",
             "that has its price: two programs, each blended, make a frame more than 3 % slower than one",
-            "tinta render builtin:gear -o gear.png --filter mitchell-two --explain",
+            "tinta render builtin:gear -o gear.png --style three-pass --filter mitchell-two --explain",
             Here(times::mitchell_in_two),
         ),
         Claim {
@@ -122,7 +122,7 @@ pub(super) fn claims() -> Vec<Claim> {
                 145,
                 "The full Laplacian is so exact that it finds more borders than a cartoon wants.",
                 "less than half of the ink that it adds to the simplified filter's lies on an exact line",
-                "tinta render builtin:bust -o borders.png --view 20,10 --filter laplacian8 --show borders",
+                "tinta render builtin:bust -o borders.png --style three-pass --view 20,10 --filter laplacian8 --show borders",
                 Here(lines::too_many),
             )
         },
@@ -141,7 +141,7 @@ pub(super) fn claims() -> Vec<Claim> {
             145,
             "The simplified filter finds borders along rows and columns.",
             "it answers to a horizontal and to a vertical step alike, and answers at all",
-            "tinta render builtin:open-box -o box.png --show borders",
+            "tinta render builtin:open-box -o box.png --style three-pass --show borders",
             Here(maps::directions),
         ),
         claim(
@@ -168,7 +168,7 @@ pub(super) fn claims() -> Vec<Claim> {
             180,
             "Maps made in several passes would make finding borders dearer: it would read other textures too.",
             "reading depth from a texture of its own makes a frame more than 3 % slower",
-            "tinta render builtin:gear -o gear.png --map-encoding depth-texture --explain",
+            "tinta render builtin:gear -o gear.png --style three-pass --map-encoding depth-texture --explain",
             Here(times::second_texture),
         ),
         Claim {
@@ -270,7 +270,7 @@ pub(super) fn claims() -> Vec<Claim> {
             203,
             "Extensions of OpenGL could lift the limit of depth's precision.",
             "of all ink, faint too, a larger share lies on a line with a floating-point map than with 8 bits",
-            "tinta render builtin:bust -o borders.png --map-encoding float --show borders",
+            "tinta render builtin:bust -o borders.png --style three-pass --map-encoding float --show borders",
             Here(lines::deeper_maps),
         ),
     ]
