@@ -128,7 +128,7 @@ fn nonsensical_settings_are_refused_by_name() {
     let folder = Folder::new();
     let out = folder.path("out.png");
     let render = |options: &[&str], words: &[&str]| {
-        let mut arguments = vec!["render", "builtin:open-box", "-o", &out];
+        let mut arguments = vec!["render", "builtin:open-box", "-o", &out, "--look", "published"];
         arguments.extend(options);
         refused_in_one_line(&arguments, words);
     };
@@ -359,7 +359,7 @@ fn frames_and_skins_are_refused_where_a_model_has_none_and_recorded_where_it_has
         folder.file("card.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nmtllib a.mtl\n");
     folder.file("a.mtl", b"newmtl a\nmap_Kd -s 1 1 1 ART\\my skin.png\n");
     let render = |options: &[&str]| {
-        let mut arguments = vec!["render", &model, "-o", &out, "--size", "32", "--json"];
+        let mut arguments = vec!["render", &model, "-o", &out, "--size", "32", "--json", "--look", "published"];
         arguments.extend(options);
         let output = tinta(&arguments);
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));

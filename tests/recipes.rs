@@ -93,7 +93,7 @@ fn a_recipe_says_what_was_drawn_with_which_files_by_whom() {
     let driver = recipe.gl.unwrap();
     assert!(["egl", "osmesa"].contains(&driver.backend.as_str()) && !driver.renderer.is_empty());
     // A style that does not look at textures does not depend on them.
-    render(&other, &[]);
+    render(&other, &["--look", "published"]);
     assert_eq!(read(&other).files.len(), 2);
     assert_eq!(read(&other).style, "three-pass");
     render(&svg, &[]);
