@@ -124,7 +124,8 @@ impl Border {
             |border: &mut Self| &mut border.width_px,
         )
         .printed("E, appendix 1: the filter reads the next pixels")
-        .offering(&["paper", "1", "2", "3", "4", "5", "6", "8", "12", "16", "24", "32", "64"]);
+        .offering(&["paper", "1", "2", "3", "4", "5", "6", "8", "12", "16", "24", "32", "64"])
+        .common();
         under(CARTOON, filter).chain(under(IMAGE_SPACE, vec![width])).collect()
     }
 

@@ -228,7 +228,7 @@ impl CameraSettings {
             },
         );
         let settings = vec![
-            view,
+            view.common(),
             Setting::field("fov", "DEGREES", "Vertical field of view in degrees", |camera: &mut Self| {
                 &mut camera.fov_y_degrees
             })
@@ -238,7 +238,8 @@ impl CameraSettings {
                 "Parallel projection instead of perspective",
                 |camera: &Self| camera.parallel,
                 |camera, is_on| camera.parallel = is_on,
-            ),
+            )
+            .common(),
             Setting::open_field(
                 "height",
                 "LENGTH",

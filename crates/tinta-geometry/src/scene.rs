@@ -127,7 +127,7 @@ impl SceneSettings {
         let default = || Self::default().background;
         let background = Setting::of(
             "background",
-            "COLOUR",
+            "COLOR",
             Color::kind(),
             "Colour behind the scene: a CSS name, #rrggbb or rgb(r,g,b)",
             move |scene: &Self| match (scene.background, default()) {
@@ -142,8 +142,9 @@ impl SceneSettings {
         let settings = vec![
             Setting::field("size", "WxH", "Size in pixels, or one number for a square", |scene: &mut Self| {
                 &mut scene.size
-            }),
-            background.said("white"),
+            })
+            .common(),
+            background.said("white").common(),
             Setting::flag(
                 "transparent",
                 "No background: alpha 0 where nothing is drawn",
@@ -155,11 +156,13 @@ impl SceneSettings {
                         scene.background = Self::default().background;
                     }
                 },
-            ),
-            Setting::open_field("color", "COLOUR", "own", "One colour for all surfaces", |scene: &mut Self| {
+            )
+            .common(),
+            Setting::open_field("color", "COLOR", "own", "One colour for all surfaces", |scene: &mut Self| {
                 &mut scene.color
             })
-            .said("the model's own, #edbd85 where it has none"),
+            .said("the model's own, #edbd85 where it has none")
+            .common(),
             Setting::field(
                 "copies",
                 "N",

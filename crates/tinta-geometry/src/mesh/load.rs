@@ -72,7 +72,8 @@ impl LoadOptions {
                 "AXIS",
                 "Axis that points up in the file: auto (z in MD2 and 3DS, else y), x, y, z, -x, -y, -z",
                 |load: &mut Self| &mut load.up_axis,
-            ),
+            )
+            .common(),
             Setting::field(
                 "weld",
                 "SHARE",
