@@ -4,6 +4,7 @@ use super::options::{Chosen, ModelArguments, Selection, StyleArguments};
 use super::preset::PresetArguments;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use tinta::mesh::refuse_address;
 use tinta::settings::{HasSettings, Setting};
 use tinta::window::{
     Buffer, Layout, Orbit, Replay, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
@@ -84,6 +85,7 @@ pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
     // What is broken in a file is said in the window; a name that is nothing at all need not open one.
     let is_missing = |model: &&String| !model.starts_with("builtin:") && !Path::new(model).exists();
     if let Some(path) = arguments.models.iter().find(is_missing) {
+        refuse_address(path)?;
         let problem = "there is no such file; check the name".to_owned();
         return Err(Error::model(path.clone(), problem));
     }
