@@ -15,12 +15,14 @@ mod documents;
 mod edges;
 #[cfg(feature = "measuring")]
 mod figures;
+mod help;
 mod info;
 mod inputs;
 mod man;
 #[cfg(feature = "measuring")]
 mod measure;
 mod messages;
+mod mistakes;
 mod model_cache;
 mod models;
 mod options;
@@ -53,26 +55,25 @@ use tinta::{Error, Result};
 #[command(name = "tinta", version, arg_required_else_help = true, max_term_width = 100)]
 #[command(after_help = "\
 Examples:
-  tinta render cow.obj -o cow.png                draw a model
-  tinta render builtin:bust -o bust.png          draw a built-in model
-  tinta render cow.obj -o cow.png --style ink    choose a style
-  tinta render cow.obj -o cow.svg                write the exact visible lines
-  tinta render cow.obj -o cow.gif --turntable 60 turn the model once around
-  tinta render cow.obj -o cow.png --preset mine.toml
-                                                 read options from a file
-  tinta view cow.obj                             open a window to turn it and try styles
-  tinta again cow.png -o again.png               redraw a picture from its recipe
-  tinta compare builtin:gear -o both.png         compare the lines of two styles
-  tinta edges cow.obj                            count edges by class
-  tinta measure cow.obj -o cow --quick           measure every style's error and run time
-  tinta textures -o textures                     write charcoal's grain, noise and paper
-  tinta figures -o figures                       redraw and measure the figures of the texts
-  tinta stress -o stress                         test with extreme cases
-  tinta batch jobs.jsonl -o pictures             run many jobs, one line of JSON each
-  tinta provenance three-pass                    tell printed values from chosen ones
-  tinta info                                     list the OpenGL backends of this machine
-  tinta completions bash                         print a completion script (or zsh, fish)
-  tinta man -o man                               write the manual pages
+  tinta render cow.obj -o cow.png                 draw a model
+  tinta render builtin:bust -o bust.png           draw a built-in model
+  tinta render cow.obj -o cow.png --style ink     choose a style
+  tinta render cow.obj -o cow.svg                 write the exact visible lines
+  tinta render cow.obj -o cow.gif --turntable 60  turn the model once around
+  tinta render cow.obj -o cow.png --preset a.toml read options from a file
+  tinta view cow.obj                              turn it, try styles
+  tinta again cow.png -o again.png                redraw it by its recipe
+  tinta compare builtin:gear -o both.png          compare lines of two styles
+  tinta edges cow.obj                             count edges by class
+  tinta measure cow.obj -o cow --quick            measure error and run time
+  tinta textures -o textures                      write charcoal's textures
+  tinta figures -o figures                        redraw the texts' figures
+  tinta stress -o stress                          test with extreme cases
+  tinta batch jobs.jsonl -o pictures              run many jobs from a list
+  tinta provenance three-pass                     which values a text prints
+  tinta info                                      list the OpenGL backends
+  tinta completions bash                          or zsh, fish
+  tinta man -o man                                write the manual pages
 
 Exit codes:
   0  done
@@ -196,42 +197,6 @@ pub fn check(words: impl IntoIterator<Item = OsString>) -> std::result::Result<O
 /// What the words say, the program's name first, with the preset that they name.
 fn parse(words: impl IntoIterator<Item = OsString>) -> std::result::Result<(Arguments, Given), Stop> {
     preset::parse(words.into_iter().collect())
-}
-
-/// Most characters of clap's message that are said.
-const LONGEST_SENTENCE: usize = 400;
-
-/// clap's message without its usage lines and hints, which `--help` has.
-fn in_one_sentence(error: &clap::Error) -> String {
-    if let Some(sentence) = without_output(error) {
-        return sentence;
-    }
-    let text = error.to_string();
-    let paragraph = text.split("\n\n").next().unwrap_or_default();
-    let words: Vec<&str> = paragraph.split_whitespace().collect();
-    let sentence = words.join(" ");
-    let sentence = sentence.strip_prefix("error: ").unwrap_or(&sentence);
-    // A value may be as long as a file.
-    match sentence.char_indices().nth(LONGEST_SENTENCE) {
-        None => sentence.to_owned(),
-        Some((end, _)) => format!("{}…", &sentence[..end]),
-    }
-}
-
-/// What to type where nothing but the output is missing.
-fn without_output(error: &clap::Error) -> Option<String> {
-    use clap::error::{ContextKind, ContextValue, ErrorKind};
-    let (ErrorKind::MissingRequiredArgument, Some(ContextValue::Strings(missing))) =
-        (error.kind(), error.get(ContextKind::InvalidArg))
-    else {
-        return None;
-    };
-    let example = match missing.as_slice() {
-        [output] if output == "--output <DIR>" => "name the folder to write into: -o results",
-        [output] if output.starts_with("--output <FILE") => "name the picture to write: -o cow.png",
-        _ => return None,
-    };
-    Some(format!("--output is missing; {example}"))
 }
 
 /// Makes the folder that `-o` names, if it is not there.

@@ -22,6 +22,7 @@ pub use crate::settings::{OptionValue, Options};
 pub use looks::{LOOKS, Look};
 pub use shipped::SHIPPED;
 
+use crate::choice::meant_or;
 use crate::error::{Error, FileKind, Result};
 use crate::files::shown;
 use crate::lines::{LineSettings, SvgSettings};
@@ -63,10 +64,11 @@ impl Preset {
             let found = SHIPPED.iter().find(|(known, _)| *known == name);
             return match found {
                 Some((_, text)) => Self::parse(name, text),
-                None => Err(refused(
-                    name,
-                    format!("there is no shipped preset of this name; there are {}", shipped_names()),
-                )),
+                None => {
+                    let there_are = format!("there are {}", shipped_names());
+                    let choice = meant_or(name, &SHIPPED.map(|(known, _)| known), &there_are);
+                    Err(refused(name, format!("there is no shipped preset of this name; {choice}")))
+                }
             };
         }
         let path = Path::new(name);
@@ -144,9 +146,9 @@ impl Preset {
     /// [`Error::File`] for a file that cannot be read.
     pub fn style(&self) -> Result<Style> {
         if let Some(key) = self.options.keys().find(|key| !is_known(key)) {
-            return Err(
-                self.refuse(key, format!("{key}: there is no such option; keys are long names of tinta render --help"))
-            );
+            let otherwise = "keys are long names of tinta render --help";
+            let choice = meant_or(key, &known(), otherwise);
+            return Err(self.refuse(key, format!("{key}: there is no such option; {choice}")));
         }
         let all: Vec<(String, String)> = self.options.keys().map(|key| (key.clone(), key.clone())).collect();
         Style::from_options(&self.options).map_err(|error| self.attributed(error, &all))
@@ -177,12 +179,16 @@ const OTHERS: [&str; 8] = ["style", "show", "turntable", "animate", "frame-delay
 
 /// Whether there is an option of this name that a preset may hold.
 pub fn is_known(name: &str) -> bool {
-    OTHERS.contains(&name)
-        || Style::table().has(name)
-        || SceneSettings::table().has(name)
-        || LoadOptions::table().has(name)
-        || LineSettings::table().has(name)
-        || SvgSettings::table().has(name)
+    known().contains(&name)
+}
+
+/// The names of all options that a preset may hold.
+fn known() -> Vec<&'static str> {
+    fn of<T: HasSettings>() -> impl Iterator<Item = &'static str> {
+        T::table().settings.iter().map(|setting| setting.name)
+    }
+    let tables = of::<Style>().chain(of::<SceneSettings>()).chain(of::<LoadOptions>());
+    OTHERS.into_iter().chain(tables).chain(of::<LineSettings>()).chain(of::<SvgSettings>()).collect()
 }
 
 /// The names of all presets that ship, with commas between.

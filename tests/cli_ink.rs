@@ -89,7 +89,7 @@ fn ink_takes_its_options_and_refuses_what_it_cannot_use() {
     let low = folder.file("low.ppm", b"P6 1 1 255\n\xff\0\0");
     refuse(&["--ramp", &low], &["low.ppm", "4 gradients"]);
     refuse(&["--classes", "edges"], &["boundary, non-manifold, silhouette"]);
-    refuse(&["--class-colors", "crease"], &["CLASS=COLOUR"]);
+    refuse(&["--class-colors", "crease"], &["CLASS=COLOR"]);
     refuse(&["--line-width", "0"], &["--line-width 0"]);
     refuse(&["--texture", "on"], &["--skin"]);
     let output = tinta(&[

@@ -65,6 +65,30 @@ fn extensions_that_are_needed_and_not_read_are_named_with_what_to_do() {
 }
 
 #[test]
+fn the_first_version_is_named_with_what_to_do_however_it_says_so() {
+    let problem = |file: Value| {
+        let bytes = serde_json::to_vec(&file).unwrap();
+        read_bytes(&bytes, "truck.gltf", b"", &LoadOptions::default()).map(|_| ()).unwrap_err().to_string()
+    };
+    let remedy = "and only glTF 2 is read; convert it, for instance with: gltf-pipeline -i IN.gltf -o OUT.glb";
+    let (accessors, meshes) = (json!({"accessor_21": {"count": 3}}), json!({"Geometry-mesh002": {"primitives": []}}));
+    for asset in [
+        json!({"version": "1.0", "profile": {"api": "WebGL", "version": "1.0"}, "premultipliedAlpha": true}),
+        json!({"version": 1.0}),
+        json!({"generator": "collada2gltf"}),
+        json!(null),
+    ] {
+        let file = json!({"asset": asset, "accessors": accessors, "meshes": meshes, "nodes": {}});
+        assert_eq!(problem(file), format!("truck.gltf: it is glTF 1.0, {remedy}"));
+    }
+    let version = |version: Value| problem(json!({"asset": {"version": version}, "meshes": []}));
+    assert_eq!(version(json!("1.1")), format!("truck.gltf: it is glTF 1.1, {remedy}"));
+    assert!(version(json!("3.0")).ends_with("it is glTF 3.0, and only glTF 2 is read; export it as glTF 2"));
+    let damaged = problem(json!({"asset": {"version": "2.0"}, "accessors": accessors}));
+    assert!(damaged.contains("its JSON is not valid glTF"), "{damaged}");
+}
+
+#[test]
 fn files_that_lie_about_themselves_are_refused_in_a_sentence() {
     let change = |pointer: &str, value: Value, sentence: &str| {
         let mut file = box_file();
@@ -81,7 +105,11 @@ fn files_that_lie_about_themselves_are_refused_in_a_sentence() {
         assert!(message.len() < 300 && !message.contains('\n'), "{message}");
     };
     let huge = json!(u64::MAX);
-    change("/asset/version", json!("1.0"), "glTF 1.0; only glTF 2 is read");
+    change(
+        "/asset/version",
+        json!("1.0"),
+        "it is glTF 1.0, and only glTF 2 is read; convert it, for instance with: gltf-pipeline",
+    );
     change("/meshes/0/primitives/0/mode", json!(99), "primitives of an unknown kind");
     change("/meshes/0/primitives/0/material", json!(7), "materials that do not exist");
     change("/meshes/0/primitives/0/indices", json!(99), "its accessor 99 does not exist");
@@ -132,7 +160,8 @@ fn glb_that_is_cut_off_anywhere_or_lies_about_its_length_is_refused() {
         bytes[place..place + 4].copy_from_slice(&number.to_le_bytes());
         message(&bytes)
     };
-    assert!(with(4, 1).contains("GLB version 1"));
+    assert!(with(4, 1).contains("it is glTF 1.0, and only glTF 2 is read"));
+    assert!(with(4, 3).contains("it is GLB version 3; only version 2 is read"));
     for length in [0, 11, u32::MAX] {
         assert!(with(8, length).contains(&format!("its header promises {length} bytes")), "{length}");
     }

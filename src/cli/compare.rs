@@ -31,19 +31,19 @@ pub(super) struct Arguments {
     right: StyleName,
 
     /// Distance within which two styles' ink counts as the same, in pixels, up to 64 [default: 2]
-    #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, value_parser = clap::value_parser!(u32).range(0..=64))]
+    #[arg(long, hide_short_help = true, value_name = "PIXELS", default_value = "2", hide_default_value = true, value_parser = clap::value_parser!(u32).range(0..=64))]
     tolerance: u32,
 
     /// OpenGL from: egl, osmesa, auto (the first that works) [default: auto]
-    #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
+    #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 
     /// Frames of each style to draw and time after warm-up [default: 11]
-    #[arg(long, value_name = "N", default_value = "11", hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, hide_short_help = true, value_name = "N", default_value = "11", hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
 
     /// Print one JSON record [default: off]
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     json: bool,
 
     #[command(flatten)]

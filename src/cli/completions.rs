@@ -5,7 +5,7 @@
 
 mod values;
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_complete::Shell as Written;
 use tinta::Result;
 use tinta::mesh::BUILTINS;
@@ -47,7 +47,7 @@ const PRESET: &str = "preset";
 const MODELS: [&str; 2] = ["models", "model"];
 
 fn script(shell: Shell) -> String {
-    let command = values::with_values(super::Arguments::command());
+    let command = values::with_values(super::help::whole());
     let written = |shell: Written| {
         let mut script = Vec::new();
         clap_complete::generate(shell, &mut command.clone(), "tinta", &mut script);

@@ -3,8 +3,6 @@
 //! In blocks of code a command must be whole; between backquotes it may lack what it needs (`tinta render`), for there it is
 //! named, not given. A command ends where two blanks or a `#` begin an explanation. Those of other programs are passed over.
 
-use super::Arguments;
-use clap::CommandFactory;
 use clap::error::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -96,14 +94,16 @@ fn every_command_in_the_documents_is_one() {
         if cfg!(not(feature = "window")) && named.text.starts_with("tinta view") {
             continue;
         }
-        let Err(error) = Arguments::command().try_get_matches_from(words(&named.text)) else { continue };
+        let (mut whole, words) = (super::help::whole(), words(&named.text));
+        let Err(error) = whole.try_get_matches_from_mut(&words) else { continue };
         let is_only_named = !named.in_block
             && matches!(
                 error.kind(),
                 ErrorKind::MissingRequiredArgument | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
             );
         if !is_only_named && !matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-            let sentence = super::in_one_sentence(&error);
+            let words: Vec<_> = words.iter().map(Into::into).collect();
+            let sentence = super::mistakes::sentence(&error, &whole, &words);
             wrong.push(format!("{}:{}: {}: {sentence}", named.document.display(), named.line, named.text));
         }
     }

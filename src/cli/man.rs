@@ -3,7 +3,7 @@
 //! clap_mangen writes names, synopses and options from the definition that also reads the command line. Examples, exit
 //! codes, environment and the texts below `--help` are put below them.
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_mangen::Man;
 use roff::{Roff, bold, roman};
 use std::path::PathBuf;
@@ -76,7 +76,7 @@ const EXIT_CODES_OF_BATCH: [(&str, &str); 2] = [
 ];
 
 fn pages() -> Vec<Page> {
-    let mut whole = super::Arguments::command().disable_help_subcommand(true);
+    let mut whole = super::help::whole().disable_help_subcommand(true);
     whole.build();
     let examples = examples(&whole);
     let all: Vec<String> = whole.get_subcommands().map(|command| command.get_name().to_owned()).collect();

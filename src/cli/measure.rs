@@ -53,7 +53,14 @@ pub(super) struct Arguments {
     quick: bool,
 
     /// Distance within which ink and line count as the same, in pixels [default: 2]
-    #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        hide_short_help = true,
+        value_name = "PIXELS",
+        default_value = "2",
+        hide_default_value = true,
+        allow_hyphen_values = true
+    )]
     tolerance: f64,
 
     /// Continue an interrupted run in the same folder [default: off]
@@ -65,11 +72,11 @@ pub(super) struct Arguments {
     merge: Vec<PathBuf>,
 
     /// Name of this machine in the report [default: system, processor, threads]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, hide_short_help = true, value_name = "NAME")]
     machine: Option<String>,
 
     /// OpenGL from: egl, osmesa, auto (the first that works) [default: auto]
-    #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
+    #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 
     #[command(flatten)]

@@ -70,7 +70,10 @@ impl<S: Selection> Chosen<S> {
 /// The option of a setting.
 fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'static Setting<T>) -> Arg {
     let default = setting.said_default.map_or_else(|| table.default_of(setting), str::to_owned);
-    let arg = Arg::new(setting.name).long(setting.name).help(format!("{} [default: {default}]", setting.help));
+    let arg = Arg::new(setting.name)
+        .long(setting.name)
+        .help(format!("{} [default: {default}]", setting.help))
+        .hide_short_help(!setting.is_common);
     if setting.kind == Kind::Flag {
         return arg.action(ArgAction::SetTrue);
     }
@@ -150,7 +153,7 @@ impl Selection for OfStyles {
 #[command(next_help_heading = "All styles")]
 pub(super) struct StyleArguments {
     /// Picture to show: final, borders, tones; three-pass, two-pass and mrt also normals, depth, map, ink also map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
-    #[arg(long, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
+    #[arg(long, hide_short_help = true, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
     pub show: Show,
 
     #[command(flatten)]

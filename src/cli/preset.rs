@@ -4,14 +4,17 @@
 //! The words are read twice: once as given, to know the preset and what else is given; then with the preset's options before
 //! them. An option given on the command line beats the preset's, and so does one that excludes it.
 
+use super::Arguments;
 use super::inputs::Inputs;
 #[cfg(feature = "measuring")]
 use super::measure::StyleOptions;
+use super::mistakes::{meant_option, sentence};
 use super::options::ignored::is_ignored;
-use super::{Arguments, in_one_sentence};
+#[cfg(feature = "measuring")]
+use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
-use clap::{Arg, ArgMatches, Command, CommandFactory, FromArgMatches};
+use clap::{Arg, ArgMatches, Command, FromArgMatches};
 use std::ffi::OsString;
 use tinta::preset::{LOOKS, Look, OptionValue, Options, Preset};
 use tinta::settings::{HasSettings, ON_OFF};
@@ -21,7 +24,7 @@ use tinta::{Error, Result, Style};
 #[command(next_help_heading = "Presets")]
 pub(super) struct PresetArguments {
     /// Read options from this TOML file, under their long names, or a paper's constants: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand; the command line overrides it [default: none]
-    #[arg(long, value_name = "FILE|paper:NAME")]
+    #[arg(long, value_name = "FILE")]
     preset: Option<String>,
 }
 
@@ -92,22 +95,23 @@ impl Given {
 
 /// Reads a command line, and the preset it names.
 pub(super) fn parse(words: Vec<OsString>) -> std::result::Result<(Arguments, Given), Stop> {
-    let mut whole = Arguments::command();
-    let matches = whole.try_get_matches_from_mut(&words).map_err(refused)?;
+    let mut whole = super::help::command(&words);
+    let matches = whole.try_get_matches_from_mut(&words).map_err(|error| refused(error, &whole, &words))?;
     let texts = |words: &[OsString]| words.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
     let as_given = texts(&words);
     let (mut given, words) = match Merge::of(&whole, &matches)? {
         None => (Given::default(), words),
         Some(merge) => merge.merged(&whole, &words)?,
     };
-    let matches = whole.try_get_matches_from_mut(&words).map_err(refused)?;
+    let matches = whole.try_get_matches_from_mut(&words).map_err(|error| refused(error, &whole, &words))?;
     if let Some((name, matches)) = matches.subcommand()
         && let Some(command) = whole.find_subcommand(name)
     {
         given.options = kept_options(command, matches);
     }
     (given.words, given.as_given) = (texts(&words), as_given);
-    Arguments::from_arg_matches(&matches).map(|arguments| (arguments, given)).map_err(refused)
+    let arguments = Arguments::from_arg_matches(&matches).map_err(|error| refused(error, &whole, &words))?;
+    Ok((arguments, given))
 }
 
 /// Why a command line is not carried out.
@@ -125,11 +129,12 @@ impl From<Error> for Stop {
     }
 }
 
-fn refused(error: clap::Error) -> Stop {
+/// What to say of words that `whole` does not read.
+fn refused(error: clap::Error, whole: &Command, words: &[OsString]) -> Stop {
     use ErrorKind::{DisplayHelp, DisplayHelpOnMissingArgumentOrSubcommand, DisplayVersion};
     match error.kind() {
         DisplayHelp | DisplayVersion | DisplayHelpOnMissingArgumentOrSubcommand => Stop::Help(error),
-        _ => Stop::Wrong(Error::CommandLine { problem: in_one_sentence(&error) }),
+        _ => Stop::Wrong(Error::CommandLine { problem: sentence(&error, whole, words) }),
     }
 }
 
@@ -238,7 +243,8 @@ impl<'a> Merge<'a> {
 
     /// Refuses values that an option refuses, and options that exclude each other, with the preset's line.
     fn check<'w>(&self, mut command: Command, words: impl Iterator<Item = &'w OsString>) -> Result<()> {
-        let error = match command.try_get_matches_from_mut(words) {
+        let words: Vec<OsString> = words.cloned().collect();
+        let error = match command.try_get_matches_from_mut(&words) {
             Err(error) if error.kind() != ErrorKind::MissingRequiredArgument => error,
             _ => return Ok(()),
         };
@@ -248,7 +254,7 @@ impl<'a> Merge<'a> {
         };
         let key = named.trim_start_matches('-');
         let key = if self.name == "compare" && key == "left" { "style" } else { key };
-        Err(self.preset.refuse(key, in_one_sentence(&error)))
+        Err(self.preset.refuse(key, sentence(&error, &command, &words)))
     }
 
     /// Whether the command line gives this option itself, or one that excludes it.
@@ -267,7 +273,10 @@ impl<'a> Merge<'a> {
             true => {
                 format!("{key}: tinta {} does not have this option, only tinta render does; leave it out", self.name)
             }
-            false => format!("{key}: there is no option --{key}; see tinta {} --help", self.name),
+            false => match meant_option(self.command, key) {
+                Some(meant) => format!("{key}: there is no option --{key}; did you mean {meant}?"),
+                None => format!("{key}: there is no option --{key}; see tinta {} --help", self.name),
+            },
         };
         self.preset.refuse(key, problem)
     }

@@ -111,27 +111,27 @@ impl Arguments {
 #[command(next_help_heading = "Running")]
 struct RunArguments {
     /// OpenGL from: egl, osmesa, auto (the first that works) [default: auto]
-    #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
+    #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 
     /// Hand vertices to GL in buffers, or as programs of 2001 did, one by one (immediate) or in display lists (display-list); the picture is the same [default: buffers]
-    #[arg(long, value_name = "HOW", default_value = "buffers", hide_default_value = true)]
+    #[arg(long, hide_short_help = true, value_name = "HOW", default_value = "buffers", hide_default_value = true)]
     submission: Submission,
 
     /// Frames to draw and time after warm-up, with --json or --explain [default: 1]
-    #[arg(long, value_name = "N", default_value = "1", hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, hide_short_help = true, value_name = "N", default_value = "1", hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
 
     /// Print one JSON record: model, style, camera, GL, times [default: off]
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     json: bool,
 
     /// Print the plan, its passes and steps, with times [default: off]
-    #[arg(long, conflicts_with = "json")]
+    #[arg(long, hide_short_help = true, conflicts_with = "json")]
     explain: bool,
 
     /// Write GL's buffers after every step of the published plan into this folder, as RGBA PNG [default: off]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, hide_short_help = true, value_name = "DIR")]
     dump: Option<PathBuf>,
 }
 

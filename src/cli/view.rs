@@ -4,6 +4,7 @@ use super::options::{Chosen, ModelArguments, Selection, StyleArguments};
 use super::preset::{LookArguments, PresetArguments};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use tinta::mesh::refuse_address;
 use tinta::settings::{HasSettings, Setting};
 use tinta::window::{
     Buffer, Layout, Orbit, Replay, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
@@ -29,27 +30,27 @@ pub(super) struct Arguments {
     scene: Chosen<OfView>,
 
     /// Size of the window in points, or one number for a square [default: 1280x720]
-    #[arg(long, value_name = "WxH", default_value = "1280x720", hide_default_value = true)]
+    #[arg(long, hide_short_help = true, value_name = "WxH", default_value = "1280x720", hide_default_value = true)]
     window: Size,
 
     /// OpenGL for the pictures from: egl, osmesa, auto (the first that works); the window has its own [default: auto]
-    #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
+    #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 
     /// Read shaders from this folder, laid out like glsl/, instead of the built-in ones; edits show at once [default: none]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, hide_short_help = true, value_name = "DIR")]
     glsl: Option<PathBuf>,
 
     /// Folder for files saved from the window [default: the current one]
-    #[arg(long, value_name = "DIR", default_value = ".", hide_default_value = true)]
+    #[arg(long, hide_short_help = true, value_name = "DIR", default_value = ".", hide_default_value = true)]
     folder: PathBuf,
 
     /// Play a recording of events, one JSON object a line, take its pictures and quit; docs/viewer.md has the format [default: none]
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, hide_short_help = true, value_name = "FILE")]
     replay: Option<PathBuf>,
 
     /// Print one JSON record of a recording: time to the first picture and of each frame [default: off]
-    #[arg(long, requires = "replay")]
+    #[arg(long, hide_short_help = true, requires = "replay")]
     json: bool,
 
     #[command(flatten)]
@@ -87,6 +88,7 @@ pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
     // What is broken in a file is said in the window; a name that is nothing at all need not open one.
     let is_missing = |model: &&String| !model.starts_with("builtin:") && !Path::new(model).exists();
     if let Some(path) = arguments.models.iter().find(is_missing) {
+        refuse_address(path)?;
         let problem = "there is no such file; check the name".to_owned();
         return Err(Error::model(path.clone(), problem));
     }

@@ -121,7 +121,8 @@ impl Border {
              draws them, about 2; ink has 2",
             |border: &mut Self| &mut border.width,
         )
-        .printed("E, appendix 1: the filter reads the next pixels");
+        .printed("E, appendix 1: the filter reads the next pixels")
+        .common();
         under(CARTOON, filter).chain(under(IMAGE_SPACE, vec![width])).collect()
     }
 

@@ -44,7 +44,7 @@ impl Dietrich {
         ];
         let color = Setting::of(
             "ink-color",
-            "COLOUR",
+            "COLOR",
             Color::kind(),
             "The ink's colour: a CSS name, #rrggbb or rgb(r,g,b)",
             |dietrich: &Self| dietrich.ink.text(),

@@ -235,7 +235,7 @@ impl CameraSettings {
             },
         );
         let settings = vec![
-            view,
+            view.common(),
             Setting::field("fov", "DEGREES", "Vertical field of view in degrees", |camera: &mut Self| {
                 &mut camera.fov_y_degrees
             })
@@ -245,14 +245,16 @@ impl CameraSettings {
                 "Parallel projection instead of perspective",
                 |camera: &Self| camera.parallel,
                 |camera, is_on| camera.parallel = is_on,
-            ),
+            )
+            .common(),
             Setting::field(
                 "framing",
                 "WHAT",
                 "In the picture's middle: the middle of the model's box, which stays there in every view (middle), or of what is \
                  seen, which then fills the picture (outline)",
                 |camera: &mut Self| &mut camera.framing,
-            ),
+            )
+            .common(),
             Setting::open_field(
                 "height",
                 "LENGTH",

@@ -1,4 +1,4 @@
-//! Choices: values that are one of a few names.
+//! Choices: values that are one of a few names, and the name that somebody meant who wrote another.
 
 use crate::error::ParseError;
 
@@ -17,13 +17,66 @@ pub trait Choice: Copy + PartialEq + 'static {
     ///
     /// # Errors
     ///
-    /// The names that there are.
+    /// The name that was meant, or the names that there are.
     fn of_name(name: &str) -> Result<Self, ParseError> {
         Self::NAMED.iter().find(|(known, _)| *known == name).map(|(_, value)| *value).ok_or_else(|| {
             let names: Vec<&str> = Self::NAMED.iter().map(|(name, _)| *name).collect();
-            ParseError(format!("choose one of {}", names.join(", ")))
+            ParseError(meant_or(name, &names, &format!("choose one of {}", names.join(", "))))
         })
     }
+}
+
+/// What to say of a name that there is not: which was meant, or else this.
+pub fn meant_or(name: &str, names: &[&str], otherwise: &str) -> String {
+    nearest(name, names).map_or_else(|| otherwise.to_owned(), |nearest| format!("did you mean {nearest}?"))
+}
+
+/// The name that somebody meant who wrote `word`: the nearest by letters added, left out, exchanged or swapped with the next,
+/// one for every three letters at most; else the only one that begins so. Capitals count as small letters, underscores and
+/// blanks as hyphens. `None` where no name is near.
+///
+/// ```
+/// use tinta_geometry::choice::nearest;
+/// assert_eq!(nearest("sobell", &["laplacian4", "sobel"]), Some("sobel"));
+/// assert_eq!(nearest("sharp", &["laplacian4", "sobel"]), None);
+/// ```
+pub fn nearest<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
+    /// Longer words are not compared: nobody means a name by them.
+    const LONGEST: usize = 64;
+    /// Fewer letters begin too many names.
+    const LEAST_BEGINNING: usize = 3;
+    let letters = |text: &str| -> Vec<char> {
+        let lower = text.chars().take(LONGEST + 1).flat_map(char::to_lowercase);
+        lower.map(|c| if c == '_' || c == ' ' { '-' } else { c }).collect()
+    };
+    let word = letters(word);
+    if word.len() > LONGEST {
+        return None;
+    }
+    let near = names.iter().map(|name| (edits(&word, &letters(name)), word.len().max(name.chars().count()) / 3, *name));
+    let best = near.filter(|(edits, most, _)| edits <= most).min_by_key(|(edits, ..)| *edits);
+    best.map(|(.., name)| name).or_else(|| {
+        let mut begun = names.iter().filter(|name| word.len() >= LEAST_BEGINNING && letters(name).starts_with(&word));
+        begun.next().filter(|_| begun.next().is_none()).copied()
+    })
+}
+
+/// How many letters must be added, left out, exchanged or swapped with the next to make one word of the other.
+fn edits(from: &[char], to: &[char]) -> usize {
+    let mut rows: Vec<Vec<usize>> = vec![(0..=to.len()).collect()];
+    for (i, &letter) in from.iter().enumerate() {
+        let mut row = vec![i + 1];
+        for (j, &other) in to.iter().enumerate() {
+            let exchanged = rows[i][j] + usize::from(letter != other);
+            let mut least = exchanged.min(rows[i][j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && letter == to[j - 1] && from[i - 1] == other {
+                least = least.min(rows[i - 1][j - 1] + 1);
+            }
+            row.push(least);
+        }
+        rows.push(row);
+    }
+    rows[from.len()][to.len()]
 }
 
 /// Makes choices of types with a table `ALL`, which are read by `parse` and displayed as their names.
@@ -51,4 +104,52 @@ macro_rules! choices {
             }
         }
     )+};
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edits_are_counted_as_by_hand() {
+        for (from, to, count) in [
+            ("", "", 0),
+            ("", "abc", 3),
+            ("sobel", "sobel", 0),
+            ("sobell", "sobel", 1),
+            ("redner", "render", 1),
+            ("kitten", "sitting", 3),
+            ("abcd", "badc", 2),
+            ("flaw", "lawn", 2),
+        ] {
+            let letters = |text: &str| text.chars().collect::<Vec<_>>();
+            assert_eq!(edits(&letters(from), &letters(to)), count, "{from} {to}");
+            assert_eq!(edits(&letters(to), &letters(from)), count, "{to} {from}");
+        }
+    }
+
+    #[test]
+    fn the_nearest_name_is_meant_or_none() {
+        let styles = ["phong", "three-pass", "two-pass", "inking", "ink", "charcoal"];
+        for (word, meant) in [
+            ("three_pass", Some("three-pass")),
+            ("Three Pass", Some("three-pass")),
+            ("threepass", Some("three-pass")),
+            ("INK", Some("ink")),
+            ("inkin", Some("inking")),
+            ("three", Some("three-pass")),
+            ("charcaol", Some("charcoal")),
+            ("toon", None),
+            ("", None),
+            ("i", None),
+            ("xx", None),
+            (&"ink".repeat(1000), None),
+        ] {
+            assert_eq!(nearest(word, &styles), meant, "{word}");
+        }
+        assert_eq!(nearest("lap", &["laplacian4", "laplacian8"]), None, "either may be meant");
+        assert_eq!(nearest("laplacian", &["laplacian4", "laplacian8"]), Some("laplacian4"), "the first of equals");
+        assert_eq!(meant_or("toon", &styles, "choose one of them"), "choose one of them");
+        assert_eq!(meant_or("mrt", &["mrtt"], ""), "did you mean mrtt?");
+    }
 }

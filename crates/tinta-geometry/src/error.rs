@@ -106,7 +106,7 @@ pub enum Error {
     #[error(transparent)]
     Text(#[from] ParseError),
     /// The command line is not understood.
-    #[error("{problem}; see --help")]
+    #[error("{problem}{}", if problem.ends_with('?') { "" } else { "; see --help" })]
     CommandLine {
         /// What is wrong with it.
         problem: String,

@@ -154,7 +154,7 @@ impl SceneSettings {
         let default = || Self::default().background;
         let background = Setting::of(
             "background",
-            "COLOUR",
+            "COLOR",
             Color::kind(),
             "Colour behind the scene: a CSS name, #rrggbb or rgb(r,g,b)",
             move |scene: &Self| match (scene.background, default()) {
@@ -169,8 +169,9 @@ impl SceneSettings {
         let settings = vec![
             Setting::field("size", "WxH", "Size in pixels, or one number for a square", |scene: &mut Self| {
                 &mut scene.size
-            }),
-            background.said("white"),
+            })
+            .common(),
+            background.said("white").common(),
             Setting::flag(
                 "transparent",
                 "No background: alpha 0 where nothing is drawn",
@@ -182,14 +183,16 @@ impl SceneSettings {
                         scene.background = Self::default().background;
                     }
                 },
-            ),
-            Setting::open_field("color", "COLOUR", "own", "One colour for all surfaces", |scene: &mut Self| {
+            )
+            .common(),
+            Setting::open_field("color", "COLOR", "own", "One colour for all surfaces", |scene: &mut Self| {
                 &mut scene.color
             })
-            .said("the model's own"),
+            .said("the model's own")
+            .common(),
             Setting::field(
                 "bare-color",
-                "COLOUR",
+                "COLOR",
                 "Colour of surfaces to which the model gives none",
                 |scene: &mut Self| &mut scene.bare_color,
             ),

@@ -26,6 +26,8 @@
 mod provenance;
 mod value;
 
+use crate::choice::meant_or;
+
 pub use crate::choice::Choice;
 pub use provenance::{Provenance, Whose};
 pub use value::{Value, names_of};
@@ -181,6 +183,8 @@ pub struct Setting<T> {
     pub said_default: Option<&'static str>,
     /// What it is listed under.
     pub heading: &'static str,
+    /// Whether most people need it, so that short lists show it too.
+    pub is_common: bool,
     /// The text for a value that is left open.
     pub open: Option<&'static str>,
     /// Whose its default is, where somebody asked.
@@ -281,6 +285,7 @@ impl<T: Clone + 'static> Setting<T> {
             help,
             said_default: None,
             heading: "",
+            is_common: false,
             open: None,
             provenance: None,
             former: &[],
@@ -326,6 +331,13 @@ impl<T: Clone + 'static> Setting<T> {
         self
     }
 
+    /// As one of the few that most people need: the short help (`-h`) lists it.
+    #[must_use]
+    pub fn common(mut self) -> Self {
+        self.is_common = true;
+        self
+    }
+
     /// With another name in a panel than its own.
     #[must_use]
     pub fn labelled(mut self, label: &'static str) -> Self {
@@ -340,12 +352,39 @@ impl<T: Clone + 'static> Setting<T> {
 
     /// The same setting of a whole that may have a `T` in it; where it has none it has no such setting.
     pub fn within<S: Clone + 'static>(self, part: fn(&mut S) -> Option<&mut T>) -> Setting<S> {
-        let Self { name, kind, value_name, help, said_default, heading, open, provenance, former, label, get, set } =
-            self;
+        let Self {
+            name,
+            kind,
+            value_name,
+            help,
+            said_default,
+            heading,
+            is_common,
+            open,
+            provenance,
+            former,
+            label,
+            get,
+            set,
+        } = self;
         let get = move |whole: &S| part(&mut whole.clone()).and_then(|part| get(part));
         let set = move |whole: &mut S, text: &str| part(whole).map_or(Ok(()), |part| set(part, text));
         let (get, set): (Get<S>, Set<S>) = (Box::new(get), Box::new(set));
-        Setting { name, kind, value_name, help, said_default, heading, open, provenance, former, label, get, set }
+        Setting {
+            name,
+            kind,
+            value_name,
+            help,
+            said_default,
+            heading,
+            is_common,
+            open,
+            provenance,
+            former,
+            label,
+            get,
+            set,
+        }
     }
 
     /// A text as it is written now: another where earlier versions had this one.
@@ -369,9 +408,23 @@ impl<T: Clone + 'static> Setting<T> {
             return Ok(());
         }
         (self.set)(of, self.present(text)).map_err(|problem| match problem {
-            Problem::Text(problem) => Error::value(self.name, text, problem),
+            Problem::Text(problem) => Error::value(self.name, text, self.said_of(text, problem)),
             Problem::Refused(error) => error,
         })
+    }
+
+    /// What to say of a text that is no value: the name that was meant, where its values are names, or what is wrong.
+    fn said_of(&self, text: &str, problem: String) -> String {
+        match &self.kind {
+            Kind::Numbers { .. } => problem,
+            kind => {
+                let names = kind.offered();
+                let is_list = matches!(kind, Kind::Several(_));
+                let mut words = text.split(|c| is_list && c == ',').map(str::trim);
+                let unknown = words.find(|word| !names.contains(word));
+                meant_or(unknown.unwrap_or_default(), &names, &problem)
+            }
+        }
     }
 
     /// The text that this is of what is given; the error says what should be given instead.
@@ -462,7 +515,7 @@ impl<T: Clone + 'static> Table<T> {
             let forms = self.defaults.iter().filter(|form| setting.value(form).is_some());
             for form in forms.take(1) {
                 match (setting.set)(&mut form.clone(), setting.present(text)) {
-                    Err(Problem::Text(problem)) => first = first.and(Err(problem)),
+                    Err(Problem::Text(problem)) => first = first.and(Err(setting.said_of(text, problem))),
                     _ => return Ok(()),
                 }
             }

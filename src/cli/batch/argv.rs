@@ -1,8 +1,9 @@
 //! Turns a job into command-line arguments, so that the usual parser reads and checks its options.
 
-use super::super::Arguments;
+use super::super::help;
+use super::super::mistakes::meant_option;
 use super::super::preset::words_of;
-use clap::{Arg, ArgAction, Command, CommandFactory};
+use clap::{Arg, ArgAction, Command};
 use std::ffi::OsString;
 use std::path::Path;
 use tinta::batch::{Job, OUTPUTS, place_in};
@@ -11,7 +12,7 @@ use tinta::{Error, Result};
 
 /// The command line of a job whose outputs lie in `folder`.
 pub(super) fn argv(job: &Job, folder: &Path) -> Result<Vec<OsString>> {
-    let whole = Arguments::command();
+    let whole = help::whole();
     let name = job.command.name();
     let refuse = |key: &str, problem: String| Error::setting(key, problem);
     let command = whole
@@ -33,10 +34,11 @@ pub(super) fn argv(job: &Job, folder: &Path) -> Result<Vec<OsString>> {
 fn unknown(command: &Command, key: &str) -> Error {
     let name = command.get_name();
     // Long ones are no options anyway.
-    Error::setting(
-        key.chars().take(40).collect::<String>(),
-        format!("there is no such option; keys are long names of tinta {name} --help, and id, command, model"),
-    )
+    let choice = match meant_option(command, key) {
+        Some(meant) => format!("did you mean {meant}?"),
+        None => format!("keys are long names of tinta {name} --help, and id, command, model"),
+    };
+    Error::setting(key.chars().take(40).collect::<String>(), format!("there is no such option; {choice}"))
 }
 
 /// The values of an option: as many as are given where it may be repeated, otherwise one, with commas in it.

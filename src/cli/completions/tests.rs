@@ -6,7 +6,7 @@ use clap::error::ErrorKind;
 const SHELLS: [Shell; 3] = [Shell::Bash, Shell::Zsh, Shell::Fish];
 
 fn whole() -> Command {
-    let mut whole = super::super::Arguments::command().disable_help_subcommand(true);
+    let mut whole = super::super::help::whole().disable_help_subcommand(true);
     whole.build();
     whole
 }
@@ -66,7 +66,7 @@ fn refusal(command: &Command, option: &str, value: &str) -> Option<String> {
 #[test]
 fn every_name_offered_is_taken_and_every_choice_is_offered() {
     let whole = whole();
-    let with_values = values::with_values(super::super::Arguments::command());
+    let with_values = values::with_values(super::super::help::whole());
     let (mut names, mut choices) = (0, 0);
     for command in whole.get_subcommands() {
         let offering = with_values.find_subcommand(command.get_name()).unwrap();
@@ -106,7 +106,7 @@ fn groups_of_stress_are_those_its_help_names() {
 #[test]
 fn files_are_offered_where_files_are_taken_and_nothing_where_numbers_are() {
     use clap::ValueHint::{AnyPath, DirPath, FilePath, Other};
-    let with_values = values::with_values(super::super::Arguments::command());
+    let with_values = values::with_values(super::super::help::whole());
     let hint = |command: &str, id: &str| {
         let command = with_values.find_subcommand(command).unwrap();
         command.get_arguments().find(|arg| arg.get_id() == id).unwrap().get_value_hint()

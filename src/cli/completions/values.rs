@@ -33,8 +33,6 @@ fn with_value(command: &str, arg: Arg) -> Arg {
     }
     match value_name {
         "FILE" | "MODEL" | "PICTURE" => arg.value_hint(ValueHint::FilePath),
-        // zsh takes what stands after a colon for what it is to do.
-        "FILE|paper:NAME" => arg.value_hint(ValueHint::FilePath).value_name("FILE"),
         "FILE|DIR" => arg.value_hint(ValueHint::AnyPath),
         "DIR" => arg.value_hint(ValueHint::DirPath),
         // A number, a colour, a text: no file's name.

@@ -3,7 +3,7 @@
 use super::*;
 
 fn whole() -> Command {
-    let mut whole = super::super::Arguments::command().disable_help_subcommand(true);
+    let mut whole = super::super::help::whole().disable_help_subcommand(true);
     whole.build();
     whole
 }

@@ -75,14 +75,15 @@ fn a_setting_is_found_at_every_door() {
     );
     assert!(given(&["--dot-spacing=wide"]).unwrap_err().to_string().contains("give a number"));
     // Help, with the default of the struct.
-    let help = command().render_help().to_string();
+    let command = super::super::help::unmarked(command());
+    let help = command.clone().render_help().to_string();
     for text in
         ["Style halftone:", "--dot-spacing <PIXELS>", "more is coarser [default: 6]", "round, square [default: round]"]
     {
         assert!(help.contains(text), "{text}: {help}");
     }
     // The manual page.
-    let page = man::page(&command(), &[], &[]);
+    let page = man::page(&command, &[], &[]);
     assert!(page.contains("dot\\-spacing") && page.contains("more is coarser"), "{page}");
     // What a shell offers.
     assert_eq!(completions::of_table::<Halftone>("dot-shape"), ["round", "square"]);

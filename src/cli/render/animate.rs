@@ -20,11 +20,11 @@ pub(super) struct AnimationArguments {
     pub turntable: Option<u32>,
 
     /// Draw all frames of an animated model (MD2), or those of one movement, such as --animate=run [default: off]
-    #[arg(long, value_name = "MOVEMENT", num_args = 0..=1, require_equals = true, default_missing_value = "", conflicts_with = "model-frame")]
+    #[arg(long, hide_short_help = true, value_name = "MOVEMENT", num_args = 0..=1, require_equals = true, default_missing_value = "", conflicts_with = "model-frame")]
     pub animate: Option<String>,
 
     /// Time that each picture is shown, in milliseconds [default: 100 for a model's frame; a turn takes 2500, at most 200 each]
-    #[arg(long, value_name = "MS", value_parser = clap::value_parser!(u16).range(20..=60_000))]
+    #[arg(long, hide_short_help = true, value_name = "MS", value_parser = clap::value_parser!(u16).range(20..=60_000))]
     frame_delay: Option<u16>,
 }
 

@@ -19,11 +19,11 @@ pub(super) struct KeepArguments {
     preset: PresetArguments,
 
     /// Save the options of this command line and of --preset as a preset, once the picture is drawn [default: off]
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, hide_short_help = true, value_name = "FILE")]
     save_preset: Option<String>,
 
     /// Leave out the recipe, from which `tinta again` redraws a .png or .svg, and the file names in it [default: off]
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     pub no_recipe: bool,
 }
 

@@ -4,6 +4,7 @@ use super::super::model_cache::ModelCache;
 use super::super::models::load_with_files;
 use super::super::progress::Progress;
 use super::{Arguments, keep, model_records};
+use crate::choice::meant_or;
 use std::path::Path;
 use std::str::FromStr;
 use std::sync::mpsc::RecvTimeoutError;
@@ -12,6 +13,7 @@ use tinta::lines::{LineSettings, Progress as LineProgress, chain, svg_of_paths};
 use tinta::preset::Options;
 use tinta::record::{CameraRecord, LineCounts, LinesRecord, LinesStyle, ModelRecord, lines_json};
 use tinta::renderer::milliseconds_since;
+use tinta::settings::names_of;
 use tinta::{Error, Recipe, Result, Scene, Show, StyleName, SvgSettings, TextTarget, VisibleLines};
 
 /// What `--style` takes: a style that GL draws, or lines.
@@ -28,7 +30,9 @@ impl FromStr for StyleChoice {
         if text == "lines" {
             return Ok(Self::Lines);
         }
-        text.parse().map(Self::Picture).map_err(|error: tinta::ParseError| format!("{error}, lines"))
+        let names: Vec<&str> = names_of::<StyleName>().into_iter().chain(["lines"]).collect();
+        let otherwise = format!("choose one of {}", names.join(", "));
+        text.parse().map(Self::Picture).map_err(|_| meant_or(text, &names, &otherwise))
     }
 }
 

@@ -12,15 +12,15 @@ use tinta::{Error, Picture, Renderer, Result, Scene, Target};
 #[command(next_help_heading = "Skipping work that cannot change the picture")]
 pub(super) struct PruneArguments {
     /// Draw everything as published [default: off, work that cannot change the picture is skipped]
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     full: bool,
 
     /// Do not skip these, each explained in docs/pruning.md: border, outside-objects, culled-faces, hidden-faces, unused-light, background-square, empty-pixels, unread-map, overwritten-clear, unread-textures [default: none]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "full")]
+    #[arg(long, hide_short_help = true, value_name = "NAMES", value_delimiter = ',', conflicts_with = "full")]
     keep: Vec<Rule>,
 
     /// Skip all that can be skipped, draw in full, too, and compare byte for byte; if a pixel differs, exit with 1 and write OUTPUT-difference.png [default: off]
-    #[arg(long, conflicts_with = "full")]
+    #[arg(long, hide_short_help = true, conflicts_with = "full")]
     pub verify: bool,
 }
 

@@ -28,9 +28,9 @@ impl ClassColors {
 impl ClassColors {
     /// The setting of the colours.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
-        let help = "Colours of the lines by class: CLASS=COLOUR, separated by commas, or figure-6 (outer red, inner \
+        let help = "Colours of the lines by class: CLASS=COLOR, separated by commas, or figure-6 (outer red, inner \
                     blue); style lines too";
-        Setting::field("class-colors", "COLOURS", help, field)
+        Setting::field("class-colors", "COLORS", help, field)
             .printed("D, Inking: glColor3ub( 0, 0, 0 )")
             .labelled("class colours")
     }
@@ -42,7 +42,7 @@ impl Value for ClassColors {
         Kind::Text { offered: &["figure-6", "black"], example }
     }
 
-    /// `CLASS=COLOUR` of each class that is not black.
+    /// `CLASS=COLOR` of each class that is not black.
     fn text(&self) -> String {
         if *self == Self::figure_6() {
             return "figure-6".to_owned();
@@ -68,8 +68,7 @@ impl FromStr for ClassColors {
         }
         let mut colors = Self::default();
         for setting in text.split(',') {
-            let usage =
-                || "write figure-6, or CLASS=COLOUR, separated by commas: silhouette=red,crease=blue".to_owned();
+            let usage = || "write figure-6, or CLASS=COLOR, separated by commas: silhouette=red,crease=blue".to_owned();
             let (class, color) = setting.split_once('=').ok_or_else(usage)?;
             colors.0[class.trim().parse::<Class>()? as usize] = color.trim().parse()?;
         }
@@ -80,5 +79,8 @@ impl FromStr for ClassColors {
 /// The setting of how wide lines are.
 pub fn line_width<T: Clone + 'static>(field: fn(&mut T) -> &mut f32) -> Setting<T> {
     let help = "Width of the lines in pixels, above 0 to 16384; style lines too";
-    Setting::field("line-width", "PIXELS", help, field).printed("D, Inking: glLineWidth( 2 )").range(0.5, 40.0, 1)
+    Setting::field("line-width", "PIXELS", help, field)
+        .printed("D, Inking: glLineWidth( 2 )")
+        .range(0.5, 40.0, 1)
+        .common()
 }

@@ -72,7 +72,8 @@ impl LoadOptions {
                 "AXIS",
                 "Axis that points up in the file: auto (z in MD2 and 3DS, else y), x, y, z, -x, -y, -z",
                 |load: &mut Self| &mut load.up_axis,
-            ),
+            )
+            .common(),
             Setting::field(
                 "weld",
                 "SHARE",
@@ -248,6 +249,7 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
     check(options)?;
     let mut remarks = Vec::new();
     watch(LoadStage::Reading);
+    refuse_address(path)?;
     let bytes = files::read(Path::new(path), MODEL_BYTES)
         .map_err(|failure| failure.into_error(FileKind::Model, path, "a model file"))?;
     watch(LoadStage::Parsing);
@@ -255,6 +257,24 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
     let soup = soup(&bytes, path, options, &Materials::Beside(&folder), &folder, &mut remarks)?;
     watch(LoadStage::Joining);
     made(soup, path, options, remarks)
+}
+
+/// Refuses what lies on a network, where nothing is read.
+///
+/// # Errors
+///
+/// [`Error::File`] with how to fetch it.
+pub fn refuse_address(path: &str) -> Result<()> {
+    let is_address = ["https://", "http://", "ftp://"]
+        .iter()
+        .any(|scheme| path.get(..scheme.len()).is_some_and(|start| start.eq_ignore_ascii_case(scheme)));
+    match is_address {
+        false => Ok(()),
+        true => Err(Error::model(
+            path,
+            "this is an address, and only files are read; fetch it first, for instance with: curl -L ADDRESS | tinta render - -o picture.png",
+        )),
+    }
 }
 
 /// Reads a model out of memory: an OBJ, PLY, STL, MD2, 3DS or glTF file's bytes. No other file is read: the materials of an OBJ

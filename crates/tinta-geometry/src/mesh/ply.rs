@@ -1,4 +1,4 @@
-//! PLY, text and binary: vertices with normals and texture coordinates, polygon faces.
+//! PLY, text and binary: vertices with normals and texture coordinates, polygon faces, triangle strips.
 //!
 //! `header.rs` reads the header, `payload.rs` what follows it.
 
@@ -6,7 +6,7 @@ mod header;
 mod payload;
 
 use super::NONE;
-use super::soup::{Corner, Soup};
+use super::soup::{Corner, Soup, is_too_much};
 use crate::error::{Error, Result};
 use crate::limits::PLY_HEADER_BYTES;
 use glam::{DVec3, Vec2, Vec3};
@@ -39,6 +39,7 @@ pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
         let read = match name {
             "vertex" => contents.vertices(&mut payload, element),
             "face" => contents.faces(&mut payload, element),
+            "tristrips" => contents.strips(&mut payload, element, bytes.len()),
             _ => (0..element.count).try_for_each(|_| payload.element(element, |_, _| {})),
         };
         read.map_err(|Damage(cause)| {
@@ -61,8 +62,9 @@ fn check_header(header: &Header) -> std::result::Result<(), &'static str> {
     if header.element("face").is_some() && !has("face", "vertex_indices") && !has("face", "vertex_index") {
         return Err("its faces have no list of vertex_indices; export it again");
     }
-    if header.element("tristrips").is_some() {
-        return Err("its faces are triangle strips, which tinta does not read; export it with single faces");
+    if header.element("tristrips").is_some() && !has("tristrips", "vertex_indices") && !has("tristrips", "vertex_index")
+    {
+        return Err("its triangle strips have no list of vertex_indices; export it again");
     }
     Ok(())
 }
@@ -164,6 +166,67 @@ impl Contents {
         }
         Ok(())
     }
+
+    /// Strips of triangles, as old scans have them: often a single one, with negative indices where a new one begins.
+    fn strips(
+        &mut self,
+        payload: &mut Payload<'_>,
+        element: &Element,
+        file_bytes: usize,
+    ) -> std::result::Result<(), Damage> {
+        let Self { soup, vertices, has_normals, has_texture } = self;
+        let with = |used: bool, index: u32| if used { index } else { NONE };
+        let mut is_full = false;
+        for _ in 0..element.count {
+            let mut strip = Strip::default();
+            payload.element(element, |name, value| {
+                let (true, Value::Item(index)) = (name == "vertex_indices" || name == "vertex_index", value) else {
+                    return;
+                };
+                let Some([a, b, c]) = strip.triangle(index) else { return };
+                // A corner twice only leads the strip to its next place.
+                if is_full || a == b || b == c || c == a {
+                    return;
+                }
+                if [a, b, c].iter().any(|index| *index >= i64::from(*vertices)) {
+                    soup.defects.out_of_range_faces += 1;
+                    return;
+                }
+                soup.corners.extend([a, b, c].map(|index| {
+                    let index = index as u32;
+                    Corner { position: index, normal: with(*has_normals, index), texture: with(*has_texture, index) }
+                }));
+                soup.polygon_sizes.push(3);
+                // A byte may be a triangle: what is too much for a mesh is refused with what was read up to here.
+                let count = soup.polygon_sizes.len();
+                is_full = count.is_multiple_of(1 << 16)
+                    && is_too_much(file_bytes, soup.positions.len(), soup.corners.len(), count);
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// A strip on its way into triangles: each corner makes one with the two before it, by turns this way round and the other.
+#[derive(Default)]
+struct Strip {
+    before: [Option<i64>; 2],
+    is_turned: bool,
+}
+
+impl Strip {
+    /// The triangle that ends with the next corner, if one does; a negative index ends the strip, and another begins.
+    fn triangle(&mut self, index: i64) -> Option<[i64; 3]> {
+        if index < 0 {
+            *self = Self::default();
+            return None;
+        }
+        let [first, second] = self.before;
+        self.before = [second, Some(index)];
+        let (first, second) = (first?, second?);
+        self.is_turned = !self.is_turned;
+        Some(if self.is_turned { [first, second, index] } else { [second, first, index] })
+    }
 }
 
 #[cfg(test)]
@@ -232,8 +295,85 @@ mod tests {
         let xyz = "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
         refused("element vertex 1\nproperty float x\nproperty float y\n", "no x, y and z");
         refused(&format!("{xyz}element face 1\nproperty int a\n"), "no list of vertex_indices");
-        refused(&format!("{xyz}element tristrips 1\nproperty list int int vertex_indices\n"), "triangle strips");
+        refused(&format!("{xyz}element tristrips 1\nproperty int a\n"), "its triangle strips have no list");
         refused("forma", "damaged");
+    }
+
+    #[test]
+    fn a_strip_turns_every_other_triangle_and_begins_anew_behind_a_negative_index() {
+        let triangles = |indices: &[i64]| {
+            let mut strip = Strip::default();
+            indices.iter().filter_map(|index| strip.triangle(*index)).collect::<Vec<_>>()
+        };
+        assert_eq!(triangles(&[4, 5, 6, 7, 8]), [[4, 5, 6], [6, 5, 7], [6, 7, 8]]);
+        assert_eq!(triangles(&[0, 1, 2, -1, 3, 4, 5, 6]), [[0, 1, 2], [3, 4, 5], [5, 4, 6]]);
+        assert!(triangles(&[0, 1, -1, 2, 3, -1]).is_empty());
+    }
+
+    #[test]
+    fn strips_are_the_faces_that_they_stand_for() {
+        // A field of 5 by 4 vertices, row by row: the first two rows as one strip, the others stitched to one.
+        let (columns, rows) = (5, 4);
+        let vertices: String = (0..columns * rows).map(|i| format!("{} {} 0\n", i % columns, i / columns)).collect();
+        let (mut faces, mut strip) = (Vec::new(), Vec::<String>::new());
+        for row in 0..rows - 1 {
+            for column in 0..columns {
+                let (below, above) = (row * columns + column, (row + 1) * columns + column);
+                if row == 2 && column == 0 {
+                    let last = strip.last().unwrap().clone();
+                    strip.extend([last, above.to_string()]);
+                }
+                strip.extend([above.to_string(), below.to_string()]);
+                if column > 0 {
+                    faces.push([above - 1, below - 1, above]);
+                    faces.push([above, below - 1, below]);
+                }
+            }
+            strip.extend((row == 0).then(|| "-1".to_owned()));
+        }
+        let head = "ply\nformat ascii 1.0\nelement vertex 20\nproperty float x\nproperty float y\nproperty float z\n";
+        let list = "property list int int vertex_indices\nend_header\n";
+        let of_faces: String = faces.iter().map(|[a, b, c]| format!("3 {a} {b} {c}\n")).collect();
+        let as_faces = format!("{head}element face {}\n{list}{vertices}{of_faces}", faces.len());
+        let as_strips = format!("{head}element tristrips 1\n{list}{vertices}{} {}\n", strip.len(), strip.join(" "));
+        let corners = |text: &str| {
+            let soup = read(text.as_bytes(), "t.ply").unwrap();
+            assert!(soup.polygon_sizes.iter().all(|size| *size == 3) && soup.defects.is_empty());
+            // The same way round, whichever corner comes first.
+            let mut triangles: Vec<[u32; 3]> = soup
+                .corners
+                .chunks(3)
+                .map(|corners| {
+                    let mut triangle = [corners[0].position, corners[1].position, corners[2].position];
+                    let least = (0..3).min_by_key(|place| triangle[*place]).unwrap();
+                    triangle.rotate_left(least);
+                    triangle
+                })
+                .collect();
+            triangles.sort_unstable();
+            triangles
+        };
+        assert_eq!(corners(&as_faces).len(), 24);
+        assert_eq!(corners(&as_strips), corners(&as_faces));
+        let (before, _) = as_strips.trim_end().rsplit_once(' ').unwrap();
+        assert_eq!(read(format!("{before} 20\n").as_bytes(), "t.ply").unwrap().defects.out_of_range_faces, 1);
+    }
+
+    #[test]
+    fn a_strip_of_more_triangles_than_its_bytes_are_worth_is_refused() {
+        let mut file = b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+            property float z\nelement tristrips 1\nproperty list int uchar vertex_indices\nend_header\n"
+            .to_vec();
+        file.extend(
+            [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].as_flattened().iter().flat_map(|x| x.to_le_bytes()),
+        );
+        let count = 1_000_000;
+        file.extend(i32::to_le_bytes(count));
+        file.extend((0..count).map(|place| (place % 3) as u8));
+        let soup = read(&file, "t.ply").unwrap();
+        assert!(soup.polygon_sizes.len() < count as usize, "no more is kept than shows that it is too much");
+        let message = soup.check_memory(file.len(), "t.ply").unwrap_err().to_string();
+        assert!(message.contains("times the file's size in memory"), "{message}");
     }
 
     #[test]

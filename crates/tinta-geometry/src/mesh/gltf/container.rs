@@ -7,7 +7,10 @@ use super::super::format::GLB_MAGIC;
 use crate::bytes::Bytes;
 use crate::files::shown;
 use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES};
-use gltf_json::{Asset, Root};
+use gltf_json::Root;
+use serde::Deserialize;
+use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use std::fmt::Formatter;
 
 const HEADER_BYTES: usize = 12;
 const JSON_CHUNK: u32 = u32::from_le_bytes(*b"JSON");
@@ -30,7 +33,10 @@ pub(super) fn open(file: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
         return Err(format!("its header has {HEADER_BYTES} bytes but the file has {}; export it again", file.len()));
     };
     if version != 2 {
-        return Err(format!("it is GLB version {version}; only version 2 is read, export it again"));
+        return Err(match version {
+            1 => old("1.0"),
+            _ => format!("it is GLB version {version}; only version 2 is read, export it again"),
+        });
     }
     let body = (length as usize).checked_sub(HEADER_BYTES).and_then(|length| bytes.take(length));
     let Some(body) = body else {
@@ -67,24 +73,81 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, String> {
         ));
     }
     let root = Root::from_slice(json).map_err(|error| {
-        let version = serde_json::from_slice::<Versioned>(json).map(|file| file.asset.version);
+        let version = serde_json::from_slice::<Versioned>(json).ok().and_then(Versioned::version);
         match version {
-            Ok(version) if !version.starts_with("2.") => old(&version),
+            Some(version) if !is_read(&version) => old(&version),
             _ => format!("its JSON is not valid glTF ({}); it is damaged, export it again", shown(&error.to_string())),
         }
     })?;
     match &root.asset.version {
-        version if !version.starts_with("2.") => Err(old(version)),
+        version if !is_read(version) => Err(old(version)),
         _ => Ok(root),
     }
 }
 
+/// Whether this is the version that is read.
+fn is_read(version: &str) -> bool {
+    version == "2" || version.starts_with("2.")
+}
+
+/// The sentence about a file of another version.
 fn old(version: &str) -> String {
-    format!("it is glTF {}; only glTF 2 is read, export it as glTF 2", shown(version))
+    let remedy = match version.starts_with('1') {
+        true => "convert it, for instance with: gltf-pipeline -i IN.gltf -o OUT.glb",
+        false => "export it as glTF 2",
+    };
+    format!("it is glTF {}, and only glTF 2 is read; {remedy}", shown(version))
 }
 
 /// All that is asked of a file that is not understood.
-#[derive(serde::Deserialize)]
+#[derive(Deserialize)]
 struct Versioned {
-    asset: Asset,
+    asset: Option<AssetVersion>,
+    accessors: Option<Named>,
+    meshes: Option<Named>,
+}
+
+#[derive(Deserialize)]
+struct AssetVersion {
+    version: Option<serde_json::Value>,
+}
+
+impl Versioned {
+    /// What it says; where it says nothing, 1.0 if its meshes or accessors have names as in glTF 1 instead of numbers.
+    fn version(self) -> Option<String> {
+        let said = self.asset.and_then(|asset| asset.version).map(|version| match version {
+            serde_json::Value::String(text) => text,
+            other => other.to_string(),
+        });
+        let is_first = [self.accessors, self.meshes].into_iter().flatten().any(|Named(is_named)| is_named);
+        said.or_else(|| is_first.then(|| "1.0".to_owned()))
+    }
+}
+
+/// Whether members have names, as in an object, or are a list.
+struct Named(bool);
+
+impl<'de> Deserialize<'de> for Named {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Either;
+
+        impl<'de> Visitor<'de> for Either {
+            type Value = Named;
+
+            fn expecting(&self, out: &mut Formatter<'_>) -> std::fmt::Result {
+                out.write_str("an object or a list")
+            }
+
+            fn visit_map<M: MapAccess<'de>>(self, mut members: M) -> Result<Named, M::Error> {
+                while members.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
+                Ok(Named(true))
+            }
+
+            fn visit_seq<S: SeqAccess<'de>>(self, mut members: S) -> Result<Named, S::Error> {
+                while members.next_element::<IgnoredAny>()?.is_some() {}
+                Ok(Named(false))
+            }
+        }
+        from.deserialize_any(Either)
+    }
 }

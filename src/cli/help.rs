@@ -1,0 +1,127 @@
+//! The two helps: `-h` lists the options that most people need, `--help` all of them in their groups.
+//!
+//! Which these are is declared with the settings (`Setting::common`), and with the options of single commands as clap has it
+//! (`hide_short_help`). clap would give each option of a long help three lines; here both are set as its short one is.
+
+use super::Arguments;
+use clap::{Arg, ArgAction, Command, CommandFactory};
+use std::ffi::OsString;
+
+/// A help of at most so many lines is one page, and needs no shorter one.
+const PAGE_LINES: usize = 60;
+
+/// The program's commands; help lists every option.
+pub(super) fn whole() -> Command {
+    Arguments::command().mut_subcommands(unmarked)
+}
+
+/// A command whose help lists every option, marked or not.
+pub(super) fn unmarked(command: Command) -> Command {
+    command.mut_args(|arg| arg.hide_short_help(false))
+}
+
+/// The program's commands for these words, the program's name first: where they ask for the short help, that is what help
+/// prints.
+pub(super) fn command(words: &[OsString]) -> Command {
+    if !words.iter().skip(1).take_while(|word| *word != "--").any(|word| word == "-h") {
+        return whole();
+    }
+    Arguments::command().mut_subcommands(|command| {
+        let needed: Vec<String> = command.get_arguments().filter(|arg| !arg.is_hide_short_help_set()).map(id).collect();
+        let whole = unmarked(command);
+        if lines(&whole) <= PAGE_LINES { whole } else { shortened(whole, &needed) }
+    })
+}
+
+/// The arguments of a command that are options, with a value or without.
+pub(super) fn options(command: &Command) -> impl Iterator<Item = &Arg> {
+    command.get_arguments().filter(|arg| arg.get_long().is_some())
+}
+
+fn id(arg: &Arg) -> String {
+    arg.get_id().to_string()
+}
+
+/// How many lines a command's help has on a narrow terminal.
+fn lines(command: &Command) -> usize {
+    command.clone().term_width(80).render_help().to_string().lines().count()
+}
+
+/// A command that lists these options alone, in one group, and says where the others are.
+fn shortened(command: Command, needed: &[String]) -> Command {
+    let name = command.get_name().to_owned();
+    let count = options(&command).count();
+    command
+        .mut_args(|arg| {
+            let is_needed = needed.contains(&id(&arg));
+            let is_option = !arg.is_positional();
+            let arg = if is_needed { arg } else { arg.hide(true) };
+            if is_option { arg.help_heading(None) } else { arg }
+        })
+        .disable_help_flag(true)
+        .arg(
+            Arg::new("help").short('h').long("help").action(ArgAction::Help).help("Print help; -h prints this summary"),
+        )
+        .after_help(format!("All {count} options, in groups: tinta {name} --help"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn help_of(line: &str) -> String {
+        let words: Vec<OsString> = line.split(' ').map(OsString::from).collect();
+        command(&words).term_width(80).try_get_matches_from(&words).unwrap_err().to_string()
+    }
+
+    /// The options that a help lists.
+    fn listed(help: &str) -> Vec<&str> {
+        let lines = help.lines().map(str::trim_start).filter(|line| line.starts_with('-'));
+        lines.filter_map(|line| line.split([' ', '[']).find(|word| word.starts_with("--"))).collect()
+    }
+
+    #[test]
+    fn the_short_help_of_every_command_fits_on_a_page() {
+        for subcommand in Arguments::command().get_subcommands() {
+            let name = subcommand.get_name();
+            let short = help_of(&format!("tinta {name} -h"));
+            assert!(short.lines().count() <= PAGE_LINES, "{name}: {} lines\n{short}", short.lines().count());
+            assert!(short.lines().all(|line| line.chars().count() <= 80), "{short}");
+        }
+    }
+
+    #[test]
+    fn the_short_help_has_what_is_marked_and_the_whole_one_everything() {
+        let (short, whole) = (help_of("tinta render -h"), help_of("tinta render --help"));
+        let all = listed(&whole);
+        assert!(listed(&short).iter().all(|option| all.contains(option)), "{short}");
+        assert!((10..=20).contains(&listed(&short).len()), "{short}");
+        let command = Arguments::command();
+        let render = command.find_subcommand("render").unwrap();
+        for arg in options(render) {
+            let option = format!("--{}", arg.get_long().unwrap());
+            assert!(all.contains(&option.as_str()), "{option}");
+            assert_eq!(listed(&short).contains(&option.as_str()), !arg.is_hide_short_help_set(), "{option}\n{short}");
+        }
+        let end = format!("All {} options, in groups: tinta render --help\n", options(render).count());
+        assert!(short.ends_with(&end), "{short}");
+        assert!(whole.contains("\nCamera:\n") && !short.contains("\nCamera:\n"));
+        // Wherever the word stands; behind two dashes it is a model.
+        assert_eq!(help_of("tinta render a.obj --style ink -h"), short);
+        assert!(help_of("tinta help render").contains("\nCamera:\n"));
+    }
+
+    #[test]
+    fn a_help_of_one_page_is_the_same_for_both() {
+        for name in ["textures", "figures", "info", "again"] {
+            assert_eq!(help_of(&format!("tinta {name} -h")), help_of(&format!("tinta {name} --help")));
+        }
+    }
+
+    #[test]
+    fn no_line_of_the_examples_is_broken_on_a_narrow_terminal() {
+        let help = help_of("tinta --help");
+        let written = Arguments::command().get_after_help().unwrap().to_string();
+        assert!(help.contains(&written), "{help}");
+    }
+}

@@ -1,0 +1,217 @@
+//! What is wrong with a command line, in one sentence: clap's without its usage lines and hints, or a better one where more
+//! can be said, such as the name that was meant.
+
+use super::help::options;
+use crate::choice::{meant_or, nearest};
+use clap::Command;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use std::ffi::OsString;
+use std::path::Path;
+
+/// Most characters of clap's message that are said.
+const LONGEST_SENTENCE: usize = 400;
+
+/// What clap has against these words, the program's name first, which `whole` was to read.
+pub(super) fn sentence(error: &clap::Error, whole: &Command, words: &[OsString]) -> String {
+    let command = words.iter().skip(1).find_map(|word| whole.find_subcommand(word)).unwrap_or(whole);
+    let better = match error.kind() {
+        ErrorKind::InvalidSubcommand => unknown_command(error, whole),
+        ErrorKind::UnknownArgument => unknown_option(error, command, words),
+        ErrorKind::InvalidValue => unknown_value(error),
+        ErrorKind::MissingRequiredArgument => missing(error, whole, command, words),
+        _ => None,
+    };
+    better.unwrap_or_else(|| first_paragraph(&error.to_string()))
+}
+
+/// The first paragraph of a message on one line, which is not without end: a value may be as long as a file.
+fn first_paragraph(text: &str) -> String {
+    let paragraph = text.split("\n\n").next().unwrap_or_default();
+    let words: Vec<&str> = paragraph.split_whitespace().collect();
+    let sentence = words.join(" ");
+    shortened(sentence.strip_prefix("error: ").unwrap_or(&sentence))
+}
+
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_SENTENCE) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}…", &text[..end]),
+    }
+}
+
+/// A text that clap's error holds.
+fn text(error: &clap::Error, kind: ContextKind) -> Option<&str> {
+    match error.get(kind) {
+        Some(ContextValue::String(text)) => Some(text),
+        _ => None,
+    }
+}
+
+/// Several of them.
+fn texts(error: &clap::Error, kind: ContextKind) -> Option<&[String]> {
+    match error.get(kind) {
+        Some(ContextValue::Strings(texts)) => Some(texts),
+        _ => None,
+    }
+}
+
+fn unknown_command(error: &clap::Error, whole: &Command) -> Option<String> {
+    let name = text(error, ContextKind::InvalidSubcommand)?;
+    let names: Vec<&str> = whole.get_subcommands().map(Command::get_name).collect();
+    let choice = meant_or(name, &names, &format!("choose one of {}", names.join(", ")));
+    Some(format!("there is no command {}; {choice}", shortened(name)))
+}
+
+fn unknown_option(error: &clap::Error, command: &Command, words: &[OsString]) -> Option<String> {
+    let given = text(error, ContextKind::InvalidArg)?;
+    // Of -size clap sees -s.
+    let is_single = given.starts_with('-') && !given.starts_with("--");
+    let word = words.iter().skip(1).filter_map(|word| word.to_str()).find(|word| is_single && word.starts_with(given));
+    let word = word.unwrap_or(given);
+    let name = word.split('=').next().unwrap_or_default();
+    if !name.starts_with('-') {
+        return None;
+    }
+    let command_name = match command.get_name() {
+        "tinta" => "tinta".to_owned(),
+        name => format!("tinta {name}"),
+    };
+    let sentence = format!("{command_name} has no option {}", shortened(name));
+    let meant = meant_option(command, name.trim_start_matches('-'));
+    Some(meant.map_or(sentence.clone(), |meant| format!("{sentence}; did you mean --{meant}?")))
+}
+
+/// The option of a command that somebody meant who wrote this name, without dashes.
+pub(super) fn meant_option<'c>(command: &'c Command, name: &str) -> Option<&'c str> {
+    let options: Vec<&str> =
+        options(command).filter(|arg| !arg.is_hide_set()).filter_map(|arg| arg.get_long()).collect();
+    nearest(name, &options)
+}
+
+/// Of a value that clap itself knows to be one of a few names.
+fn unknown_value(error: &clap::Error) -> Option<String> {
+    let (value, arg) = (text(error, ContextKind::InvalidValue)?, text(error, ContextKind::InvalidArg)?);
+    let names: Vec<&str> = texts(error, ContextKind::ValidValue)?.iter().map(String::as_str).collect();
+    let choice = meant_or(value, &names, &format!("choose one of {}", names.join(", ")));
+    (!value.is_empty()).then(|| format!("invalid value '{}' for '{arg}': {choice}", shortened(value)))
+}
+
+/// What to type where a model or the output is missing.
+fn missing(error: &clap::Error, whole: &Command, command: &Command, words: &[OsString]) -> Option<String> {
+    let missing = texts(error, ContextKind::InvalidArg)?;
+    let output = missing.iter().find_map(|what| what.strip_prefix("--output "));
+    let others: Vec<&str> = missing.iter().map(String::as_str).filter(|what| !what.starts_with("--output ")).collect();
+    let name = command.get_name();
+    let is_model = others == ["<MODEL>..."] || others == ["<MODEL>"];
+    // An output's name for the model that is given, or for a cow.
+    let stem = model(whole, words).map_or("cow".to_owned(), |model| stem(&model));
+    let into = |output: &str, stem: &str| match output {
+        "<DIR>" => "results".to_owned(),
+        _ => format!("{stem}.png"),
+    };
+    let what = |output: &str| if output == "<DIR>" { "folder to write into" } else { "picture to write" };
+    match output {
+        Some(output) if others.is_empty() => {
+            Some(format!("--output is missing; name the {}: -o {}", what(output), into(output, &stem)))
+        }
+        Some(output) if is_model => {
+            Some(format!("a model and --output are missing: tinta {name} cow.obj -o {}", into(output, "cow")))
+        }
+        None if is_model => Some("a model is missing; name a file, or a built-in one such as builtin:bust".to_owned()),
+        _ => None,
+    }
+}
+
+/// The first model that the words name.
+fn model(whole: &Command, words: &[OsString]) -> Option<OsString> {
+    let matches = whole.clone().ignore_errors(true).try_get_matches_from(words).ok()?;
+    let (_, given) = matches.subcommand()?;
+    let models = given.try_contains_id("models").is_ok_and(|is_there| is_there);
+    given.get_raw(if models { "models" } else { return None })?.next().map(OsString::from)
+}
+
+/// What a picture of a model may be called, without its ending; not a name that a shell would take apart.
+fn stem(model: &OsString) -> String {
+    let model = model.to_string_lossy();
+    let name = model.strip_prefix("builtin:").unwrap_or(&model);
+    let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_' || c == '.';
+    match !stem.is_empty() && !stem.starts_with('-') && stem.chars().all(is_plain) && stem.len() <= 64 {
+        true => stem,
+        false => "picture".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::check;
+
+    fn said(line: &str) -> String {
+        check(line.split(' ').map(Into::into)).unwrap_err()
+    }
+
+    #[test]
+    fn what_was_meant_is_said() {
+        for (line, sentence) in [
+            ("tinta redner", "there is no command redner; did you mean render?"),
+            ("tinta render a.obj -o a.png --colour red", "tinta render has no option --colour; did you mean --color?"),
+            ("tinta render a.obj -o a.png -size=64", "tinta render has no option -size; did you mean --size?"),
+            (
+                "tinta edges a.obj --crease_angel 30",
+                "tinta edges has no option --crease_angel; did you mean --crease-angle?",
+            ),
+            ("tinta edges a.obj --seed 3", "tinta edges has no option --seed; see --help"),
+            ("tinta --versoin", "tinta has no option --versoin; did you mean --version?"),
+            ("tinta completions bahs", "invalid value 'bahs' for '<SHELL>': did you mean bash?"),
+            (
+                "tinta completions nushell",
+                "invalid value 'nushell' for '<SHELL>': choose one of bash, zsh, fish; see --help",
+            ),
+            (
+                "tinta render a.obj -o a.png --style three_pass",
+                "invalid value 'three_pass' for '--style <STYLE>': did you mean three-pass?",
+            ),
+            (
+                "tinta render a.obj -o a.png --classes crease,boundry",
+                "invalid value 'crease,boundry' for '--classes <CLASSES>': did you mean boundary?",
+            ),
+            (
+                "tinta render a.obj -o a.png --smooth offf",
+                "invalid value 'offf' for '--smooth <ON|OFF>': did you mean off?",
+            ),
+            ("tinta render a.obj -o a.png --view tpo", "invalid value 'tpo' for '--view <VIEW>': did you mean top?"),
+            (
+                "tinta render a.obj -o a.png --backend ogl",
+                "invalid value 'ogl' for '--backend <BACKEND>': did you mean egl?",
+            ),
+        ] {
+            assert_eq!(said(line), sentence, "{line}");
+        }
+    }
+
+    #[test]
+    fn an_output_that_is_missing_gets_the_models_name() {
+        let picture = |name: &str| format!("--output is missing; name the picture to write: -o {name}.png; see --help");
+        for (line, sentence) in [
+            ("tinta render dir/old.cow.obj", picture("old.cow")),
+            ("tinta render --size 64 builtin:gear cow.obj", picture("gear")),
+            ("tinta render -", picture("picture")),
+            ("tinta render a;b.obj", picture("picture")),
+            ("tinta compare cow.obj", picture("cow")),
+            (
+                "tinta measure cow.obj",
+                "--output is missing; name the folder to write into: -o results; see --help".to_owned(),
+            ),
+            (
+                "tinta render",
+                "a model and --output are missing: tinta render cow.obj -o cow.png; see --help".to_owned(),
+            ),
+            (
+                "tinta edges",
+                "a model is missing; name a file, or a built-in one such as builtin:bust; see --help".to_owned(),
+            ),
+        ] {
+            assert_eq!(said(line), sentence, "{line}");
+        }
+    }
+}
