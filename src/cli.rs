@@ -7,6 +7,7 @@
 //! ```
 
 mod again;
+mod bare;
 mod batch;
 mod compare;
 mod completions;
@@ -18,6 +19,7 @@ mod figures;
 mod help;
 mod info;
 mod inputs;
+mod looks;
 mod man;
 #[cfg(feature = "measuring")]
 mod measure;
@@ -55,13 +57,15 @@ use tinta::{Error, Result};
 #[command(name = "tinta", version, arg_required_else_help = true, max_term_width = 100)]
 #[command(after_help = "\
 Examples:
-  tinta render cow.obj -o cow.png                 draw a model
+  tinta cow.obj                                   show a model, or draw it
+  tinta render cow.obj -o cow.png                 draw it into this file
   tinta render builtin:bust -o bust.png           draw a built-in model
   tinta render cow.obj -o cow.png --style ink     choose a style
   tinta render cow.obj -o cow.svg                 write the exact visible lines
   tinta render cow.obj -o cow.gif --turntable 60  turn the model once around
   tinta render cow.obj -o cow.png --preset a.toml read options from a file
   tinta view cow.obj                              turn it, try styles
+  tinta looks cow.obj -o looks                    draw it in every look
   tinta again cow.png -o again.png                redraw it by its recipe
   tinta compare builtin:gear -o both.png          compare lines of two styles
   tinta edges cow.obj                             count edges by class
@@ -89,6 +93,7 @@ enum Command {
     Render(Box<render::Arguments>),
     #[cfg(feature = "window")]
     View(Box<view::Arguments>),
+    Looks(looks::Arguments),
     Again(again::Arguments),
     Compare(Box<compare::Arguments>),
     Edges(Box<edges::Arguments>),
@@ -146,12 +151,14 @@ fn outlive_the_limit_on_files() {
 
 fn run() -> Result<Verdict> {
     let started = Instant::now();
-    let (arguments, given) = match parse(std::env::args_os()) {
+    let (words, picture) = bare::with_command(std::env::args_os().collect(), bare::has_window());
+    let (arguments, given) = match parse(words) {
         Ok(parsed) => parsed,
         Err(Stop::Help(help)) => return messages::print_help(&help).map(|()| Verdict::Good),
         Err(Stop::Wrong(error)) => return Err(error),
     };
-    carry_out(arguments.command, &given, started).map_err(|error| given.attributed(error))
+    let verdict = carry_out(arguments.command, &given, started).map_err(|error| given.attributed(error))?;
+    picture.map_or(Ok(()), |picture| print(&bare::said(&picture))).map(|()| verdict)
 }
 
 fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdict> {
@@ -161,6 +168,7 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
         #[cfg(feature = "window")]
         Command::View(arguments) => view::run(&arguments, started),
         Command::Render(arguments) => return render::run(&arguments, given, &mut Session::for_one()),
+        Command::Looks(arguments) => looks::run(&arguments),
         Command::Again(arguments) => return again::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments, given, &mut Session::for_one()),
         Command::Edges(arguments) => edges::run(&arguments),
@@ -178,6 +186,14 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
         Command::Man(arguments) => man::run(&arguments),
     }
     .map(|()| Verdict::Good)
+}
+
+/// Carries out words that are a rendering, with a session that other renderings share.
+fn carry_out_render(arguments: Arguments, given: &Given, session: &mut Session) -> Result<()> {
+    match arguments.command {
+        Command::Render(arguments) => render::run(&arguments, given, session).map(drop),
+        _ => Ok(()),
+    }
 }
 
 /// Parses a command line, the program's name first, and does nothing with it: help's text where it asks for that, or one

@@ -1,6 +1,7 @@
 //! The looks: what a picture looks like to whom no paper's way matters, each a TOML file in `presets/looks`.
 
-use super::Preset;
+use super::{OptionValue, Preset};
+use crate::choice::meant_or;
 use crate::error::{ParseError, Result};
 
 /// A look.
@@ -41,12 +42,18 @@ impl Look {
     /// Which names there are.
     pub fn of_name(name: &str) -> std::result::Result<Self, ParseError> {
         let found = LOOKS.into_iter().find(|look| look.name == name);
-        found.ok_or_else(|| format!("there is no look {name}; there are {}", Self::list()).into())
+        let names = LOOKS.map(|look| look.name);
+        found.ok_or_else(|| ParseError::from(meant_or(name, &names, &format!("choose one of {}", Self::list()))))
     }
 
     /// All names with commas between.
     pub fn list() -> String {
         LOOKS.map(|look| look.name).join(", ")
+    }
+
+    /// Whether it draws lines, as vectors.
+    pub fn draws_lines(self) -> bool {
+        self.preset().is_ok_and(|preset| preset.options.get("style") == Some(&OptionValue::text("lines")))
     }
 
     /// Its settings.

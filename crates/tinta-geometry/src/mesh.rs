@@ -43,6 +43,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 pub use defects::Defects;
+pub use format::is_model_name;
 pub use frame::ModelFrame;
 pub(crate) use hilbert::hilbert_code;
 pub use load::{LoadOptions, LoadStage, Loaded, Normals, UpAxis, load, load_watched, read_bytes, refuse_address};

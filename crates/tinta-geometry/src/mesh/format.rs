@@ -19,6 +19,11 @@ pub(super) enum Format {
     Assimp(&'static str),
 }
 
+/// Whether a file of this name is a model by how the name ends.
+pub fn is_model_name(name: &str) -> bool {
+    Format::by_name(name).is_some()
+}
+
 impl Format {
     /// All of them, for messages.
     pub(super) const NAMES: &'static str = "OBJ, PLY, STL, MD2, 3DS or glTF";
