@@ -163,7 +163,10 @@ mod tests {
             ("tinta edges a.obj --seed 3", "tinta edges has no option --seed; see --help"),
             ("tinta --versoin", "tinta has no option --versoin; did you mean --version?"),
             ("tinta completions bahs", "invalid value 'bahs' for '<SHELL>': did you mean bash?"),
-            ("tinta completions nushell", "invalid value 'nushell' for '<SHELL>': choose one of bash, zsh, fish; see --help"),
+            (
+                "tinta completions nushell",
+                "invalid value 'nushell' for '<SHELL>': choose one of bash, zsh, fish; see --help",
+            ),
             (
                 "tinta render a.obj -o a.png --style three_pass",
                 "invalid value 'three_pass' for '--style <STYLE>': did you mean three-pass?",
