@@ -45,7 +45,9 @@ use std::sync::Arc;
 pub use defects::Defects;
 pub use frame::ModelFrame;
 pub(crate) use hilbert::hilbert_code;
-pub use load::{LoadOptions, LoadStage, Loaded, Normals, UpAxis, load, load_watched, read_bytes, refuse_address};
+pub use load::{
+    LoadOptions, LoadStage, Loaded, Normals, UpAxis, load, load_watched, read_as, read_bytes, refuse_address,
+};
 pub use vertices::{Part, VertexArrays};
 
 /// Stands in index arrays for "this corner has none".

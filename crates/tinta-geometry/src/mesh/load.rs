@@ -247,14 +247,29 @@ pub enum LoadStage {
 /// Those of [`load`].
 pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
     check(options)?;
-    let mut remarks = Vec::new();
     watch(LoadStage::Reading);
     refuse_address(path)?;
     let bytes = files::read(Path::new(path), MODEL_BYTES)
         .map_err(|failure| failure.into_error(FileKind::Model, path, "a model file"))?;
+    read_as_watched(&bytes, path, options, watch)
+}
+
+/// Reads bytes as if they were those of the model file `path`: other files that they name are looked for beside that. So what
+/// comes from elsewhere, as through a pipe, is read as a file is.
+///
+/// # Errors
+///
+/// Those of [`load`].
+pub fn read_as(bytes: &[u8], path: &str, options: &LoadOptions) -> Result<Loaded> {
+    check(options)?;
+    read_as_watched(bytes, path, options, &|_| {})
+}
+
+fn read_as_watched(bytes: &[u8], path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
+    let mut remarks = Vec::new();
     watch(LoadStage::Parsing);
     let folder = Folder::of(path, options.allow_external);
-    let soup = soup(&bytes, path, options, &Materials::Beside(&folder), &folder, &mut remarks)?;
+    let soup = soup(bytes, path, options, &Materials::Beside(&folder), &folder, &mut remarks)?;
     watch(LoadStage::Joining);
     made(soup, path, options, remarks)
 }
