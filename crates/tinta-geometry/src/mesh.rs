@@ -24,6 +24,7 @@ mod frame;
 mod gltf;
 mod hilbert;
 pub mod load;
+mod lying;
 mod md2;
 mod normals;
 mod obj;
