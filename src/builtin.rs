@@ -1,6 +1,6 @@
 //! The models that need no file: `builtin:bust` and friends, made by the program in `models/`.
 
-use crate::choice::meant_or;
+use crate::choice::nearest;
 use crate::error::{Error, Result};
 use std::sync::Arc;
 use tinta_geometry::mesh::{EmbeddedPicture, LoadOptions, LoadStage, Loaded, read_bytes};
@@ -63,9 +63,10 @@ pub(crate) fn find(name: &str) -> Option<Result<Builtin>> {
     let short = name.strip_prefix("builtin:")?;
     let found = BUILTINS.into_iter().find(|builtin| builtin.name == short);
     Some(found.ok_or_else(|| {
-        let names = BUILTINS.map(|builtin| format!("builtin:{}", builtin.name));
-        let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        let choice = meant_or(name, &names, &format!("choose one of {}", names.join(", ")));
+        let choice = match nearest(short, &BUILTINS.map(|builtin| builtin.name)) {
+            Some(meant) => format!("did you mean builtin:{meant}?"),
+            None => format!("choose one of {}", BUILTINS.map(|builtin| format!("builtin:{}", builtin.name)).join(", ")),
+        };
         Error::model(name, format!("there is no such built-in model; {choice}"))
     }))
 }

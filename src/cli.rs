@@ -33,6 +33,7 @@ mod progress;
 mod provenance;
 mod render;
 mod session;
+mod standard_input;
 mod standard_output;
 #[cfg(feature = "measuring")]
 mod stress;

@@ -29,5 +29,5 @@ pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
 pub use reference::{Reference, SOFT_CREASE_DEGREES, Sample};
 pub use row::{LineError, PassRow, Row, RunTime, ToneError};
 pub(crate) use run::shading_of;
-pub use run::{MeasureSettings, Measured, Setting, Subject, measure, steps};
+pub use run::{MeasureSettings, MeasureStep, Measured, Setting, Subject, frames_a_turn, measure, turns};
 pub use tones::ReferenceLight;

@@ -22,7 +22,7 @@ pub use crate::settings::{OptionValue, Options};
 pub use looks::{LOOKS, Look};
 pub use shipped::SHIPPED;
 
-use crate::choice::meant_or;
+use crate::choice::{meant_or, nearest};
 use crate::error::{Error, FileKind, Result};
 use crate::files::shown;
 use crate::lines::{LineSettings, SvgSettings};
@@ -60,13 +60,17 @@ impl Preset {
     /// [`Error::File`] when it is missing, not a regular file, longer than [`LARGEST_BYTES`], or no flat table of TOML; for
     /// an unknown name with those there are.
     pub fn read(name: &str) -> Result<Self> {
-        if name.starts_with(PREFIX) {
+        if let Some(short) = name.strip_prefix(PREFIX) {
             let found = SHIPPED.iter().find(|(known, _)| *known == name);
             return match found {
                 Some((_, text)) => Self::parse(name, text),
                 None => {
-                    let there_are = format!("there are {}", shipped_names());
-                    let choice = meant_or(name, &SHIPPED.map(|(known, _)| known), &there_are);
+                    let without_prefix = |name: &'static str| name.strip_prefix(PREFIX).unwrap_or(name);
+                    let names = SHIPPED.map(|(known, _)| without_prefix(known));
+                    let choice = match nearest(short, &names) {
+                        Some(meant) => format!("did you mean {PREFIX}{meant}?"),
+                        None => format!("there are {}", shipped_names()),
+                    };
                     Err(refused(name, format!("there is no shipped preset of this name; {choice}")))
                 }
             };

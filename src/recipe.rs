@@ -110,10 +110,19 @@ impl FileRecord {
     ///
     /// What reading it gives.
     pub fn of(path: &Path) -> std::io::Result<Self> {
-        let mut file = File::open(path)?;
+        Self::of_reader(&path.to_string_lossy(), File::open(path)?)
+    }
+
+    /// Of bytes that were read already; `path` is where they came from.
+    pub fn of_bytes(path: &str, bytes: &[u8]) -> Self {
+        let sha256 = in_hexadecimal(Sha256::digest(bytes).as_slice());
+        Self { path: path.to_owned(), bytes: bytes.len() as u64, sha256 }
+    }
+
+    fn of_reader(path: &str, mut from: impl Read) -> std::io::Result<Self> {
         let (mut hash, mut bytes, mut buffer) = (Sha256::new(), 0, vec![0; 1 << 16]);
         loop {
-            match file.read(&mut buffer)? {
+            match from.read(&mut buffer)? {
                 0 => break,
                 count => {
                     hash.update(&buffer[..count]);
@@ -121,9 +130,12 @@ impl FileRecord {
                 }
             }
         }
-        let sha256 = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-        Ok(Self { path: path.to_string_lossy().into_owned(), bytes, sha256 })
+        Ok(Self { path: path.to_owned(), bytes, sha256: in_hexadecimal(hash.finalize().as_slice()) })
     }
+}
+
+fn in_hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The picture files that a style was given.

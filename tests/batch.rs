@@ -112,7 +112,7 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
         ("help", "setting", "help: there is no such option"),
         ("no-model", "model", "no-such.obj: there is no such file"),
         ("nul", "model", "a\\u{0}b.obj"),
-        ("none", "command-line", "MODEL"),
+        ("none", "command-line", "a model is missing"),
         ("out", "setting", "output: ../out.png: a job writes in the batch's folder"),
         ("root", "setting", "output: /tmp/tinta-root.png: a job writes"),
         ("own", "setting", "output: batch-list.jsonl: the batch's own files"),

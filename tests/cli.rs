@@ -165,9 +165,9 @@ fn nonsensical_settings_are_refused_by_name() {
 fn command_lines_that_are_not_understood_are_answered_in_one_line() {
     refused_in_one_line(
         &["render", "builtin:ant"],
-        &["tinta: --output is missing; name the picture to write: -o cow.png", "--help"],
+        &["tinta: --output is missing; name the picture to write: -o ant.png", "--help"],
     );
-    refused_in_one_line(&["render", "-o", "a.png"], &["<MODEL>"]);
+    refused_in_one_line(&["render", "-o", "a.png"], &["a model is missing; name a file, or a built-in one"]);
     refused_in_one_line(&["paint"], &["paint"]);
     refused_in_one_line(&["render", "a\nb.obj", "-o", "a.png"], &["a\\nb.obj"]);
     refused_in_one_line(

@@ -97,7 +97,7 @@ fn what_cannot_be_measured_is_refused() {
     let file = folder.path("file");
     std::fs::write(&file, "text\n").unwrap();
     for (arguments, words) in [
-        (&["measure", "-o", &out][..], &["MODEL"][..]),
+        (&["measure", "-o", &out][..], &["a model is missing"][..]),
         (&["measure", "no-such.obj", "-o", &out], &["no-such.obj"]),
         (&["measure", "builtin:gear", "-o", &file], &["file", "name a folder"]),
         (&["measure", "builtin:gear", "-o", &out, "--tolerance", "0"], &["--tolerance 0"]),

@@ -14,6 +14,8 @@ mod cli;
 mod cli_ink;
 mod cli_lines;
 mod cli_measure;
+mod cli_mistakes;
+mod cli_stdin;
 mod corpus;
 mod docs;
 mod docs_run;

@@ -6,7 +6,7 @@ use crate::support::{BACKENDS, public_models, renderer, skip, styles};
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
-use tinta::mesh::ModelFrame;
+use tinta::mesh::{BUILTINS, ModelFrame, UpAxis};
 use tinta::{LoadOptions, Mesh, Picture, Scene, SceneSettings, Size, load};
 
 /// File and triangles in it.
@@ -120,5 +120,31 @@ fn a_faerie_cut_off_anywhere_is_refused_in_a_sentence() {
         std::fs::write(&cut, &whole[..length]).unwrap();
         let message = load(cut.to_str().unwrap(), &LoadOptions::default()).unwrap_err().to_string();
         assert!(message.contains("cut.md2: ") && message.lines().count() == 1, "{length}: {message}");
+    }
+}
+
+#[test]
+fn of_the_models_only_the_one_that_lies_gets_the_hint() {
+    for (name, lies) in [
+        ("beethoven.obj", true),
+        ("ant.ply", false),
+        ("cow.obj", false),
+        ("fandisk.obj", false),
+        ("spot/spot_triangulated.obj", false),
+        ("stanford-bunny.obj", false),
+        ("suzanne.obj", false),
+        ("teapot.obj", false),
+    ] {
+        let Some(path) = model(name) else { continue };
+        let hints = |up_axis| {
+            let loaded = load(&path, &LoadOptions { up_axis, ..LoadOptions::default() }).unwrap();
+            loaded.remarks.iter().filter(|remark| remark.contains("--up-axis z")).count()
+        };
+        assert_eq!(hints(UpAxis::Auto), usize::from(lies), "{name}");
+        assert_eq!((hints(UpAxis::Z), hints(UpAxis::Y)), (0, 0), "{name}: who names an axis knows it");
+    }
+    for builtin in BUILTINS {
+        let loaded = load(&format!("builtin:{}", builtin.name), &LoadOptions::default()).unwrap();
+        assert!(loaded.remarks.is_empty(), "{}", builtin.name);
     }
 }

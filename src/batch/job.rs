@@ -147,6 +147,9 @@ impl Asked {
             Ok((key, value))
         });
         let options = options.collect::<Result<_, String>>()?;
+        if models.iter().any(|model| model == "-") {
+            return Err("model: - is standard input, which jobs have not; name a file".to_owned());
+        }
         Ok(Self { id, command, models, options })
     }
 }
@@ -300,6 +303,7 @@ mod tests {
             (r#"{"id": "a", "command": "render", "size": null}"#, "size: write a text"),
             (r#"{"id": "a", "command": "render", "size": [[1]]}"#, "size: write a text"),
             (r#"{"id": "a", "command": "render", "model": [1]}"#, "model: write a text"),
+            (r#"{"id": "a", "command": "render", "model": ["a", "-"]}"#, "model: - is standard input, which"),
         ] {
             let said = refused(line);
             assert!(said.contains(words) && said.len() < 300, "{line}: {said}");

@@ -2,7 +2,9 @@
 
 use super::preset::parse;
 use super::session::Session;
+use super::standard_input;
 use super::{Command, Stop, Verdict, render, say};
+use crate::files::shown;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use tinta::limits::PICTURE_BYTES;
@@ -21,7 +23,7 @@ pub(super) struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
-    /// Path of the model now; with several models, once for each, in their order [default: where it was]
+    /// Path of the model now, or - for standard input; with several models, once for each, in their order [default: where it was]
     #[arg(long, value_name = "FILE")]
     model: Vec<String>,
 
@@ -103,7 +105,21 @@ fn models(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<String>> {
         return refuse("model", problem);
     }
     let models = if arguments.model.is_empty() { &recipe.models } else { &arguments.model };
-    match models.iter().find(|model| !model.starts_with("builtin:") && !Path::new(model).exists()) {
+    if arguments.model.is_empty() && models.iter().any(|model| model == standard_input::DASH) {
+        let known = recipe.files.iter().find(|file| file.path == standard_input::DASH);
+        let known =
+            known.map_or(String::new(), |file| format!(" ({} bytes, SHA-256 {})", file.bytes, shown(&file.sha256)));
+        return Err(Error::model(
+            standard_input::NAME,
+            format!(
+                "the picture's model came from there{known} and was not kept; pipe it in again with --model -, or say where it \
+                 is now with --model FILE"
+            ),
+        ));
+    }
+    let is_there =
+        |model: &str| model.starts_with("builtin:") || model == standard_input::DASH || Path::new(model).exists();
+    match models.iter().find(|model| !is_there(model)) {
         Some(model) => {
             Err(Error::model(model.clone(), "the picture's model is missing; say where it is now with --model FILE"))
         }

@@ -13,6 +13,7 @@ mod worker;
 mod worker_process;
 
 use super::progress::Progress;
+use super::standard_input;
 use super::{Verdict, plain, print, print_json, say};
 use signals::Stop;
 use std::path::{Path, PathBuf};
@@ -38,7 +39,7 @@ Exit codes:
   130  stopped by Ctrl-C with jobs left
   143  stopped by SIGTERM with jobs left")]
 pub(super) struct Arguments {
-    /// List of jobs, one line of JSON each
+    /// List of jobs, one line of JSON each; - for standard input
     #[arg(value_name = "LIST", required_unless_present_any = ["summary", "worker"])]
     list: Option<PathBuf>,
 
@@ -82,7 +83,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
     if arguments.worker {
         return worker::serve(folder).map(|()| Verdict::Good);
     }
-    let list = List::read(arguments.list.as_deref().ok_or_else(none)?)?;
+    let list = match arguments.list.as_deref().ok_or_else(none)? {
+        path if path == Path::new(standard_input::DASH) => {
+            List::of_bytes(standard_input::list()?, standard_input::NAME)?
+        }
+        path => List::read(path)?,
+    };
     super::make_folder(folder)?;
     let Begun { journal, jobs, left } = begin(arguments, folder, list)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);

@@ -15,7 +15,7 @@ use tinta::{Backend, Error, Picture, Result, Scene, Show, StyleName, Target};
 /// Draw one scene in two styles side by side, and show which lines both drew
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models; several make one scene
+    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input; several make one scene
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 

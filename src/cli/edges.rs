@@ -14,7 +14,7 @@ use tinta::{EdgeList, Error, Result, Scene, SceneSettings, Style, StyleName};
 /// Count a model's edges by class, and time how they are found
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in model
+    /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in model, or - for standard input
     #[arg(value_name = "MODEL")]
     model: String,
 

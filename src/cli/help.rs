@@ -60,7 +60,12 @@ fn shortened(command: Command, needed: &[String]) -> Command {
         })
         .disable_help_flag(true)
         .arg(
-            Arg::new("help").short('h').long("help").action(ArgAction::Help).help("Print help; -h prints this summary"),
+            Arg::new("help")
+                .short('h')
+                .long("help")
+                .action(ArgAction::Help)
+                .help_heading(None)
+                .help("Print help; -h prints this summary"),
         )
         .after_help(format!("All {count} options, in groups: tinta {name} --help"))
 }
@@ -106,6 +111,8 @@ mod tests {
         let end = format!("All {} options, in groups: tinta render --help\n", options(render).count());
         assert!(short.ends_with(&end), "{short}");
         assert!(whole.contains("\nCamera:\n") && !short.contains("\nCamera:\n"));
+        let headings: Vec<&str> = short.lines().filter(|line| line.ends_with(':') && !line.starts_with(' ')).collect();
+        assert_eq!(headings, ["Arguments:", "Options:"]);
         // Wherever the word stands; behind two dashes it is a model.
         assert_eq!(help_of("tinta render a.obj --style ink -h"), short);
         assert!(help_of("tinta help render").contains("\nCamera:\n"));

@@ -6,7 +6,7 @@ mod settings;
 use super::model_cache::ModelCache;
 use super::options::{CameraArguments, ModelArguments};
 use super::preset::{Given, PresetArguments};
-use super::progress::Progress;
+use super::progress::{Steps, TimedProgress};
 use super::session::Session;
 use errors::{error_page, is_shown, known_picture};
 pub(super) use settings::StyleOptions;
@@ -15,7 +15,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tinta::camera;
-use tinta::measure::{MeasureSettings, Measured, Row, Setting, Subject, measure, steps};
+use tinta::measure::{MeasureSettings, MeasureStep, Measured, Row, Setting, Subject, frames_a_turn, measure, turns};
 use tinta::renderer::milliseconds_since;
 use tinta::report::{ReportInfo, ReportPicture, RowLog, read_rows};
 use tinta::settings::{HasSettings, Kind};
@@ -24,7 +24,7 @@ use tinta::{Backend, Error, LoadOptions, Renderer, Result, Scene, SceneSettings,
 /// Measure every style's error and run time, as a table, plots and a page
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models, each measured by itself
+    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input, each measured by itself
     #[arg(value_name = "MODEL", required_unless_present_any = ["suite", "merge"])]
     models: Vec<String>,
 
@@ -107,8 +107,17 @@ const FRAMES: [usize; 2] = [21, 7];
 /// Settings whose frames are timed in turns.
 const SETTINGS_IN_TURN: usize = 8;
 
-/// How long a setting takes besides its frames, seconds: its pictures drawn and compared.
+/// How long a setting takes besides its frames, seconds: its pictures compared with the references.
 const SECONDS_A_SETTING: f64 = 0.35;
+
+/// How long a model's references take at first guess, seconds: exact lines and rays.
+const SECONDS_A_REFERENCE: f64 = 0.5;
+
+/// Frames of a setting that are drawn besides those of its turns.
+const FRAMES_A_SETTING: f64 = 10.0;
+
+/// What is done for each model at each size, in the order of [`expected`]: references once, errors of each setting, turns.
+const KINDS: [usize; 3] = [0, 1, 2];
 
 /// Files that a measurement writes, the pictures of its plots and errors aside.
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
@@ -143,6 +152,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
     let groups = groups(arguments, &models, &session.model_cache)?;
     let renderer = session.renderer(arguments.backend)?;
     let expected = expected(renderer, &groups, settings.len(), how.frames)?;
+    let seconds: f64 = expected.iter().copied().map(Steps::total).sum();
     // Once nothing but the measuring can go wrong.
     make_folder(&arguments.output)?;
     let (mut log, mut rows) = match arguments.resume {
@@ -156,13 +166,15 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
         counted(models.len(), "model"),
         counted(arguments.size.len(), "size"),
         counted(how.frames, "frame"),
-        in_words(expected),
+        in_words(Duration::from_secs_f64(seconds)),
         if rows.is_empty() { "" } else { ", minus what is done already" }
     ));
-    let progress = Progress::new("measuring", (groups.len() * steps(settings.len(), how.frames)) as u64);
+    let progress = TimedProgress::new("measuring", &expected);
     let mut pictures = Vec::new();
-    for group in groups {
+    for (number, group) in groups.into_iter().enumerate() {
+        let [reference, errors, turn] = KINDS.map(|kind| number * KINDS.len() + kind);
         let subject = Subject::new(&group.model, group.scene, group.load_ms)?;
+        progress.step(reference);
         let is_known = |setting: &Setting| {
             let Size { width, height } = subject.scene.size;
             let is_it = |row: &Row| {
@@ -180,11 +192,13 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
             }
         }
         let left: Vec<Setting> = settings.iter().filter(|setting| !is_known(setting)).cloned().collect();
-        let skipped = steps(settings.len(), how.frames) - steps(left.len(), how.frames);
-        (0..skipped).for_each(|_| progress.step());
+        progress.skip(errors, settings.len() - left.len());
+        progress.skip(turn, (settings.len() - left.len()) * turns(how.frames));
         // Settings take turns in groups, so that rows are on disk soon and an interruption costs little.
         for some in left.chunks(SETTINGS_IN_TURN) {
-            let (measured, left_out) = measure(renderer, &subject, some, &how, || progress.step())?;
+            let step = |step| progress.step(if step == MeasureStep::Errors { errors } else { turn });
+            let (measured, left_out) = measure(renderer, &subject, some, &how, step)?;
+            progress.skip(turn, left_out.len() * turns(how.frames));
             left_out.iter().for_each(|reason| super::say(&format!("tinta: {reason}")));
             for Measured { row, error_picture } in measured {
                 log.append(&row)?;
@@ -282,16 +296,18 @@ fn groups(arguments: &Arguments, models: &[&str], model_cache: &ModelCache) -> R
 }
 
 /// How long all of it will take, by one frame of each group.
-fn expected(renderer: &mut Renderer, groups: &[Group], settings: usize, frames: usize) -> Result<Duration> {
+fn expected(renderer: &mut Renderer, groups: &[Group], settings: usize, frames: usize) -> Result<Vec<Steps>> {
     let style = Style::named(StyleName::ThreePass);
-    let mut seconds = 0.0;
+    let mut steps = Vec::new();
     for group in groups {
         let plan = style.plan(&group.scene, Show::Final)?;
         let frame = renderer.time_frames(&group.scene, &plan, 1, 1)?.first().copied().unwrap_or_default() * 1e-3;
         let pixels = group.scene.size.pixel_count() as f64 / (512.0 * 512.0);
-        seconds += settings as f64 * (SECONDS_A_SETTING * pixels.max(0.2) + frame * (frames as f64 * 1.4 + 10.0));
+        steps.push(Steps { count: 1, seconds: SECONDS_A_REFERENCE });
+        steps.push(Steps { count: settings, seconds: SECONDS_A_SETTING * pixels.max(0.2) + frame * FRAMES_A_SETTING });
+        steps.push(Steps { count: settings * turns(frames), seconds: frame * frames_a_turn(frames) as f64 });
     }
-    Ok(Duration::from_secs_f64(seconds))
+    Ok(steps)
 }
 
 fn in_words(time: Duration) -> String {

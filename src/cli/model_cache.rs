@@ -1,9 +1,9 @@
 //! A cache of the models last read, so that jobs that follow one another do not read the same one again.
 
+use super::models::read;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
-use tinta::mesh::load;
 use tinta::{LoadOptions, Mesh, Result};
 
 /// Reads models, and keeps them where there are many jobs.
@@ -67,7 +67,7 @@ impl Models {
         }
         self.make_room();
         let own = stamp(Path::new(path));
-        let loaded = load(path, options)?;
+        let loaded = read(path, options)?;
         let stamps = std::iter::once(own).chain(loaded.files.iter().map(|file| stamp(file))).collect();
         let model = Arc::new(Model {
             mesh: Arc::new(loaded.mesh),

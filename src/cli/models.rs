@@ -1,9 +1,19 @@
 //! Reading the models a command is given.
 
 use super::model_cache::ModelCache;
+use super::standard_input;
 use std::path::PathBuf;
 use std::sync::Arc;
+use tinta::mesh::{Loaded, load, read_as};
 use tinta::{LoadOptions, Mesh, Result};
+
+/// Reads a model: a file, a built-in one, or what comes from standard input.
+pub(super) fn read(model: &str, options: &LoadOptions) -> Result<Loaded> {
+    match model {
+        standard_input::DASH => read_as(&standard_input::model()?, standard_input::NAME, options),
+        path => load(path, options),
+    }
+}
 
 /// Reads the models and says what is to be said of them.
 pub(super) fn load_meshes(model_cache: &ModelCache, paths: &[String], options: &LoadOptions) -> Result<Vec<Arc<Mesh>>> {

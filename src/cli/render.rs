@@ -33,7 +33,7 @@ use tinta::{Backend, Error, Renderer, Result, Scene, SceneSettings, Size, Style,
 #[derive(clap::Args)]
 #[command(after_help = after_help())]
 pub(super) struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models; several make one scene, each at its own coordinates
+    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input; several make one scene, each at its own coordinates
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 

@@ -2,6 +2,7 @@
 
 use super::options::{Chosen, ModelArguments, Selection, StyleArguments};
 use super::preset::{LookArguments, PresetArguments};
+use super::standard_input;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::mesh::refuse_address;
@@ -84,6 +85,12 @@ pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
         if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
             return Err(Error::value(option, folder.display(), "there is no such folder; check the name"));
         }
+    }
+    if arguments.models.iter().any(|model| model == standard_input::DASH) {
+        return Err(Error::model(
+            standard_input::NAME,
+            "the window reads its models again; save it as a file and name that",
+        ));
     }
     // What is broken in a file is said in the window; a name that is nothing at all need not open one.
     let is_missing = |model: &&String| !model.starts_with("builtin:") && !Path::new(model).exists();

@@ -104,8 +104,17 @@ struct Contestant {
     measured: Measured,
 }
 
+/// What [`measure`] has done when it says so.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeasureStep {
+    /// A setting was drawn and its errors measured: one for each setting.
+    Errors,
+    /// Some frames of a setting were timed: [`turns`] for each setting that could be drawn.
+    Turn,
+}
+
 /// Measures settings on a subject. Their errors one by one, their frames in turns, so that a busy moment hits all of them;
-/// `step` is called as often as [`steps`] says. A setting that this scene cannot be drawn with is left out, and the reason
+/// `step` is told of each step. A setting that this scene cannot be drawn with is left out, and the reason
 /// returned beside the rows.
 ///
 /// # Errors
@@ -116,7 +125,7 @@ pub fn measure(
     subject: &Subject,
     settings: &[Setting],
     how: &MeasureSettings,
-    mut step: impl FnMut(),
+    mut step: impl FnMut(MeasureStep),
 ) -> Result<(Vec<Measured>, Vec<String>)> {
     let (mut contestants, mut left_out) = (Vec::new(), Vec::new());
     for setting in settings {
@@ -128,14 +137,14 @@ pub fn measure(
             }
             Err(error) => return Err(error),
         }
-        step();
+        step(MeasureStep::Errors);
     }
     for turn in 0..turns(how.frames) {
         let frames = FRAMES_A_TURN.min(how.frames - turn * FRAMES_A_TURN);
         for contestant in &mut contestants {
             let times = renderer.time_frames(&subject.scene, &contestant.plan, 1, frames)?;
             contestant.measured.row.time.frames_ms.extend(times);
-            step();
+            step(MeasureStep::Turn);
         }
     }
     for contestant in &mut contestants {
@@ -153,13 +162,14 @@ pub fn measure(
     Ok((contestants.into_iter().map(|contestant| contestant.measured).collect(), left_out))
 }
 
-/// How many steps measuring so many settings has.
-pub fn steps(settings: usize, frames: usize) -> usize {
-    settings * (1 + turns(frames))
+/// In how many turns so many frames of a setting are timed.
+pub fn turns(frames: usize) -> usize {
+    frames.div_ceil(FRAMES_A_TURN)
 }
 
-fn turns(frames: usize) -> usize {
-    frames.div_ceil(FRAMES_A_TURN)
+/// How many frames are drawn in a turn: those that are timed, and one before them.
+pub fn frames_a_turn(frames: usize) -> usize {
+    1 + frames.min(FRAMES_A_TURN)
 }
 
 /// A setting's errors, its plan, and its first frame.

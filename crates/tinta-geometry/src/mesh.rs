@@ -24,6 +24,7 @@ mod frame;
 mod gltf;
 mod hilbert;
 pub mod load;
+mod lying;
 mod md2;
 mod normals;
 mod obj;
@@ -46,7 +47,9 @@ pub use defects::Defects;
 pub use format::is_model_name;
 pub use frame::ModelFrame;
 pub(crate) use hilbert::hilbert_code;
-pub use load::{LoadOptions, LoadStage, Loaded, Normals, UpAxis, load, load_watched, read_bytes, refuse_address};
+pub use load::{
+    LoadOptions, LoadStage, Loaded, Normals, UpAxis, load, load_watched, read_as, read_bytes, refuse_address,
+};
 pub use vertices::{Part, VertexArrays};
 
 /// Stands in index arrays for "this corner has none".

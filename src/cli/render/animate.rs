@@ -1,13 +1,14 @@
 //! `tinta render` with an animation for its output: a turn around the models, or an animated model's frames.
 
 use super::super::model_cache::ModelCache;
+use super::super::models::read;
 use super::super::progress::Progress;
 use super::super::session::Session;
 use super::{Arguments, Loaded, Verdict, load_scene, model_records, prune};
 use serde_json::json;
 use std::sync::Arc;
 use std::time::Instant;
-use tinta::mesh::{ModelFrame, load};
+use tinta::mesh::ModelFrame;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
 use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings, Style};
@@ -141,7 +142,7 @@ fn model_frames(paths: &[String], options: &LoadOptions, movement: &str) -> Resu
     let mut all: Vec<Vec<Arc<Mesh>>> = Vec::new();
     let mut moves = false;
     for path in paths {
-        let first = load(path, options)?;
+        let first = read(path, options)?;
         first.remarks.iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
         if first.frames.is_empty() {
             all.push(vec![Arc::new(first.mesh)]);
@@ -150,7 +151,7 @@ fn model_frames(paths: &[String], options: &LoadOptions, movement: &str) -> Resu
         moves = true;
         let at = |number: usize| {
             let model_frame = ModelFrame::Number(number as f64);
-            Ok(Arc::new(load(path, &LoadOptions { model_frame, ..options.clone() })?.mesh))
+            Ok(Arc::new(read(path, &LoadOptions { model_frame, ..options.clone() })?.mesh))
         };
         all.push(numbers_of(&first.frames, movement, path)?.into_iter().map(at).collect::<Result<_>>()?);
     }
@@ -220,7 +221,7 @@ mod tests {
 
     #[test]
     fn frames_share_a_camera_and_keep_their_copies() {
-        let mesh = |model: &str| Arc::new(load(model, &LoadOptions::default()).unwrap().mesh);
+        let mesh = |model: &str| Arc::new(read(model, &LoadOptions::default()).unwrap().mesh);
         let (ant, gear, still) = (mesh("builtin:ant"), mesh("builtin:gear"), mesh("builtin:open-box"));
         let frames = vec![vec![ant.clone(), still.clone()], vec![gear.clone(), still.clone()]];
         let settings = SceneSettings { copies: 3, ..SceneSettings::default() };

@@ -2,8 +2,9 @@
 
 use super::super::inputs::Inputs;
 use super::super::preset::{LookArguments, PresetArguments};
+use super::super::standard_input;
 use super::Arguments;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tinta::gl::ContextInfo;
 use tinta::preset::{Options, to_toml};
 use tinta::recipe::{self, Driver, FileRecord};
@@ -74,6 +75,14 @@ pub(super) fn recipe(
     })
 }
 
+/// What is kept of a file: of standard input, too, its length and hash, by which it is known if it is ever piped in again.
+fn record(path: &Path) -> Option<FileRecord> {
+    match path == Path::new(standard_input::DASH) {
+        true => standard_input::model().ok().map(|bytes| FileRecord::of_bytes(standard_input::DASH, &bytes)),
+        false => FileRecord::of(path).ok(),
+    }
+}
+
 /// The files that a picture was made of: models, what they brought with them, what the style draws with.
 pub(super) fn files(
     arguments: &Arguments,
@@ -99,5 +108,5 @@ pub(super) fn files(
     let mut seen = std::collections::HashSet::new();
     paths.retain(|path| seen.insert(path.clone()));
     // One that has gone since it was read is left out: the picture is there, and says so by drawing otherwise.
-    paths.iter().filter_map(|path| FileRecord::of(path).ok()).collect()
+    paths.iter().filter_map(|path| record(path)).collect()
 }

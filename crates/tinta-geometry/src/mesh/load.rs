@@ -5,7 +5,7 @@ use super::format::Format;
 #[cfg(feature = "gltf")]
 use super::gltf;
 use super::obj::Materials;
-use super::{Defects, Mesh, ModelFrame, assimp, md2, obj, ply, skin, soup::Soup, stl, three_ds};
+use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, three_ds};
 use crate::error::{Error, FileKind, Result};
 use crate::files;
 use crate::limits::MODEL_BYTES;
@@ -27,7 +27,7 @@ pub struct LoadOptions {
     /// Neighbouring faces that differ by more than this angle do not share a computed normal. Default 60 degrees;
     /// more rounds edges off, less makes facets.
     pub smooth_angle_degrees: f64,
-    /// The axis that points up in the file. Default: its format's, z for MD2 and 3DS, y for the others.
+    /// The axis that points up in the file. Default: its format's, z for STL, MD2 and 3DS, y for the others.
     pub up_axis: UpAxis,
     /// Whether a defect is an error. Default: no, it is counted.
     pub strict: bool,
@@ -70,7 +70,7 @@ impl LoadOptions {
             Setting::field(
                 "up-axis",
                 "AXIS",
-                "Axis that points up in the file: auto (z in MD2 and 3DS, else y), x, y, z, -x, -y, -z",
+                "Axis that points up in the file: auto (z in STL, MD2 and 3DS, else y), x, y, z, -x, -y, -z",
                 |load: &mut Self| &mut load.up_axis,
             )
             .common(),
@@ -160,7 +160,7 @@ crate::choices!(Normals);
 /// The model's axis that shall point up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UpAxis {
-    /// As the file's format has it: z up in MD2 (where x is the front) and 3DS (where -y is), y in the others.
+    /// As the file's format has it: z up in STL and 3DS (where -y is the front) and in MD2 (where x is), y in the others.
     Auto,
     /// +x is up.
     X,
@@ -189,7 +189,7 @@ impl UpAxis {
     ];
 
     /// Rotates a vector so that this axis becomes +y; exact, components only change places and signs. For `Auto` the
-    /// vector stays: the formats' readers have turned it.
+    /// vector stays: it was turned as its format has it.
     pub fn to_y_up(self, v: DVec3) -> DVec3 {
         match self {
             Self::X => DVec3::new(-v.y, v.x, v.z),
@@ -247,14 +247,29 @@ pub enum LoadStage {
 /// Those of [`load`].
 pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
     check(options)?;
-    let mut remarks = Vec::new();
     watch(LoadStage::Reading);
     refuse_address(path)?;
     let bytes = files::read(Path::new(path), MODEL_BYTES)
         .map_err(|failure| failure.into_error(FileKind::Model, path, "a model file"))?;
+    read_as_watched(&bytes, path, options, watch)
+}
+
+/// Reads bytes as if they were those of the model file `path`: other files that they name are looked for beside that. So what
+/// comes from elsewhere, as through a pipe, is read as a file is.
+///
+/// # Errors
+///
+/// Those of [`load`].
+pub fn read_as(bytes: &[u8], path: &str, options: &LoadOptions) -> Result<Loaded> {
+    check(options)?;
+    read_as_watched(bytes, path, options, &|_| {})
+}
+
+fn read_as_watched(bytes: &[u8], path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
+    let mut remarks = Vec::new();
     watch(LoadStage::Parsing);
     let folder = Folder::of(path, options.allow_external);
-    let soup = soup(&bytes, path, options, &Materials::Beside(&folder), &folder, &mut remarks)?;
+    let soup = soup(bytes, path, options, &Materials::Beside(&folder), &folder, &mut remarks)?;
     watch(LoadStage::Joining);
     made(soup, path, options, remarks)
 }
@@ -303,7 +318,13 @@ fn made(mut soup: Soup, path: &str, options: &LoadOptions, mut remarks: Vec<Stri
     }
     let frames = std::mem::take(&mut soup.frames);
     let files = std::mem::take(&mut soup.files);
+    let may_lie = soup.may_lie && options.up_axis == UpAxis::Auto;
     let mesh = soup.into_mesh(path, options)?;
+    if may_lie && lying::seems_to_lie(&mesh) {
+        remarks.push(format!(
+            "{path}: it may lie on its back, for its only flat end is at the lowest z; if so, --up-axis z stands it up"
+        ));
+    }
     // Missing materials have had a remark of their own from the reader, which knows their names.
     let others = Defects { missing_materials: 0, ..mesh.defects.clone() };
     if !others.is_empty() {
@@ -328,6 +349,14 @@ pub(super) fn check(options: &LoadOptions) -> Result<()> {
         ));
     }
     options.skin.as_deref().map_or(Ok(()), skin::check)
+}
+
+/// Stood up from z, which is up in files of this format by custom, unless an axis is given.
+fn from_z_up(mut soup: Soup, options: &LoadOptions) -> Soup {
+    if options.up_axis == UpAxis::Auto {
+        soup.positions.iter_mut().for_each(|position| *position = UpAxis::Z.to_y_up(*position));
+    }
+    soup
 }
 
 fn soup(
@@ -365,10 +394,10 @@ fn soup(
             if options.skin.is_none() {
                 skin::find_all(&mut soup, folder, path, remarks);
             }
-            soup
+            Soup { may_lie: true, ..soup }
         }
-        Format::Ply => ply::read(bytes, path)?,
-        Format::Stl => stl::read(bytes, path)?,
+        Format::Ply => Soup { may_lie: true, ..ply::read(bytes, path)? },
+        Format::Stl => from_z_up(stl::read(bytes, path)?, options),
         Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
         Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,
         #[cfg(feature = "gltf")]
@@ -405,6 +434,29 @@ mod tests {
             assert_eq!(axis.to_y_up(up), DVec3::Y, "{text}");
             let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|v| axis.to_y_up(v));
             assert_eq!(x.cross(y), z, "{text} keeps handedness");
+        }
+    }
+
+    #[test]
+    fn stl_stands_up_unless_an_axis_is_given() {
+        let text =
+            b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 4 2 3\nvertex 1 5 3\nendloop\nendfacet\n\
+            endsolid a\n";
+        let corners = [[1.0f32, 2.0, 3.0], [4.0, 2.0, 3.0], [1.0, 5.0, 3.0]];
+        let numbers = corners.as_flattened().iter().flat_map(|number| number.to_le_bytes()).collect();
+        let binary = [vec![0; 80], 1u32.to_le_bytes().to_vec(), vec![0; 12], numbers, vec![0; 2]].concat();
+        for bytes in [text.as_slice(), &binary] {
+            let positions = |up_axis| {
+                let options = LoadOptions { up_axis, ..LoadOptions::default() };
+                let mut positions = read_bytes(bytes, "a.stl", b"", &options).unwrap().mesh.positions;
+                positions.sort_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap());
+                positions
+            };
+            let file = [[1.0, 2.0, 3.0], [1.0, 5.0, 3.0], [4.0, 2.0, 3.0]].map(DVec3::from_array);
+            let standing = [[1.0, 3.0, -5.0], [1.0, 3.0, -2.0], [4.0, 3.0, -2.0]].map(DVec3::from_array);
+            assert_eq!(positions(UpAxis::Auto), standing);
+            assert_eq!(positions(UpAxis::Z), standing);
+            assert_eq!(positions(UpAxis::Y), file);
         }
     }
 

@@ -34,6 +34,8 @@ pub(super) struct Soup {
     pub frames: Vec<String>,
     /// What the reader already found.
     pub defects: Defects,
+    /// Whether nothing says which axis of it is up.
+    pub may_lie: bool,
     /// The files that were read besides the model's own: its material libraries, its data.
     pub files: Vec<PathBuf>,
     /// Bytes of those that hold vertices and faces.

@@ -1,0 +1,262 @@
+//! What somebody types wrong, each with its whole sentence: exit code 2, nothing on standard output, no file left.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// Files in the folder where the commands are typed.
+const FILES: [(&str, &str); 15] = [
+    ("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+    ("twice.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n"),
+    ("empty.obj", ""),
+    ("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1"),
+    ("points.obj", "v 0 0 0\nv 1 0 0\n"),
+    ("notes.txt", "dear diary\n"),
+    ("damaged.ply", "not ply"),
+    (
+        "strips.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\nproperty int length\nend_header\n0 0 0\n3\n",
+    ),
+    ("cut.stl", "solid a\nfacet normal 0 0 1\n"),
+    ("old.gltf", "{\"asset\": {\"version\": \"1.0\"}, \"meshes\": {\"a\": {}}}"),
+    ("draco.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"extensionsRequired\": [\"KHR_draco_mesh_compression\"]}"),
+    ("unknown.toml", "style = \"ink\"\ncolour = \"red\"\n"),
+    ("value.toml", "style = \"inkng\"\n"),
+    ("jobs.jsonl", "{\"id\": \"a\"}\n"),
+    ("typo.jsonl", "{\"id\": \"a\", \"command\": \"render\", \"model\": \"-\", \"output\": \"a.png\"}\n"),
+];
+
+/// Command lines, and what they are answered.
+const MISTAKES: [(&str, &str); 75] = [
+    ("redner", "there is no command redner; did you mean render?"),
+    ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
+    ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
+    ("render dir/my-cow.v2.obj", "--output is missing; name the picture to write: -o my-cow.v2.png; see --help"),
+    ("render triangle.obj -o out.png --colour red", "tinta render has no option --colour; did you mean --color?"),
+    ("render triangle.obj -o out.png -size 64", "tinta render has no option -size; did you mean --size?"),
+    (
+        "render triangle.obj -o out.png --style toon",
+        "invalid value 'toon' for '--style <STYLE>': choose one of phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand, lines; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --style three_pass",
+        "invalid value 'three_pass' for '--style <STYLE>': did you mean three-pass?",
+    ),
+    (
+        "render triangle.obj -o out.png --size 0",
+        "invalid value '0' for '--size <WxH>': a size is WIDTHxHEIGHT in pixels, each at least 1, or one number for both; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --size 10x",
+        "invalid value '10x' for '--size <WxH>': a size is WIDTHxHEIGHT in pixels, each at least 1, or one number for both; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --size",
+        "a value is required for '--size <WxH>' but none was supplied; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --color blakc",
+        "invalid value 'blakc' for '--color <COLOR>': a colour is a CSS name or #rrggbb, for example tan or #d2b48c, or own; see --help",
+    ),
+    ("render triangle.obj -o out.png --view tpo", "invalid value 'tpo' for '--view <VIEW>': did you mean top?"),
+    (
+        "render triangle.obj -o out.png --view 1",
+        "invalid value '1' for '--view <VIEW>': a view is iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees with the elevation from -90 to 90; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --fov wide",
+        "invalid value 'wide' for '--fov <DEGREES>': give a number; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --fov 0",
+        "--fov 0: the field of view is an angle between 0 and 180 degrees, both excluded",
+    ),
+    (
+        "render triangle.obj -o out.png --eye 1,2",
+        "invalid value '1,2' for '--eye <X,Y,Z>': give 3 numbers separated by commas, without blanks, or fitted; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --eye 1,2,3 --view front",
+        "the argument '--eye <X,Y,Z>' cannot be used with '--view <VIEW>'; see --help",
+    ),
+    ("render triangle.obj -o out.png --tones 4", "--tones 4: there are 1, 2 or 3 tones"),
+    (
+        "render triangle.obj -o out.png --tone-levels 1,2",
+        "invalid value '1,2' for '--tone-levels <A,B,C>': give 3 numbers separated by commas, without blanks; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --filter sobell",
+        "invalid value 'sobell' for '--filter <FILTER>': did you mean sobel?",
+    ),
+    (
+        "render triangle.obj -o out.png --border-width 0",
+        "--border-width 0: a border is 1 to 64 pixels wide; --style inking draws wider lines",
+    ),
+    (
+        "render triangle.obj -o out.png --style inking --classes crease,boundry",
+        "invalid value 'crease,boundry' for '--classes <CLASSES>': did you mean boundary?",
+    ),
+    (
+        "render triangle.obj -o out.png --style inking --line-width 0",
+        "--line-width 0: a line's width is a number of pixels above 0 and at most 16384",
+    ),
+    (
+        "render triangle.obj -o out.png --up-axis w",
+        "invalid value 'w' for '--up-axis <AXIS>': choose one of auto, x, y, z, -x, -y, -z; see --help",
+    ),
+    ("render triangle.obj -o out.png --weld 2", "--weld 2: the tolerance is a share of the model's size from 0 to 0.1"),
+    (
+        "render triangle.obj -o out.png --normals flatt",
+        "invalid value 'flatt' for '--normals <WHERE>': did you mean flat?",
+    ),
+    ("render triangle.obj -o out.png --smooth-angle 400", "--smooth-angle 400: the angle is between 0 and 180 degrees"),
+    ("render triangle.obj -o out.png --skin none.png", "none.png: there is no such file; check the name after --skin"),
+    (
+        "render triangle.obj -o out.png --turntable 0",
+        "invalid value '0' for '--turntable <N>': 0 is not in 1..=10000; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --frames 0",
+        "invalid value '0' for '--frames <N>': 0 is not in 1..=1000000; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --json --explain",
+        "the argument '--json' cannot be used with '--explain'; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --hidden dashed",
+        "--hidden: only style lines has this; leave it out, or write a .svg",
+    ),
+    (
+        "render triangle.obj -o out.png --style charcoal --show map",
+        "--show: the style charcoal has no map, lines or tones; show final, diffuse, cem, cet or paper",
+    ),
+    (
+        "render triangle.obj -o out.png --model-frame 1",
+        "--model-frame 1: triangle.obj has no frames; leave the option out, or name an MD2 model",
+    ),
+    (
+        "render triangle.obj -o out.png --animate",
+        "out.png: this names one picture; an animation is a .gif or .apng file, or has numbered names such as frame-%04d.png",
+    ),
+    (
+        "render twice.obj -o out.png --strict",
+        "twice.obj: 1 duplicate triangle; repair the model, or leave out --strict to draw it without them",
+    ),
+    (
+        "render triangle.obj -o out.xyz",
+        "out.xyz: nothing is written as .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg or .json for lines, .gif or .apng for an animation",
+    ),
+    ("render triangle.obj -o nowhere/out.png", "nowhere/out.png: the folder nowhere does not exist; create it first"),
+    ("render triangle.obj -o dir", "dir: this is a directory; name a file in it"),
+    (
+        "render triangle.obj -o out.svg --style ink",
+        "out.svg: style ink draws pixels; leave out --style to write lines, or name a picture such as drawing.png",
+    ),
+    (
+        "render triangle.obj -o out.png --preset none.toml",
+        "none.toml: there is no such file; name a preset, or one that ships: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand",
+    ),
+    (
+        "render triangle.obj -o out.png --preset paper:evangelista-tree-pass",
+        "paper:evangelista-tree-pass: there is no shipped preset of this name; did you mean paper:evangelista-three-pass?",
+    ),
+    (
+        "render triangle.obj -o out.png --preset unknown.toml",
+        "unknown.toml: line 2: colour: there is no option --colour; did you mean color?",
+    ),
+    (
+        "render triangle.obj -o out.png --preset value.toml",
+        "value.toml: line 1: invalid value 'inkng' for '--style <STYLE>': did you mean inking?",
+    ),
+    (
+        "render triangle.obj -o out.png --backend ogl",
+        "invalid value 'ogl' for '--backend <BACKEND>': did you mean egl?",
+    ),
+    ("render none.obj -o out.png", "none.obj: there is no such file; check the name"),
+    ("render dir -o out.png", "dir: this is a directory; name a model file in it"),
+    ("render empty.obj -o out.png", "empty.obj: the file is empty; export the model again"),
+    (
+        "render notes.txt -o out.png",
+        "notes.txt: this is not a model in a supported format; use an OBJ, PLY, STL, MD2, 3DS or glTF file",
+    ),
+    (
+        "render cut.obj -o out.png",
+        "cut.obj: line 3: a vertex is not three numbers; correct this line or export the model again",
+    ),
+    ("render points.obj -o out.png", "points.obj: it holds 2 vertices but no faces; export it with its faces"),
+    (
+        "render damaged.ply -o out.png",
+        "damaged.ply: it does not begin like a PLY file; it is damaged or misnamed, export it again",
+    ),
+    ("render strips.ply -o out.png", "strips.ply: its triangle strips have no list of vertex_indices; export it again"),
+    ("render cut.stl -o out.png", "cut.stl: it does not end with endsolid; it is damaged or cut off, export it again"),
+    (
+        "render old.gltf -o out.png",
+        "old.gltf: it is glTF 1.0, and only glTF 2 is read; convert it, for instance with: gltf-pipeline -i IN.gltf -o OUT.glb",
+    ),
+    (
+        "render draco.gltf -o out.png",
+        "draco.gltf: it needs the extension KHR_draco_mesh_compression, which tinta does not read; decompress it, for instance with: gltf-transform copy IN.glb OUT.glb",
+    ),
+    (
+        "render https://example.org/cow.obj -o out.png",
+        "https://example.org/cow.obj: this is an address, and only files are read; fetch it first, for instance with: curl -L ADDRESS | tinta render - -o picture.png",
+    ),
+    ("render builtin:gaer -o out.png", "builtin:gaer: there is no such built-in model; did you mean builtin:gear?"),
+    (
+        "render builtin:cow -o out.png",
+        "builtin:cow: there is no such built-in model; choose one of builtin:bust, builtin:open-box, builtin:ant, builtin:gear, builtin:soldier",
+    ),
+    (
+        "render - -o out.png",
+        "standard input: nothing came; pipe a model file into it, or see what the command before the pipe says",
+    ),
+    ("edges", "a model is missing; name a file, or a built-in one such as builtin:bust; see --help"),
+    ("edges triangle.obj --seed 3", "tinta edges has no option --seed; see --help"),
+    ("edges triangle.obj other.obj", "unexpected argument 'other.obj' found; see --help"),
+    (
+        "compare triangle.obj -o out.png --left phong",
+        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink",
+    ),
+    ("measure triangle.obj", "--output is missing; name the folder to write into: -o results; see --help"),
+    ("measure triangle.obj -o out --tolerance 0", "--tolerance 0: it is a number of pixels above 0 and at most 1000"),
+    ("batch jobs.jsonl -o out", "jobs.jsonl: line 1: it has no command; write render, compare or measure"),
+    ("batch typo.jsonl -o out", "typo.jsonl: line 1: model: - is standard input, which jobs have not; name a file"),
+    ("batch none.jsonl -o out", "none.jsonl: there is no such file; check the name"),
+    ("again notes.txt -o out.png", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),
+    ("textures -o triangle.obj", "-o triangle.obj: this is a file; name a folder"),
+    ("completions nushell", "invalid value 'nushell' for '<SHELL>': choose one of bash, zsh, fish; see --help"),
+    ("completions bahs", "invalid value 'bahs' for '<SHELL>': did you mean bash?"),
+    ("provenance three_pass", "invalid value 'three_pass' for '[STYLE]': did you mean three-pass?"),
+];
+
+/// The names in a folder, in order.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn every_mistake_is_one_sentence_that_says_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::create_dir(folder.join("dir")).unwrap();
+    FILES.iter().for_each(|(name, content)| std::fs::write(folder.join(name), content).unwrap());
+    let before = names(folder);
+    let mut wrong = Vec::new();
+    for (line, sentence) in MISTAKES {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_tinta"));
+        let output = command.args(line.split(' ')).current_dir(folder).stdin(Stdio::null()).output().unwrap();
+        let (said, code) = (String::from_utf8_lossy(&output.stderr), output.status.code());
+        if said != format!("tinta: {sentence}\n") || code != Some(2) || !output.stdout.is_empty() {
+            wrong.push(format!("tinta {line}\n  should say: {sentence}\n  but says:   {said}  with {code:?}"));
+        }
+        assert_eq!(names(folder), before, "tinta {line} left a file");
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+    for (name, content) in FILES {
+        assert_eq!(std::fs::read_to_string(folder.join(name)).unwrap(), content, "{name} was changed");
+    }
+}
