@@ -4,7 +4,7 @@ use glam::DVec2;
 use resvg::{tiny_skia, usvg};
 use roxmltree::{Document, Node};
 use tinta::edges::{Class, ClassCounts};
-use tinta::lines::{Hidden, LineSegment, LineTimes, PageSize, svg};
+use tinta::lines::{Hidden, Length, LineSegment, LineTimes, PageSize, svg};
 use tinta::{Background, Color, Size, SvgSettings, VisibleLines};
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
@@ -14,6 +14,7 @@ fn segment(class: Class, is_visible: bool, a: [f64; 2], b: [f64; 2]) -> LineSegm
     LineSegment {
         class,
         is_visible,
+        is_outline: false,
         ends_px: [a.into(), b.into()],
         edge,
         angle_degrees: edge.map(|_| 45.25),
@@ -189,9 +190,9 @@ fn provenance_names_a_paths_edges_and_angles() {
 #[test]
 fn another_renderer_draws_the_lines_where_they_are() {
     let mut colors = tinta::styles::ClassColors::default();
-    colors.0[Class::Crease as usize] = Color([1.0, 0.0, 0.0]);
+    colors.0.set_class(Class::Crease, Color([1.0, 0.0, 0.0]));
     let mut settings = SvgSettings { class_colors: colors, hidden: Hidden::Ghost, ..SvgSettings::default() };
-    settings.class_widths.0[Class::Silhouette as usize] = Some(6.0);
+    settings.class_widths.0.set_class(Class::Silhouette, Length::Px(6.0));
     let pixels = rendered(&svg(&drawing(), &settings).unwrap());
     assert_eq!((pixels.width(), pixels.height()), (120, 80));
     assert_eq!(rgba(&pixels, 5, 5), [255; 4], "the background");
@@ -248,7 +249,10 @@ fn sizes_on_paper_are_millimetres_or_inches() {
 #[test]
 fn nonsense_settings_are_refused_by_name() {
     let message = |settings: SvgSettings| svg(&drawing(), &settings).unwrap_err().to_string();
-    assert!(message(SvgSettings { line_width_px: 0.0, ..SvgSettings::default() }).starts_with("line-width 0"));
+    assert!(
+        message(SvgSettings { line_width: Some(Length::Px(0.0)), ..SvgSettings::default() })
+            .starts_with("line-width 0")
+    );
     let page_size = PageSize::WidthMm(f64::NAN);
     assert!(message(SvgSettings { page_size, ..SvgSettings::default() }).starts_with("width-mm NaN"));
 }

@@ -136,3 +136,7 @@ pub const DOUBLED: f64 = 1.0 / 12.0;
 
 /// Least area of such a face, as a share of its model's: in a picture of 512 pixels a dozen or so.
 pub const DOUBLED_AREA: f64 = 5e-4;
+
+/// Distance between an end of a line and another line below which they touch in a drawing, pixels: some steps of the numbers in
+/// an SVG, so that what looks joined is.
+pub const JOINED_PX: f64 = 5e-3;
