@@ -181,11 +181,12 @@ fn find(scene: &Scene, settings: &LineSettings) -> Result<VisibleLines> {
 /// How the SVG is to be written. Its command has a name of its own for the output: the same drawing is the same bytes wherever
 /// it is written.
 pub(super) fn svg_settings(arguments: &Arguments, recipe: Option<&Recipe>) -> Result<SvgSettings> {
+    let name = if arguments.output.to_ascii_lowercase().ends_with(".pdf") { "drawing.pdf" } else { "drawing.svg" };
     let names =
         arguments.models.iter().map(|path| Path::new(path).file_name().map_or(path.into(), |n| n.to_string_lossy()));
     Ok(SvgSettings {
         title: names.collect::<Vec<_>>().join(", "),
-        command: recipe.map(|recipe| recipe.command_line("drawing.svg")).unwrap_or_default(),
+        command: recipe.map(|recipe| recipe.command_line(name)).unwrap_or_default(),
         recipe: recipe.and_then(Recipe::json).unwrap_or_default(),
         background: arguments.scene_settings()?.background,
         ..arguments.styles.svg_settings(&arguments.lines)?
