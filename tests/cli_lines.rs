@@ -109,13 +109,13 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--crease-angle", "200"], &["--crease-angle 200"]);
     refuse(&["--pen", "--line-width", "3"], &["--pen", "--line-width"]);
     refuse(&["--class-widths", "outlines=3"], &["--class-widths", "outline, hidden, or hidden-"]);
-    refuse(&["--line-width", "0.5mm"], &["--line-width 0.5mm", "no size on paper", "--paper A4"]);
-    refuse(&["--min-length", "1mm"], &["--min-length 1mm", "--paper A4"]);
+    refuse(&["--line-width", "0.5mm"], &["--line-width 0.5mm", "no size on paper", "--page A4"]);
+    refuse(&["--min-length", "1mm"], &["--min-length 1mm", "--page A4"]);
     refuse(&["--min-length", "-1"], &["--min-length -1", "0 or more"]);
-    refuse(&["--paper", "A9"], &["--paper", "A3, A4, A5 or letter"]);
-    refuse(&["--paper", "A4", "--width-mm", "90"], &["--paper", "--width-mm"]);
-    refuse(&["--paper", "A4", "--margin", "105"], &["--margin 105mm", "105 millimetres"]);
-    refuse(&["--margin", "10mm"], &["--margin", "--paper A4"]);
+    refuse(&["--page", "A9"], &["--page", "A3, A4, A5 or letter"]);
+    refuse(&["--page", "A4", "--width-mm", "90"], &["--page", "--width-mm"]);
+    refuse(&["--page", "A4", "--margin", "105"], &["--margin 105mm", "105 millimetres"]);
+    refuse(&["--margin", "10mm"], &["--margin", "--page A4"]);
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn a_pdf_of_a_sheet_is_written_the_same_every_time() {
     let folder = Folder::new();
     let [first, second] = ["a.pdf", "b.pdf"].map(|name| folder.path(name));
     for out in [&first, &second] {
-        let options = ["--paper", "A5", "--hidden", "dashed", "--class-widths", "outline=1mm,hidden=0.2mm"];
+        let options = ["--page", "A5", "--hidden", "dashed", "--class-widths", "outline=1mm,hidden=0.2mm"];
         assert!(made(&[&["render", "builtin:gear", "-o", out][..], &options].concat()).is_empty());
     }
     let bytes = std::fs::read(&first).unwrap();

@@ -128,9 +128,13 @@ fn min_length_is_in_pixels_or_millimetres_and_nothing_goes_at_0() {
     // The picture is 120 pixels wide: two pixels a millimetre.
     let on_paper = SvgSettings { page_size: tinta::lines::PageSize::WidthMm(60.0), ..of("4mm") };
     assert_eq!((kept_with(&speck(7.9), &on_paper).len(), kept_with(&speck(8.1), &on_paper).len()), (4, 5));
-    // An explicit length is that of creases too; polygons smaller than it stay closed.
-    let fold = with(&[segment(Crease, true, [30.0, 30.0], [39.0, 30.0])]);
-    assert_eq!(kept_with(&fold, &of("8")).len(), 5);
+    // Creases: eight times that up to a width, and no more than asked beyond eight widths; polygons smaller than it stay closed.
+    let fold = |length: f64| with(&[segment(Crease, true, [30.0, 30.0], [30.0 + length, 30.0])]);
+    for (text, length) in [("0.5", 4.0), ("2", 16.0), ("8", 16.0), ("20", 20.0)] {
+        assert_eq!(kept_with(&fold(length - 0.1), &of(text)).len(), 4, "{text}");
+        assert_eq!(kept_with(&fold(length + 0.1), &of(text)).len(), 5, "{text}");
+    }
+    assert_eq!(kept_with(&fold(0.1), &of("0")).len(), 5);
     assert_eq!(kept_with(&square(), &of("50")).len(), 4);
     // Wider lines, longer specks.
     let wide = SvgSettings { line_width: Some(Length::Px(6.0)), ..SvgSettings::default() };

@@ -46,7 +46,7 @@ const CONFLICTS: [(&str, &[&str]); 5] = [
     ("eye", &["view"]),
     ("transparent", &["background"]),
     ("width-mm", &["dpi"]),
-    ("paper", &["width-mm", "dpi"]),
+    ("page", &["width-mm", "dpi"]),
     ("pen", &["class-widths", "line-width"]),
 ];
 

@@ -31,7 +31,7 @@ impl Length {
         if matches!(self, Self::Px(_)) || has_paper {
             return Ok(());
         }
-        let problem = "the drawing has no size on paper; add --paper A4, --width-mm or --dpi, or give pixels";
+        let problem = "the drawing has no size on paper; add --page A4, --width-mm or --dpi, or give pixels";
         Err(Error::value(name, self, problem))
     }
 
@@ -106,7 +106,7 @@ pub(super) const LINE_WIDTH: (&str, &str, &str) = (
 );
 
 /// The default's words.
-pub(super) const LINE_WIDTH_SAID: &str = "2; style lines with --paper: 0.5mm";
+pub(super) const LINE_WIDTH_SAID: &str = "2; style lines with --page: 0.5mm";
 
 /// The range that a panel offers.
 pub(super) const LINE_WIDTH_RANGE: (f64, f64, usize) = (0.5, 40.0, 1);

@@ -176,7 +176,7 @@ impl PageSize {
                 let sides = paper.sheet.sides_mm();
                 if !sides.into_iter().all(is_sound) {
                     let problem = format!("each side of a paper is {SMALLEST} to {LARGEST} millimetres long");
-                    return Err(Error::value("paper", paper, problem));
+                    return Err(Error::value("page", paper, problem));
                 }
                 let most = sides[0].min(sides[1]) * 0.5;
                 if !(0.0..most).contains(&margin.0) {
@@ -341,7 +341,7 @@ mod tests {
             assert!(check("A4", margin).unwrap_err().to_string().starts_with("margin"));
         }
         for paper in ["0x20mm", "-3x20mm", "20x1e9mm", "NaNxNaNmm"] {
-            assert!(check(paper, 0.0).unwrap_err().to_string().starts_with("paper"), "{paper}");
+            assert!(check(paper, 0.0).unwrap_err().to_string().starts_with("page"), "{paper}");
         }
     }
 }

@@ -33,9 +33,9 @@ pub fn pdf_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSe
     let scale = drawing.page.points_per_px();
     let page_points = drawing.page.extent_px * scale;
     if page_points.max_element() > LARGEST_PAGE || page_points.min_element() < SMALLEST_PAGE {
-        let problem = "a page of a PDF is 3 to 14,400 points (5 metres) long on each side; choose another --paper, \
+        let problem = "a page of a PDF is 3 to 14,400 points (5 metres) long on each side; choose another --page, \
                        --width-mm, --dpi or --size";
-        return Err(Error::setting("paper", problem));
+        return Err(Error::setting("page", problem));
     }
     Ok(written(&drawing, scale))
 }

@@ -26,8 +26,8 @@ pub struct SvgSettings {
     pub line_width: Option<Length>,
     /// Widths of single layers. Default that of all; hidden lines half of what their class has.
     pub class_widths: ClassWidths,
-    /// Strokes and branches that end free and are shorter than this are left out unless that would open a line. Default the
-    /// strokes' own width, of creases eight of it.
+    /// Strokes and branches that end free and are shorter than this are left out unless that would open a line; creases below
+    /// eight times it, and at most eight widths where it is longer than one. Default the strokes' own width.
     pub min_length: Option<Length>,
     /// A rectangle behind everything, or nothing. Default white.
     pub background: Background,
@@ -109,7 +109,7 @@ impl SvgSettings {
             },
         );
         let paper = Setting::of(
-            "paper",
+            "page",
             "PAPER",
             Paper::kind(),
             "Sheet that the drawing fills but for --margin: A3, A4, A5, letter or WIDTHxHEIGHTmm; it lies as the drawing \
@@ -155,7 +155,7 @@ impl SvgSettings {
             width.open(UNSET).said("none, sizes are in pixels"),
             dpi.open(UNSET).said("none, sizes are in pixels"),
             paper.open(UNSET).said("none, sizes are in pixels"),
-            Setting::field("margin", "MM", "Free border of --paper, in millimetres", |svg: &mut Self| &mut svg.margin),
+            Setting::field("margin", "MM", "Free border of --page, in millimetres", |svg: &mut Self| &mut svg.margin),
             Setting::flag(
                 "provenance",
                 "Write each path's class, object, mesh edges and angles into the file, and keep all points",
@@ -233,7 +233,7 @@ impl SvgSettings {
         if self.margin != Self::default().margin && !matches!(self.page_size, PageSize::Paper(_)) {
             return Err(Error::setting(
                 "margin",
-                "only a sheet of paper has a margin; add --paper A4, or leave it out",
+                "only a sheet of paper has a margin; add --page A4, or leave it out",
             ));
         }
         self.page_size.check(self.margin)
@@ -290,13 +290,13 @@ impl SvgSettings {
     }
 
     /// Below which length a stroke of a layer may be left out, pixels. A pen is as wide as any other line. Creases that belong to
-    /// an edge of the shape end at others; what ends free are folds of a scan.
+    /// an edge of a part end at others; what ends free are folds of a scan.
     pub(in crate::lines) fn min_length_px(&self, layer: Layer, px_per_mm: Option<f64>) -> f64 {
         let width = self.width_px(layer, px_per_mm);
-        match (self.min_length, layer) {
-            (Some(length), _) => length.px(px_per_mm).unwrap_or(0.0),
-            (None, Layer::Visible(Class::Crease) | Layer::Hidden(Class::Crease)) => width * LEAST_CREASE_WIDTHS,
-            (None, _) => width,
+        let length = self.min_length.and_then(|length| length.px(px_per_mm)).unwrap_or(width);
+        match layer {
+            Layer::Visible(Class::Crease) | Layer::Hidden(Class::Crease) => length.max(LEAST_CREASE * length.min(width)),
+            _ => length,
         }
     }
 }
@@ -307,8 +307,8 @@ pub(in crate::lines) fn mixed(color: Color, paper: Color, strength: f32) -> Colo
     Color(std::array::from_fn(|channel| paper[channel] + (color[channel] - paper[channel]) * strength))
 }
 
-/// Length of a crease that ends free, or of folds that hang on nothing, in widths of their lines.
-const LEAST_CREASE_WIDTHS: f64 = 8.0;
+/// So much longer must creases be that end free or hang on nothing.
+const LEAST_CREASE: f64 = 8.0;
 
 /// Hidden lines' width and strength, as shares of what their class has.
 const HIDDEN_WIDTH: f64 = 0.5;
@@ -355,7 +355,7 @@ mod tests {
             SvgSettings { class_widths, ..base() },
         ];
         for settings in on_screen {
-            assert!(settings.check().unwrap_err().to_string().contains("--paper A4"));
+            assert!(settings.check().unwrap_err().to_string().contains("--page A4"));
             for page_size in [PageSize::WidthMm(90.0), PageSize::Dpi(96.0), PageSize::Paper("A4".parse().unwrap())] {
                 assert!(SvgSettings { page_size, ..settings.clone() }.check().is_ok());
             }
@@ -383,11 +383,12 @@ mod tests {
 
     #[test]
     fn lines_are_half_a_millimetre_wide_on_a_sheet() {
-        let layer = Layer::Visible(Class::Crease);
+        let layer = Layer::Visible(Class::Silhouette);
         assert_eq!(base().width_px(layer, None), 2.0);
         let paper = SvgSettings { page_size: PageSize::Paper("A4".parse().unwrap()), ..base() };
         assert_eq!(paper.width_px(layer, Some(3.0)), 1.5);
         assert_eq!(paper.min_length_px(layer, Some(3.0)), 1.5);
+        assert_eq!(paper.min_length_px(Layer::Visible(Class::Crease), Some(3.0)), 12.0);
         assert_eq!(SvgSettings { line_width: Some(Length::Px(4.0)), ..paper }.width_px(layer, Some(3.0)), 4.0);
     }
 }
