@@ -116,7 +116,7 @@ fn one_model(settings: &Settings, model: &str, folder: &Path) -> Value {
 fn lines_ms(mesh: &Arc<Mesh>) -> (f64, LineTimes) {
     let scene = Scene::new(vec![mesh.clone()], &SceneSettings::default()).expect("a scene");
     let start = Instant::now();
-    let lines = VisibleLines::of(&scene, &LineSettings::default()).expect("lines");
+    let lines = VisibleLines::of(&scene, &LineSettings::as_published()).expect("lines");
     (milliseconds_since(start), lines.times)
 }
 
@@ -171,7 +171,7 @@ fn growth() -> Value {
             let times: Vec<f64> = (0..REPEATS).map(|_| lines_ms(&mesh).0).collect();
             let middle = median(times.clone()).unwrap_or(f64::NAN);
             let scene = Scene::new(vec![mesh], &SceneSettings::default()).expect("a scene");
-            let segments = VisibleLines::of(&scene, &LineSettings::default()).expect("lines").segments.len();
+            let segments = VisibleLines::of(&scene, &LineSettings::as_published()).expect("lines").segments.len();
             println!("  {count:>10}{middle:>12.2}{:>20.2}{segments:>12}", middle * 1e6 / (count * count.log2()));
             points.push((count, middle));
             json!({ "triangles": count, "ms": times, "segments": segments })

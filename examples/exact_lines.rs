@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 use tinta::edges::Class;
-use tinta::lines::{Hidden, svg};
+use tinta::lines::{Hidden, Length, svg};
 use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, TextTarget, VisibleLines, load};
 
 fn main() -> tinta::Result<()> {
@@ -26,7 +26,7 @@ pub fn draw(model: &str, output: &str) -> tinta::Result<(usize, usize)> {
     let settings = SvgSettings {
         title: format!("{model}, {creases} pieces of creases"),
         hidden: Hidden::Dashed,
-        line_width_px: 1.5,
+        line_width: Some(Length::Px(1.5)),
         ..SvgSettings::default()
     };
     target.write(&svg(&lines, &settings)?)?;

@@ -12,7 +12,7 @@
 //! let mesh = load("builtin:open-box", &LoadOptions::default())?.mesh;
 //! let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
 //!
-//! let reference = Reference::of(&scene, &LineSettings::default())?;
+//! let reference = Reference::of(&scene, &LineSettings::as_published())?;
 //! assert!(reference.length_px() > 1000.0, "all visible lines of the box, in a picture of 512 pixels");
 //! # Ok(())
 //! # }

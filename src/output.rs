@@ -25,7 +25,7 @@ use staged_file::StagedFile;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Where a text goes: an SVG, a JSON file.
+/// Where a text goes, an SVG or a JSON file, or a PDF.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TextTarget {
     /// Standard output.
@@ -55,9 +55,18 @@ impl TextTarget {
     ///
     /// [`Error::File`] when the disk is full, the folder gone, the pipe closed.
     pub fn write(&self, text: &str) -> Result<()> {
+        self.write_bytes(text.as_bytes())
+    }
+
+    /// Writes what is no text, as [`TextTarget::write`] does.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn write_bytes(&self, bytes: &[u8]) -> Result<()> {
         match self {
-            Self::Stdout => write_standard_output(text.as_bytes()),
-            Self::File(path) => write_whole(path, text.as_bytes()),
+            Self::Stdout => write_standard_output(bytes),
+            Self::File(path) => write_whole(path, bytes),
         }
     }
 }

@@ -50,7 +50,10 @@ fn lines_are_written_as_json_and_their_record_is_printed() {
     assert_eq!(segments, counted("visible_segments") + counted("hidden_segments"));
     let record = made(&["render", "builtin:open-box", "-o", &folder.path("a.svg"), "--json", "--hidden", "ghost"]);
     let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
-    assert_eq!((&record["style"]["hidden"], &record["style"]["line-width"]), (&"ghost".into(), &2.0.into()));
+    assert_eq!(
+        (&record["style"]["hidden"], &record["style"]["line-width"]),
+        (&"ghost".into(), &serde_json::Value::Null)
+    );
     assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(6));
 }
 
@@ -61,8 +64,8 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     let refuse = |output: &str, options: &[&str], words: &[&str]| {
         refused_in_one_line(&[&["render", "builtin:ant", "-o", output], options].concat(), words);
     };
-    refuse(&png, &["--style", "lines"], &["a.png: style lines writes .svg or .json"]);
-    refuse("turn.gif", &["--style", "lines"], &["style lines writes .svg or .json"]);
+    refuse(&png, &["--style", "lines"], &["a.png: style lines writes .svg, .pdf or .json"]);
+    refuse("turn.gif", &["--style", "lines"], &["style lines writes .svg, .pdf or .json"]);
     refuse(&svg, &["--style", "three-pass"], &["a.svg: style three-pass draws pixels", ".png"]);
     refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "sand, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
@@ -105,6 +108,14 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--classes", "outline"], &["--classes", "intersection, or all"]);
     refuse(&["--crease-angle", "200"], &["--crease-angle 200"]);
     refuse(&["--pen", "--line-width", "3"], &["--pen", "--line-width"]);
+    refuse(&["--class-widths", "outlines=3"], &["--class-widths", "outline, hidden, or hidden-"]);
+    refuse(&["--line-width", "0.5mm"], &["--line-width 0.5mm", "no size on paper", "--page A4"]);
+    refuse(&["--min-length", "1mm"], &["--min-length 1mm", "--page A4"]);
+    refuse(&["--min-length", "-1"], &["--min-length -1", "0 or more"]);
+    refuse(&["--page", "A9"], &["--page", "A3, A4, A5 or letter"]);
+    refuse(&["--page", "A4", "--width-mm", "90"], &["--page", "--width-mm"]);
+    refuse(&["--page", "A4", "--margin", "105"], &["--margin 105mm", "105 millimetres"]);
+    refuse(&["--margin", "10mm"], &["--margin", "--page A4"]);
 }
 
 #[test]
@@ -142,5 +153,62 @@ fn a_model_is_not_written_over_and_an_empty_drawing_is_said() {
     let output = tinta(&["render", &model, "-o", &folder.path("empty.svg"), "--classes", "crease"]);
     assert_eq!(output.status.code(), Some(0));
     assert!(String::from_utf8_lossy(&output.stderr).contains("no line of these classes is visible"));
-    refused_in_one_line(&["render", &model, "-o", &folder.path("a.svgz")], &[".svgz", ".svg or .json for lines"]);
+    refused_in_one_line(&["render", &model, "-o", &folder.path("a.svgz")], &[".svgz", ".svg, .pdf or .json for lines"]);
+}
+
+#[test]
+fn a_pdf_of_a_sheet_is_written_the_same_every_time() {
+    let folder = Folder::new();
+    let [first, second] = ["a.pdf", "b.pdf"].map(|name| folder.path(name));
+    for out in [&first, &second] {
+        let options = ["--page", "A5", "--hidden", "dashed", "--class-widths", "outline=1mm,hidden=0.2mm"];
+        assert!(made(&[&["render", "builtin:gear", "-o", out][..], &options].concat()).is_empty());
+    }
+    let bytes = std::fs::read(&first).unwrap();
+    assert_eq!(bytes, std::fs::read(&second).unwrap());
+    let text = String::from_utf8_lossy(&bytes);
+    assert!(text.starts_with("%PDF-1.") && text.contains("visible outline") && text.contains("drawing.pdf"));
+    assert!(text.contains("[0 0 419.52756 595.27559]") || text.contains("[0 0 419.52756 595.2756]"), "A5, upright");
+    refused_in_one_line(
+        &["render", "builtin:gear", "-o", &first, "--provenance"],
+        &["--provenance", "a .pdf file has no place for it"],
+    );
+}
+
+#[test]
+fn a_json_file_has_all_pieces_unless_a_length_is_given_and_says_which_are_outline() {
+    let folder = Folder::new();
+    let out = folder.path("a.json");
+    let segments = |options: &[&str]| -> Vec<serde_json::Value> {
+        made(&[&["render", "builtin:bust", "-o", &out][..], options].concat());
+        let read: serde_json::Value = serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap();
+        read["segments"].as_array().unwrap().clone()
+    };
+    let (all, long) = (segments(&[]), segments(&["--min-length", "20"]));
+    assert!(long.len() < all.len() && !long.is_empty(), "{} {}", long.len(), all.len());
+    assert_eq!(segments(&["--min-length", "0"]), all);
+    let outline = all.iter().filter(|segment| segment["outline"] == true).count();
+    assert!(outline > 10 && all.iter().all(|segment| segment["outline"] == false || segment["visible"] == true));
+}
+
+#[test]
+fn only_lines_have_outlines_and_millimetres() {
+    let folder = Folder::new();
+    let [png, svg] = ["a.png", "a.svg"].map(|name| folder.path(name));
+    let ink = ["render", "builtin:ant", "-o", &png, "--style", "inking", "--size", "32"];
+    refused_in_one_line(&[&ink[..], &["--class-colors", "outline=red"]].concat(), &["--class-colors outline", ".svg"]);
+    refused_in_one_line(&[&ink[..], &["--line-width", "0.5mm"]].concat(), &["--line-width 0.5mm", "give pixels"]);
+    made(&[
+        "render",
+        "builtin:ant",
+        "-o",
+        &svg,
+        "--class-colors",
+        "outline=red",
+        "--line-width",
+        "0.5mm",
+        "--dpi",
+        "96",
+    ]);
+    assert!(std::fs::read_to_string(&svg).unwrap().contains(r#"id="visible-outline""#));
 }

@@ -466,7 +466,9 @@ fn nonsense_is_refused_by_the_options_name() {
     assert!(dietrich.plan(&scene, Show::Final).unwrap_err().to_string().starts_with("ink-threshold 1.5"));
     assert!("silhouette".parse::<ClassColors>().is_err() && "edge=red".parse::<ClassColors>().is_err());
     let colors: ClassColors = "silhouette=red,crease=#0000ff".parse().unwrap();
-    assert_eq!(colors.0[Class::Crease as usize], tinta::Color([0.0, 0.0, 1.0]));
+    assert_eq!(colors.of_class(Class::Crease), tinta::Color([0.0, 0.0, 1.0]));
+    let layers = refused(Inking { colors: "crease=red,hidden=blue".parse().unwrap(), ..base() }, Show::Final);
+    assert!(layers.starts_with("class-colors hidden: only drawings by style lines"), "{layers}");
 }
 
 fn check_order(backends: &[Backend]) {

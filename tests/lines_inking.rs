@@ -100,7 +100,7 @@ fn shares_of(renderer: &mut Renderer, scene: &Scene, name: &str) -> [f64; 2] {
     let inking =
         Inking { classes: CLASSES, silhouette: SilhouetteRule::Exact, paint: PaintMode::None, ..Inking::default() };
     let of_gl = renderer.render(scene, &Style::Inking(inking)).unwrap();
-    let settings = LineSettings { classes: CLASSES, ..LineSettings::default() };
+    let settings = LineSettings { classes: CLASSES, ..LineSettings::as_published() };
     let lines = VisibleLines::of(scene, &settings).unwrap();
     let pixels = rendered(&svg(&lines, &SvgSettings::default()).unwrap());
     let size = Size { width: pixels.width(), height: pixels.height() };

@@ -20,7 +20,7 @@ fn triangle() -> Scene {
 }
 
 fn reference(scene: &Scene) -> Reference {
-    Reference::of(scene, &LineSettings::default()).unwrap()
+    Reference::of(scene, &LineSettings::as_published()).unwrap()
 }
 
 /// Ink wherever `is_ink` says, black.
@@ -168,12 +168,13 @@ fn a_rows_error_is_found_again_from_the_picture_and_the_written_lines() {
             })
             .collect()
     };
-    let lines = read(&LineSettings::default());
+    let lines = read(&LineSettings::as_published());
     let soft_settings = LineSettings {
         classes: tinta::edges::ClassSet::of(&[Class::Crease]),
         crease_angle: tinta::edges::CreaseAngle::from_degrees(20.0).unwrap(),
+        finds_outline: false,
     };
-    let limit = LineSettings::default().crease_angle.degrees();
+    let limit = LineSettings::as_published().crease_angle.degrees();
     let soft: Vec<_> = read(&soft_settings).into_iter().filter(|(_, angle)| *angle <= limit).collect();
     let inked: Vec<(DVec2, f64)> = picture
         .pixels

@@ -4,16 +4,17 @@ use glam::DVec2;
 use resvg::{tiny_skia, usvg};
 use roxmltree::{Document, Node};
 use tinta::edges::{Class, ClassCounts};
-use tinta::lines::{Hidden, LineSegment, LineTimes, PageSize, svg};
+use tinta::lines::{Hidden, Length, LineSegment, LineTimes, PageSize, svg};
 use tinta::{Background, Color, Size, SvgSettings, VisibleLines};
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
-fn segment(class: Class, is_visible: bool, a: [f64; 2], b: [f64; 2]) -> LineSegment {
+pub fn segment(class: Class, is_visible: bool, a: [f64; 2], b: [f64; 2]) -> LineSegment {
     let edge = (class != Class::Intersection).then_some([a[0] as u32, b[0] as u32]);
     LineSegment {
         class,
         is_visible,
+        is_outline: false,
         ends_px: [a.into(), b.into()],
         edge,
         angle_degrees: edge.map(|_| 45.25),
@@ -21,13 +22,13 @@ fn segment(class: Class, is_visible: bool, a: [f64; 2], b: [f64; 2]) -> LineSegm
     }
 }
 
-fn lines(segments: Vec<LineSegment>) -> VisibleLines {
+pub fn lines(segments: Vec<LineSegment>) -> VisibleLines {
     let size = Size { width: 120, height: 80 };
     VisibleLines { size, segments, edges: ClassCounts::default(), times: LineTimes::default() }
 }
 
 /// A square of silhouettes from shuffled pieces, a crease through it with a hidden part, an intersection.
-fn drawing() -> VisibleLines {
+pub fn drawing() -> VisibleLines {
     use Class::{Crease, Intersection, Silhouette};
     lines(vec![
         segment(Silhouette, true, [100.0, 10.0], [100.0, 70.0]),
@@ -44,12 +45,12 @@ fn layers<'a>(document: &'a Document) -> Vec<Node<'a, 'a>> {
     document.root_element().children().filter(|node| node.has_tag_name("g")).collect()
 }
 
-fn names(text: &str) -> Vec<String> {
+pub fn names(text: &str) -> Vec<String> {
     layers(&Document::parse(text).unwrap()).iter().map(|layer| layer.attribute("id").unwrap().to_owned()).collect()
 }
 
 /// All path data of a layer, in order.
-fn data(text: &str, layer: &str) -> Vec<String> {
+pub fn data(text: &str, layer: &str) -> Vec<String> {
     let document = Document::parse(text).unwrap();
     let layer = layers(&document).into_iter().find(|node| node.attribute("id") == Some(layer)).unwrap();
     let paths = layer.children().filter(|node| node.has_tag_name("path"));
@@ -57,7 +58,7 @@ fn data(text: &str, layer: &str) -> Vec<String> {
 }
 
 /// The points of path data that has straight lines only.
-fn points(data: &str) -> Vec<DVec2> {
+pub fn points(data: &str) -> Vec<DVec2> {
     let numbers: Vec<f64> =
         data.split(['M', 'L', 'Z', ' ']).filter(|word| !word.is_empty()).map(|word| word.parse().unwrap()).collect();
     numbers.chunks_exact(2).map(DVec2::from_slice).collect()
@@ -89,7 +90,7 @@ fn layers_are_groups_by_class_and_visibility_with_the_hidden_ones_below() {
         assert_eq!(layer.attribute((INKSCAPE, "label")).unwrap().replace(' ', "-"), layer.attribute("id").unwrap());
         assert_eq!(layer.attribute("fill"), Some("none"));
         let is_hidden = layer.attribute("id").unwrap().starts_with("hidden");
-        assert_eq!(layer.attribute("stroke-dasharray"), is_hidden.then_some("6 8"));
+        assert_eq!(layer.attribute("stroke-dasharray"), is_hidden.then_some("6 5"));
     }
     assert!(document.descendants().all(|node| !node.has_tag_name("image")));
     let without = svg(&drawing(), &SvgSettings::default()).unwrap();
@@ -189,9 +190,11 @@ fn provenance_names_a_paths_edges_and_angles() {
 #[test]
 fn another_renderer_draws_the_lines_where_they_are() {
     let mut colors = tinta::styles::ClassColors::default();
-    colors.0[Class::Crease as usize] = Color([1.0, 0.0, 0.0]);
+    colors.0.set_class(Class::Crease, Color([1.0, 0.0, 0.0]));
+    colors.0.set_hidden(Color([1.0, 0.0, 0.0]));
     let mut settings = SvgSettings { class_colors: colors, hidden: Hidden::Ghost, ..SvgSettings::default() };
-    settings.class_widths.0[Class::Silhouette as usize] = Some(6.0);
+    settings.class_widths.0.set_class(Class::Silhouette, Length::Px(6.0));
+    settings.class_widths.0.set_hidden(Length::Px(2.0));
     let pixels = rendered(&svg(&drawing(), &settings).unwrap());
     assert_eq!((pixels.width(), pixels.height()), (120, 80));
     assert_eq!(rgba(&pixels, 5, 5), [255; 4], "the background");
@@ -215,7 +218,7 @@ fn a_pens_lines_come_in_an_order_that_spares_the_way() {
     let scattered: Vec<LineSegment> =
         (0..300).map(|k| segment(Class::Crease, true, at(k), [at(k)[0] + 3.0, at(k)[1] + 0.25])).collect();
     let travel = |is_for_pen: bool| {
-        let settings = SvgSettings { is_for_pen, ..SvgSettings::default() };
+        let settings = SvgSettings { is_for_pen, min_length: Some(Length::Px(0.0)), ..SvgSettings::default() };
         let text = svg(&lines(scattered.clone()), &settings).unwrap();
         assert_eq!(text.contains("<rect"), !is_for_pen);
         let paths: Vec<Vec<DVec2>> = data(&text, "visible-crease").iter().map(|data| points(data)).collect();
@@ -248,7 +251,58 @@ fn sizes_on_paper_are_millimetres_or_inches() {
 #[test]
 fn nonsense_settings_are_refused_by_name() {
     let message = |settings: SvgSettings| svg(&drawing(), &settings).unwrap_err().to_string();
-    assert!(message(SvgSettings { line_width_px: 0.0, ..SvgSettings::default() }).starts_with("line-width 0"));
+    assert!(
+        message(SvgSettings { line_width: Some(Length::Px(0.0)), ..SvgSettings::default() })
+            .starts_with("line-width 0")
+    );
     let page_size = PageSize::WidthMm(f64::NAN);
     assert!(message(SvgSettings { page_size, ..SvgSettings::default() }).starts_with("width-mm NaN"));
+}
+
+#[test]
+fn an_outline_is_a_layer_of_its_own_above_the_others_whatever_its_classes() {
+    let mut outlined = drawing();
+    for segment in &mut outlined.segments {
+        segment.is_outline = segment.class == Class::Silhouette;
+    }
+    outlined.segments[0].class = Class::Boundary;
+    let class_widths = "outline=3,silhouette=2.5".parse().unwrap();
+    let class_colors = "outline=navy".parse().unwrap();
+    let settings = SvgSettings { class_widths, class_colors, has_provenance: true, ..SvgSettings::default() };
+    let text = svg(&outlined, &settings).unwrap();
+    assert_eq!(names(&text), ["visible-intersection", "visible-crease", "visible-outline"]);
+    assert_eq!(data(&text, "visible-outline"), ["M100 10L100 70 20 70 20 10Z"]);
+    let document = Document::parse(&text).unwrap();
+    let layer = layers(&document).into_iter().last().unwrap();
+    assert_eq!((layer.attribute("stroke"), layer.attribute("stroke-width")), (Some("#000080"), Some("3")));
+    assert_eq!(layer.attribute((INKSCAPE, "label")), Some("visible outline"));
+    assert!(text.contains(r#"data-class="outline""#));
+}
+
+#[test]
+fn on_paper_the_viewbox_is_the_sheet_and_widths_are_millimetres() {
+    let page_size = PageSize::Paper("A4-portrait".parse().unwrap());
+    let class_widths = "crease=0.25mm,hidden=0.1mm".parse().unwrap();
+    let settings = SvgSettings { page_size, class_widths, hidden: Hidden::Ghost, ..SvgSettings::default() };
+    let text = svg(&drawing(), &settings).unwrap();
+    let document = Document::parse(&text).unwrap();
+    let root = document.root_element();
+    assert_eq!((root.attribute("width"), root.attribute("height")), (Some("210mm"), Some("297mm")));
+    // 80 pixels of drawing fill 180 mm: 4 pixels are 9 mm.
+    let view_box: Vec<f64> =
+        root.attribute("viewBox").unwrap().split(' ').map(|number| number.parse().unwrap()).collect();
+    let expected = [60.0 - 105.0 * 4.0 / 9.0, 40.0 - 148.5 * 4.0 / 9.0, 210.0 * 4.0 / 9.0, 297.0 * 4.0 / 9.0];
+    assert!(view_box.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5), "{view_box:?}");
+    let width = |name: &str| {
+        let layers = layers(&document);
+        let layer = layers.iter().find(|layer| layer.attribute("id") == Some(name)).unwrap();
+        layer.attribute("stroke-width").unwrap().parse::<f64>().unwrap() * 9.0 / 4.0
+    };
+    for (name, mm) in [("visible-silhouette", 0.5), ("visible-crease", 0.25), ("hidden-crease", 0.1)] {
+        assert!((width(name) - mm).abs() < 0.002, "{name} {}", width(name));
+    }
+    // The sheet as a whole has the background's colour.
+    let background = document.descendants().find(|node| node.attribute("id") == Some("background")).unwrap();
+    assert_eq!(background.attribute("x").unwrap().parse::<f64>().unwrap(), view_box[0]);
+    assert_eq!(data(&text, "visible-crease"), ["M20 40L50 40"], "the lines' own numbers stay");
 }

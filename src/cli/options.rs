@@ -42,10 +42,11 @@ pub(super) struct Chosen<S> {
 }
 
 /// Settings that exclude each other, by an option and those that cannot stand beside it.
-const CONFLICTS: [(&str, &[&str]); 4] = [
+const CONFLICTS: [(&str, &[&str]); 5] = [
     ("eye", &["view"]),
     ("transparent", &["background"]),
     ("width-mm", &["dpi"]),
+    ("page", &["width-mm", "dpi"]),
     ("pen", &["class-widths", "line-width"]),
 ];
 
@@ -56,7 +57,13 @@ impl<S: Selection> Chosen<S> {
 
     /// Refuses the first of them that is given.
     pub(super) fn refuse(&self, problem: &str) -> Result<()> {
-        match Self::all().find(|setting| self.options.contains_key(setting.name)) {
+        self.refuse_but("", problem)
+    }
+
+    /// Refuses the first of them that is given and is not this one.
+    pub(super) fn refuse_but(&self, taken: &str, problem: &str) -> Result<()> {
+        let is_given = |name| name != taken && self.options.contains_key(name);
+        match Self::all().find(|setting| is_given(setting.name)) {
             Some(setting) => Err(Error::setting(setting.name, problem)),
             None => Ok(()),
         }

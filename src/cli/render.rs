@@ -37,11 +37,11 @@ pub(super) struct Arguments {
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 
-    /// File to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output; lines: .svg .json; animations: .gif .apng frame-%04d.png
+    /// File to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output; lines: .svg .pdf .json; animations: .gif .apng frame-%04d.png
     #[arg(short, long, value_name = "FILE")]
     output: String,
 
-    #[arg(long, help = format!("Style: {}, lines [default: three-pass; into .svg and .json: lines]", StyleName::list()), value_name = "STYLE")]
+    #[arg(long, help = format!("Style: {}, lines [default: three-pass; into .svg, .pdf and .json: lines]", StyleName::list()), value_name = "STYLE")]
     style: Option<lines::StyleChoice>,
 
     #[command(flatten)]

@@ -88,6 +88,7 @@ impl Reference {
         let soft = LineSettings {
             classes: ClassSet::of(&[Class::Crease]),
             crease_angle: CreaseAngle::from_degrees(SOFT_CREASE_DEGREES)?,
+            finds_outline: false,
         };
         let limit = settings.crease_angle.degrees();
         let is_between = |segment: &&LineSegment| segment.angle_degrees.is_none_or(|angle| angle <= limit);

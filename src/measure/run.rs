@@ -85,7 +85,7 @@ impl Subject {
     ///
     /// As [`Reference::of`].
     pub fn new(model: &str, scene: Scene, load_ms: f64) -> Result<Self> {
-        let reference = Reference::of(&scene, &LineSettings::default())?;
+        let reference = Reference::of(&scene, &LineSettings::as_published())?;
         let light = ReferenceLight::of(&scene);
         let start = Instant::now();
         for object in &scene.objects {

@@ -98,6 +98,7 @@ impl LineCounts {
 struct SegmentRecord {
     class: &'static str,
     visible: bool,
+    outline: bool,
     a: [f64; 2],
     b: [f64; 2],
     edge: Option<[u32; 2]>,
@@ -119,6 +120,7 @@ pub fn lines_json(lines: &VisibleLines, scene: &Scene) -> Result<String> {
         let record = SegmentRecord {
             class: segment.class.name(),
             visible: segment.is_visible,
+            outline: segment.is_outline,
             a,
             b,
             edge: segment.edge,

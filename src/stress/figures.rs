@@ -34,7 +34,7 @@ pub struct Exact {
 impl Exact {
     /// Computes both without GL.
     pub fn of(scene: Scene) -> Result<Self> {
-        let reference = Reference::of(&scene, &LineSettings::default())?;
+        let reference = Reference::of(&scene, &LineSettings::as_published())?;
         let light = ReferenceLight::of(&scene);
         Ok(Self { scene, reference, light })
     }

@@ -285,6 +285,11 @@ impl Inking {
                 "only style lines finds where faces pass through one another; leave it out, or write a .svg",
             ));
         }
+        if let Some(name) = self.colors.0.first_beyond_classes() {
+            let problem =
+                "only drawings by style lines tell outlines and hidden lines apart; leave it out, or write a .svg";
+            return Err(Error::value("class-colors", name, problem));
+        }
         if self.ramp_row == RampRow::Own && self.ramp != Ramp::default() {
             return Err(Error::value(
                 "ramp-row",
@@ -370,7 +375,7 @@ impl Inking {
             };
             let is_drawn = |edge: &u32| self.back_edges || !edges.list().faces(*edge).iter().all(is_turned_away);
             for (class, chosen) in edges.chosen(self.classes, self.crease_angle, eye, self.silhouette) {
-                let Color([red, green, blue]) = self.colors.0[class as usize];
+                let Color([red, green, blue]) = self.colors.of_class(class);
                 let positions = edges.list().positions();
                 let ends = |edge: &u32| positions[*edge as usize].map(|position| vertices[position as usize]);
                 runs.push(EdgeRun {

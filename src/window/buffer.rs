@@ -75,7 +75,7 @@ pub(super) const CLASS_COLORS: [(Class, [f32; 3]); 7] = [
 fn edge_classes() -> Style {
     let mut colors = ClassColors::default();
     for (class, color) in CLASS_COLORS {
-        colors.0[class as usize] = Color(color);
+        colors.0.set_class(class, Color(color));
     }
     Style::Inking(Inking { classes: ClassSet::EDGES, colors, paint: PaintMode::None, ..Inking::default() })
 }

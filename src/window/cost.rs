@@ -128,6 +128,6 @@ impl Costs {
 }
 
 fn errors(scene: &Scene, inks: &[(Side, Ink)], progress: &Progress) -> Result<Vec<(Side, LineError)>> {
-    let reference = Reference::with_progress(scene, &LineSettings::default(), progress)?;
+    let reference = Reference::with_progress(scene, &LineSettings::as_published(), progress)?;
     Ok(inks.iter().map(|(side, ink)| (*side, ink.error(&reference, TOLERANCE_PX))).collect())
 }

@@ -26,23 +26,33 @@
 
 mod cast;
 mod chain;
-mod class_colors;
+mod drawing;
 mod faces;
 mod features;
 mod image;
 mod intersections;
+mod layers;
+mod length;
 mod mend;
+mod outline;
+mod page;
+#[cfg(feature = "pdf")]
+mod pdf;
 mod pen;
 mod simplify;
 mod space;
+mod specks;
 mod svg;
 mod visibility;
 
 pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
-pub use class_colors::ClassColors;
-pub use class_colors::line_width;
-pub use svg::{ClassWidths, Hidden, PageSize, SvgSettings, svg, svg_of_paths};
+pub use layers::{ClassColors, ClassWidths, Layer, OfLayers};
+pub use length::{Length, Millimetres, line_width};
+pub use page::{PageSize, Paper, Sheet, Turn};
+#[cfg(feature = "pdf")]
+pub use pdf::{pdf, pdf_of_paths};
+pub use svg::{Hidden, SvgSettings, svg, svg_of_paths};
 
 use crate::clock::milliseconds_since;
 use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, SilhouetteRule};
@@ -67,8 +77,11 @@ use visibility::Lines;
 pub struct LineSettings {
     /// Classes of lines. Default all but the seams of textures and normals, which belong to a model's data, not its shape.
     pub classes: ClassSet,
-    /// From which angle between faces an edge is a crease. Default a cosine of 0.4; more degrees find fewer lines.
+    /// From which angle between faces an edge is a crease. Default 30 degrees; more find fewer lines.
     pub crease_angle: CreaseAngle,
+    /// Whether outlines are found, for [`LineSegment::is_outline`]; lines are cut where they begin and end. Default no: it takes
+    /// time, and nobody else needs the cuts.
+    pub finds_outline: bool,
 }
 
 impl Default for LineSettings {
@@ -82,7 +95,8 @@ impl Default for LineSettings {
                 Class::Material,
                 Class::Intersection,
             ]),
-            crease_angle: CreaseAngle::default(),
+            crease_angle: CreaseAngle::of_drawings(),
+            finds_outline: false,
         }
     }
 }
@@ -96,6 +110,11 @@ impl HasSettings for LineSettings {
 }
 
 impl LineSettings {
+    /// As by default, with the creases of Dachsbacher's listing: what the ink of all styles is measured against.
+    pub fn as_published() -> Self {
+        Self { crease_angle: CreaseAngle::default(), ..Self::default() }
+    }
+
     fn settings() -> Vec<Setting<Self>> {
         // There for who draws both: inking has the other rule too.
         let silhouette = Setting::of(
@@ -129,6 +148,8 @@ pub struct LineSegment {
     pub class: Class,
     /// Whether it is seen.
     pub is_visible: bool,
+    /// Whether it is seen and has nothing but background on one side at least; `false` throughout unless outlines were asked for.
+    pub is_outline: bool,
     /// Where it begins and ends in the picture: pixels from the upper left corner, y down. Pieces that meet at a vertex have
     /// bit for bit the same end there.
     pub ends_px: [DVec2; 2],
@@ -138,6 +159,13 @@ pub struct LineSegment {
     pub angle_degrees: Option<f64>,
     /// The object in the scene.
     pub object: u32,
+}
+
+impl LineSegment {
+    /// The layer it is drawn in.
+    pub fn layer(&self) -> Layer {
+        chain::layer(self.class, self.is_visible, self.is_outline)
+    }
 }
 
 /// The lines of a scene.
@@ -262,11 +290,32 @@ impl VisibleLines {
         }
         lines.extend(features::near_plane_features(&space, &faces));
         progress.go_on()?;
-        let segments = Lines::new(&space, &faces, &lines, &piercings).segments(progress);
+        let segments = Lines::new(&space, &faces, &lines, &piercings, settings.finds_outline).segments(progress);
         progress.go_on()?;
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms };
         Ok(Self { size: scene.size, segments, edges, times })
+    }
+
+    /// Refuses lines that no drawing can hold: not finite, or outside the picture.
+    pub fn check(&self) -> Result<()> {
+        let limits = [self.size.width, self.size.height].map(f64::from);
+        // What rounds to the border is on it.
+        let is_inside = |value: f64, limit: f64| value > -5e-4 && value < limit + 5e-4;
+        for (number, segment) in self.segments.iter().enumerate() {
+            let mut points = segment.ends_px.iter();
+            let is_drawable = points.all(|point| is_inside(point.x, limits[0]) && is_inside(point.y, limits[1]));
+            if !is_drawable || segment.angle_degrees.is_some_and(|angle| !angle.is_finite()) {
+                let [a, b] = segment.ends_px;
+                return Err(Error::Lines {
+                    problem: format!(
+                        "line {number} from {a} to {b}: it is not a number or leaves the picture; this is a bug in \
+                         tinta: report it with the model"
+                    ),
+                });
+            }
+        }
+        Ok(())
     }
 }
 

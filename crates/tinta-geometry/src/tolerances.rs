@@ -58,6 +58,10 @@ pub const ROW_EDGE: f64 = 1e-9;
 /// of flat surfaces.
 pub const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;
 
+/// What the six digits of a file may take from the cosine between the faces of a prism with twelve sides, which is that of the
+/// crease angle of drawings.
+pub const CREASE_DIGITS: f64 = 1e-5;
+
 /// Distance of a point from a face, as a share of the shorter of the face's longest side and the line's length, below which
 /// they touch: then the face does not hide the line, and does not pass through its neighbour. Models that stand on one
 /// another meet as well as six printed digits let them.
@@ -152,3 +156,7 @@ pub const DOUBLED: f64 = 1.0 / 12.0;
 
 /// Least area of such a face, as a share of its model's: in a picture of 512 pixels a dozen or so.
 pub const DOUBLED_AREA: f64 = 5e-4;
+
+/// Distance between an end of a line and another line below which they touch in a drawing, pixels: some steps of the numbers in
+/// an SVG, so that what looks joined is.
+pub const JOINED_PX: f64 = 5e-3;

@@ -1,4 +1,4 @@
-//! `tinta render` into an SVG or JSON file: exact lines. No OpenGL is opened.
+//! `tinta render` into an SVG, PDF or JSON file: exact lines. No OpenGL is opened.
 
 use super::super::model_cache::ModelCache;
 use super::super::models::load_with_files;
@@ -9,7 +9,7 @@ use std::path::Path;
 use std::str::FromStr;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
-use tinta::lines::{LineSettings, Progress as LineProgress, chain, svg_of_paths};
+use tinta::lines::{LineSettings, Progress as LineProgress, chain, pdf_of_paths, svg_of_paths};
 use tinta::preset::Options;
 use tinta::record::{CameraRecord, LineCounts, LinesRecord, LinesStyle, ModelRecord, lines_json};
 use tinta::renderer::milliseconds_since;
@@ -47,6 +47,7 @@ fn refuse_given(given: &[(&str, bool)], problem: &str) -> Result<()> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Format {
     Svg,
+    Pdf,
     Json,
 }
 
@@ -55,6 +56,7 @@ impl Format {
     fn of(output: &str) -> Option<Self> {
         match extension(output).map(str::to_ascii_lowercase).as_deref() {
             Some("svg") => Some(Self::Svg),
+            Some("pdf") => Some(Self::Pdf),
             Some("json") => Some(Self::Json),
             _ => None,
         }
@@ -79,7 +81,7 @@ pub(super) fn format(arguments: &Arguments) -> Result<Option<Format>> {
         (None | Some(StyleChoice::Lines), Some(format)) => Ok(Some(format)),
         (Some(StyleChoice::Lines), None) if output == "-" => Ok(Some(Format::Svg)),
         (Some(StyleChoice::Lines), None) => {
-            refuse("style lines writes .svg or .json; name the file so, or leave out --style lines".to_owned())
+            refuse("style lines writes .svg, .pdf or .json; name the file so, or leave out --style lines".to_owned())
         }
         (Some(StyleChoice::Picture(name)), Some(_)) => refuse(format!(
             "style {} draws pixels; leave out --style to write lines, or name a picture such as drawing.png",
@@ -89,8 +91,8 @@ pub(super) fn format(arguments: &Arguments) -> Result<Option<Format>> {
         (_, None) if output == "-" || Path::new(output).is_dir() => Ok(None),
         (_, None) => match extension {
             Some(extension) if !is_of_a_picture(extension) => refuse(format!(
-                "nothing is written as .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg or .json for lines, \
-                 .gif or .apng for an animation"
+                "nothing is written as .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for \
+                 lines, .gif or .apng for an animation"
             )),
             _ => Ok(None),
         },
@@ -106,8 +108,11 @@ fn is_of_a_picture(extension: &str) -> bool {
 pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, model_cache: &ModelCache) -> Result<()> {
     let target = TextTarget::check(&arguments.output)?;
     refuse_what_lines_have_not(arguments, format, &target)?;
-    let settings = arguments.styles.line_settings()?;
-    svg_settings(arguments, None)?.check()?;
+    let asked = svg_settings(arguments, None)?;
+    asked.check()?;
+    // A file of all pieces says of each; a drawing is cut only where that shows.
+    let finds_outline = format == Format::Json || asked.tells_outline();
+    let settings = LineSettings { finds_outline, ..arguments.styles.line_settings()? };
     let start = Instant::now();
     let (meshes, files) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
@@ -120,7 +125,7 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
     }
 
     let recipe = match format {
-        Format::Svg => {
+        Format::Svg | Format::Pdf => {
             let files = keep::files(arguments, &scene, &files, None);
             keep::recipe(arguments, options, scene.size, files, None)
         }
@@ -128,14 +133,18 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
     };
     let drawn = svg_settings(arguments, recipe.as_ref())?;
     let start = Instant::now();
-    let paths = if format == Format::Svg || arguments.run.json { chain(&lines.segments) } else { Vec::new() };
+    let keeps_all = format == Format::Json && drawn.min_length.is_none();
+    let lines = if keeps_all { lines } else { lines.without_specks(&drawn)? };
+    let is_chained = format != Format::Json || arguments.run.json;
+    let paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
     let counts = LineCounts::new(&lines, &paths);
-    let text = match format {
-        Format::Svg => svg_of_paths(&lines, paths, &drawn)?,
-        Format::Json => lines_json(&lines, &scene)?,
+    let bytes = match format {
+        Format::Svg => svg_of_paths(&lines, paths, &drawn)?.into_bytes(),
+        Format::Pdf => pdf_of_paths(&lines, paths, &drawn)?,
+        Format::Json => lines_json(&lines, &scene)?.into_bytes(),
     };
     let lines_ms = milliseconds_since(start);
-    target.write(&text)?;
+    target.write_bytes(&bytes)?;
     if !arguments.run.json {
         return Ok(());
     }
@@ -147,7 +156,7 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
         load: arguments.model.settings()?,
         copies: arguments.scene_settings()?.copies,
         triangles: scene.triangle_count(),
-        style: LinesStyle { lines: settings, svg: (format == Format::Svg).then_some(drawn) },
+        style: LinesStyle { lines: settings, svg: (format != Format::Json).then_some(drawn) },
         size: scene.size,
         camera: CameraRecord::new(&scene),
         edges: lines.edges,
@@ -191,11 +200,12 @@ fn find(scene: &Scene, settings: &LineSettings) -> Result<VisibleLines> {
 /// How the SVG is to be written. Its command has a name of its own for the output: the same drawing is the same bytes wherever
 /// it is written.
 pub(super) fn svg_settings(arguments: &Arguments, recipe: Option<&Recipe>) -> Result<SvgSettings> {
+    let name = if arguments.output.to_ascii_lowercase().ends_with(".pdf") { "drawing.pdf" } else { "drawing.svg" };
     let names =
         arguments.models.iter().map(|path| Path::new(path).file_name().map_or(path.into(), |n| n.to_string_lossy()));
     Ok(SvgSettings {
         title: names.collect::<Vec<_>>().join(", "),
-        command: recipe.map(|recipe| recipe.command_line("drawing.svg")).unwrap_or_default(),
+        command: recipe.map(|recipe| recipe.command_line(name)).unwrap_or_default(),
         recipe: recipe.and_then(Recipe::json).unwrap_or_default(),
         background: arguments.scene_settings()?.background,
         ..arguments.styles.svg_settings(&arguments.lines)?
@@ -225,8 +235,13 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &Te
     )?;
     match format {
         Format::Svg => Ok(()),
+        Format::Pdf => {
+            let is_given = arguments.lines.options.contains_key("provenance");
+            refuse_given(&[("provenance", is_given)], "a .pdf file has no place for it; leave it out, or write a .svg")
+        }
         Format::Json => {
-            arguments.lines.refuse("a .json file holds all lines but no appearance; leave it out, or write a .svg")
+            let problem = "a .json file holds all lines but no appearance; leave it out, or write a .svg";
+            arguments.lines.refuse_but("min-length", problem)
         }
     }
 }

@@ -65,7 +65,7 @@ impl<'a> Lab<'a> {
     pub(super) fn lines(&mut self, model: &'static str) -> Result<Rc<Reference>> {
         if !self.references.contains_key(model) {
             let scene = self.scene(model)?;
-            self.references.insert(model, Rc::new(Reference::of(&scene, &LineSettings::default())?));
+            self.references.insert(model, Rc::new(Reference::of(&scene, &LineSettings::as_published())?));
         }
         Ok(self.references[model].clone())
     }

@@ -21,7 +21,7 @@ fn rendered(name: impl Into<String>, drawing: Drawing) -> Case {
 }
 
 fn geometry() -> Vec<Case> {
-    let threshold = LineSettings::default().crease_angle.degrees();
+    let threshold = LineSettings::as_published().crease_angle.degrees();
     let mut all = Vec::new();
     for (offset, creases) in [(-1e-7, 0.0), (1e-7, 1.0)] {
         let drawing = Drawing { shape: Shape::Hinge(threshold + offset), ..Drawing::default() };

@@ -6,7 +6,7 @@ use crate::error::{Error, ParseError, Result};
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::settings::{Kind, Problem, Setting, Value};
 use crate::threads::{filled, in_parallel, threads_for};
-use crate::tolerances::PARALLEL_COSINE;
+use crate::tolerances::{CREASE_DIGITS, PARALLEL_COSINE};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -142,6 +142,9 @@ impl Serialize for ClassSet {
     }
 }
 
+/// The angle of drawings that no text published, degrees.
+const DRAWING_DEGREES: f64 = 30.0;
+
 /// The angle between two faces' normals above which their edge is a crease.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CreaseAngle {
@@ -161,7 +164,11 @@ impl CreaseAngle {
             // No angle in f64 has exactly the listing's cosine, which must be possible to write down.
             let listing = Self::default();
             let is_the_listings = (cosine - listing.cosine).abs() <= 4.0 * f64::EPSILON;
-            return Ok(if is_the_listings { listing } else { Self { cosine } });
+            return Ok(match degrees {
+                _ if is_the_listings => listing,
+                DRAWING_DEGREES => Self::of_drawings(),
+                _ => Self { cosine },
+            });
         }
         Err(Error::value("crease-angle", degrees, "the angle is between 0 and 180 degrees"))
     }
@@ -183,7 +190,13 @@ impl CreaseAngle {
         let help = "Smallest angle between two faces that makes their edge a crease, in degrees; style lines too";
         Setting::field("crease-angle", "DEGREES", help, field)
             .printed("D, Inking: dot < 0.4f, 66 degrees")
-            .said("66.4, a cosine of 0.4")
+            .said("66.4, a cosine of 0.4; style lines 30")
+    }
+
+    /// The angle of drawings that no text published, 30 degrees: at 66.4 a hexagonal prism has no edges and a chamfer is none.
+    /// What is written as 30 degrees in a file's digits is a crease: the edges of a prism with twelve sides are of one kind.
+    pub fn of_drawings() -> Self {
+        Self { cosine: DRAWING_DEGREES.to_radians().cos() + CREASE_DIGITS }
     }
 
     /// The angle in degrees.

@@ -1,10 +1,11 @@
 //! Joins pieces of lines into polylines, which a pen draws without being lifted.
 //!
-//! In: the pieces of [`super::VisibleLines`]. Out: [`LinePath`]s. Two pieces of one class, visibility and object are joined
+//! In: the pieces of [`super::VisibleLines`]. Out: [`LinePath`]s. Two pieces of one layer and object are joined
 //! where their ends coincide bit for bit. Where more than two meet, the two that go on straightest are joined first. Sorting
 //! the ends finds the meetings, O(n log n); only sums, products and square roots decide, so that every platform joins alike.
 
 use super::LineSegment;
+use super::layers::Layer;
 use crate::edges::Class;
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -12,10 +13,12 @@ use std::cmp::Ordering;
 /// Pieces drawn as one line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinePath {
-    /// Their class.
+    /// Their class; an outline's pieces may be of several, of which this is one.
     pub class: Class,
     /// Whether they are seen.
     pub is_visible: bool,
+    /// Whether they are outline.
+    pub is_outline: bool,
     /// Their object in the scene.
     pub object: u32,
     /// Their ends in order, pixels, y down; a closed path's first point is not repeated.
@@ -27,6 +30,11 @@ pub struct LinePath {
 }
 
 impl LinePath {
+    /// The layer it is drawn in.
+    pub(super) fn layer(&self) -> Layer {
+        layer(self.class, self.is_visible, self.is_outline)
+    }
+
     /// The path along the other direction.
     pub(super) fn reverse(&mut self) {
         self.points_px.reverse();
@@ -44,6 +52,15 @@ impl LinePath {
     }
 }
 
+/// The layer of a line.
+pub(super) fn layer(class: Class, is_visible: bool, is_outline: bool) -> Layer {
+    match (is_visible, is_outline) {
+        (true, true) => Layer::Outline,
+        (true, false) => Layer::Visible(class),
+        (false, _) => Layer::Hidden(class),
+    }
+}
+
 /// No end is joined here.
 const FREE: usize = usize::MAX;
 
@@ -54,7 +71,7 @@ const TRIED: usize = 4;
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct End {
     object: u32,
-    layer: u8,
+    layer: Layer,
     x: u64,
     y: u64,
     number: usize,
@@ -94,7 +111,7 @@ fn partners(segments: &[LineSegment]) -> Vec<usize> {
         for (which, point) in segment.ends_px.iter().enumerate() {
             // Adding 0 makes -0 a 0, which is the same place.
             let [x, y] = [point.x, point.y].map(|value| (value + 0.0).to_bits());
-            let layer = segment.class as u8 * 2 + u8::from(segment.is_visible);
+            let layer = segment.layer();
             ends.push(End { object: segment.object, layer, x, y, number: index * 2 + which });
         }
     }
@@ -193,8 +210,8 @@ fn walk(segments: &[LineSegment], partners: &[usize], first: usize, is_drawn: &m
     if is_closed {
         points_px.pop();
     }
-    let LineSegment { class, is_visible, object, .. } = segments[first];
-    LinePath { class, is_visible, object, points_px, is_closed, segments: pieces }
+    let LineSegment { class, is_visible, is_outline, object, .. } = segments[first];
+    LinePath { class, is_visible, is_outline, object, points_px, is_closed, segments: pieces }
 }
 
 #[cfg(test)]
@@ -205,6 +222,7 @@ mod tests {
         LineSegment {
             class: Class::Crease,
             is_visible: true,
+            is_outline: false,
             ends_px: [a.into(), b.into()],
             edge: Some([0, 1]),
             angle_degrees: None,
@@ -266,13 +284,16 @@ mod tests {
     fn classes_visibilities_and_objects_are_not_joined() {
         let meet = || [segment([1.0, 1.0], [2.0, 2.0]), segment([2.0, 2.0], [3.0, 1.0])];
         assert_eq!(chain(&meet()).len(), 1);
-        let changes: [fn(&mut LineSegment); 3] =
-            [|s| s.class = Class::Boundary, |s| s.is_visible = false, |s| s.object = 1];
+        let changes: [fn(&mut LineSegment); 4] =
+            [|s| s.class = Class::Boundary, |s| s.is_visible = false, |s| s.is_outline = true, |s| s.object = 1];
         for change in changes {
             let mut segments = meet();
             change(&mut segments[1]);
             assert_eq!(chain(&segments).len(), 2);
         }
+        let mut outline = meet().map(|segment| LineSegment { is_outline: true, ..segment });
+        outline[1].class = Class::Boundary;
+        assert_eq!(chain(&outline).len(), 1, "an outline goes on whatever its classes are");
         let mut segments = meet();
         segments[0].ends_px[1].x = 2.0_f64.next_up();
         assert_eq!(chain(&segments).len(), 2, "ends that only nearly meet");

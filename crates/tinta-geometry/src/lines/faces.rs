@@ -201,7 +201,7 @@ impl Faces {
     }
 
     /// The depth at which the ray from the eye to a point passes a plane through a point with a normal.
-    fn hit_depth(&self, space: &Space, [point, normal]: [DVec3; 2], probe: &Probe) -> f64 {
+    pub(super) fn hit_depth(&self, space: &Space, [point, normal]: [DVec3; 2], probe: &Probe) -> f64 {
         let to_eye = space.to_eye(probe.view);
         let share = normal.dot(point - probe.view) / normal.dot(to_eye);
         -(probe.view + to_eye * share).z

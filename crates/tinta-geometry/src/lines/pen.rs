@@ -197,7 +197,15 @@ mod tests {
     fn path(points: &[[f64; 2]], is_closed: bool) -> LinePath {
         let points_px: Vec<DVec2> = points.iter().map(|point| DVec2::from_array(*point)).collect();
         let segments = (0..points.len() - usize::from(!is_closed)).collect();
-        LinePath { class: Class::Crease, is_visible: true, object: 0, points_px, is_closed, segments }
+        LinePath {
+            class: Class::Crease,
+            is_visible: true,
+            is_outline: false,
+            object: 0,
+            points_px,
+            is_closed,
+            segments,
+        }
     }
 
     /// Points scattered by a simple generator, the same everywhere.

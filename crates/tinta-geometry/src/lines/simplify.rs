@@ -85,7 +85,15 @@ mod tests {
 
     fn path(points: &[[f64; 2]], is_closed: bool) -> LinePath {
         let points_px = points.iter().map(|point| DVec2::from_array(*point)).collect();
-        LinePath { class: Class::Crease, is_visible: true, object: 0, points_px, is_closed, segments: Vec::new() }
+        LinePath {
+            class: Class::Crease,
+            is_visible: true,
+            is_outline: false,
+            object: 0,
+            points_px,
+            is_closed,
+            segments: Vec::new(),
+        }
     }
 
     fn kept(points: &[[f64; 2]], is_closed: bool) -> Vec<[f64; 2]> {

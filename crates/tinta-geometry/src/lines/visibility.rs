@@ -17,26 +17,42 @@ use std::collections::HashMap;
 
 /// All lines with their images, ready to be decided one by one.
 pub(super) struct Lines<'a> {
-    space: &'a Space,
-    faces: &'a Faces,
-    features: &'a [Feature],
+    pub(super) space: &'a Space,
+    pub(super) faces: &'a Faces,
+    pub(super) features: &'a [Feature],
     /// Of what of each line is between the near and the far plane.
-    images: Vec<Option<Image>>,
+    pub(super) images: Vec<Option<Image>>,
     /// Where edges pass through faces.
     piercings: HashMap<[u32; 2], Vec<DVec3>>,
     /// Where surfaces end: what any line may be crossed by.
-    rims: LineTree,
+    pub(super) rims: LineTree,
     /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
     beside: LineTree,
     shortest_px: f64,
+    finds_outline: bool,
+}
+
+/// A part of a line that is seen or hidden as a whole, by its places on the image.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece {
+    pub from: f64,
+    pub to: f64,
+    pub is_visible: bool,
+    pub is_outline: bool,
 }
 
 /// Parts of the picture's larger side in which long lines are asked for what crosses them, so that a diagonal one does not
 /// ask for everything in its box.
-const PARTS_OF_PICTURE: f64 = 16.0;
+pub(super) const PARTS_OF_PICTURE: f64 = 16.0;
 
 impl<'a> Lines<'a> {
-    pub(super) fn new(space: &'a Space, faces: &'a Faces, features: &'a [Feature], piercings: &[Piercing]) -> Self {
+    pub(super) fn new(
+        space: &'a Space,
+        faces: &'a Faces,
+        features: &'a [Feature],
+        piercings: &[Piercing],
+        finds_outline: bool,
+    ) -> Self {
         let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
         let side = space.size.max_element();
         let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
@@ -69,6 +85,7 @@ impl<'a> Lines<'a> {
             rims: rims.tree(),
             beside: beside.tree(),
             shortest_px: SHORTEST_LINE * side,
+            finds_outline,
         }
     }
 
@@ -95,52 +112,61 @@ impl<'a> Lines<'a> {
         if image.length() * (inside[1] - inside[0]) <= self.shortest_px {
             return;
         }
-        let mut cuts = vec![inside[0], inside[1]];
+        let mut cuts = Vec::new();
         self.add_cuts(index, &image, inside, &mut cuts);
-        cuts.sort_unstable_by(f64::total_cmp);
-        let shortest = self.shortest_px / image.length();
-        // A piece shorter than that belongs to its neighbour.
-        let mut places = vec![inside[0]];
-        places.extend(cuts.into_iter().filter(|cut| *cut > inside[0] + shortest && *cut < inside[1] - shortest));
-        places.dedup_by(|next, kept| *next - *kept <= shortest);
-        places.push(inside[1]);
-        let mut open: Option<(f64, bool)> = None;
-        let mut add = |from: f64, to: f64, is_visible: bool| {
+        let mut pieces: Vec<Piece> = Vec::new();
+        for place in self.places(&image, inside, cuts).windows(2) {
+            let [from, to] = [place[0], place[1]];
+            let Some(is_visible) = self.state(index, &image, (from + to) * 0.5) else { continue };
+            match pieces.last_mut() {
+                Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
+                _ => pieces.push(Piece { from, to, is_visible, is_outline: false }),
+            }
+        }
+        let mut add = |piece: Piece| {
             segments.push(LineSegment {
                 class,
-                is_visible,
-                ends_px: [image.at(from), image.at(to)],
+                is_visible: piece.is_visible,
+                is_outline: piece.is_outline,
+                ends_px: [image.at(piece.from), image.at(piece.to)],
                 edge: feature.edge,
                 angle_degrees: feature.angle_degrees,
                 object: feature.object,
             });
         };
-        for piece in places.windows(2) {
-            let state = self.state(index, &image, (piece[0] + piece[1]) * 0.5);
-            match (open, state) {
-                (Some((_, was_visible)), Some(is_visible)) if was_visible == is_visible => {}
-                _ => {
-                    if let Some((from, was_visible)) = open {
-                        add(from, piece[0], was_visible);
-                    }
-                    open = state.map(|is_visible| (piece[0], is_visible));
-                }
+        for piece in pieces {
+            match self.finds_outline && piece.is_visible {
+                true => self.with_outline(index, &image, piece).into_iter().for_each(&mut add),
+                false => add(piece),
             }
         }
-        if let Some((from, is_visible)) = open {
-            add(from, inside[1], is_visible);
-        }
+    }
+
+    /// Where a part of a line begins, is cut and ends. A piece shorter than the shortest line belongs to its neighbour.
+    pub(super) fn places(&self, image: &Image, [from, to]: [f64; 2], mut cuts: Vec<f64>) -> Vec<f64> {
+        cuts.sort_unstable_by(f64::total_cmp);
+        let shortest = self.shortest_px / image.length();
+        let mut places = vec![from];
+        places.extend(cuts.into_iter().filter(|cut| *cut > from + shortest && *cut < to - shortest));
+        places.dedup_by(|next, kept| *next - *kept <= shortest);
+        places.push(to);
+        places
     }
 
     /// Whether a line is seen at a place; `None` where it lies in space on another line that stands for both.
     fn state(&self, index: usize, image: &Image, place: f64) -> Option<bool> {
+        let probe = self.probe(index, image, place);
+        let is_nearest = self.is_nearest(index, image, probe.px, -probe.view.z)?;
+        Some(is_nearest && self.faces.leave_open(self.space, &probe))
+    }
+
+    /// A place of a line as the faces are asked about it.
+    pub(super) fn probe(&self, index: usize, image: &Image, place: f64) -> Probe {
         let (px, key) = (image.at(place), image.key(place));
-        let view = self.space.point(px, key);
-        let is_nearest = self.is_nearest(index, image, px, -view.z)?;
         let feature = &self.features[index];
         let along = (image.b - image.a).normalize();
-        let probe = Probe {
-            view,
+        Probe {
+            view: self.space.point(px, key),
             px,
             key,
             // Down in the picture is up in the eye's space.
@@ -148,8 +174,7 @@ impl<'a> Lines<'a> {
             line_length: feature.ends[0].distance(feature.ends[1]),
             weld: feature.weld,
             own: feature.own,
-        };
-        Some(is_nearest && self.faces.leave_open(self.space, &probe))
+        }
     }
 
     /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it

@@ -5,7 +5,6 @@
 
 use super::Mesh;
 use crate::tolerances::{BASE_DEPTH, BASE_FLATNESS, BASE_HEIGHT, BASE_SHARE, OTHER_ENDS_SHARE};
-use glam::DVec3;
 
 /// The six ends of a model: the lowest of x, y and z, then the highest.
 const LOWEST_Z: usize = 2;

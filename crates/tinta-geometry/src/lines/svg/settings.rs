@@ -1,34 +1,40 @@
-//! The settings of SVG output.
+//! The settings of drawings: SVG and PDF.
 
 use crate::edges::Class;
-use crate::error::{Error, ParseError, Result};
-use crate::lines::{ClassColors, line_width};
-use crate::scene::{Background, Color, Size};
-use crate::settings::{HasSettings, Kind, Problem, Setting, Table, Value, under};
-use std::str::FromStr;
+use crate::error::{Error, Result};
+use crate::lines::layers::{ClassColors, ClassWidths, Layer};
+use crate::lines::length::{LINE_WIDTH, LINE_WIDTH_RANGE, LINE_WIDTH_SAID, Length, Millimetres};
+use crate::lines::page::{PageSize, Paper};
+use crate::scene::{Background, Color};
+use crate::settings::{HasSettings, Kind, Setting, Table, Value, under};
 use std::sync::LazyLock;
 
-/// How an SVG is written.
+/// How a drawing is written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SvgSettings {
     /// Its title. Default none.
     pub title: String,
     /// The command that made it, kept in its metadata. Default none.
     pub command: String,
-    /// The recipe to make it again, JSON, kept in its metadata too. Default none.
+    /// The recipe to make it again, JSON, kept in an SVG's metadata too. Default none.
     pub recipe: String,
     /// What becomes of hidden lines. Default none of them is written.
     pub hidden: Hidden,
-    /// Each class's colour. Default black.
+    /// Colours of single layers. Default black; hidden lines that are dashed half-way to the paper's colour.
     pub class_colors: ClassColors,
-    /// Width of the lines, pixels. Default 2.
-    pub line_width_px: f32,
-    /// Widths of single classes, pixels. Default that of all.
+    /// Width of the lines. Default 2 pixels, on [`PageSize::Paper`] half a millimetre.
+    pub line_width: Option<Length>,
+    /// Widths of single layers. Default that of all; hidden lines half of what their class has.
     pub class_widths: ClassWidths,
+    /// Strokes and branches that end free and are shorter than this are left out unless that would open a line; creases below
+    /// eight times it, and at most eight widths where it is longer than one. Default the strokes' own width.
+    pub min_length: Option<Length>,
     /// A rectangle behind everything, or nothing. Default white.
     pub background: Background,
     /// How large it is on paper. Default left to the program that shows it.
     pub page_size: PageSize,
+    /// What stays free around the drawing on [`PageSize::Paper`]. Default 15 millimetres.
+    pub margin: Millimetres,
     /// Whether each path names its class, object, mesh edges and angles; then no point is left out. Default no.
     pub has_provenance: bool,
     /// Whether it is for a plotter: thin lines in an order that spares empty ways, dashes as lines of their own, no
@@ -44,15 +50,19 @@ impl Default for SvgSettings {
             recipe: String::new(),
             hidden: Hidden::None,
             class_colors: ClassColors::default(),
-            line_width_px: 2.0,
+            line_width: None,
             class_widths: ClassWidths::default(),
-            background: Background::Color(Color([1.0; 3])),
+            min_length: None,
+            background: Background::Color(WHITE),
             page_size: PageSize::Unset,
+            margin: Millimetres(15.0),
             has_provenance: false,
             is_for_pen: false,
         }
     }
 }
+
+const WHITE: Color = Color([1.0; 3]);
 
 impl HasSettings for SvgSettings {
     fn table() -> &'static Table<Self> {
@@ -64,6 +74,13 @@ impl HasSettings for SvgSettings {
 
 /// What a size on paper that is left open is called.
 const UNSET: &str = "none";
+
+/// What a length is called that follows from others.
+const AUTO: &str = "auto";
+
+/// Width of lines of which nothing is said, and on a sheet of paper.
+const WIDTH: Length = Length::Px(2.0);
+const WIDTH_ON_PAPER: Length = Length::Mm(0.5);
 
 impl SvgSettings {
     /// The settings; title, recipe and background come from elsewhere.
@@ -91,24 +108,54 @@ impl SvgSettings {
                 Ok(())
             },
         );
+        let paper = Setting::of(
+            "page",
+            "PAPER",
+            Paper::kind(),
+            "Sheet that the drawing fills but for --margin: A3, A4, A5, letter or WIDTHxHEIGHTmm; it lies as the drawing \
+             does, or as said: A4-landscape, A4-portrait",
+            |svg: &Self| if let PageSize::Paper(paper) = svg.page_size { paper.text() } else { UNSET.to_owned() },
+            |svg, text| {
+                svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::Paper(Paper::parse(text)?) };
+                Ok(())
+            },
+        );
+        let (name, value_name, help) = LINE_WIDTH;
+        let (low, high, decimals) = LINE_WIDTH_RANGE;
         let settings = vec![
             ClassColors::setting(|svg: &mut Self| &mut svg.class_colors),
-            line_width(|svg: &mut Self| &mut svg.line_width_px),
+            Setting::open_field(name, value_name, AUTO, help, |svg: &mut Self| &mut svg.line_width)
+                .range(low, high, decimals)
+                .said(LINE_WIDTH_SAID),
             Setting::field(
                 "hidden",
                 "HOW",
-                "Hidden lines, in layers below the visible ones: none, dashed, ghost (faint; with --pen thin)",
+                "Hidden lines, in layers below the visible ones, half as wide: none, dashed (grey), ghost (faint; with \
+                 --pen whole)",
                 |svg: &mut Self| &mut svg.hidden,
             ),
             Setting::field(
                 "class-widths",
                 "WIDTHS",
-                "Widths of the lines by class: CLASS=PIXELS, separated by commas; pixels of --size",
+                "Widths of the lines by class: CLASS=WIDTH, separated by commas, in pixels of --size or millimetres on \
+                 paper (0.35mm); also outline (what has only background on one side), hidden, hidden-CLASS",
                 |svg: &mut Self| &mut svg.class_widths,
             )
-            .said("--line-width for all"),
+            .said("--line-width for all, half of it for hidden ones"),
+            Setting::open_field(
+                "min-length",
+                "LENGTH",
+                AUTO,
+                "Leave out strokes and branches that end free and are shorter than this, in pixels of --size or millimetres on \
+                 paper (1mm); 0 keeps all",
+                |svg: &mut Self| &mut svg.min_length,
+            )
+            .range(0.0, 20.0, 1)
+            .said("the stroke's own width, of creases 8 widths; into .json 0"),
             width.open(UNSET).said("none, sizes are in pixels"),
             dpi.open(UNSET).said("none, sizes are in pixels"),
+            paper.open(UNSET).said("none, sizes are in pixels"),
+            Setting::field("margin", "MM", "Free border of --page, in millimetres", |svg: &mut Self| &mut svg.margin),
             Setting::flag(
                 "provenance",
                 "Write each path's class, object, mesh edges and angles into the file, and keep all points",
@@ -123,8 +170,8 @@ impl SvgSettings {
                 |svg, is_on| svg.is_for_pen = is_on,
             ),
         ];
-        let heading = "Style lines: exact visible lines, into FILE.svg or FILE.json; also --classes, --class-colors, \
-                       --line-width, --crease-angle";
+        let heading = "Style lines: exact visible lines, into FILE.svg, FILE.pdf or FILE.json; also --classes, \
+                       --class-colors, --line-width, --crease-angle";
         under(heading, settings).collect()
     }
 }
@@ -148,139 +195,141 @@ impl Hidden {
 
 crate::choices!(Hidden);
 
-/// How large an SVG is on paper.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub enum PageSize {
-    /// In pixels, whatever they are.
-    #[default]
-    Unset,
-    /// This wide, millimetres.
-    WidthMm(f64),
-    /// This many pixels an inch.
-    Dpi(f64),
-}
-
-/// The largest width on paper, millimetres, and the most pixels an inch: beyond any paper, within any reader's numbers.
-const LARGEST: f64 = 1e6;
-
-/// The least of both: still written as more than 0.
-const SMALLEST: f64 = 1e-3;
-
-/// Decimals of a length on paper, which may be a small part of an inch.
-const PAGE_DECIMALS: u32 = 6;
-
-impl PageSize {
-    /// Width and height as SVG writes them.
-    pub(super) fn lengths(self, size: Size) -> [String; 2] {
-        let (pixels, scale, unit) = match self {
-            Self::Unset => return [size.width.to_string(), size.height.to_string()],
-            Self::WidthMm(width) => (f64::from(size.width), width, "mm"),
-            Self::Dpi(dpi) => (dpi, 1.0, "in"),
-        };
-        [size.width, size.height]
-            .map(|length| super::text::decimal(f64::from(length) * scale / pixels, PAGE_DECIMALS) + unit)
-    }
-}
-
-/// Widths of lines by class, pixels, in the order of [`Class::ALL`]; `None` as wide as all others.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct ClassWidths(pub [Option<f32>; Class::ALL.len()]);
-
-impl Value for ClassWidths {
-    fn kind() -> Kind {
-        Kind::Text { offered: &[], example: "silhouette=3,crease=0.5" }
-    }
-
-    fn text(&self) -> String {
-        let given = Class::ALL.iter().zip(self.0);
-        let given = given.filter_map(|((name, _), width)| width.map(|width| format!("{name}={width}")));
-        let text = given.collect::<Vec<_>>().join(",");
-        if text.is_empty() { UNSET.to_owned() } else { text }
-    }
-
-    fn parse(text: &str) -> std::result::Result<Self, Problem> {
-        Ok(text.parse()?)
-    }
-}
-
-impl FromStr for ClassWidths {
-    type Err = ParseError;
-
-    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
-        let mut widths = Self::default();
-        if text == UNSET {
-            return Ok(widths);
-        }
-        for setting in text.split(',') {
-            let usage = || "write CLASS=PIXELS, separated by commas: silhouette=3,crease=1".to_owned();
-            let (class, width) = setting.split_once('=').ok_or_else(usage)?;
-            let width = width.trim().parse().map_err(|_| usage())?;
-            widths.0[class.trim().parse::<Class>()? as usize] = Some(width);
-        }
-        Ok(widths)
-    }
-}
-
-/// Widest and thinnest line, pixels; the widest as in the style inking, the thinnest still written as more than 0.
-const WIDTHS: std::ops::RangeInclusive<f32> = 1e-3..=16_384.0;
+/// Widest and thinnest line, pixels or millimetres; the widest as in the style inking, the thinnest still written as more than 0.
+const WIDTHS: std::ops::RangeInclusive<f64> = 1e-3..=16_384.0;
 
 impl SvgSettings {
     /// Refuses nonsense, before any work.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for a width, paper size or resolution that is none.
+    /// [`Error::Setting`] for a width, a length, a paper size or a resolution that is none, and for millimetres without paper.
     pub fn check(&self) -> Result<()> {
+        let has_paper = self.page_size.is_set();
+        let is_wrong = |width: Length| !WIDTHS.contains(&width.number());
         let refuse_width = |name: &str, value: String| {
             let limits = (WIDTHS.start(), WIDTHS.end());
-            let problem = format!("a line's width is a number of pixels from {} to {}", limits.0, limits.1);
+            let problem = format!("a line's width is a number from {} to {}", limits.0, limits.1);
             Err(Error::value(name, value, problem))
         };
-        if !WIDTHS.contains(&self.line_width_px) {
-            return refuse_width("line-width", self.line_width_px.to_string());
+        if let Some(width) = self.line_width {
+            if is_wrong(width) {
+                return refuse_width("line-width", width.to_string());
+            }
+            width.check_unit("line-width", has_paper)?;
         }
-        for ((name, _), width) in Class::ALL.iter().zip(self.class_widths.0) {
-            if let Some(width) = width.filter(|width| !WIDTHS.contains(width)) {
-                return refuse_width("class-widths", format!("{name}={width}"));
+        if let Some((name, width)) = self.class_widths.0.find(is_wrong) {
+            return refuse_width("class-widths", format!("{name}={width}"));
+        }
+        if let Some((_, width)) = self.class_widths.0.find(|width| width.check_unit("", has_paper).is_err()) {
+            width.check_unit("class-widths", has_paper)?;
+        }
+        if let Some(length) = self.min_length {
+            length.check_unit("min-length", has_paper)?;
+            if !(length.number() >= 0.0 && length.number().is_finite()) {
+                return Err(Error::value("min-length", length, "a length is a number, 0 or more"));
             }
         }
-        let is_sound = |value: f64| (SMALLEST..=LARGEST).contains(&value);
-        match self.page_size {
-            PageSize::WidthMm(width) if !is_sound(width) => {
-                Err(Error::value("width-mm", width, format!("a drawing is {SMALLEST} to {LARGEST} millimetres wide")))
-            }
-            PageSize::Dpi(dpi) if !is_sound(dpi) => Err(Error::value(
-                "dpi",
-                dpi,
-                format!("a resolution is {SMALLEST} to {LARGEST} pixels per inch; 96 is common"),
-            )),
-            _ => Ok(()),
+        if self.margin != Self::default().margin && !matches!(self.page_size, PageSize::Paper(_)) {
+            return Err(Error::setting(
+                "margin",
+                "only a sheet of paper has a margin; add --page A4, or leave it out",
+            ));
+        }
+        self.page_size.check(self.margin)
+    }
+
+    /// Whether outlines have to be found: some look is said of them.
+    pub fn tells_outline(&self) -> bool {
+        self.class_widths.0.tells_outline() || self.class_colors.0.tells_outline()
+    }
+
+    /// Whether a layer is drawn.
+    pub(in crate::lines) fn draws(&self, is_visible: bool) -> bool {
+        is_visible || self.hidden != Hidden::None
+    }
+
+    /// How wide lines are of which nothing is said.
+    fn width(&self) -> Length {
+        self.line_width.unwrap_or(match self.page_size {
+            PageSize::Paper(_) => WIDTH_ON_PAPER,
+            _ => WIDTH,
+        })
+    }
+
+    /// A layer's width, pixels: what is said of it, or for hidden lines half of what their class has.
+    pub(in crate::lines) fn width_px(&self, layer: Layer, px_per_mm: Option<f64>) -> f64 {
+        let px = |length: Length| length.px(px_per_mm).unwrap_or(0.0);
+        match (self.class_widths.0.of(layer), layer) {
+            (Some(width), _) => px(width),
+            (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), px_per_mm) * HIDDEN_WIDTH,
+            (None, _) => px(self.width()),
         }
     }
 
-    /// A class's width, pixels.
-    pub(super) fn width_px(&self, class: Class) -> f64 {
-        f64::from(self.class_widths.0[class as usize].unwrap_or(self.line_width_px))
+    /// A layer's colour: what is said of it; dashes are half as strong as their class. A pen has one ink for both, and ghosts
+    /// are faint anyway.
+    pub(in crate::lines) fn color(&self, layer: Layer) -> Color {
+        match (self.class_colors.0.of(layer), layer) {
+            (Some(color), _) => color,
+            (None, Layer::Hidden(class)) => {
+                let color = self.color(Layer::Visible(class));
+                let is_grey = self.hidden == Hidden::Dashed && !self.is_for_pen;
+                if is_grey { mixed(color, self.paper_color(), HIDDEN_STRENGTH) } else { color }
+            }
+            (None, _) => Color([0.0; 3]),
+        }
+    }
+
+    /// What is behind the lines; white where nothing is.
+    pub(in crate::lines) fn paper_color(&self) -> Color {
+        match self.background {
+            Background::Color(color) if !self.is_for_pen => color,
+            _ => WHITE,
+        }
+    }
+
+    /// Below which length a stroke of a layer may be left out, pixels. A pen is as wide as any other line. Creases that belong to
+    /// an edge of a part end at others; what ends free are folds of a scan.
+    pub(in crate::lines) fn min_length_px(&self, layer: Layer, px_per_mm: Option<f64>) -> f64 {
+        let width = self.width_px(layer, px_per_mm);
+        let length = self.min_length.and_then(|length| length.px(px_per_mm)).unwrap_or(width);
+        match layer {
+            Layer::Visible(Class::Crease) | Layer::Hidden(Class::Crease) => length.max(LEAST_CREASE * length.min(width)),
+            _ => length,
+        }
     }
 }
+
+/// A colour on its way from the paper's: 0 is the paper's.
+pub(in crate::lines) fn mixed(color: Color, paper: Color, strength: f32) -> Color {
+    let [Color(color), Color(paper)] = [color, paper];
+    Color(std::array::from_fn(|channel| paper[channel] + (color[channel] - paper[channel]) * strength))
+}
+
+/// So much longer must creases be that end free or hang on nothing.
+const LEAST_CREASE: f64 = 8.0;
+
+/// Hidden lines' width and strength, as shares of what their class has.
+const HIDDEN_WIDTH: f64 = 0.5;
+const HIDDEN_STRENGTH: f32 = 0.5;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn base() -> SvgSettings {
+        SvgSettings::default()
+    }
+
     #[test]
-    fn widths_are_read_and_nonsense_is_refused_by_name() {
-        let widths: ClassWidths = "silhouette=3, crease=0.5".parse().unwrap();
-        assert_eq!(widths.0[Class::Silhouette as usize], Some(3.0));
-        assert_eq!(widths.0[Class::Boundary as usize], None);
-        for bad in ["crease", "crease=", "crease=wide", "edges=2", ""] {
-            assert!(bad.parse::<ClassWidths>().is_err(), "{bad}");
-        }
-        let base = SvgSettings::default;
+    fn nonsense_is_refused_by_name() {
         let message = |settings: SvgSettings| settings.check().unwrap_err().to_string();
-        for width in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-            assert!(message(SvgSettings { line_width_px: width, ..base() }).starts_with("line-width"));
-            let class_widths = ClassWidths([Some(width); Class::ALL.len()]);
+        for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let line_width = Some(Length::Px(width));
+            assert!(message(SvgSettings { line_width, ..base() }).starts_with("line-width"));
+            let mut class_widths = ClassWidths::default();
+            class_widths.0.set_class(Class::Boundary, Length::Px(width));
             assert!(message(SvgSettings { class_widths, ..base() }).starts_with("class-widths boundary="));
         }
         for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -288,14 +337,58 @@ mod tests {
             assert!(with(PageSize::WidthMm(value)).starts_with("width-mm"));
             assert!(with(PageSize::Dpi(value)).starts_with("dpi"));
         }
+        for length in [-1.0, f64::NAN, f64::INFINITY] {
+            let min_length = Some(Length::Px(length));
+            assert!(message(SvgSettings { min_length, ..base() }).starts_with("min-length"));
+        }
+        assert!(message(SvgSettings { margin: Millimetres(3.0), ..base() }).starts_with("margin: only"));
         assert!(base().check().is_ok());
     }
 
     #[test]
-    fn sizes_on_a_page_keep_the_pictures_shape() {
-        let size = Size { width: 600, height: 400 };
-        assert_eq!(PageSize::Unset.lengths(size), ["600", "400"]);
-        assert_eq!(PageSize::WidthMm(210.0).lengths(size), ["210mm", "140mm"]);
-        assert_eq!(PageSize::Dpi(96.0).lengths(size), ["6.25in", "4.166667in"]);
+    fn millimetres_need_paper() {
+        let mm = Some(Length::Mm(0.5));
+        let class_widths: ClassWidths = "hidden=0.2mm".parse().unwrap();
+        let on_screen = [
+            SvgSettings { line_width: mm, ..base() },
+            SvgSettings { min_length: mm, ..base() },
+            SvgSettings { class_widths, ..base() },
+        ];
+        for settings in on_screen {
+            assert!(settings.check().unwrap_err().to_string().contains("--page A4"));
+            for page_size in [PageSize::WidthMm(90.0), PageSize::Dpi(96.0), PageSize::Paper("A4".parse().unwrap())] {
+                assert!(SvgSettings { page_size, ..settings.clone() }.check().is_ok());
+            }
+        }
+    }
+
+    #[test]
+    fn hidden_lines_are_half_as_wide_and_grey_unless_said_otherwise() {
+        let hidden = Layer::Hidden(Class::Crease);
+        let dashed = SvgSettings { hidden: Hidden::Dashed, ..base() };
+        assert_eq!((dashed.width_px(hidden, None), dashed.color(hidden)), (1.0, Color([0.5; 3])));
+        let red = Color([1.0, 0.0, 0.0]);
+        let mut told = dashed.clone();
+        told.class_widths.0.set_class(Class::Crease, Length::Mm(3.0));
+        told.class_colors.0.set_class(Class::Crease, red);
+        assert_eq!((told.width_px(hidden, Some(2.0)), told.color(hidden)), (3.0, Color([1.0, 0.5, 0.5])));
+        told.class_widths.0.set_hidden(Length::Px(0.25));
+        told.class_colors.0.set_hidden(red);
+        assert_eq!((told.width_px(hidden, Some(2.0)), told.color(hidden)), (0.25, red));
+        let pen = SvgSettings { is_for_pen: true, ..dashed.clone() };
+        assert_eq!(pen.color(hidden), Color([0.0; 3]), "a pen's ink does not thin");
+        let on_black = SvgSettings { background: Background::Color(Color([0.0; 3])), ..told };
+        assert_eq!(on_black.paper_color(), Color([0.0; 3]));
+    }
+
+    #[test]
+    fn lines_are_half_a_millimetre_wide_on_a_sheet() {
+        let layer = Layer::Visible(Class::Silhouette);
+        assert_eq!(base().width_px(layer, None), 2.0);
+        let paper = SvgSettings { page_size: PageSize::Paper("A4".parse().unwrap()), ..base() };
+        assert_eq!(paper.width_px(layer, Some(3.0)), 1.5);
+        assert_eq!(paper.min_length_px(layer, Some(3.0)), 1.5);
+        assert_eq!(paper.min_length_px(Layer::Visible(Class::Crease), Some(3.0)), 12.0);
+        assert_eq!(SvgSettings { line_width: Some(Length::Px(4.0)), ..paper }.width_px(layer, Some(3.0)), 4.0);
     }
 }

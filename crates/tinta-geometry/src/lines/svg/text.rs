@@ -7,7 +7,7 @@ use glam::DVec2;
 const DECIMALS: u32 = 3;
 
 /// A number with at most `decimals` decimals, without zeros at the end, never `-0`.
-pub(super) fn decimal(value: f64, decimals: u32) -> String {
+pub(in crate::lines) fn decimal(value: f64, decimals: u32) -> String {
     let scale = 10_i64.pow(decimals);
     // Up to a picture's largest size and its decimals this is exact in f64.
     let scaled = (value * scale as f64).round() as i64;
@@ -22,25 +22,31 @@ pub(super) fn number(value: f64) -> String {
     decimal(value, DECIMALS)
 }
 
-/// A polyline as path data; points that are written alike are written once unless `keep_all`.
+/// The points of a polyline as they are written; points that are written alike are written once unless `keep_all`.
+pub(in crate::lines) fn written_points(points_px: &[DVec2], is_closed: bool, keep_all: bool) -> Vec<[String; 2]> {
+    let mut written: Vec<[String; 2]> = Vec::with_capacity(points_px.len());
+    for (index, point) in points_px.iter().enumerate() {
+        let text = point.to_array().map(number);
+        let is_needed = keep_all || (index == points_px.len() - 1 && written.len() == 1 && !is_closed);
+        if is_needed || written.last() != Some(&text) {
+            written.push(text);
+        }
+    }
+    written
+}
+
+/// A polyline as path data; as [`written_points`] has it.
 pub(super) fn path_data(points_px: &[DVec2], is_closed: bool, keep_all: bool) -> String {
     let mut data = String::new();
-    let mut last = String::new();
-    let mut written = 0;
-    for (index, point) in points_px.iter().enumerate() {
-        let text = format!("{} {}", number(point.x), number(point.y));
-        let is_needed = keep_all || (index == points_px.len() - 1 && written == 1 && !is_closed);
-        if index > 0 && text == last && !is_needed {
-            continue;
-        }
-        data.push_str(match written {
+    for (index, [x, y]) in written_points(points_px, is_closed, keep_all).iter().enumerate() {
+        data.push_str(match index {
             0 => "M",
             1 => "L",
             _ => " ",
         });
-        data.push_str(&text);
-        last = text;
-        written += 1;
+        data.push_str(x);
+        data.push(' ');
+        data.push_str(y);
     }
     if is_closed {
         data.push('Z');

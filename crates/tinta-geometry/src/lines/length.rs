@@ -1,0 +1,149 @@
+//! Lengths in a drawing: pixels of the picture, or millimetres on paper.
+
+use crate::error::{Error, ParseError, Result};
+use crate::settings::{Kind, Problem, Setting, Value};
+use std::fmt;
+use std::str::FromStr;
+
+/// A length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Length {
+    /// Pixels of the picture.
+    Px(f64),
+    /// Millimetres on paper: of a drawing that has a size there.
+    Mm(f64),
+}
+
+/// What millimetres end in.
+const MM: &str = "mm";
+
+impl Length {
+    /// In pixels, where so many of them are a millimetre; `None` where a drawing has no size on paper.
+    pub fn px(self, px_per_mm: Option<f64>) -> Option<f64> {
+        match self {
+            Self::Px(px) => Some(px),
+            Self::Mm(mm) => px_per_mm.map(|px| mm * px),
+        }
+    }
+
+    /// Refuses millimetres of a drawing that has none.
+    pub(super) fn check_unit(self, name: &str, has_paper: bool) -> Result<()> {
+        if matches!(self, Self::Px(_)) || has_paper {
+            return Ok(());
+        }
+        let problem = "the drawing has no size on paper; add --page A4, --width-mm or --dpi, or give pixels";
+        Err(Error::value(name, self, problem))
+    }
+
+    /// The number, in whichever unit.
+    pub(super) fn number(self) -> f64 {
+        match self {
+            Self::Px(number) | Self::Mm(number) => number,
+        }
+    }
+}
+
+impl fmt::Display for Length {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Px(px) => write!(out, "{px}"),
+            Self::Mm(mm) => write!(out, "{mm}{MM}"),
+        }
+    }
+}
+
+impl FromStr for Length {
+    type Err = ParseError;
+
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
+        let usage = |_| "give a number of pixels, or of millimetres on paper: 2 or 0.35mm".to_owned();
+        match text.trim().strip_suffix(MM) {
+            Some(number) => Ok(Self::Mm(number.trim().parse().map_err(usage)?)),
+            None => Ok(Self::Px(text.trim().parse().map_err(usage)?)),
+        }
+    }
+}
+
+impl Value for Length {
+    fn kind() -> Kind {
+        Kind::Numbers { count: 1, range: [0.0, 1.0], decimals: 2 }
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(text.parse()?)
+    }
+}
+
+/// A length that is always on paper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Millimetres(pub f64);
+
+impl Value for Millimetres {
+    fn kind() -> Kind {
+        Kind::Text { offered: &["10mm", "15mm", "20mm"], example: "10mm" }
+    }
+
+    fn text(&self) -> String {
+        Length::Mm(self.0).to_string()
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        let text = text.trim();
+        let number = text.strip_suffix(MM).unwrap_or(text).trim();
+        Ok(Self(number.parse().map_err(|_| "give a number of millimetres: 15mm".to_owned())?))
+    }
+}
+
+/// What `--line-width` is called, for which kind of values, and what it does.
+pub(super) const LINE_WIDTH: (&str, &str, &str) = (
+    "line-width",
+    "PIXELS",
+    "Width of the lines in pixels, above 0 to 16384; style lines too, there also millimetres on paper: 0.35mm",
+);
+
+/// The default's words.
+pub(super) const LINE_WIDTH_SAID: &str = "2; style lines with --page: 0.5mm";
+
+/// The range that a panel offers.
+pub(super) const LINE_WIDTH_RANGE: (f64, f64, usize) = (0.5, 40.0, 1);
+
+/// The setting of how wide lines are that GL draws, which knows pixels only.
+pub fn line_width<T: Clone + 'static>(field: fn(&mut T) -> &mut f32) -> Setting<T> {
+    let (name, value_name, help) = LINE_WIDTH;
+    let (low, high, decimals) = LINE_WIDTH_RANGE;
+    let get = move |of: &T| field(&mut of.clone()).text();
+    let set = move |of: &mut T, text: &str| {
+        if matches!(Length::parse(text)?, Length::Mm(_)) {
+            let problem = "only a drawing by style lines has millimetres; give pixels, or write a .svg or .pdf";
+            return Err(Error::value(name, text, problem).into());
+        }
+        *field(of) = f32::parse(text)?;
+        Ok(())
+    };
+    Setting::of(name, value_name, f32::kind(), help, get, set)
+        .printed("D, Inking: glLineWidth( 2 )")
+        .range(low, high, decimals)
+        .said(LINE_WIDTH_SAID)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_read_in_both_units_and_written_as_they_were() {
+        for (text, length) in [("2", Length::Px(2.0)), ("0.35mm", Length::Mm(0.35)), (" 1e-3 mm", Length::Mm(0.001))] {
+            assert_eq!(text.parse(), Ok(length));
+            assert_eq!(length.to_string().parse(), Ok(length));
+        }
+        for bad in ["", "mm", "2cm", "wide", "2px"] {
+            assert!(bad.parse::<Length>().is_err(), "{bad}");
+        }
+        assert_eq!(Length::Mm(0.5).px(Some(4.0)), Some(2.0));
+        assert_eq!((Length::Mm(0.5).px(None), Length::Px(3.0).px(None)), (None, Some(3.0)));
+    }
+}

@@ -1,0 +1,340 @@
+//! Leaves out what is too short to be a line: specks, barbs, and strokes that lie under the ink of others.
+//!
+//! In: pieces of lines, how wide each is drawn and how short is too short. Out: the pieces that stay. Pieces hang together
+//! where they have an end in common, bit for bit; they touch where an end of one comes within [`JOINED_PX`] of the other, as
+//! where a line ends behind a nearer one. Three things go:
+//!
+//! - a *speck*: all that hangs together is shorter than too short and touches the rest at one place at most;
+//! - a *barb*: from an end that is free, where nothing hangs or touches, to the first fork, likewise;
+//! - a *sliver's side*: what touches the rest at two places that stay joined by lines as wide and also shorter than too short,
+//!   so that these lie under the same ink.
+//!
+//! So what closes a line stays: an outline has no free end, and of its parts only such go that another way round closes.
+//! Nothing is left out because something else was: a long line never goes bit by bit.
+
+use super::layers::Layer;
+use super::svg::SvgSettings;
+use super::{LineSegment, VisibleLines};
+use crate::bvh::{Box3, BoxTree};
+use crate::error::Result;
+use crate::tolerances::JOINED_PX;
+use glam::DVec2;
+
+impl VisibleLines {
+    /// The lines without spurs and specks as a drawing's settings ask: what is shorter than [`SvgSettings::min_length`].
+    ///
+    /// # Errors
+    ///
+    /// As [`SvgSettings::check`] and [`VisibleLines::check`].
+    pub fn without_specks(&self, settings: &SvgSettings) -> Result<Self> {
+        settings.check()?;
+        self.check()?;
+        let px_per_mm = super::drawing::page(self, settings).px_per_mm;
+        let mut keeps = vec![true; self.segments.len()];
+        // Hidden lines lie in layers of their own, which may be switched off.
+        for is_visible in [true, false] {
+            let strokes: Vec<Stroke> = self
+                .segments
+                .iter()
+                .enumerate()
+                .filter(|(_, segment)| segment.is_visible == is_visible)
+                .map(|(number, segment)| Stroke::new(number, segment, settings, px_per_mm))
+                .collect();
+            let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));
+            for stroke in Strokes::new(&strokes, border).too_short() {
+                keeps[strokes[stroke].number] = false;
+            }
+        }
+        let segments =
+            self.segments.iter().zip(&keeps).filter(|(_, keeps)| **keeps).map(|(segment, _)| segment.clone());
+        Ok(Self { segments: segments.collect(), ..self.clone_without_segments() })
+    }
+
+    fn clone_without_segments(&self) -> Self {
+        Self { size: self.size, segments: Vec::new(), edges: self.edges, times: self.times }
+    }
+}
+
+/// A piece as it is drawn.
+struct Stroke {
+    /// Its place among all pieces.
+    number: usize,
+    ends: [DVec2; 2],
+    length: f64,
+    width: f64,
+    /// Below which length it is too short by itself.
+    least: f64,
+    /// Below which length it is too short for one side of something.
+    least_side: f64,
+}
+
+impl Stroke {
+    fn new(number: usize, segment: &LineSegment, settings: &SvgSettings, px_per_mm: Option<f64>) -> Self {
+        let layer: Layer = segment.layer();
+        let ends = segment.ends_px;
+        Self {
+            number,
+            ends,
+            length: ends[0].distance(ends[1]),
+            width: settings.width_px(layer, px_per_mm),
+            least: settings.min_length_px(layer, px_per_mm),
+            least_side: settings.min_length_px(layer, px_per_mm).min(settings.width_px(layer, px_per_mm)),
+        }
+    }
+
+    /// Distance from a point.
+    fn distance(&self, point: DVec2) -> f64 {
+        let along = self.ends[1] - self.ends[0];
+        let square = along.length_squared();
+        let share = if square > 0.0 { ((point - self.ends[0]).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+        point.distance(self.ends[0] + along * share)
+    }
+}
+
+/// Pieces, where they hang together, and a tree that finds neighbours.
+struct Strokes<'a> {
+    strokes: &'a [Stroke],
+    /// The picture's lower right corner: lines end at its border without being free.
+    border: DVec2,
+    /// The meeting at each end: stroke `k` has ends `2k` and `2k + 1`.
+    meetings: Vec<usize>,
+    /// The ends at each meeting.
+    ends: Vec<Vec<u32>>,
+    tree: BoxTree,
+    /// Strokes by their places in the tree.
+    order: Vec<u32>,
+}
+
+/// Strokes that hang together and may be too short as a whole, from one end to another.
+struct Branch {
+    strokes: Vec<usize>,
+    length: f64,
+}
+
+/// Which length of a stroke is meant.
+type Least = fn(&Stroke) -> f64;
+
+impl<'a> Strokes<'a> {
+    fn new(strokes: &'a [Stroke], border: DVec2) -> Self {
+        let place = |end: usize| (strokes[end / 2].ends[end % 2] + 0.0).to_array().map(f64::to_bits);
+        let mut sorted: Vec<usize> = (0..strokes.len() * 2).collect();
+        sorted.sort_unstable_by_key(|end| (place(*end), *end));
+        let mut meetings = vec![0; sorted.len()];
+        let mut ends: Vec<Vec<u32>> = Vec::new();
+        for group in sorted.chunk_by(|a, b| place(*a) == place(*b)) {
+            group.iter().for_each(|end| meetings[*end] = ends.len());
+            ends.push(group.iter().map(|end| *end as u32).collect());
+        }
+        let boxes: Vec<Box3> =
+            strokes.iter().map(|stroke| Box3::around(stroke.ends.map(|end| end.extend(0.0)))).collect();
+        let (tree, order) = BoxTree::new(&boxes);
+        Self { strokes, border, meetings, ends, tree, order }
+    }
+
+    /// All that go.
+    fn too_short(&self) -> Vec<usize> {
+        let mut is_gone = vec![false; self.strokes.len()];
+        let wholes = self.small_wholes();
+        let barbs = self.barbs();
+        for branch in wholes.iter().chain(&barbs) {
+            if self.places_touched(branch).len() <= 1 {
+                branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
+            }
+        }
+        let spans = self.spans();
+        let is_side = |branch: &&Branch| branch.length < self.least(branch, |stroke| stroke.least_side);
+        let mut sides: Vec<&Branch> = wholes.iter().filter(is_side).chain(&spans).collect();
+        sides.sort_by(|a, b| a.length.total_cmp(&b.length));
+        let mut is_needed = vec![false; self.strokes.len()];
+        for branch in sides {
+            if branch.strokes.iter().any(|stroke| is_needed[*stroke] || is_gone[*stroke]) {
+                continue;
+            }
+            let &[from, to] = self.places_touched(branch).as_slice() else { continue };
+            if let Some(route) = self.route(branch, from, to, &is_gone) {
+                route.into_iter().for_each(|stroke| is_needed[stroke] = true);
+                branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
+            }
+        }
+        (0..self.strokes.len()).filter(|stroke| is_gone[*stroke]).collect()
+    }
+
+    fn other_end(&self, end: u32) -> u32 {
+        end ^ 1
+    }
+
+    fn meeting(&self, end: u32) -> &[u32] {
+        &self.ends[self.meetings[end as usize]]
+    }
+
+    /// The least length of what a branch is made of.
+    fn least(&self, branch: &Branch, least: Least) -> f64 {
+        branch.strokes.iter().map(|stroke| least(&self.strokes[*stroke])).fold(f64::INFINITY, f64::min)
+    }
+
+    /// From an end on to the next meeting of one or of more than two; `None` once it is long enough, and for a ring.
+    fn branch(&self, from: u32, least: Least) -> Option<(Branch, u32)> {
+        let mut branch = Branch { strokes: Vec::new(), length: 0.0 };
+        let mut least_length = f64::INFINITY;
+        let mut end = from;
+        loop {
+            let number = end as usize / 2;
+            branch.strokes.push(number);
+            branch.length += self.strokes[number].length;
+            least_length = least_length.min(least(&self.strokes[number]));
+            end = self.other_end(end);
+            if branch.length >= least_length {
+                return None;
+            }
+            match self.meeting(end) {
+                [a, b] if *a / 2 != *b / 2 => end = if *a == end { *b } else { *a },
+                _ => return Some((branch, end)),
+            }
+            if end == from {
+                return None;
+            }
+        }
+    }
+
+    /// What hangs together and is too short as a whole.
+    fn small_wholes(&self) -> Vec<Branch> {
+        let mut is_seen = vec![false; self.strokes.len()];
+        let mut wholes = Vec::new();
+        for first in 0..self.strokes.len() {
+            if is_seen[first] {
+                continue;
+            }
+            is_seen[first] = true;
+            let mut whole = Branch { strokes: vec![first], length: 0.0 };
+            let mut next = 0;
+            while let Some(&number) = whole.strokes.get(next) {
+                next += 1;
+                whole.length += self.strokes[number].length;
+                for end in [number * 2, number * 2 + 1] {
+                    for neighbour in self.meeting(end as u32).iter().map(|end| *end as usize / 2) {
+                        if !is_seen[neighbour] {
+                            is_seen[neighbour] = true;
+                            whole.strokes.push(neighbour);
+                        }
+                    }
+                }
+            }
+            if whole.length < self.least(&whole, |stroke| stroke.least) {
+                wholes.push(whole);
+            }
+        }
+        wholes
+    }
+
+    /// From every free end to the first fork.
+    fn barbs(&self) -> Vec<Branch> {
+        let begins = |end: &u32| self.meeting(*end).len() == 1;
+        let all = (0..self.strokes.len() as u32 * 2).filter(begins);
+        let branches = all.filter_map(|end| self.branch(end, |stroke| stroke.least));
+        branches.filter(|(_, end)| self.meeting(*end).len() > 2).map(|(branch, _)| branch).collect()
+    }
+
+    /// From every fork to the next one.
+    fn spans(&self) -> Vec<Branch> {
+        let is_fork = |end: &u32| self.meeting(*end).len() > 2;
+        let all = (0..self.strokes.len() as u32 * 2).filter(is_fork);
+        let branches = all.filter_map(|end| Some((end, self.branch(end, |stroke| stroke.least_side)?)));
+        // Each is found from both its ends.
+        branches.filter(|(from, (_, to))| is_fork(to) && from < to).map(|(_, (branch, _))| branch).collect()
+    }
+
+    /// The places at which a branch hangs on the rest, touches it or ends at the picture's border.
+    fn places_touched(&self, branch: &Branch) -> Vec<DVec2> {
+        let mut places: Vec<DVec2> = Vec::new();
+        let mut add = |place: DVec2| {
+            if places.iter().all(|known| known.distance(place) > 2.0 * JOINED_PX) {
+                places.push(place);
+            }
+        };
+        for &number in &branch.strokes {
+            let stroke = &self.strokes[number];
+            let is_on_border =
+                |end: &DVec2| end.min_element() <= JOINED_PX || (self.border - *end).min_element() <= JOINED_PX;
+            stroke.ends.into_iter().filter(is_on_border).for_each(&mut add);
+            self.near(stroke.ends, JOINED_PX, |other_number| {
+                if branch.strokes.contains(&other_number) {
+                    return;
+                }
+                let other = &self.strokes[other_number];
+                stroke.ends.into_iter().filter(|end| other.distance(*end) <= JOINED_PX).for_each(&mut add);
+                other.ends.into_iter().filter(|end| stroke.distance(*end) <= JOINED_PX).for_each(&mut add);
+            });
+        }
+        places
+    }
+
+    /// The strokes of a way from one place to another beside a branch, as wide and also too short; `None` where there is none.
+    fn route(&self, branch: &Branch, from: DVec2, to: DVec2, is_gone: &[bool]) -> Option<Vec<usize>> {
+        let least = self.least(branch, |stroke| stroke.least_side);
+        let width = branch.strokes.iter().map(|stroke| self.strokes[*stroke].width).fold(0.0, f64::max);
+        let mut beside = Vec::new();
+        self.near([from, to], least, |number| {
+            if self.strokes[number].width >= width && !is_gone[number] && !branch.strokes.contains(&number) {
+                beside.push(number);
+            }
+        });
+        beside.sort_unstable();
+        // Places on each stroke, in their order along it: both places and all ends that touch it.
+        let ends = || beside.iter().flat_map(|number| self.strokes[*number].ends);
+        let mut points: Vec<DVec2> = vec![from, to];
+        points.extend(ends());
+        let ways: Vec<Vec<usize>> = beside
+            .iter()
+            .map(|number| {
+                let stroke = &self.strokes[*number];
+                let touches = |point: &usize| {
+                    let reach = if *point < 2 { 2.0 * JOINED_PX } else { JOINED_PX };
+                    stroke.distance(points[*point]) <= reach
+                };
+                let mut on_it: Vec<usize> = (0..points.len()).filter(touches).collect();
+                on_it.sort_by(|a, b| {
+                    let along = |point: &usize| points[*point].distance(stroke.ends[0]);
+                    along(a).total_cmp(&along(b)).then(a.cmp(b))
+                });
+                on_it
+            })
+            .collect();
+        // The shortest way, by Dijkstra.
+        let mut reached: Vec<(f64, Option<(usize, usize)>, bool)> = vec![(f64::INFINITY, None, false); points.len()];
+        reached[0].0 = 0.0;
+        loop {
+            let open = (0..points.len()).filter(|point| !reached[*point].2 && reached[*point].0 < least);
+            let here = open.min_by(|a, b| reached[*a].0.total_cmp(&reached[*b].0))?;
+            if here == 1 {
+                break;
+            }
+            reached[here].2 = true;
+            for (way, on_it) in ways.iter().enumerate() {
+                let Some(place) = on_it.iter().position(|point| *point == here) else { continue };
+                let neighbours = [place.checked_sub(1), Some(place + 1)];
+                for next in neighbours.into_iter().flatten().filter_map(|place| on_it.get(place)) {
+                    let length = reached[here].0 + points[here].distance(points[*next]);
+                    if length < reached[*next].0 {
+                        (reached[*next].0, reached[*next].1) = (length, Some((here, way)));
+                    }
+                }
+            }
+        }
+        let mut route = Vec::new();
+        let mut place = 1;
+        while let Some((before, way)) = reached[place].1 {
+            route.push(beside[way]);
+            place = before;
+        }
+        Some(route)
+    }
+
+    /// Calls `visit` with each stroke whose box comes so near to that of two points.
+    fn near(&self, [a, b]: [DVec2; 2], distance: f64, mut visit: impl FnMut(usize)) {
+        let query = Box3::new((a.min(b) - distance).extend(0.0), (a.max(b) + distance).extend(0.0));
+        self.tree.any(&query, |place| {
+            visit(self.order[place as usize] as usize);
+            false
+        });
+    }
+}
