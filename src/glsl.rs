@@ -73,6 +73,8 @@ sources![
     "valente/finish-diffuse.frag",
     "valente/finish-drawing.frag",
     "valente/finish-sand.frag",
+    "valente/grain-pixel.frag",
+    "valente/grain-sample.frag",
     "valente/lights-one.frag",
     "valente/lights-two.frag",
     "valente/luminance-published.frag",

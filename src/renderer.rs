@@ -117,9 +117,13 @@ impl Renderer {
                     false => [info.aliased_line_width, info.aliased_point_size],
                     true => [info.smooth_line_width, info.smooth_point_size],
                 };
+                let larger = match plan.supersample {
+                    1 => String::new(),
+                    times => format!(", to be shrunk {times} times,"),
+                };
                 let remark = format!(
-                    "lines of {width_px} px are drawn as quads: {} draws lines of {least_line} to {widest_line} and points \
-                     of {least_point} to {widest_point} px",
+                    "lines of {width_px} px{larger} are drawn as quads: {} draws lines of {least_line} to {widest_line} and \
+                     points of {least_point} to {widest_point} px",
                     info.renderer
                 );
                 if !remarks.contains(&remark) {

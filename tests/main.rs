@@ -65,6 +65,7 @@ mod silhouettes;
 mod standard_output;
 mod stress;
 mod submission;
+mod supersampling;
 mod support;
 mod svg;
 mod textures;

@@ -30,7 +30,7 @@ pub(crate) struct Resources {
     pub(super) colors: Vec<OfVertices<[f32; 4]>>,
     pub(super) squares: Option<Buffer>,
     /// The size of what is drawn into: the picture's, or a multiple of it.
-    surface: Size,
+    pub(super) surface: Size,
     targets: Targets,
     pass_scissor: Option<Rectangle>,
     pub(super) textures: Textures,

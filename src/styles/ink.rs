@@ -89,6 +89,8 @@ impl Ink {
         let common = vec![
             no_borders(|ink: &Self| !ink.is_inked, |ink, is_without| ink.is_inked = !is_without),
             cull(|ink: &mut Self| &mut ink.cull_back_faces),
+            Setting::open_field("supersample", "N", "auto", Supersample::HELP, |ink: &mut Self| &mut ink.supersample)
+                .ours("the quality decides"),
         ];
         let width = Setting::of(
             "border-width",
@@ -104,8 +106,6 @@ impl Ink {
         .ours("as wide as the lines of inking, whose text prints 2");
         let image_space = vec![
             width.range(1.0, 64.0, 0).labelled("line width"),
-            Setting::open_field("supersample", "N", "auto", Supersample::HELP, |ink: &mut Self| &mut ink.supersample)
-                .ours("the quality decides"),
             MapTarget::setting(|ink: &mut Self| &mut ink.map_target),
         ];
         let own = vec![
