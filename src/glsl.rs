@@ -52,6 +52,7 @@ sources![
     "improved/plane-map.frag",
     "improved/plane-map.vert",
     "improved/slope-threshold.frag",
+    "improved/specks.frag",
     "improved/tap-apart.frag",
     "improved/texel-biased.frag",
     "improved/texel-depth-texture.frag",

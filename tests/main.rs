@@ -33,6 +33,7 @@ mod goldens_window;
 mod hiding;
 mod hostile;
 mod improved;
+mod ink_specks;
 mod inking;
 #[cfg(unix)]
 mod installing;

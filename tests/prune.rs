@@ -5,7 +5,9 @@ use glam::DVec3;
 use std::sync::Arc;
 use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
 use tinta::plan::{Draw, Faces, Geometry, Plan, Step};
-use tinta::styles::{Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, MapEncoding, Phong, Supersample};
+use tinta::styles::{
+    Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, MapEncoding, MapTarget, Phong, Supersample,
+};
 use tinta::{
     Background, CameraSettings, Color, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, View,
     load,
@@ -299,6 +301,9 @@ pub fn many_styles() -> Vec<Style> {
     }
     styles.push(cartoon(Box::new(border(|border| border.filter = Filter::MitchellTwo))));
     styles.push(Style::Ink(Ink { cull_back_faces: true, supersample: Some(Supersample::Two), ..Ink::default() }));
+    for map_target in [MapTarget::Copy, MapTarget::Texture] {
+        styles.push(Style::Ink(Ink { removes_specks: Some(true), line_width_px: 5, map_target, ..Ink::default() }));
+    }
     styles.push(Style::Dietrich(Dietrich { cull_back_faces: true, ..Dietrich::default() }));
     styles.push(Style::Inking(Inking { line_width_px: 7.0, ..Inking::default() }));
     styles

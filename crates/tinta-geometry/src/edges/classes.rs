@@ -166,6 +166,12 @@ impl CreaseAngle {
         Err(Error::value("crease-angle", degrees, "the angle is between 0 and 180 degrees"))
     }
 
+    /// 30 degrees, the default where no text prints an angle: the edges of chamfers and of prisms of up to eleven sides are
+    /// creases.
+    pub fn of_parts() -> Self {
+        Self { cosine: 30f64.to_radians().cos() }
+    }
+
     /// The shortest number of degrees that is read back as this angle, or the nearest one where none is.
     fn written_degrees(self) -> f64 {
         let degrees = self.degrees();
@@ -183,7 +189,7 @@ impl CreaseAngle {
         let help = "Smallest angle between two faces that makes their edge a crease, in degrees; style lines too";
         Setting::field("crease-angle", "DEGREES", help, field)
             .printed("D, Inking: dot < 0.4f, 66 degrees")
-            .said("66.4, a cosine of 0.4")
+            .said("66.4, a cosine of 0.4; ink 30")
     }
 
     /// The angle in degrees.
