@@ -360,6 +360,11 @@ impl Resources {
         self.gl.replaced_shaders.replace(shaders)
     }
 
+    /// The texts used as shaders, by their paths.
+    pub(crate) fn given_shaders(&self) -> HashMap<String, String> {
+        self.gl.replaced_shaders.borrow().clone()
+    }
+
     /// The built-in shaders in whose place there is another text, in order of their paths.
     pub(crate) fn replaced_shaders(&self) -> Vec<String> {
         let replaced = self.gl.replaced_shaders.borrow();
