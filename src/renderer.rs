@@ -15,18 +15,20 @@
 //! # }
 //! ```
 
+mod drawer;
+
 use crate::camera::CameraSettings;
 pub use crate::clock::milliseconds_since;
 use crate::error::{Error, Result};
-use crate::gl::context::{Context, Current};
-use crate::gl::execute::Resources;
+use crate::gl::context::Context;
 use crate::gl::{Backend, ContextInfo, Fault};
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::prune::{Pruning, prune};
-use crate::plan::{Draw, Geometry, LineDrawing, Output, Plan, Program, Step};
-use crate::scene::{Scene, SceneSettings, Size};
+use crate::plan::{Draw, Geometry, LineDrawing, Plan, Program, Step};
+use crate::scene::{Scene, SceneSettings};
 use crate::styles::{Show, Style};
+use drawer::{Drawer, Frame};
 use serde::Serialize;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -37,19 +39,22 @@ use std::time::Instant;
 ///
 /// After an error it holds nothing and can go on with the next picture, unless its context is lost: then every further call
 /// says so again ([`Error::ContextLost`]), and a new renderer has to be made.
+///
+/// With [`Backend::Auto`] a picture that is too large for its context is drawn by the first other one that can, which is opened
+/// then and kept; smaller pictures are drawn by the first as before.
 pub struct Renderer {
-    // Dropped with the context current: see `Drop`.
-    resources: Resources,
-    context: Context,
-    /// Of the context's surface: the picture's size times the plan's supersampling.
-    surface: Option<Size>,
-    pixels: Vec<u8>,
+    backend: Backend,
+    fault: Option<Fault>,
+    /// The context opened first, and those opened for larger pictures.
+    drawers: Vec<Drawer>,
+    /// Which of them draws.
+    used: usize,
 }
 
 impl std::fmt::Debug for Renderer {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         // What GL holds has no text.
-        out.debug_struct("Renderer").field("surface", &self.surface).finish_non_exhaustive()
+        out.debug_struct("Renderer").field("surface", &self.drawers[self.used].surface).finish_non_exhaustive()
     }
 }
 
@@ -82,7 +87,7 @@ impl Renderer {
     ///
     /// [`Error::NoContext`] with every attempt when none of this backend's ways works.
     pub fn new(backend: Backend) -> Result<Self> {
-        Self::of(Context::open(backend)?)
+        Self::open(backend, None)
     }
 
     /// The same, but something will go wrong in it: for tests and `tinta stress`.
@@ -91,21 +96,54 @@ impl Renderer {
     ///
     /// As [`Renderer::new`].
     pub fn with_fault(backend: Backend, fault: Fault) -> Result<Self> {
-        Self::of(Context::open_with(backend, Some(fault))?)
+        Self::open(backend, Some(fault))
     }
 
-    fn of(context: Context) -> Result<Self> {
-        Ok(Self { resources: Resources::new(context.gl()), context, surface: None, pixels: Vec::new() })
+    fn open(backend: Backend, fault: Option<Fault>) -> Result<Self> {
+        let context = Context::open(backend, fault)?;
+        Ok(Self { backend, fault, drawers: vec![Drawer::new(context)], used: 0 })
     }
 
-    /// What the context says about itself.
+    /// What the context says about itself: the one that was chosen last.
     pub fn context(&self) -> &ContextInfo {
-        self.context.info()
+        self.drawers[self.used].context.info()
+    }
+
+    /// Chooses the context for a plan by its size, which every drawing does by itself: for who asks before how it will be drawn,
+    /// by [`Renderer::context`], [`Renderer::remarks`] or [`Renderer::pruning`]. Pruned or not a plan has one size.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::ContextLost`] where a context was lost.
+    pub fn choose_context(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
+        let surface = scene.size.times(plan.supersample);
+        self.used = 0;
+        self.drawer().resources.refuse_if_lost("drawing")?;
+        if self.backend != Backend::Auto || self.drawer().context.draws(surface) {
+            return Ok(());
+        }
+        if let Some(known) = self.drawers.iter().position(|drawer| drawer.context.draws(surface)) {
+            self.used = known;
+            return self.drawer().resources.refuse_if_lost("drawing");
+        }
+        let devices: Vec<&str> = self.drawers.iter().map(|drawer| drawer.context.info().device.as_str()).collect();
+        if let Some(context) = Context::open_for(self.backend, self.fault, surface, &devices) {
+            let mut drawer = Drawer::new(context);
+            drawer.resources.replace_shaders(self.drawers[0].resources.given_shaders());
+            self.drawers.push(drawer);
+        }
+        // Where none is large enough the largest refuses the picture.
+        let fitness = |number: &usize| {
+            let context = &self.drawers[*number].context;
+            (context.draws(surface), context.info().largest_picture.pixel_count())
+        };
+        self.used = (0..self.drawers.len()).rev().max_by_key(fitness).unwrap_or(0);
+        Ok(())
     }
 
     /// What of a plan this context draws otherwise than it says, a sentence each.
     pub fn remarks(&self, plan: &Plan) -> Vec<String> {
-        let info = self.context.info();
+        let info = self.context();
         let mut remarks: Vec<String> = Vec::new();
         for (_, step) in plan.steps() {
             let Step::Draw(Draw { geometry: Geometry::Edges { width_px, is_smooth, line_drawing, .. }, .. }) = step
@@ -117,9 +155,13 @@ impl Renderer {
                     false => [info.aliased_line_width, info.aliased_point_size],
                     true => [info.smooth_line_width, info.smooth_point_size],
                 };
+                let larger = match plan.supersample {
+                    1 => String::new(),
+                    times => format!(", to be shrunk {times} times,"),
+                };
                 let remark = format!(
-                    "lines of {width_px} px are drawn as quads: {} draws lines of {least_line} to {widest_line} and points \
-                     of {least_point} to {widest_point} px",
+                    "lines of {width_px} px{larger} are drawn as quads: {} draws lines of {least_line} to {widest_line} and \
+                     points of {least_point} to {widest_point} px",
                     info.renderer
                 );
                 if !remarks.contains(&remark) {
@@ -133,13 +175,13 @@ impl Renderer {
     /// How to prune plans of which this renderer draws so many pictures: everything that pays by this context. Nothing is
     /// assumed of shaders it has in place of built-in ones, so ask again after [`Renderer::replace_shaders`].
     pub fn pruning(&self, pictures: u32) -> Pruning {
-        let info = self.context.info();
+        let info = self.context();
         Pruning {
             keep: Vec::new(),
             pictures,
             is_software: info.is_software(),
             subpixel_bits: info.subpixel_bits,
-            replaced_shaders: self.resources.replaced_shaders(),
+            replaced_shaders: self.drawers[self.used].resources.replaced_shaders(),
         }
     }
 
@@ -173,6 +215,7 @@ impl Renderer {
     /// [`Error::Setting`] from the style, [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
     pub fn render(&mut self, scene: &Scene, style: &Style) -> Result<Picture> {
         let plan = style.plan(scene, Show::Final)?;
+        self.choose_context(scene, &plan)?;
         self.draw(scene, &prune(&plan, scene, &self.pruning(1)).plan)
     }
 
@@ -218,7 +261,8 @@ impl Renderer {
         if frames == 0 {
             return Err(Error::value("frames", "0", "at least one frame is needed to time one"));
         }
-        let has_timers = self.context.info().timer_queries;
+        self.choose_context(scene, plan)?;
+        let has_timers = self.context().timer_queries;
         self.with_context(scene, plan, |frame| {
             let mut times: Vec<(Vec<f64>, Vec<f64>)> = vec![Default::default(); plan.passes.len()];
             for _ in 0..frames {
@@ -286,17 +330,14 @@ impl Renderer {
     ///
     /// [`Error::Shader`] with the driver's log; then nothing is replaced that was not before.
     pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<()> {
-        self.resources.refuse_if_lost("replacing shaders")?;
-        let _current = self.context.enter()?;
-        let before = self.resources.replace_shaders(shaders.clone());
-        // In a fixed order: of several mistakes the same one is said every time.
-        let mut paths: Vec<&String> = shaders.keys().collect();
-        paths.sort();
-        let compiled = paths.into_iter().try_for_each(|path| self.resources.compile(path));
-        if compiled.is_err() {
-            self.resources.replace_shaders(before);
+        self.drawers.iter().try_for_each(|drawer| drawer.resources.refuse_if_lost("replacing shaders"))?;
+        let before = self.drawers[0].resources.given_shaders();
+        let replaced = self.drawers.iter_mut().try_for_each(|drawer| drawer.replace_shaders(&shaders));
+        if replaced.is_err() {
+            // They compiled before.
+            self.drawers.iter_mut().try_for_each(|drawer| drawer.replace_shaders(&before))?;
         }
-        self.resources.explain("compiling shaders", compiled)
+        replaced
     }
 
     /// Compiles a shader of `glsl/` by itself, to see whether this driver takes it.
@@ -305,56 +346,31 @@ impl Renderer {
     ///
     /// [`Error::Shader`] with the driver's log.
     pub fn compile_shader(&mut self, path: &'static str) -> Result<()> {
-        self.resources.refuse_if_lost("compiling a shader")?;
-        let _current = self.context.enter()?;
-        let compiled = self.resources.compile(path);
-        self.resources.explain("compiling a shader", compiled)
+        let Drawer { resources, context, .. } = self.drawer();
+        resources.refuse_if_lost("compiling a shader")?;
+        let _current = context.enter()?;
+        let compiled = resources.compile(path);
+        resources.explain("compiling a shader", compiled)
     }
 
     /// The shaders linked so far: those of the plans drawn, and no others.
     pub fn programs(&self) -> Vec<Program> {
-        self.resources.programs()
+        self.drawers[self.used].resources.programs()
     }
 
     /// How many GL objects this renderer holds: constant from frame to frame of one scene and plan.
     pub fn live_objects(&self) -> usize {
-        self.resources.live_objects()
+        self.drawers.iter().map(|drawer| drawer.resources.live_objects()).sum()
     }
 
     /// Deletes everything the renderer holds and returns how many GL objects are then still alive: 0, or there is a leak.
     pub fn close(mut self) -> usize {
-        self.release();
-        self.resources.live_objects()
+        self.drawers.iter_mut().for_each(Drawer::release);
+        self.live_objects()
     }
 
-    fn release(&mut self) {
-        match self.context.enter() {
-            Ok(_current) => self.resources.clear(),
-            // The driver is gone and its objects with it; deleting them now would be calling GL without a context.
-            Err(_) => self.resources.forget(),
-        }
-    }
-
-    fn resize(&mut self, surface: Size, supersample: u32) -> Result<()> {
-        let limit = self.context.info().largest_picture;
-        if supersample > 1 && (surface.width > limit.width || surface.height > limit.height) {
-            let largest = Size { width: limit.width / supersample, height: limit.height / supersample };
-            let problem = format!(
-                "{} draws {limit} pixels at most, which leaves {largest} with this; ask for a smaller --size or less \
-                 of it",
-                self.context.info().renderer
-            );
-            return Err(Error::value("supersample", supersample, problem));
-        }
-        self.context.resize(surface)?;
-        let bytes = surface.pixel_count() * 4;
-        self.pixels = Vec::new();
-        self.pixels
-            .try_reserve_exact(bytes)
-            .map_err(|_| Error::gl("reading the picture back", "there is not enough memory"))?;
-        self.pixels.resize(bytes, 0);
-        self.surface = Some(surface);
-        Ok(())
+    fn drawer(&mut self) -> &mut Drawer {
+        &mut self.drawers[self.used]
     }
 
     fn with_context<T>(
@@ -363,64 +379,9 @@ impl Renderer {
         plan: &Plan,
         work: impl FnOnce(&mut Frame<'_>) -> Result<T>,
     ) -> Result<T> {
-        self.resources.refuse_if_lost("drawing")?;
+        self.choose_context(scene, plan)?;
         plan.check(scene).map_err(|flaw| Error::Plan { flaw: Box::new(flaw) })?;
-        let surface = scene.size.times(plan.supersample);
-        if self.surface != Some(surface) {
-            self.resize(surface, plan.supersample)?;
-        }
-        let current: Current<'_> = self.context.enter()?;
-        let result = self
-            .resources
-            .prepare(scene, plan)
-            .and_then(|()| work(&mut Frame { resources: &mut self.resources, pixels: &mut self.pixels, scene, plan }));
-        let explained = self.resources.explain("drawing", result);
-        if explained.is_err() {
-            // What was half made must not be taken for whole by the next picture.
-            self.resources.clear();
-        }
-        drop(current);
-        explained
-    }
-}
-
-/// A picture in the making, its context current.
-struct Frame<'a> {
-    resources: &'a mut Resources,
-    pixels: &'a mut Vec<u8>,
-    scene: &'a Scene,
-    plan: &'a Plan,
-}
-
-impl Frame<'_> {
-    fn all_steps(&mut self) -> Result<()> {
-        for pass in &self.plan.passes {
-            self.resources.begin(pass.target, pass.scissor)?;
-            pass.steps.iter().try_for_each(|step| self.resources.step(self.scene, step))?;
-        }
-        Ok(())
-    }
-
-    fn read_back(&mut self) -> Result<()> {
-        let size = self.scene.size;
-        self.resources.begin(self.plan.picture_target(), None)?;
-        self.resources.read_framebuffer(size, &mut self.pixels[..size.pixel_count() * 4]);
-        self.resources.check("drawing")
-    }
-
-    fn picture(&self, output: Output) -> Picture {
-        let picture = Picture::from_bottom_up(self.scene.size, &self.pixels[..self.scene.size.pixel_count() * 4]);
-        match output {
-            Output::Rgba => picture,
-            Output::Rgb => picture.opaque(),
-            Output::AlphaAsGrey => picture.alpha_as_grey(),
-        }
-    }
-}
-
-impl Drop for Renderer {
-    fn drop(&mut self) {
-        self.release();
+        self.drawer().with_context(scene, plan, work)
     }
 }
 

@@ -115,10 +115,10 @@ fn steps_of_equal_size_in_pixels_are_lines_near_the_eye_and_far_from_it() {
 }
 
 #[test]
-fn ink_draws_a_crease_of_ninety_degrees_and_none_of_thirty() {
+fn ink_draws_a_crease_of_thirty_five_degrees_and_none_of_twenty_five() {
     let mut renderer = renderer(BACKENDS[0]);
     for parallel in [false, true] {
-        for (angle, is_line) in [(30.0f64, false), (55.0, false), (75.0, true), (90.0, true)] {
+        for (angle, is_line) in [(10.0f64, false), (25.0, false), (35.0, true), (90.0, true)] {
             let half = (angle * 0.5).to_radians();
             let (back, side) = (-half.sin(), half.cos());
             let left = [[-side, -1.0, back], [0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [-side, 1.0, back]];
@@ -165,44 +165,6 @@ fn a_straight_outline_is_as_wide_as_asked_for() {
 }
 
 #[test]
-fn a_supersampled_picture_is_the_large_one_with_its_pixels_averaged() {
-    for backend in BACKENDS {
-        let mut renderer = renderer(backend);
-        for (factor, supersample) in [(2i64, Supersample::Two), (4, Supersample::Four)] {
-            let [small, large] = [60, 60 * factor as u32].map(|side| scene("builtin:bust", side, side));
-            let cartoon = |supersample| Cartoon { supersample, ..Cartoon::default() };
-            let ink = |supersample, scale: i64| {
-                let plain = Ink::default();
-                let (line_width, least_gap_px) =
-                    (LineWidth::Pixels(2 * scale as u32), plain.least_gap_px * scale as f32);
-                Style::Ink(Ink { supersample: Some(supersample), line_width, least_gap_px, ..plain })
-            };
-            let one = Supersample::One;
-            for (name, [plain, sampled]) in [
-                ("three-pass", [one, supersample].map(|sampling| Style::ThreePass(cartoon(sampling)))),
-                ("two-pass", [one, supersample].map(|sampling| Style::TwoPass(cartoon(sampling)))),
-                ("ink", [ink(one, factor), ink(supersample, 1)]),
-            ] {
-                let large = renderer.render(&large, &plain).unwrap();
-                let sampled = renderer.render(&small, &sampled).unwrap();
-                assert_eq!(sampled.size, small.size);
-                for (x, y) in (0..60).flat_map(|y| (0..60).map(move |x| (x, y))) {
-                    for channel in 0..4 {
-                        let block = (0..factor).flat_map(|dy| (0..factor).map(move |dx| (dx, dy)));
-                        let sum: u32 = block
-                            .map(|(dx, dy)| u32::from(large.pixel(x * factor + dx, y * factor + dy)[channel]))
-                            .sum();
-                        let mean = f64::from(sum) / (factor * factor) as f64;
-                        let found = f64::from(sampled.pixel(x, y)[channel]);
-                        assert!((mean - found).abs() <= 1.0, "{name} x{factor} at {x},{y}: {mean} {found}");
-                    }
-                }
-            }
-        }
-    }
-}
-
-#[test]
 fn biased_normals_draw_equal_creases_equally_strong() {
     // The picture of errata E6: two right angles, slanting to the left and to the right of the corner at (107, 94).
     let camera = view("-45,-35.26", false);
@@ -244,16 +206,6 @@ fn every_encoding_can_be_dumped_and_a_second_form_of_it_draws_the_same() {
             assert!(three.difference(&two).unwrap().largest <= 1, "{name}: two passes draw what three do");
         }
     }
-}
-
-#[test]
-fn a_picture_too_large_to_be_supersampled_is_refused_by_the_options_name() {
-    let mut renderer = renderer(BACKENDS[0]);
-    let limit = renderer.context().largest_picture;
-    let scene = scene("builtin:open-box", limit.width / 4 + 1, 1);
-    let style = Style::ThreePass(Cartoon { supersample: Supersample::Four, ..Cartoon::default() });
-    let message = renderer.render(&scene, &style).unwrap_err().to_string();
-    assert!(message.starts_with("supersample 4"), "{message}");
 }
 
 /// Ink at a pixel of the plane map, as `improved/plane-ink.frag` defines it but in f64, and whether rounding may decide.

@@ -35,6 +35,7 @@ mod goldens_window;
 mod hiding;
 mod hostile;
 mod improved;
+mod ink_specks;
 mod inking;
 #[cfg(unix)]
 mod installing;
@@ -71,6 +72,7 @@ mod silhouettes;
 mod standard_output;
 mod stress;
 mod submission;
+mod supersampling;
 mod support;
 mod svg;
 mod textures;

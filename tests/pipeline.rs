@@ -3,8 +3,8 @@
 use crate::support::{BACKENDS, renderer, scene, scene_with, skip, styles};
 use std::sync::Arc;
 use tinta::picture::Difference;
-use tinta::styles::{Border, Cartoon, Filter, ToneLookup, Tones};
-use tinta::{Background, Color, Error, LoadOptions, Scene, SceneSettings, Show, Size, Style, load};
+use tinta::styles::{Border, Cartoon, Filter, Supersample, ToneLookup, Tones};
+use tinta::{Backend, Background, Color, Error, LoadOptions, Scene, SceneSettings, Show, Size, Style, load};
 
 const EQUAL: Difference = Difference { largest: 0, pixels: 0 };
 
@@ -201,6 +201,42 @@ fn a_picture_beyond_the_largest_surface_is_refused_with_its_size() {
         let message = renderer.render(&scene, &Style::ThreePass(Cartoon::default())).unwrap_err().to_string();
         assert!(message.contains(&format!("{}x{}", limit.width, limit.height)), "{message}");
     }
+}
+
+#[test]
+fn auto_draws_whatever_another_context_can_and_smaller_pictures_as_before() {
+    let [mut egl, mut osmesa] = BACKENDS.map(renderer);
+    let limits = [&egl, &osmesa].map(|renderer| renderer.context().largest_picture.width);
+    let mut auto = renderer(Backend::Auto);
+    let first = auto.context().clone();
+    if first.device != egl.context().device || limits[0] >= limits[1] {
+        return skip("auto: no context here draws larger pictures than the first");
+    }
+    let style = Style::ThreePass(Cartoon::default());
+    let [small, large] = [96, limits[0] + 1].map(|width| scene("builtin:gear", width, 64));
+    let before = auto.render(&small, &style).unwrap();
+    assert_eq!(before, egl.render(&small, &style).unwrap());
+    for _ in 0..2 {
+        assert_eq!(auto.render(&large, &style).unwrap(), osmesa.render(&large, &style).unwrap());
+        assert_eq!(auto.context().backend, "osmesa");
+        assert_eq!(auto.render(&small, &style).unwrap(), before);
+        assert_eq!(auto.context(), &first);
+    }
+    // What is drawn larger than the picture counts as large as it is drawn.
+    let quarter = scene("builtin:gear", limits[0] / 4 + 1, 16);
+    let sampled = Style::ThreePass(Cartoon { supersample: Supersample::Four, ..Cartoon::default() });
+    assert_eq!(auto.render(&quarter, &sampled).unwrap(), osmesa.render(&quarter, &sampled).unwrap());
+    // Beyond all of them the largest refuses.
+    let message = auto.render(&scene("builtin:gear", limits[1] / 4 + 1, 1), &sampled).unwrap_err().to_string();
+    assert!(message.contains(&limits[1].to_string()), "{message}");
+    // Shaders in place of others are so in each context, those opened later too.
+    let white = "#version 120\nvoid main() { gl_FragColor = vec4(1.0); }\n".to_owned();
+    auto.replace_shaders([("evangelista/toon.frag".to_owned(), white)].into()).unwrap();
+    let tones = |scene: &Scene| style.plan(scene, Show::Tones).unwrap();
+    for scene in [&small, &large] {
+        assert!(auto.draw(scene, &tones(scene)).unwrap().pixels.iter().all(|channel| *channel == 255));
+    }
+    assert_eq!(auto.close(), 0);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
 use tinta::plan::{Draw, Faces, Geometry, Plan, Step};
 use tinta::styles::{
-    Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, LineWidth, MapEncoding, Phong, Supersample,
+    Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, LineWidth, MapEncoding, MapTarget, Phong, Supersample,
 };
 use tinta::{
     Background, CameraSettings, Color, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, View,
@@ -301,6 +301,14 @@ pub fn many_styles() -> Vec<Style> {
     }
     styles.push(cartoon(Box::new(border(|border| border.filter = Filter::MitchellTwo))));
     styles.push(Style::Ink(Ink { cull_back_faces: true, supersample: Some(Supersample::Two), ..Ink::default() }));
+    for map_target in [MapTarget::Copy, MapTarget::Texture] {
+        styles.push(Style::Ink(Ink {
+            removes_specks: Some(true),
+            line_width: LineWidth::Pixels(5),
+            map_target,
+            ..Ink::default()
+        }));
+    }
     styles.push(Style::Dietrich(Dietrich { cull_back_faces: true, ..Dietrich::default() }));
     styles.push(Style::Inking(Inking { line_width_px: 7.0, ..Inking::default() }));
     styles

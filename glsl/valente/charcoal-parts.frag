@@ -1,8 +1,8 @@
 #version 120
 // charcoal.frag in parts, so that each can be exchanged alone. Linked with one file of each kind: lights-*, side-*, strokes-*,
-// operator-*, clamp-*, row-*, wrap-*, paper-*, spread-*, noise-*, tooth-*, finish-*. With lights-two, side-outer, strokes-none,
-// operator-power, clamp-discarded, row-original, wrap-repeat, paper-vertex, spread-stretched, noise-screen, tooth-none and
-// finish-drawing it is the listing.
+// operator-*, clamp-*, row-*, wrap-*, paper-*, spread-*, grain-*, noise-*, tooth-*, finish-*. With lights-two, side-outer,
+// strokes-none, operator-power, clamp-discarded, row-original, wrap-repeat, paper-vertex, spread-stretched, grain-sample,
+// noise-screen, tooth-none and finish-drawing it is the listing.
 // In:  as charcoal.frag; what the parts read.
 // Out: gl_FragColor, what the finish makes of it.
 
@@ -20,6 +20,7 @@ float stroked(float light);
 float contrastOperator(float light);
 float clamped(float ceo);
 float cetRow(float origCeo, float ceo);
+float grainRow(float row);
 float wrapped(float row);
 vec2 paperPlace();
 vec2 onPaper(vec2 place);
@@ -33,7 +34,7 @@ void main() {
     float ceo = clamped(origCeo * saturationFactor);
     vec4 cem = vec4(ceo, ceo, ceo, 1.0);
     vec4 random = texture2D(noiseTexture, noisePlace());
-    vec2 cetCoord = vec2((random.r + random.g + random.b) / 3.0, wrapped(cetRow(origCeo, ceo)));
+    vec2 cetCoord = vec2((random.r + random.g + random.b) / 3.0, wrapped(grainRow(cetRow(origCeo, ceo))));
     vec4 cet = texture2D(contrastTexture, cetCoord);
     vec4 textured = cet * cem;
     if (smudge != 0) textured *= cem;

@@ -1,6 +1,6 @@
 #version 120
-// The paper where nothing is drawn on it, in its own proportion. Ours, as paper.vert.
-// In:  paperCoord from paper.vert; paperTexture; the part spread-even.
+// The paper where nothing is drawn on it, as parts lay it on the picture. Ours, as paper.vert.
+// In:  paperCoord from paper.vert; paperTexture; the parts spread-* and grain-*.
 // Out: gl_FragColor, the paper's colour.
 
 uniform sampler2D paperTexture;

@@ -178,6 +178,7 @@ fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Resu
     let Loaded { scene, files, published, load_ms, plan_ms } = loaded?;
     let Ready { renderer, context_ms, warm_up_ms } = ready?;
     let pruning = Instant::now();
+    renderer.choose_context(&scene, &published)?;
     let Pruned { plan, omissions, kept } = arguments.prune.pruned(&published, &scene, renderer, arguments.run.frames);
     let plan_ms = plan_ms + milliseconds_since(pruning);
     let remarks = [style.remarks(&scene), renderer.remarks(&plan)].concat();

@@ -32,7 +32,7 @@ const NO_VERSION: (u8, u8) = (9, 9);
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Backend {
-    /// EGL, then OSMesa: the first that works.
+    /// EGL, then OSMesa: the first that works; for pictures too large for it the next that draws them.
     #[default]
     Auto,
     /// EGL on a device, without a window system; hardware first.
@@ -158,13 +158,8 @@ pub fn attempts(backend: Backend) -> Vec<Attempt> {
 }
 
 impl Context {
-    /// The first way of this backend that works.
-    pub(crate) fn open(backend: Backend) -> Result<Self> {
-        Self::open_with(backend, None)
-    }
-
-    /// The same, with something that will go wrong.
-    pub(crate) fn open_with(backend: Backend, fault: Option<Fault>) -> Result<Self> {
+    /// The first way of this backend that works; with a fault something will go wrong in it.
+    pub(crate) fn open(backend: Backend, fault: Option<Fault>) -> Result<Self> {
         let mut attempts = Vec::new();
         for candidate in Candidate::all(backend) {
             let name = candidate.name();
@@ -174,6 +169,29 @@ impl Context {
             }
         }
         Err(Error::NoContext { attempts })
+    }
+
+    /// The first way of this backend, but for these devices, that draws surfaces of this size, or the one that draws the
+    /// largest; `None` where no other works.
+    pub(crate) fn open_for(backend: Backend, fault: Option<Fault>, surface: Size, but: &[&str]) -> Option<Self> {
+        let mut largest: Option<Self> = None;
+        for candidate in Candidate::all(backend).into_iter().filter(|other| !but.contains(&other.name().as_str())) {
+            let Ok(context) = candidate.open(fault) else { continue };
+            if context.draws(surface) {
+                return Some(context);
+            }
+            let pixels = |context: &Self| context.info().largest_picture.pixel_count();
+            if largest.as_ref().is_none_or(|other| pixels(&context) > pixels(other)) {
+                largest = Some(context);
+            }
+        }
+        largest
+    }
+
+    /// Whether surfaces of this size are within its limits.
+    pub(crate) fn draws(&self, surface: Size) -> bool {
+        let limit = self.info().largest_picture;
+        surface.width <= limit.width && surface.height <= limit.height
     }
 
     fn load(
@@ -209,7 +227,7 @@ impl Context {
     /// Makes the surface this large; refuses what the context cannot draw.
     pub(crate) fn resize(&mut self, size: Size) -> Result<()> {
         let limit = self.info().largest_picture;
-        if size.width > limit.width || size.height > limit.height {
+        if !self.draws(size) {
             return Err(Error::PictureTooLarge {
                 width: size.width,
                 height: size.height,

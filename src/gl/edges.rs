@@ -141,8 +141,8 @@ impl Resources {
             };
             let ends = run.ends.iter().filter_map(|[a, b]| Some([in_clip_space(a)?, in_clip_space(b)?]));
             let quads = match mark {
-                Mark::Lines => line_quads(ends, scene.size, width_px),
-                Mark::Points => point_quads(ends, scene.size, width_px),
+                Mark::Lines => line_quads(ends, self.surface, width_px),
+                Mark::Points => point_quads(ends, self.surface, width_px),
             };
             // SAFETY: the context is current.
             unsafe {

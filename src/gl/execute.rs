@@ -30,7 +30,7 @@ pub(crate) struct Resources {
     pub(super) colors: Vec<OfVertices<[f32; 4]>>,
     pub(super) squares: Option<Buffer>,
     /// The size of what is drawn into: the picture's, or a multiple of it.
-    surface: Size,
+    pub(super) surface: Size,
     targets: Targets,
     pass_scissor: Option<Rectangle>,
     pub(super) textures: Textures,
@@ -363,6 +363,11 @@ impl Resources {
     pub(crate) fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> HashMap<String, String> {
         self.programs.clear();
         self.gl.replaced_shaders.replace(shaders)
+    }
+
+    /// The texts used as shaders, by their paths.
+    pub(crate) fn given_shaders(&self) -> HashMap<String, String> {
+        self.gl.replaced_shaders.borrow().clone()
     }
 
     /// The built-in shaders in whose place there is another text, in order of their paths.

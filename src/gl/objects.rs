@@ -317,7 +317,7 @@ mod tests {
     #[test]
     fn dropping_the_owner_deletes_the_object() {
         for backend in [Backend::Egl, Backend::OsMesa] {
-            let context = Context::open(backend).unwrap_or_else(|error| panic!("{error}"));
+            let context = Context::open(backend, None).unwrap_or_else(|error| panic!("{error}"));
             let _current = context.enter().unwrap();
             let gl = context.gl();
             let buffer = Buffer::new(gl, glow::ARRAY_BUFFER, &[0; 24]).unwrap();
@@ -345,7 +345,7 @@ mod tests {
     #[test]
     fn a_gl_error_is_reported_once_with_its_name_and_place() {
         for backend in [Backend::Egl, Backend::OsMesa] {
-            let context = Context::open(backend).unwrap_or_else(|error| panic!("{error}"));
+            let context = Context::open(backend, None).unwrap_or_else(|error| panic!("{error}"));
             let _current = context.enter().unwrap();
             let gl = context.gl();
             gl.check("before").unwrap();

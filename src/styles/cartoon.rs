@@ -57,6 +57,7 @@ impl Cartoon {
                 |cartoon, is_without| cartoon.border = (!is_without).then(|| cartoon.border.unwrap_or_default()),
             ),
             cull(|cartoon: &mut Self| &mut cartoon.cull_back_faces),
+            Supersample::setting(|cartoon: &mut Self| &mut cartoon.supersample),
         ];
         let map = vec![
             background_square(|cartoon: &mut Self| &mut cartoon.background_square),
@@ -65,10 +66,7 @@ impl Cartoon {
             })
             .printed("E, appendix 1: the normal as colour, depth as alpha"),
         ];
-        let image_space = vec![
-            Supersample::setting(|cartoon: &mut Self| &mut cartoon.supersample),
-            MapTarget::setting(|cartoon: &mut Self| &mut cartoon.map_target),
-        ];
+        let image_space = vec![MapTarget::setting(|cartoon: &mut Self| &mut cartoon.map_target)];
         under(ALL_STYLES, common)
             .chain(within(Tones::settings(), |cartoon: &mut Self| Some(&mut cartoon.tones)))
             .chain(within(Border::settings(), |cartoon: &mut Self| cartoon.border.as_mut()))

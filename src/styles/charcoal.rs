@@ -15,7 +15,7 @@ pub use improvements::Improvements;
 pub use pictures::{CharcoalPictures, TextureSource};
 
 use self::layout::Layout;
-use super::Show;
+use super::{Show, Supersample};
 use crate::error::{Error, Result};
 use crate::hiding::doubled_faces;
 use crate::mesh::Mesh;
@@ -76,6 +76,9 @@ pub struct Charcoal {
     pub improve: Improvements,
     /// Whether faces turned away from the eye are left out. Default no.
     pub cull_back_faces: bool,
+    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge, grain and paper are as
+    /// wide.
+    pub supersample: Supersample,
     /// The textures once they are made; kept for the next picture with the same settings and shared between clones.
     pub pictures: CharcoalPictures,
 }
@@ -102,6 +105,7 @@ impl Default for Charcoal {
             noise: Noise::Screen,
             improve: Improvements::default(),
             cull_back_faces: false,
+            supersample: Supersample::One,
             pictures: CharcoalPictures::default(),
         }
     }
@@ -193,7 +197,7 @@ impl Charcoal {
         };
         let linear = Sampling::LinearRepeated;
         let picture = |name, picture, sampling| PlanPicture { name, picture, sampling };
-        let layout = Layout::of(&made, scene.size, self.improve.proportion);
+        let layout = Layout::of(&made, scene.size, self.supersample.factor(), self.improve.proportion);
         let mut pictures = vec![
             picture("noise", made.noise, linear),
             picture("cet", made.cet, cet),
@@ -208,14 +212,15 @@ impl Charcoal {
         };
         let mut steps = vec![Step::clear(color)];
         if has_paper {
-            let fragments = match self.improve.proportion {
-                false => vec!["valente/paper.frag"],
-                true => vec!["valente/paper-even.frag", "valente/spread-even.frag"],
+            let is_published = !self.improve.proportion && self.supersample == Supersample::One;
+            let fragments = match is_published {
+                true => vec!["valente/paper.frag"],
+                false => vec!["valente/paper-even.frag", self.spread(), self.grain()],
             };
             let program = Program { vertex: "valente/paper.vert", fragments };
             // The text draws it in 2D over the whole screen; what follows is nearer, so it needs no depth.
             steps.push(Step::Draw(Draw {
-                uniforms: if self.improve.proportion { layout.spreads() } else { Vec::new() },
+                uniforms: if is_published { Vec::new() } else { layout.places() },
                 textures: vec![("paperTexture", Texture::Picture(PAPER))],
                 depth: Depth::Ignore,
                 facts: Facts::plain(),
@@ -223,14 +228,14 @@ impl Charcoal {
             }));
         }
         if show != Show::Paper {
-            steps.push(Step::Draw(self.objects(scene, show, is_sand, &layout)));
+            steps.push(Step::Draw(self.objects(show, is_sand, &layout)));
         }
         let pass = Pass::new(if is_sand { "sand" } else { "charcoal" }, steps);
-        Ok(Plan { pictures, ..Plan::new(vec![pass]) })
+        Ok(self.supersample.finish(Plan { pictures, ..Plan::new(vec![pass]) }, scene.size))
     }
 
     /// The drawing itself.
-    fn objects(&self, scene: &Scene, show: Show, is_sand: bool, layout: &Layout) -> Draw {
+    fn objects(&self, show: Show, is_sand: bool, layout: &Layout) -> Draw {
         let uniform = |name, value| Uniform { name, value };
         // The first that there is; the second is read where there are two.
         let lights = self.lights.iter().flatten().zip(["inputLight1", "inputLight2"]);
@@ -258,7 +263,7 @@ impl Charcoal {
             true if is_sand => Program { vertex: "valente/sand.vert", fragments: vec!["valente/sand.frag"] },
             true => Program { vertex: "valente/charcoal.vert", fragments: vec!["valente/charcoal.frag"] },
             false => {
-                uniforms.extend(layout.uniforms(scene.size));
+                uniforms.extend(layout.uniforms());
                 self.parts(show, is_sand)
             }
         };
@@ -279,10 +284,21 @@ impl Charcoal {
             && self.noise == Noise::Screen
             && self.has_two_lights()
             && self.improve == Improvements::default()
+            && self.supersample == Supersample::One
     }
 
     fn has_two_lights(&self) -> bool {
         self.lights.iter().all(Option::is_some)
+    }
+
+    /// The part that lays textures on the picture.
+    fn spread(&self) -> &'static str {
+        if self.improve.proportion { "valente/spread-even.frag" } else { "valente/spread-stretched.frag" }
+    }
+
+    /// The part that says where a sample reads them.
+    fn grain(&self) -> &'static str {
+        if self.supersample == Supersample::One { "valente/grain-sample.frag" } else { "valente/grain-pixel.frag" }
     }
 
     /// The listing in parts, each the one that is asked for.
@@ -306,7 +322,8 @@ impl Charcoal {
             },
             either(improve.wrap, "valente/wrap-edge.frag", "valente/wrap-repeat.frag"),
             either(improve.paper_coordinate, "valente/paper-pixel.frag", "valente/paper-vertex.frag"),
-            either(improve.proportion, "valente/spread-even.frag", "valente/spread-stretched.frag"),
+            self.spread(),
+            self.grain(),
             either(self.noise == Noise::Object, "valente/noise-object.frag", "valente/noise-screen.frag"),
             either(improve.tooth, "valente/tooth-paper.frag", "valente/tooth-none.frag"),
             match show {

@@ -1,7 +1,7 @@
 //! `dietrich`: the hardware's alternative to the edge list, as the text's section "Alternative Techniken" describes it:
 //! per pixel the normal against the view, ink below a threshold. Fast, and its lines are as wide as the surface is round.
 
-use super::{ALL_STYLES, Show, cull, no_borders};
+use super::{ALL_STYLES, Show, Supersample, cull, no_borders};
 use crate::error::{Error, Result};
 use crate::plan::{Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::{Background, Color, Scene};
@@ -17,11 +17,13 @@ pub struct Dietrich {
     pub ink: Color,
     /// Whether faces turned away from the eye are left out. Default no.
     pub cull_back_faces: bool,
+    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge.
+    pub supersample: Supersample,
 }
 
 impl Default for Dietrich {
     fn default() -> Self {
-        Self { threshold: 0.25, ink: Color([0.0; 3]), cull_back_faces: false }
+        Self { threshold: 0.25, ink: Color([0.0; 3]), cull_back_faces: false, supersample: Supersample::One }
     }
 }
 
@@ -41,6 +43,7 @@ impl Dietrich {
                 },
             ),
             cull(|dietrich: &mut Self| &mut dietrich.cull_back_faces),
+            Supersample::setting(|dietrich: &mut Self| &mut dietrich.supersample),
         ];
         let color = Setting::of(
             "ink-color",
@@ -102,6 +105,6 @@ impl Dietrich {
             ..Draw::new(Geometry::Objects(paint), Some(program))
         };
         let steps = vec![Step::clear(ground), Step::Draw(draw)];
-        Ok(Plan::new(vec![Pass::new("dietrich", steps)]))
+        Ok(self.supersample.finish(Plan::new(vec![Pass::new("dietrich", steps)]), scene.size))
     }
 }

@@ -7,7 +7,7 @@
 use super::gradients::Gradients;
 use super::shading::{faces_by_tone, vertex_colors};
 use super::textured::textured;
-use super::{ALL_STYLES, INKING, Ramp, RampRow, Show, cull, no_borders};
+use super::{ALL_STYLES, INKING, Ramp, RampRow, Show, Supersample, cull, no_borders};
 use crate::edges::{Class, ClassSet, CreaseAngle, Side, SilhouetteRule, side_of_face};
 use crate::error::{Error, Result};
 use crate::lines::{ClassColors, line_width};
@@ -64,6 +64,8 @@ pub struct Inking {
     /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
     /// picture of closed models. Default no.
     pub cull_back_faces: bool,
+    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge, lines are as wide.
+    pub supersample: Supersample,
 }
 
 impl Default for Inking {
@@ -87,6 +89,7 @@ impl Default for Inking {
             light: LightOn::Cpu,
             has_texture: false,
             cull_back_faces: false,
+            supersample: Supersample::One,
         }
     }
 }
@@ -97,6 +100,7 @@ impl Inking {
         let common = vec![
             no_borders(|inking: &Self| !inking.is_inked, |inking, is_without| inking.is_inked = !is_without),
             cull(|inking: &mut Self| &mut inking.cull_back_faces),
+            Supersample::setting(|inking: &mut Self| &mut inking.supersample),
         ];
         let lines = vec![
             CreaseAngle::setting(|inking: &mut Self| &mut inking.crease_angle),
@@ -256,7 +260,7 @@ impl Inking {
                 let geometry = Geometry::Edges {
                     runs: runs.clone(),
                     mark,
-                    width_px: self.line_width_px,
+                    width_px: self.line_width_px * self.scale(),
                     is_smooth: self.is_smooth && self.line_drawing == LineDrawing::Gl,
                     line_drawing: self.line_drawing,
                 };
@@ -267,7 +271,12 @@ impl Inking {
             let marks = if self.has_joints { vec![Mark::Lines, Mark::Points] } else { vec![Mark::Lines] };
             passes.push(Pass::new("ink", marks.into_iter().map(mark).collect()));
         }
-        Ok(Plan { pictures, ..Plan::new(passes) })
+        Ok(self.supersample.finish(Plan { pictures, ..Plan::new(passes) }, scene.size))
+    }
+
+    /// How many pixels of what is drawn lie along one of the picture.
+    fn scale(&self) -> f32 {
+        self.supersample.factor() as f32
     }
 
     fn check(&self, scene: &Scene, show: Show) -> Result<()> {
@@ -348,10 +357,12 @@ impl Inking {
         if self.has_texture && !matches!(paint_mode, None | Some(PaintMode::None)) {
             textures.push(("own", Texture::Material));
         }
+        // Its factor counts steps of depth from pixel to pixel, which are smaller where pixels are; its units do not.
+        let [factor, units] = self.polygon_offset;
         let draw = |(paint, faces)| Draw {
             textures: textures.clone(),
             cull_back_faces: self.cull_back_faces,
-            polygon_offset: Some(self.polygon_offset),
+            polygon_offset: Some([factor * self.scale(), units]),
             faces,
             facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(paint), program.clone())

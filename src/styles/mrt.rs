@@ -6,10 +6,7 @@
 
 use super::cartoon::background_square;
 use super::map::MAP_TEXTURE;
-use super::{
-    ALL_STYLES, Border, CARTOON, Cartoon, IMAGE_SPACE, MapEncoding, MapTarget, Show, Supersample, Tones, cull,
-    no_borders,
-};
+use super::{ALL_STYLES, Border, CARTOON, Cartoon, MapEncoding, MapTarget, Show, Supersample, Tones, cull, no_borders};
 use crate::error::{Error, Result};
 use crate::plan::{
     Attachment, Attachments, Draw, Drawn, Facts, Format, Geometry, Paint, Pass, Plan, Program, SettingValue, Step,
@@ -56,6 +53,7 @@ impl Mrt {
                 |mrt, is_without| mrt.border = (!is_without).then(|| mrt.border.unwrap_or_default()),
             ),
             cull(|mrt: &mut Self| &mut mrt.cull_back_faces),
+            Supersample::setting(|mrt: &mut Self| &mut mrt.supersample),
         ];
         // There for who draws both: the three passes have more encodings.
         let encoding = Setting::of(
@@ -75,12 +73,10 @@ impl Mrt {
         )
         .printed("E, appendix 1: the normal as colour, depth as alpha");
         let map = vec![background_square(|mrt: &mut Self| &mut mrt.background_square), encoding];
-        let image_space = vec![Supersample::setting(|mrt: &mut Self| &mut mrt.supersample)];
         under(ALL_STYLES, common)
             .chain(within(Tones::settings(), |mrt: &mut Self| Some(&mut mrt.tones)))
             .chain(within(Border::settings(), |mrt: &mut Self| mrt.border.as_mut()))
             .chain(under(CARTOON, map))
-            .chain(under(IMAGE_SPACE, image_space))
             .collect()
     }
 }

@@ -1,7 +1,7 @@
 //! `phong`: the realistic rendering the first article compares its cartoons with (figures 5a and 8).
 
 use super::textured::textured;
-use super::{ALL_STYLES, Show, cull};
+use super::{ALL_STYLES, Show, Supersample, cull};
 use crate::error::{Error, Result};
 use crate::plan::{Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Uniform, Value};
 use crate::scene::Scene;
@@ -19,11 +19,13 @@ pub struct Phong {
     /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
     /// picture of closed models. Default no.
     pub cull_back_faces: bool,
+    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge.
+    pub supersample: Supersample,
 }
 
 impl Default for Phong {
     fn default() -> Self {
-        Self { ambient: 0.25, specular: 0.35, shininess: 24.0, cull_back_faces: false }
+        Self { ambient: 0.25, specular: 0.35, shininess: 24.0, cull_back_faces: false, supersample: Supersample::One }
     }
 }
 
@@ -54,7 +56,10 @@ impl Phong {
             .ours("E shows Phong shading in figures 5a and 8 and prints no exponent")
             .range(1.0, 200.0, 0),
         ];
-        let common = vec![cull(|phong: &mut Self| &mut phong.cull_back_faces)];
+        let common = vec![
+            cull(|phong: &mut Self| &mut phong.cull_back_faces),
+            Supersample::setting(|phong: &mut Self| &mut phong.supersample),
+        ];
         under(ALL_STYLES, common).chain(under("Style phong", own)).collect()
     }
 
@@ -81,6 +86,6 @@ impl Phong {
         let texture = textured(scene, &draw);
         let mut steps = vec![Step::clear(scene.background.clear_color()), Step::Draw(draw)];
         steps.extend(texture);
-        Ok(Plan::new(vec![Pass::new("phong", steps)]))
+        Ok(self.supersample.finish(Plan::new(vec![Pass::new("phong", steps)]), scene.size))
     }
 }

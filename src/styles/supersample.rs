@@ -15,17 +15,20 @@ pub enum Supersample {
     One,
     /// 4 samples a pixel.
     Two,
+    /// 9 samples a pixel.
+    Three,
     /// 16 samples a pixel.
     Four,
 }
 
 impl Supersample {
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 3] = [("1", Self::One), ("2", Self::Two), ("4", Self::Four)];
+    pub const ALL: [(&'static str, Self); 4] =
+        [("1", Self::One), ("2", Self::Two), ("3", Self::Three), ("4", Self::Four)];
 
     /// What the setting does.
     pub(super) const HELP: &'static str =
-        "Draw 1, 2 or 4 times as wide and high, then shrink; lowers the largest size that tinta info shows";
+        "Draw 1 to 4 times as wide and high, then shrink; lowers the largest size that tinta info shows";
 
     /// The setting of a style that always has a factor.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
@@ -40,6 +43,7 @@ impl Supersample {
         match self {
             Self::One => 1,
             Self::Two => 2,
+            Self::Three => 3,
             Self::Four => 4,
         }
     }

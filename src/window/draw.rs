@@ -156,6 +156,7 @@ impl Drawer {
     /// As [`Renderer::render`].
     pub fn draw_scene(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<Picture> {
         let plan = style.plan(scene, show)?;
+        self.renderer.choose_context(scene, &plan)?;
         let plan = prune(&plan, scene, &self.renderer.pruning(1)).plan;
         self.renderer.draw(scene, &plan)
     }
@@ -170,6 +171,7 @@ impl Drawer {
         let mut costs = Vec::new();
         for (side, style, _) in &job.drawings {
             let plan = style.plan(&scene, Show::Final)?;
+            self.renderer.choose_context(&scene, &plan)?;
             let plan = prune(&plan, &scene, &self.renderer.pruning(1)).plan;
             let passes = self.renderer.time_passes(&scene, &plan, TIMED_FRAMES)?;
             let ink = Ink::of_style(&mut self.renderer, &scene, style)?;

@@ -69,6 +69,7 @@ pub(super) fn run(arguments: &Arguments, target: &AnimationTarget, session: &mut
     for (number, scene) in scenes.iter().enumerate() {
         let frame = Instant::now();
         let published = arguments.plan(&style, scene)?;
+        renderer.choose_context(scene, &published)?;
         let plan = arguments.prune.pruned(&published, scene, renderer, scenes.len() as u32).plan;
         if number == 0 {
             let remarks = [style.remarks(scene), renderer.remarks(&plan)].concat();

@@ -9,7 +9,7 @@ use std::sync::{Mutex, PoisonError};
 static ALONE: Mutex<()> = Mutex::new(());
 
 fn open(backend: Backend) -> Context {
-    Context::open(backend).unwrap_or_else(|error| panic!("{backend:?}: {error}"))
+    Context::open(backend, None).unwrap_or_else(|error| panic!("{backend:?}: {error}"))
 }
 
 /// While one context is current, another of the same screen waits on its thread; when the first has ended, it goes on.

@@ -13,7 +13,7 @@ fn polygons_are_not_smoothed_whatever_the_driver_was_told_before() {
     let scene = Scene::new(vec![Arc::new(Mesh::triangle())], &settings).unwrap();
     let plan = Style::named(StyleName::Inking).plan(&scene, Show::Final).unwrap();
     for backend in [Backend::Egl, Backend::OsMesa] {
-        let mut context = Context::open(backend).unwrap_or_else(|error| panic!("{error}"));
+        let mut context = Context::open(backend, None).unwrap_or_else(|error| panic!("{error}"));
         context.resize(scene.size).unwrap();
         let _current = context.enter().unwrap();
         let gl = context.gl();

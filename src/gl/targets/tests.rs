@@ -18,7 +18,7 @@ fn cartoon(map_encoding: MapEncoding, map_target: MapTarget) -> Style {
 
 #[test]
 fn what_a_driver_lacks_is_refused_by_the_option_that_asks_for_it() {
-    let context = Context::open(Backend::Auto).unwrap_or_else(|error| panic!("{error}"));
+    let context = Context::open(Backend::Auto, None).unwrap_or_else(|error| panic!("{error}"));
     let able = ContextInfo { renderer: "Voodoo 2".to_owned(), ..context.info().clone() };
     let old = ContextInfo { framebuffer_objects: false, draw_buffers: 1, float_targets: false, ..able.clone() };
     let single = ContextInfo { draw_buffers: 1, ..able.clone() };
@@ -55,7 +55,7 @@ fn one_texture_in_two_formats_is_an_error_and_leaves_nothing_behind() {
         instead: SettingValue { setting: "size", value: "4" },
         instead_draws: None,
     };
-    let context = Context::open(Backend::Auto).unwrap_or_else(|error| panic!("{error}"));
+    let context = Context::open(Backend::Auto, None).unwrap_or_else(|error| panic!("{error}"));
     let _current = context.enter().unwrap();
     let mut plan = plan(&cartoon(MapEncoding::Published, MapTarget::Texture));
     plan.passes[1].target = Target::Textures(&HALF);

@@ -177,9 +177,8 @@ fn reach_beyond_objects(draw: &Draw, before: &[Step], ground: &Ground) -> Option
             _ => false,
         },
     };
-    (is_square && is_seen && draw.depth != Depth::TestAndWrite && ground.is_even_for(draw))
-        .then_some(draw.facts.reach_px)
-        .flatten()
+    let beyond = ground.even_beyond(draw).filter(|_| is_square && is_seen && draw.depth != Depth::TestAndWrite)?;
+    draw.facts.reach_px?.checked_add(beyond)
 }
 
 /// Leaves a colour uncleared that the next step draws over.

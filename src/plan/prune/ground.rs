@@ -1,13 +1,13 @@
 //! Skips filters over pixels that hold a single value, where they find nothing.
 
-use crate::plan::{Blend, Depth, Draw, Geometry, Step, Target, Texture};
+use crate::plan::{Blend, Depth, Draw, Geometry, Step, Target, Texture, WhereEven};
 use crate::scene::Rectangle;
 
-/// What of a plan holds one value wherever no object reaches, as far as its steps have been followed.
+/// What of a plan holds one value wherever no object is near, as far as its steps have been followed.
 #[derive(Default)]
 pub(super) struct Ground {
-    /// Of these colours all that is outside the objects is the same.
-    colors: Vec<Place>,
+    /// Of these colours all that is farther than so many pixels from the objects is the same.
+    colors: Vec<(Place, u32)>,
     /// Of these depth buffers likewise.
     depths: Vec<DepthBuffer>,
 }
@@ -27,14 +27,20 @@ enum DepthBuffer {
 }
 
 impl Ground {
-    /// Whether all textures that a draw reads and passes leave are even.
-    pub(super) fn is_even_for(&self, draw: &Draw) -> bool {
+    /// How far from the objects, in pixels, all textures that a draw reads and passes leave are even; `None` where one of them
+    /// may nowhere be.
+    pub(super) fn even_beyond(&self, draw: &Draw) -> Option<u32> {
         let is_of_passes =
             |texture: &Texture| matches!(texture, Texture::BorderMap | Texture::DepthMap | Texture::Drawn(_));
         draw.textures
             .iter()
             .filter(|(_, texture)| is_of_passes(texture))
-            .all(|(_, texture)| self.colors.contains(&Place::Texture(*texture)))
+            .map(|(_, texture)| self.color_beyond(&Place::Texture(*texture)))
+            .try_fold(0, |farthest, beyond| Some(farthest.max(beyond?)))
+    }
+
+    fn color_beyond(&self, place: &Place) -> Option<u32> {
+        self.colors.iter().find(|(other, _)| other == place).map(|(_, beyond)| *beyond)
     }
 
     /// Follows one step of a pass that draws into this target, within these pixels.
@@ -44,31 +50,36 @@ impl Ground {
             Target::Framebuffer => DepthBuffer::Framebuffer,
             Target::Textures(_) => DepthBuffer::Textures,
         };
-        let is_even = places.first().is_some_and(|place| self.colors.contains(place));
+        let beyond = places.first().and_then(|place| self.color_beyond(place));
+        let is_whole = scissor.is_none();
         let is_depth_even = self.depths.contains(&depth_buffer);
         match step {
             Step::Clear { color, depth } => {
                 if color.is_some() {
-                    self.set_colors(&places, scissor.is_none());
+                    self.set_colors(&places, is_whole.then_some(0));
                 }
                 if *depth {
-                    self.set_depth(depth_buffer, scissor.is_none());
+                    self.set_depth(depth_buffer, is_whole);
                 }
             }
             Step::ClearEach { .. } => {
-                self.set_colors(&places, scissor.is_none());
-                self.set_depth(depth_buffer, scissor.is_none());
+                self.set_colors(&places, is_whole.then_some(0));
+                self.set_depth(depth_buffer, is_whole);
             }
             Step::CopyFramebuffer => {
-                self.set_colors(&[Place::Texture(Texture::BorderMap)], is_even && scissor.is_none());
+                self.set_colors(&[Place::Texture(Texture::BorderMap)], beyond.filter(|_| is_whole));
             }
             Step::CopyDepth => {
-                self.set_colors(&[Place::Texture(Texture::DepthMap)], is_depth_even && scissor.is_none());
+                self.set_colors(&[Place::Texture(Texture::DepthMap)], (is_depth_even && is_whole).then_some(0));
             }
             Step::Draw(draw) if stays_in_objects(draw) || draw.facts.adds_nothing.is_some() => {}
             Step::Draw(draw) => {
-                let is_constant = draw.facts.constant_color.is_some() && covers(draw) && scissor.is_none();
-                self.set_colors(&places, is_constant && places.len() == 1);
+                let is_constant = draw.facts.constant_color.is_some() && covers(draw) && is_whole;
+                let even = match is_constant {
+                    true => Some(0),
+                    false => beyond.zip(self.unchanged_beyond(draw)).map(|(before, after)| before.max(after)),
+                };
+                self.set_colors(&places, even.filter(|_| places.len() == 1));
                 if draw.depth == Depth::TestAndWrite {
                     self.set_depth(depth_buffer, false);
                 }
@@ -76,10 +87,17 @@ impl Ground {
         }
     }
 
-    fn set_colors(&mut self, places: &[Place], is_even: bool) {
-        self.colors.retain(|place| !places.contains(place));
-        if is_even {
-            self.colors.extend(places);
+    /// How far from the objects a draw leaves all pixels as they are; `None` where it may change any.
+    fn unchanged_beyond(&self, draw: &Draw) -> Option<u32> {
+        let reach = draw.facts.reach_px.filter(|_| draw.facts.where_even == Some(WhereEven::Unchanged))?;
+        self.even_beyond(draw)?.checked_add(reach)
+    }
+
+    /// Beyond so many pixels they are even, or nowhere.
+    fn set_colors(&mut self, places: &[Place], beyond: Option<u32>) {
+        self.colors.retain(|(place, _)| !places.contains(place));
+        if let Some(beyond) = beyond {
+            self.colors.extend(places.iter().map(|place| (*place, beyond)));
         }
     }
 

@@ -8,6 +8,9 @@ use crate::scene::Size;
 
 /// The textures' places.
 pub(super) struct Layout {
+    picture: Size,
+    /// Samples along a side of one of its pixels.
+    samples: u32,
     noise: Size,
     cet: Size,
     /// Shares of the textures that the picture's width and height cover.
@@ -17,9 +20,11 @@ pub(super) struct Layout {
 
 impl Layout {
     /// Of these textures: stretched once over the picture, or each in its own proportion.
-    pub(super) fn of(made: &Made, picture: Size, is_even: bool) -> Self {
+    pub(super) fn of(made: &Made, picture: Size, samples: u32, is_even: bool) -> Self {
         let spread = |texture: Size| if is_even { even(picture, texture) } else { [1.0; 2] };
         Self {
+            picture,
+            samples,
             noise: made.noise.size,
             cet: made.cet.size,
             noise_spread: spread(made.noise.size),
@@ -27,21 +32,26 @@ impl Layout {
         }
     }
 
-    /// What spread-even reads.
-    pub(super) fn spreads(&self) -> Vec<Uniform> {
-        vec![vec2("noiseSpread", self.noise_spread), vec2("paperSpread", self.paper_spread)]
+    /// What spread-* and grain-* read.
+    pub(super) fn places(&self) -> Vec<Uniform> {
+        vec![
+            vec2("noiseSpread", self.noise_spread),
+            vec2("paperSpread", self.paper_spread),
+            Uniform { name: "samples", value: Value::Float(self.samples as f32) },
+        ]
     }
 
     /// What the parts read.
-    pub(super) fn uniforms(&self, picture: Size) -> Vec<Uniform> {
-        let (sides, shorter) = ([picture.width, picture.height].map(|side| side as f32), shorter(picture));
+    pub(super) fn uniforms(&self) -> Vec<Uniform> {
+        let (picture, shorter) = (self.picture, shorter(self.picture));
+        let sides = [picture.width, picture.height].map(|side| side as f32);
         // About as many texels a pixel as on the screen, where the scene's radius is about half the picture.
         let [x, y] = self.noise_spread;
         let across = [x * shorter / sides[0] * 0.5, y * shorter / sides[1] * 0.5];
-        let mut uniforms = self.spreads();
+        let mut uniforms = self.places();
         uniforms.extend([
             Uniform { name: "cetTexel", value: Value::Float(1.0 / self.cet.height as f32) },
-            vec2("textureUnit", sides.map(|side| 1.0 / side)),
+            vec2("textureUnit", sides.map(|side| 1.0 / (side * self.samples as f32))),
             vec2("noiseScale", across),
             vec2("noiseSize", [self.noise.width as f32, self.noise.height as f32]),
             vec2("strokeScale", sides.map(|side| side / shorter)),

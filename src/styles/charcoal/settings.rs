@@ -2,12 +2,15 @@
 
 use super::{Charcoal, CharcoalRecipe};
 use crate::settings::{Kind, ON_OFF, Setting, Value as _, names_of, under};
-use crate::styles::{ALL_STYLES, CHARCOAL, cull};
+use crate::styles::{ALL_STYLES, CHARCOAL, Supersample, cull};
 
 impl Charcoal {
     /// Its settings.
     pub(in crate::styles) fn settings() -> Vec<Setting<Self>> {
-        let common = vec![cull(|charcoal: &mut Self| &mut charcoal.cull_back_faces)];
+        let common = vec![
+            cull(|charcoal: &mut Self| &mut charcoal.cull_back_faces),
+            Supersample::setting(|charcoal: &mut Self| &mut charcoal.supersample),
+        ];
         let recipe = Setting::of(
             "charcoal",
             "RECIPE",

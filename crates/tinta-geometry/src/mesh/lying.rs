@@ -53,6 +53,7 @@ fn flat_shares(mesh: &Mesh) -> [f64; 6] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
     use crate::mesh::UpAxis;
 
     /// A pyramid of so many sides on a base at the lowest z, as high as wide.
