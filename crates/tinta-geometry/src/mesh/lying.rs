@@ -5,7 +5,6 @@
 
 use super::Mesh;
 use crate::tolerances::{BASE_DEPTH, BASE_FLATNESS, BASE_HEIGHT, BASE_SHARE, OTHER_ENDS_SHARE};
-use glam::DVec3;
 
 /// The six ends of a model: the lowest of x, y and z, then the highest.
 const LOWEST_Z: usize = 2;
@@ -55,6 +54,7 @@ fn flat_shares(mesh: &Mesh) -> [f64; 6] {
 mod tests {
     use super::*;
     use crate::mesh::UpAxis;
+    use glam::DVec3;
 
     /// A pyramid of so many sides on a base at the lowest z, as high as wide.
     fn pyramid(has_base: bool) -> Mesh {
