@@ -6,7 +6,7 @@
 use super::Mesh;
 use crate::tolerances::{BASE_DEPTH, BASE_FLATNESS, BASE_HEIGHT, BASE_SHARE, OTHER_ENDS_SHARE};
 
-/// The six ends of a model: the lowest of x, y and z, then the highest.
+/// The place of the lowest z among the six ends of a model: the lowest of x, y and z, then the highest.
 const LOWEST_Z: usize = 2;
 
 /// Whether the only flat end of a mesh is its lowest z, and it is no slab.
@@ -55,6 +55,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
     use crate::mesh::UpAxis;
+    use glam::DVec3;
 
     /// A pyramid of so many sides on a base at the lowest z, as high as wide.
     fn pyramid(has_base: bool) -> Mesh {
