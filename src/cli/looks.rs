@@ -95,7 +95,11 @@ mod tests {
     fn every_look_is_listed_and_can_be_drawn() {
         let size = Size { width: 32, height: 24 };
         for look in LOOKS {
-            assert!(list().contains(look.about) && html("a<b.obj", size).contains(look.about), "{}", look.name);
+            assert!(
+                list().contains(look.about) && html("a<b.obj", size).contains(&escaped(look.about)),
+                "{}",
+                look.name
+            );
             let words = words("builtin:bust", look, size, Path::new("a.png").with_file_name(file(look)).as_path());
             assert!(super::super::check(words.into_iter().map(OsString::from)).is_ok(), "{}", look.name);
         }

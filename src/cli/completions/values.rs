@@ -46,6 +46,7 @@ fn offered(command: &str, option: &str) -> Vec<&'static str> {
         "style" if command == "view" => names_of::<StyleName>(),
         "style" => with(names_of::<StyleName>(), &["lines"]),
         "left" | "right" | "styles" => names_of::<StyleName>(),
+        "look" => tinta::preset::LOOKS.iter().map(|look| look.name).collect(),
         "backend" => names_of::<Backend>(),
         "submission" => names_of::<Submission>(),
         "show" => names_of::<Show>(),
