@@ -262,7 +262,10 @@ impl Style {
         match self {
             Self::Charcoal(charcoal) | Self::Sand(charcoal) => charcoal.remarks(scene),
             _ if self.leaves_textures_out(scene) => {
-                vec!["the model's textures are not drawn; --surface textured draws them".to_owned()]
+                vec![
+                    "the model's textures or colours at vertices are not drawn; --surface textured draws them"
+                        .to_owned(),
+                ]
             }
             _ => Vec::new(),
         }
@@ -271,7 +274,9 @@ impl Style {
     /// Whether the scene brings textures, and they could be drawn and are not.
     fn leaves_textures_out(&self, scene: &Scene) -> bool {
         let draws_own = matches!(self, Self::Inking(inking) if inking.has_texture || inking.paint == PaintMode::None);
-        let brings = |object: &crate::scene::Object| object.mesh.materials.iter().any(|it| it.has_texture());
+        let brings = |object: &crate::scene::Object| {
+            !object.mesh.position_colors.is_empty() || object.mesh.materials.iter().any(|it| it.has_texture())
+        };
         let is_free = scene.surface == crate::scene::Surface::Plain && !scene.recolor;
         is_free && !draws_own && self.style_name() != StyleName::Dietrich && scene.objects.iter().any(brings)
     }

@@ -73,6 +73,7 @@ mod standard_output;
 mod stress;
 mod submission;
 mod supersampling;
+mod surfaces;
 mod support;
 mod svg;
 mod textures;

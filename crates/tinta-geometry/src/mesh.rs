@@ -64,6 +64,8 @@ pub struct Mesh {
     pub positions: Vec<DVec3>,
     /// For each position the lowest 0-based vertex number of the file that was welded into it.
     pub file_vertices: Vec<u32>,
+    /// Colours at the positions, red, green, blue in [0, 1]; empty where the model has none.
+    pub position_colors: Vec<[f32; 3]>,
     /// Each triangle's three positions, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
     /// Unit normals, world space.
@@ -122,6 +124,7 @@ impl Mesh {
             name: "a triangle".to_owned(),
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
             file_vertices: vec![0, 1, 2],
+            position_colors: Vec::new(),
             triangles: vec![[0, 1, 2]],
             normals: vec![Vec3::Z],
             triangle_normals: vec![[0; 3]],
@@ -160,6 +163,7 @@ impl Mesh {
     pub fn memory_bytes(&self) -> usize {
         bytes_of(&self.positions)
             + bytes_of(&self.file_vertices)
+            + bytes_of(&self.position_colors)
             + bytes_of(&self.triangles)
             + bytes_of(&self.normals)
             + bytes_of(&self.triangle_normals)

@@ -32,7 +32,7 @@ use crate::camera::{Camera, CameraSettings, Projection};
 use crate::edges::{Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::hiding::{Hiding, ObjectView};
-use crate::mesh::{Material, Mesh, NONE, VertexArrays, bounds};
+use crate::mesh::{Material, Mesh, VertexArrays, bounds};
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
 use crate::tolerances::SCENE_RADIUS;
 use glam::{DMat4, DVec3, Mat4, Vec3};
@@ -97,7 +97,7 @@ pub enum Surface {
     /// Each material has one colour.
     #[default]
     Plain,
-    /// With the textures that the model brings; a material is white under its texture.
+    /// With the textures and colours at vertices that the model brings; a material is white under its texture.
     Textured,
 }
 
@@ -199,7 +199,7 @@ impl SceneSettings {
             Setting::field(
                 "surface",
                 "SURFACE",
-                "Surfaces in one colour a material (plain), or with the model's own textures under every shading (textured)",
+                "Surfaces in one colour a material (plain), or with the model's own textures and colours at vertices under every shading (textured)",
                 |scene: &mut Self| &mut scene.surface,
             ),
             Setting::field(
@@ -369,15 +369,25 @@ impl Scene {
         camera.clip_from_view(self.size.aspect()).as_mat4()
     }
 
-    /// The colour of a run of triangles with this material (or [`NONE`]).
+    /// The colour of a run of triangles with this material (or [`crate::mesh::NONE`]).
     pub fn material_color(&self, mesh: &Mesh, material: u32) -> Color {
-        if self.recolor || material == NONE {
+        if self.recolor {
             return self.color;
         }
         match mesh.materials.get(material as usize) {
             Some(material) if self.is_textured(mesh, material) => Color([1.0; 3]),
-            material => material.and_then(|material| material.color).map_or(self.color, Color),
+            material => material.and_then(|material| material.color).map_or(self.bare_color(mesh), Color),
         }
+    }
+
+    /// What has no colour of its own; white under colours at vertices.
+    fn bare_color(&self, mesh: &Mesh) -> Color {
+        if self.has_colors(mesh) { Color([1.0; 3]) } else { self.color }
+    }
+
+    /// Whether a mesh is drawn with the colours at its vertices, in styles that leave it to the scene.
+    fn has_colors(&self, mesh: &Mesh) -> bool {
+        self.surface == Surface::Textured && !self.recolor && !mesh.position_colors.is_empty()
     }
 
     /// Whether a material of the mesh is drawn with its texture, in styles that leave it to the scene.
@@ -386,10 +396,28 @@ impl Scene {
         self.surface == Surface::Textured && !self.recolor && has_coordinates && material.has_texture()
     }
 
-    /// Whether anything is drawn with its texture, in styles that leave it to the scene.
+    /// Whether anything is drawn with its texture or colours at its vertices, in styles that leave it to the scene.
     pub fn has_textured_surfaces(&self) -> bool {
         let is_textured = |object: &Object| object.mesh.materials.iter().any(|it| self.is_textured(&object.mesh, it));
-        self.objects.iter().any(is_textured)
+        self.objects.iter().any(|object| is_textured(object) || self.has_colors(&object.mesh))
+    }
+
+    /// The colours at the vertices of each object, white where it has none; `None` where no object is drawn with any.
+    pub fn vertex_colors(&self) -> Option<Vec<Arc<Vec<[f32; 4]>>>> {
+        if !self.objects.iter().any(|object| self.has_colors(&object.mesh)) {
+            return None;
+        }
+        let mut lists: Vec<Arc<Vec<[f32; 4]>>> = Vec::with_capacity(self.objects.len());
+        for object in &self.objects {
+            let same = self.objects[..lists.len()].iter().position(|earlier| Arc::ptr_eq(&earlier.mesh, &object.mesh));
+            let arrays = self.arrays(object);
+            lists.push(match same {
+                Some(earlier) => lists[earlier].clone(),
+                None if arrays.colors.is_empty() => Arc::new(vec![[1.0; 4]; arrays.vertices.len()]),
+                None => Arc::new(arrays.colors.clone()),
+            });
+        }
+        Some(lists)
     }
 
     /// Triangles of all objects together.

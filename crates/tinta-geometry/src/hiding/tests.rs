@@ -24,6 +24,7 @@ fn mesh_of(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Mesh {
         triangle_texture_coordinates: Vec::new(),
         materials: Vec::new(),
         triangle_materials: Vec::new(),
+        position_colors: Vec::new(),
         defects: Defects::default(),
         positions,
         triangles,

@@ -60,7 +60,6 @@ fn contents(bytes: &[u8], path: &str, folder: &Folder, remarks: &mut Vec<String>
     let mut left_out = LeftOut { unread_pictures, ..LeftOut::of(&root) };
     for (outline, places) in &outlines {
         left_out.primitives += outline.others;
-        left_out.has_colors |= outline.has_colors;
         parts::put(&mut soup, outline, places, &accessors, &nodes)?;
     }
     remarks.extend(left_out.sentence(path));
@@ -116,7 +115,6 @@ fn refuse_too_much(outlines: &[(Outline<'_>, Vec<usize>)], file_bytes: usize) ->
 struct LeftOut {
     /// Primitives that are points or lines.
     primitives: usize,
-    has_colors: bool,
     animations: usize,
     cameras: usize,
     scenes: usize,
@@ -147,7 +145,6 @@ impl LeftOut {
         };
         let mut parts: Vec<String> = [
             counted(self.primitives, "primitive of points or lines", "primitives of points or lines"),
-            self.has_colors.then(|| "colours at vertices".to_owned()),
             counted(self.see_through, "material's transparency", "materials' transparency"),
             counted(
                 self.unread_pictures,

@@ -10,7 +10,7 @@ use super::soup::{Corner, Soup, is_too_much};
 use crate::error::{Error, Result};
 use crate::limits::PLY_HEADER_BYTES;
 use glam::{DVec3, Vec2, Vec3};
-use header::{Element, Header};
+use header::{Element, Header, PropertyType, ScalarType};
 use payload::{Damage, Payload, Value};
 
 /// Reads a PLY file's bytes. `path` is for messages.
@@ -76,6 +76,23 @@ struct Contents {
     vertices: u32,
     has_normals: bool,
     has_texture: bool,
+    /// What a colour's full strength is in the file; `None` where vertices have no colours.
+    full_color: Option<f64>,
+}
+
+/// What stands for a channel's full strength: in whole numbers the largest of its type, else 1; `None` without all three channels.
+fn full_color(vertex: &Element) -> Option<f64> {
+    let types = |names: [&str; 3]| -> Option<Vec<PropertyType>> {
+        let of = |name| vertex.properties.iter().find(|own| own.name == name).map(|own| own.data_type);
+        names.into_iter().map(of).collect()
+    };
+    let types = types(["red", "green", "blue"]).or_else(|| types(["diffuse_red", "diffuse_green", "diffuse_blue"]))?;
+    match types.first()? {
+        PropertyType::Scalar(ScalarType::UChar) => Some(f64::from(u8::MAX)),
+        PropertyType::Scalar(ScalarType::UShort) => Some(f64::from(u16::MAX)),
+        PropertyType::Scalar(ScalarType::Float | ScalarType::Double) => Some(1.0),
+        _ => None,
+    }
 }
 
 impl Contents {
@@ -89,6 +106,7 @@ impl Contents {
             has_texture: [["u", "v"], ["s", "t"], ["texture_u", "texture_v"]]
                 .into_iter()
                 .any(|names| names.into_iter().all(has)),
+            full_color: vertex.and_then(full_color),
         }
     }
 
@@ -97,8 +115,10 @@ impl Contents {
         self.soup.positions.reserve_exact(count);
         self.soup.normals.reserve_exact(if self.has_normals { count } else { 0 });
         self.soup.texture_coordinates.reserve_exact(if self.has_texture { count } else { 0 });
+        self.soup.colors.reserve_exact(if self.full_color.is_some() { count } else { 0 });
         for _ in 0..element.count {
             let (mut position, mut normal, mut texture) = (DVec3::ZERO, Vec3::ZERO, Vec2::ZERO);
+            let mut color = DVec3::ZERO;
             payload.element(element, |name, value| {
                 let Value::Scalar(number) = value else { return };
                 match name {
@@ -108,6 +128,9 @@ impl Contents {
                     "nx" => normal.x = number as f32,
                     "ny" => normal.y = number as f32,
                     "nz" => normal.z = number as f32,
+                    "red" | "diffuse_red" => color.x = number,
+                    "green" | "diffuse_green" => color.y = number,
+                    "blue" | "diffuse_blue" => color.z = number,
                     "u" | "s" | "texture_u" => texture.x = number as f32,
                     "v" | "t" | "texture_v" => texture.y = number as f32,
                     _ => {}
@@ -117,6 +140,10 @@ impl Contents {
             if self.has_normals {
                 self.soup.normals.push(normal);
             }
+            if let Some(full) = self.full_color {
+                let share = (color / full).clamp(DVec3::ZERO, DVec3::ONE);
+                self.soup.colors.push(if share.is_finite() { share.as_vec3().to_array() } else { [1.0; 3] });
+            }
             if self.has_texture {
                 self.soup.texture_coordinates.push(texture);
             }
@@ -125,7 +152,7 @@ impl Contents {
     }
 
     fn faces(&mut self, payload: &mut Payload<'_>, element: &Element) -> std::result::Result<(), Damage> {
-        let Self { soup, vertices, has_normals, has_texture } = self;
+        let Self { soup, vertices, has_normals, has_texture, .. } = self;
         /// Corners for which there is room before a face is read.
         const LIST: usize = 1024;
         let with = |used: bool, index: u32| if used { index } else { NONE };
@@ -174,7 +201,7 @@ impl Contents {
         element: &Element,
         file_bytes: usize,
     ) -> std::result::Result<(), Damage> {
-        let Self { soup, vertices, has_normals, has_texture } = self;
+        let Self { soup, vertices, has_normals, has_texture, .. } = self;
         let with = |used: bool, index: u32| if used { index } else { NONE };
         let mut is_full = false;
         for _ in 0..element.count {
@@ -244,6 +271,28 @@ mod tests {
         assert_eq!(soup.positions[2], DVec3::new(1.0, 1.0, 0.5));
         assert_eq!(soup.polygon_sizes, [4]);
         assert_eq!(soup.defects.out_of_range_faces, 1);
+    }
+
+    #[test]
+    fn colours_at_vertices_are_shares_of_their_types_largest_number() {
+        for (kind, written, expected) in [
+            ("uchar", "255 51 0", [1.0, 0.2, 0.0]),
+            ("ushort", "65535 13107 0", [1.0, 0.2, 0.0]),
+            ("float", "1 0.2 -3", [1.0, 0.2, 0.0]),
+        ] {
+            let colors = ["red", "green", "blue"].map(|name| format!("property {kind} {name}\n")).concat();
+            let text = format!(
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n{colors}\
+                 element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 {written}\n1 0 0 {written}\n\
+                 0 1 0 {written}\n3 0 1 2\n"
+            );
+            let soup = read(text.as_bytes(), "t.ply").unwrap();
+            assert_eq!(soup.colors, [expected; 3], "{kind}");
+            let mesh = soup.into_mesh("t.ply", &crate::LoadOptions::default()).unwrap();
+            assert_eq!(mesh.position_colors, [expected; 3], "{kind}");
+        }
+        let without = format!("{HEADER}0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4 0 1 2 3 9\n3 0 1 7 9\n5\n");
+        assert!(read(without.as_bytes(), "t.ply").unwrap().colors.is_empty(), "a face's red is no vertex's");
     }
 
     #[test]

@@ -22,6 +22,8 @@ pub(super) struct Soup {
     pub normals: Vec<Vec3>,
     /// All texture coordinates.
     pub texture_coordinates: Vec<Vec2>,
+    /// Colours at the vertices, red, green, blue in [0, 1]; empty or as many as positions.
+    pub colors: Vec<[f32; 3]>,
     /// The polygons' corners one after the other.
     pub corners: Vec<Corner>,
     /// How many corners each polygon has; empty when all are triangles.
@@ -117,8 +119,10 @@ impl Soup {
         defects.unused_vertices += finite.iter().zip(&used).filter(|(finite, used)| **finite && !**used).count();
 
         let (positions, file_vertices) = compact(&self.positions, &mut pieces.triangles);
+        let color = |vertex: &u32| self.colors.get(*vertex as usize).copied();
         let mut mesh = Mesh {
             name: name.to_owned(),
+            position_colors: file_vertices.iter().filter_map(color).collect(),
             positions,
             file_vertices,
             triangles: pieces.triangles,
@@ -135,6 +139,9 @@ impl Soup {
         }
         if mesh.triangle_materials.iter().all(|index| *index == NONE) {
             mesh.triangle_materials.clear();
+        }
+        if mesh.position_colors.len() != mesh.positions.len() {
+            mesh.position_colors.clear();
         }
         mesh.take_normals(&self.normals, &pieces.face_normals, options);
         if options.strict && !mesh.defects.is_empty() {

@@ -13,6 +13,8 @@ pub struct VertexArrays {
     pub vertices: Vec<[f32; 6]>,
     /// Texture coordinates of each vertex, origin at the lower left; empty where the mesh has no texture to read by them.
     pub texture_coordinates: Vec<[f32; 2]>,
+    /// Red, green, blue and an alpha of 1 at each vertex; empty where the mesh has no colours at its positions.
+    pub colors: Vec<[f32; 4]>,
     /// Three indices a triangle.
     pub indices: Vec<u32>,
     /// For each of the mesh's positions one vertex that lies there, or [`NONE`] where no triangle does.
@@ -42,11 +44,12 @@ impl VertexArrays {
         let (low, high) = mesh.bounds();
         let centre = low * 0.5 + high * 0.5;
         let (corners, order) = both(|| CornerVertices::new(mesh, centre, unit), || drawing_order(mesh));
-        let CornerVertices { vertices, texture_coordinates, corner_vertices, position_vertices } = corners;
+        let CornerVertices { vertices, texture_coordinates, colors, corner_vertices, position_vertices } = corners;
         let indices: Vec<[u32; 3]> = order.iter().map(|triangle| corner_vertices[*triangle as usize]).collect();
         let indices = indices.into_flattened();
         let parts = parts(mesh, &order);
-        let mut arrays = Self { vertices, texture_coordinates, indices, position_vertices, order, parts, centre };
+        let mut arrays =
+            Self { vertices, texture_coordinates, colors, indices, position_vertices, order, parts, centre };
         arrays.number_by_first_use();
         arrays
     }
@@ -55,6 +58,7 @@ impl VertexArrays {
     pub fn memory_bytes(&self) -> usize {
         bytes_of(&self.vertices)
             + bytes_of(&self.texture_coordinates)
+            + bytes_of(&self.colors)
             + bytes_of(&self.indices)
             + bytes_of(&self.position_vertices)
             + bytes_of(&self.parts)
@@ -76,6 +80,9 @@ impl VertexArrays {
         if !self.texture_coordinates.is_empty() {
             self.texture_coordinates = order.iter().map(|old| self.texture_coordinates[*old as usize]).collect();
         }
+        if !self.colors.is_empty() {
+            self.colors = order.iter().map(|old| self.colors[*old as usize]).collect();
+        }
         let vertices = self.position_vertices.iter_mut().filter(|vertex| **vertex != NONE);
         vertices.for_each(|vertex| *vertex = number[*vertex as usize]);
     }
@@ -85,6 +92,7 @@ impl VertexArrays {
 struct CornerVertices {
     vertices: Vec<[f32; 6]>,
     texture_coordinates: Vec<[f32; 2]>,
+    colors: Vec<[f32; 4]>,
     /// Each triangle's vertices.
     corner_vertices: Vec<[u32; 3]>,
     position_vertices: Vec<u32>,
@@ -95,7 +103,7 @@ impl CornerVertices {
         let incidence = Incidence::new(mesh.positions.len(), &mesh.triangles);
         let keys = CornerKeys::new(mesh);
         let mut vertices: Vec<[f32; 6]> = Vec::with_capacity(mesh.positions.len());
-        let mut texture_coordinates = Vec::new();
+        let (mut texture_coordinates, mut colors) = (Vec::new(), Vec::new());
         let mut corner_vertices = vec![[NONE; 3]; mesh.triangles.len()];
         let mut position_vertices = Vec::with_capacity(mesh.positions.len());
         let mut corners = Vec::new();
@@ -115,13 +123,14 @@ impl CornerVertices {
                     corner_vertices[*corner as usize / 3][*corner as usize % 3] = vertices.len() as u32;
                 }
                 vertices.push([x, y, z, nx, ny, nz]);
+                colors.extend(mesh.position_colors.get(position).map(|[red, green, blue]| [*red, *green, *blue, 1.0]));
                 if keys.has_textures {
                     let coordinate = mesh.texture_coordinates.get(texture as usize).copied().unwrap_or_default();
                     texture_coordinates.push(coordinate.to_array());
                 }
             }
         }
-        Self { vertices, texture_coordinates, corner_vertices, position_vertices }
+        Self { vertices, texture_coordinates, colors, corner_vertices, position_vertices }
     }
 }
 

@@ -78,6 +78,15 @@ impl<'a> Accessors<'a> {
         Ok(numbers)
     }
 
+    /// The first `count` elements as colours, red, green and blue; linear light becomes sRGB, and alpha is left out.
+    pub(super) fn colors(&self, index: Index<Accessor>, count: usize) -> Result<Vec<[f32; 3]>, String> {
+        let rgb = match self.numbers::<4>(index, count) {
+            Ok(colors) => colors.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect(),
+            Err(_) => self.numbers::<3>(index, count)?,
+        };
+        Ok(rgb.into_iter().map(|color| color.map(|channel| super::materials::to_srgb(channel as f32))).collect())
+    }
+
     /// The first `count` elements as indices.
     pub(super) fn indices(&self, index: Index<Accessor>, count: usize) -> Result<Vec<u32>, String> {
         let mut indices = Vec::new();

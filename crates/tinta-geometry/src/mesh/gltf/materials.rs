@@ -111,7 +111,7 @@ pub(super) fn see_through(root: &Root) -> usize {
 }
 
 /// A share of light as the share of a byte that shows it: sRGB, as all other colours of models here.
-fn to_srgb(linear: f32) -> f32 {
+pub(super) fn to_srgb(linear: f32) -> f32 {
     let linear = if linear.is_finite() { f64::from(linear.clamp(0.0, 1.0)) } else { 1.0 };
     (if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }) as f32
 }

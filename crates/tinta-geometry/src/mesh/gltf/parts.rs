@@ -19,8 +19,6 @@ pub(super) struct Outline<'a> {
     pieces: Vec<Piece<'a>>,
     /// How many primitives are points or lines.
     pub others: usize,
-    /// Whether vertices have colours.
-    pub has_colors: bool,
 }
 
 /// Vertices that one or several primitives use.
@@ -47,7 +45,7 @@ impl<'a> Outline<'a> {
         accessors: &Accessors<'a>,
         coordinates: &'a [Coordinates],
     ) -> Result<Self, String> {
-        let mut outline = Self { mesh, sets: Vec::new(), pieces: Vec::new(), others: 0, has_colors: false };
+        let mut outline = Self { mesh, sets: Vec::new(), pieces: Vec::new(), others: 0 };
         let mut known = HashMap::new();
         for primitive in &mesh.primitives {
             let mode = match primitive.mode {
@@ -62,7 +60,6 @@ impl<'a> Outline<'a> {
             let Some(positions) = attribute(primitive, Semantic::Positions) else {
                 return Err("it has triangles without positions; export it again".to_owned());
             };
-            outline.has_colors |= attribute(primitive, Semantic::Colors(0)).is_some();
             let material = primitive.material.map(|material| material.value());
             if material.is_some_and(|material| material >= root.materials.len()) {
                 return Err("it uses materials that do not exist; export it again".to_owned());
@@ -117,6 +114,8 @@ struct Vertices {
     /// Empty or as many as positions, like the next two.
     normals: Vec<DVec3>,
     texture_coordinates: Vec<Vec2>,
+    /// Red, green and blue as displays have them, sRGB.
+    colors: Vec<[f32; 3]>,
     /// The joints that move each vertex, and how much; a vertex has these in each list.
     weights: Vec<Vec<([f64; 4], [f64; 4])>>,
 }
@@ -228,6 +227,10 @@ impl Vertices {
                 accessors.numbers::<2>(index, count)?.into_iter().map(pair).collect()
             }
         };
+        let colors = match attribute(primitive, Semantic::Colors(0)) {
+            None => Vec::new(),
+            Some(index) => accessors.colors(index, count)?,
+        };
         let mut weights = Vec::new();
         for number in (0..).take_while(|_| is_skinned) {
             let list = |semantic| attribute(primitive, semantic).map(|index| accessors.numbers::<4>(index, count));
@@ -236,7 +239,7 @@ impl Vertices {
             };
             weights.push(joints?.into_iter().zip(shares?).collect());
         }
-        Ok(Self { positions, normals, texture_coordinates, weights })
+        Ok(Self { positions, normals, texture_coordinates, colors, weights })
     }
 
     /// What moves a vertex where joints do; `None` where none of them has a share.
@@ -293,6 +296,12 @@ impl Placed {
                     placed.mirrored.push(turn.is_mirrored);
                 }
             }
+        }
+        // Where some have none they are white.
+        if !vertices.colors.is_empty() || !soup.colors.is_empty() {
+            soup.colors.resize(placed.first_position as usize, [1.0; 3]);
+            soup.colors.extend(&vertices.colors);
+            soup.colors.resize(soup.positions.len(), [1.0; 3]);
         }
         soup.texture_coordinates.extend(&vertices.texture_coordinates);
         Ok(placed)
