@@ -231,10 +231,7 @@ impl SvgSettings {
             }
         }
         if self.margin != Self::default().margin && !matches!(self.page_size, PageSize::Paper(_)) {
-            return Err(Error::setting(
-                "margin",
-                "only a sheet of paper has a margin; add --page A4, or leave it out",
-            ));
+            return Err(Error::setting("margin", "only a sheet of paper has a margin; add --page A4, or leave it out"));
         }
         self.page_size.check(self.margin)
     }
@@ -295,7 +292,9 @@ impl SvgSettings {
         let width = self.width_px(layer, px_per_mm);
         let length = self.min_length.and_then(|length| length.px(px_per_mm)).unwrap_or(width);
         match layer {
-            Layer::Visible(Class::Crease) | Layer::Hidden(Class::Crease) => length.max(LEAST_CREASE * length.min(width)),
+            Layer::Visible(Class::Crease) | Layer::Hidden(Class::Crease) => {
+                length.max(LEAST_CREASE * length.min(width))
+            }
             _ => length,
         }
     }
