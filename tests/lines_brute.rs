@@ -2,7 +2,7 @@
 //! formulas of their own in world space.
 
 use crate::lines_random::random_scene;
-use crate::lines_support::{length, lines, pierce, scene_of, scenes_wanted};
+use crate::lines_support::{length, pierce, published_lines, scene_of, scenes_wanted};
 use crate::shapes::Random;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use std::collections::BTreeMap;
@@ -347,7 +347,7 @@ fn check(kind: u32, seed: u64) -> Agreement {
         random.number();
     });
     let scene = random_scene(kind, &mut random);
-    let found = lines(&scene);
+    let found = published_lines(&scene);
     let agreement = Brute::new(&scene, &found).compare(&found, &mut random);
     assert!(
         agreement.longest_wrong_px <= 0.05 && agreement.wrong_px <= 1e-3 * agreement.length_px,
@@ -433,7 +433,7 @@ fn check_models(views: &[(&str, &str, bool)]) {
     for &(name, view, parallel) in views {
         let mesh = load(&format!("builtin:{name}"), &LoadOptions::default()).unwrap().mesh;
         let scene = scene_of(vec![mesh], crate::lines_support::view(view, parallel));
-        let found = lines(&scene);
+        let found = published_lines(&scene);
         let (brute, mesh) = (Brute::new(&scene, &found), &scene.objects[0].mesh);
         let mut agreement = Agreement::default();
         for piece in &found.segments {

@@ -7,7 +7,7 @@ use crate::svg::rendered;
 use std::sync::Arc;
 use tinta::compare::{Agreement, InkMask};
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
-use tinta::lines::svg;
+use tinta::lines::{Length, svg};
 use tinta::styles::{Inking, PaintMode};
 use tinta::{
     LineSettings, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Size, Style, SvgSettings, VisibleLines,
@@ -102,7 +102,9 @@ fn shares_of(renderer: &mut Renderer, scene: &Scene, name: &str) -> [f64; 2] {
     let of_gl = renderer.render(scene, &Style::Inking(inking)).unwrap();
     let settings = LineSettings { classes: CLASSES, ..LineSettings::as_published() };
     let lines = VisibleLines::of(scene, &settings).unwrap();
-    let pixels = rendered(&svg(&lines, &SvgSettings::default()).unwrap());
+    // GL leaves nothing out.
+    let all = SvgSettings { min_length: Some(Length::Px(0.0)), ..SvgSettings::default() };
+    let pixels = rendered(&svg(&lines, &all).unwrap());
     let size = Size { width: pixels.width(), height: pixels.height() };
     let of_svg = Picture { size, pixels: pixels.data().to_vec() };
     let masks = [InkMask::of(&of_svg), InkMask::of(&of_gl)];

@@ -6,7 +6,7 @@
 
 use crate::lines_families::{FAMILIES, Family};
 use crate::lines_invariance::{explicit, shuffled};
-use crate::lines_support::{length, lines, px, scene_of, scenes_wanted};
+use crate::lines_support::{length, published_lines, px, scene_of, scenes_wanted};
 use crate::shapes::Random;
 use crate::support::{public_models, skip};
 use glam::{DVec2, DVec3};
@@ -329,7 +329,7 @@ fn check_family((name, make): &(&str, Family), count: u64) {
     for seed in 1..=count {
         let mut random = Random::seeded(seed);
         let scene = make(&mut random);
-        let found = Sides::new(&scene).check(&lines(&scene), 600, &mut random);
+        let found = Sides::new(&scene).check(&published_lines(&scene), 600, &mut random);
         samples += found.samples;
         drawn += found.drawn;
         if !found.is_right() {
@@ -347,7 +347,7 @@ fn check_views(name: &str, mesh: &Mesh, views: &[&str], failures: &mut Vec<Strin
     for view in views {
         for parallel in [true, false] {
             let scene = scene_of(vec![mesh.clone()], crate::lines_support::view(view, parallel));
-            let found = Sides::new(&scene).check(&lines(&scene), 1500, &mut Random(7));
+            let found = Sides::new(&scene).check(&published_lines(&scene), 1500, &mut Random(7));
             println!("{name} {view} parallel {parallel}: {}", found.summary());
             if !found.is_right() {
                 failures.push(format!("{name} {view} parallel {parallel}: {}", found.summary()));
@@ -403,7 +403,7 @@ fn what_any_side_of_a_line_shows_is_drawn_of_public_models_in_the_named_views() 
 /// The length of what is seen, by class.
 fn seen(scene: &Scene) -> BTreeMap<Class, f64> {
     let mut sums = BTreeMap::new();
-    for segment in lines(scene).segments.iter().filter(|segment| segment.is_visible) {
+    for segment in published_lines(scene).segments.iter().filter(|segment| segment.is_visible) {
         *sums.entry(segment.class).or_default() += length(segment);
     }
     sums

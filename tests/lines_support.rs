@@ -27,6 +27,11 @@ pub fn lines(scene: &Scene) -> VisibleLines {
     lines_with(scene, &LineSettings::default())
 }
 
+/// The lines with the creases of Dachsbacher's listing, which the twins of lines compute too.
+pub fn published_lines(scene: &Scene) -> VisibleLines {
+    lines_with(scene, &LineSettings::as_published())
+}
+
 /// As [`lines`] with settings.
 pub fn lines_with(scene: &Scene, settings: &LineSettings) -> VisibleLines {
     let found = VisibleLines::of(scene, settings).unwrap();

@@ -155,7 +155,7 @@ pub enum Work {
     /// A model file of this name is read.
     Read(&'static str, Content),
     /// A cube in this style by a driver that fails, and once more by one that does not.
-    Fail(Fault, Variant),
+    Fail(Fault, Box<Variant>),
 }
 
 /// A case.
@@ -206,7 +206,7 @@ impl Case {
         match &self.work {
             Work::Draw(drawing) => &drawing.variants,
             Work::Read(..) => &[],
-            Work::Fail(_, variant) => std::slice::from_ref(variant),
+            Work::Fail(_, variant) => std::slice::from_ref(variant.as_ref()),
         }
     }
 }

@@ -9,7 +9,7 @@ pub(super) fn cases() -> Vec<Case> {
     let fails = |name: &str, fault, style, kind, words| Case {
         name: name.to_owned(),
         group: Group::Faults,
-        work: Work::Fail(fault, Variant::published(style)),
+        work: Work::Fail(fault, Box::new(Variant::published(style))),
         expected: Expected::Refused { kind, words },
         checks: Vec::new(),
     };

@@ -181,6 +181,8 @@ impl<T: Copy> OfLayers<T> {
     }
 }
 
+const BLACK: Color = Color([0.0; 3]);
+
 /// Colours of lines; where none is said visible ones are black.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ClassColors(pub OfLayers<Color>);
@@ -199,7 +201,7 @@ impl ClassColors {
 
     /// A class's colour where it is seen.
     pub fn of_class(&self, class: Class) -> Color {
-        self.0.of(Layer::Visible(class)).unwrap_or(Color([0.0; 3]))
+        self.0.of(Layer::Visible(class)).unwrap_or(BLACK)
     }
 
     /// The setting of the colours.
@@ -240,7 +242,12 @@ impl FromStr for ClassColors {
         match text {
             "figure-6" => Ok(Self::figure_6()),
             "black" => Ok(Self::default()),
-            _ => OfLayers::parsed(text, usage, str::parse).map(Self),
+            _ => {
+                let mut colors = OfLayers::parsed(text, usage, str::parse)?;
+                // Black is what a class has anyway.
+                colors.0[..CLASSES].iter_mut().for_each(|color| *color = color.filter(|color| *color != BLACK));
+                Ok(Self(colors))
+            }
         }
     }
 }
@@ -310,6 +317,7 @@ mod tests {
             let beyond = (number >= CLASSES).then(|| name.clone());
             assert_eq!(colors.0.first_beyond_classes(), beyond);
         }
+        assert_eq!("crease=black".parse(), Ok(ClassColors::default()));
         assert_eq!(Value::text(&ClassColors::figure_6()), "figure-6");
         assert_eq!(Value::text(&ClassColors::default()), "black");
         assert_eq!(Value::text(&ClassWidths::default()), "none");

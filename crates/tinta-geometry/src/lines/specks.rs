@@ -111,6 +111,14 @@ struct Branch {
     length: f64,
 }
 
+/// How a place was reached: by how long a way, and from which other place along which stroke at last.
+#[derive(Clone, Copy)]
+struct Reached {
+    length: f64,
+    by: Option<(usize, usize)>,
+    is_done: bool,
+}
+
 /// Which length of a stroke is meant.
 type Least = fn(&Stroke) -> f64;
 
@@ -159,10 +167,6 @@ impl<'a> Strokes<'a> {
         (0..self.strokes.len()).filter(|stroke| is_gone[*stroke]).collect()
     }
 
-    fn other_end(&self, end: u32) -> u32 {
-        end ^ 1
-    }
-
     fn meeting(&self, end: u32) -> &[u32] {
         &self.ends[self.meetings[end as usize]]
     }
@@ -182,7 +186,8 @@ impl<'a> Strokes<'a> {
             branch.strokes.push(number);
             branch.length += self.strokes[number].length;
             least_length = least_length.min(least(&self.strokes[number]));
-            end = self.other_end(end);
+            // A stroke's other end.
+            end ^= 1;
             if branch.length >= least_length {
                 return None;
             }
@@ -300,29 +305,29 @@ impl<'a> Strokes<'a> {
             })
             .collect();
         // The shortest way, by Dijkstra.
-        let mut reached: Vec<(f64, Option<(usize, usize)>, bool)> = vec![(f64::INFINITY, None, false); points.len()];
-        reached[0].0 = 0.0;
+        let mut reached = vec![Reached { length: f64::INFINITY, by: None, is_done: false }; points.len()];
+        reached[0].length = 0.0;
         loop {
-            let open = (0..points.len()).filter(|point| !reached[*point].2 && reached[*point].0 < least);
-            let here = open.min_by(|a, b| reached[*a].0.total_cmp(&reached[*b].0))?;
+            let open = (0..points.len()).filter(|point| !reached[*point].is_done && reached[*point].length < least);
+            let here = open.min_by(|a, b| reached[*a].length.total_cmp(&reached[*b].length))?;
             if here == 1 {
                 break;
             }
-            reached[here].2 = true;
+            reached[here].is_done = true;
             for (way, on_it) in ways.iter().enumerate() {
                 let Some(place) = on_it.iter().position(|point| *point == here) else { continue };
                 let neighbours = [place.checked_sub(1), Some(place + 1)];
                 for next in neighbours.into_iter().flatten().filter_map(|place| on_it.get(place)) {
-                    let length = reached[here].0 + points[here].distance(points[*next]);
-                    if length < reached[*next].0 {
-                        (reached[*next].0, reached[*next].1) = (length, Some((here, way)));
+                    let length = reached[here].length + points[here].distance(points[*next]);
+                    if length < reached[*next].length {
+                        reached[*next] = Reached { length, by: Some((here, way)), is_done: false };
                     }
                 }
             }
         }
         let mut route = Vec::new();
         let mut place = 1;
-        while let Some((before, way)) = reached[place].1 {
+        while let Some((before, way)) = reached[place].by {
             route.push(beside[way]);
             place = before;
         }

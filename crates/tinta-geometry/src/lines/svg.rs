@@ -7,9 +7,12 @@
 mod settings;
 mod text;
 
+#[cfg(feature = "pdf")]
 pub(super) use settings::mixed;
 pub use settings::{Hidden, SvgSettings};
-pub(super) use text::{decimal, written_points};
+pub(super) use text::decimal;
+#[cfg(feature = "pdf")]
+pub(super) use text::written_points;
 
 use super::VisibleLines;
 use super::chain::{LinePath, chain};
