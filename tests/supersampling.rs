@@ -79,12 +79,12 @@ fn lines_are_as_wide_as_without() {
     }
 }
 
-/// Whether the pixels around this one show the same, as far as `reach`.
+/// Whether all pixels around this one are covered, as far as `reach`.
 fn is_inside(tones: &Picture, x: i64, y: i64, reach: i64) -> bool {
     (-reach..=reach).all(|dy| (-reach..=reach).all(|dx| tones.pixel(x + dx, y + dy)[3] == 255))
 }
 
-/// The middle half of how far neighbours differ, in pixels that lie inside the ball.
+/// How far neighbours differ on average, in pixels that lie inside the ball.
 fn contrast(picture: &Picture, inside: &[(i64, i64)]) -> f64 {
     let steps = inside.iter().map(|(x, y)| picture.pixel(*x, *y)[1].abs_diff(picture.pixel(x + 1, *y)[1]));
     steps.map(f64::from).sum::<f64>() / inside.len() as f64
@@ -118,10 +118,7 @@ fn grain_and_paper_stay_as_wide_and_as_strong_and_the_outline_is_smooth() {
             assert!(share > 0.8, "{noise:?} {improve} {supersample:?}: {share} of the pixels");
         }
         // Drawn by its own sheet alone, the paper is that of the picture at its own size.
-        let paper = |supersample| {
-            let plan = with(noise, improve, supersample).plan(&ball, Show::Paper).unwrap();
-            plan
-        };
+        let paper = |supersample| with(noise, improve, supersample).plan(&ball, Show::Paper).unwrap();
         let [one, four] = [Supersample::One, Supersample::Four].map(|it| renderer.draw(&ball, &paper(it)).unwrap());
         assert!(one.difference(&four).unwrap().largest <= 1, "{noise:?} {improve}");
     }

@@ -49,6 +49,12 @@ pub const SHADERS: &[ShaderNumbers] = &[
     ours("improved/plane-map.frag", &["0.5", "255.0", "256.0", "65535.0"], "slope and depth of 16 bits in bytes"),
     ours("improved/plane-map.frag", &["0.99"], "a slope must differ from the background's 0"),
     ours("improved/slope-threshold.frag", &["2.0"], "the second difference 1, -2, 1"),
+    ours("improved/specks.frag", &["0.5", "1.5"], "between whole numbers of pixels, which are told apart there"),
+    ours(
+        "improved/specks.frag",
+        &["16", "2"],
+        "the widest speck looked for; a box grows by a pixel on one side at least",
+    ),
     ours("improved/texel-biased.frag", &["2.0"], "normals from 0 to 1 into -1 to 1"),
     ours("improved/texel-depth-texture.frag", &["2.0"], "normals from 0 to 1 into -1 to 1"),
     printed("improved/two-targets.frag", &["0.65", "0.8", "0.95"], "E, appendix 1, step 2"),
@@ -58,6 +64,7 @@ pub const SHADERS: &[ShaderNumbers] = &[
     printed("valente/charcoal.frag", &["3.0"], "V, section 3.3: the mean of the noise"),
     printed("valente/charcoal-parts.frag", &["3.0"], "V, section 3.3: the mean of the noise"),
     printed("valente/finish-sand.frag", &["0.6", "0.8", "1.2"], "V, section 4"),
+    ours("valente/grain-pixel.frag", &["0.5"], "the middle of a pixel"),
     printed("valente/luminance-published.frag", &["0.0154", "0.0721", "0.1125"], "V, section 4"),
     ours(
         "valente/luminance-rec709.frag",

@@ -31,7 +31,7 @@ pub struct Ink {
     /// From which angle between planes there is a crease. Default 30 degrees; more draw fewer lines.
     pub crease_angle: CreaseAngle,
     /// Whether ink that touches no other and is at most twice as long as a line is wide is left out; `None` is as the quality
-    /// has it: a look at the neighbours of all ink takes about a third of the picture's time again. Default none.
+    /// has it: a look at the neighbours of all ink takes about half of the picture's time again with a software driver. Default none.
     pub removes_specks: Option<bool>,
     /// Width of the lines. Default 2 pixels; more also joins what lies near each other.
     pub line_width: LineWidth,
