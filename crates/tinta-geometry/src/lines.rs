@@ -48,7 +48,7 @@ mod visibility;
 pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
 pub use layers::{ClassColors, ClassWidths, Layer, OfLayers};
-pub use length::{Length, Millimetres, line_width};
+pub use length::{Length, Millimetres, Units, line_width};
 pub use page::{PageSize, Paper, Sheet, Turn};
 #[cfg(feature = "pdf")]
 pub use pdf::{pdf, pdf_of_paths};

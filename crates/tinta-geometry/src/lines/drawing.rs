@@ -75,7 +75,7 @@ pub(super) fn page(lines: &VisibleLines, settings: &SvgSettings) -> Page {
 
 impl DrawnLayer {
     fn new(layer: Layer, mut paths: Vec<LinePath>, page: &Page, settings: &SvgSettings, size: Size) -> Self {
-        let width_px = if settings.is_for_pen { PEN_WIDTH_PX } else { settings.width_px(layer, page.px_per_mm) };
+        let width_px = if settings.is_for_pen { PEN_WIDTH_PX } else { settings.width_px(layer, page.units) };
         let is_dashed = !layer.is_visible() && settings.hidden == Hidden::Dashed;
         if settings.is_for_pen {
             if is_dashed {

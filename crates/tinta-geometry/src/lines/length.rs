@@ -1,4 +1,4 @@
-//! Lengths in a drawing: pixels of the picture, or millimetres on paper.
+//! Lengths in a drawing: pixels of the picture, a share of its height, or millimetres on paper.
 
 use crate::error::{Error, ParseError, Result};
 use crate::settings::{Kind, Problem, Setting, Value};
@@ -12,23 +12,38 @@ pub enum Length {
     Px(f64),
     /// Millimetres on paper: of a drawing that has a size there.
     Mm(f64),
+    /// Hundredths of the picture's height.
+    Percent(f64),
 }
 
 /// What millimetres end in.
 const MM: &str = "mm";
 
+/// What shares of the picture's height end in.
+const PERCENT: &str = "%";
+
+/// What lengths are told in for one drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    /// Pixels in a millimetre; `None` where a drawing has no size on paper.
+    pub px_per_mm: Option<f64>,
+    /// The picture's height, pixels.
+    pub height_px: f64,
+}
+
 impl Length {
-    /// In pixels, where so many of them are a millimetre; `None` where a drawing has no size on paper.
-    pub fn px(self, px_per_mm: Option<f64>) -> Option<f64> {
+    /// In pixels; `None` for millimetres where a drawing has no size on paper.
+    pub fn px(self, units: Units) -> Option<f64> {
         match self {
             Self::Px(px) => Some(px),
-            Self::Mm(mm) => px_per_mm.map(|px| mm * px),
+            Self::Mm(mm) => units.px_per_mm.map(|px| mm * px),
+            Self::Percent(percent) => Some(units.height_px * percent / 100.0),
         }
     }
 
     /// Refuses millimetres of a drawing that has none.
     pub(super) fn check_unit(self, name: &str, has_paper: bool) -> Result<()> {
-        if matches!(self, Self::Px(_)) || has_paper {
+        if !matches!(self, Self::Mm(_)) || has_paper {
             return Ok(());
         }
         let problem = "the drawing has no size on paper; add --page A4, --width-mm or --dpi, or give pixels";
@@ -38,7 +53,7 @@ impl Length {
     /// The number, in whichever unit.
     pub(super) fn number(self) -> f64 {
         match self {
-            Self::Px(number) | Self::Mm(number) => number,
+            Self::Px(number) | Self::Mm(number) | Self::Percent(number) => number,
         }
     }
 }
@@ -48,6 +63,7 @@ impl fmt::Display for Length {
         match self {
             Self::Px(px) => write!(out, "{px}"),
             Self::Mm(mm) => write!(out, "{mm}{MM}"),
+            Self::Percent(percent) => write!(out, "{percent}{PERCENT}"),
         }
     }
 }
@@ -56,10 +72,15 @@ impl FromStr for Length {
     type Err = ParseError;
 
     fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
-        let usage = |_| "give a number of pixels, or of millimetres on paper: 2 or 0.35mm".to_owned();
-        match text.trim().strip_suffix(MM) {
-            Some(number) => Ok(Self::Mm(number.trim().parse().map_err(usage)?)),
-            None => Ok(Self::Px(text.trim().parse().map_err(usage)?)),
+        let usage = |_| {
+            "give a number of pixels, of millimetres on paper, or a share of the height: 2, 0.35mm or 0.3%".to_owned()
+        };
+        let number = |text: &str| text.trim().parse::<f64>().map_err(usage);
+        let text = text.trim();
+        match (text.strip_suffix(MM), text.strip_suffix(PERCENT)) {
+            (Some(text), _) => Ok(Self::Mm(number(text)?)),
+            (_, Some(text)) => Ok(Self::Percent(number(text)?)),
+            _ => Ok(Self::Px(number(text)?)),
         }
     }
 }
@@ -102,7 +123,7 @@ impl Value for Millimetres {
 pub(super) const LINE_WIDTH: (&str, &str, &str) = (
     "line-width",
     "PIXELS",
-    "Width of the lines in pixels, above 0 to 16384; style lines too, there also millimetres on paper: 0.35mm",
+    "Width of the lines in pixels, above 0 to 16384; style lines too, there also millimetres on paper and shares of the height: 0.35mm, 0.3%",
 );
 
 /// The default's words.
@@ -117,8 +138,9 @@ pub fn line_width<T: Clone + 'static>(field: fn(&mut T) -> &mut f32) -> Setting<
     let (low, high, decimals) = LINE_WIDTH_RANGE;
     let get = move |of: &T| field(&mut of.clone()).text();
     let set = move |of: &mut T, text: &str| {
-        if matches!(Length::parse(text)?, Length::Mm(_)) {
-            let problem = "only a drawing by style lines has millimetres; give pixels, or write a .svg or .pdf";
+        if !matches!(Length::parse(text)?, Length::Px(_)) {
+            let problem =
+                "only a drawing by style lines has millimetres and shares; give pixels, or write a .svg or .pdf";
             return Err(Error::value(name, text, problem).into());
         }
         *field(of) = f32::parse(text)?;
@@ -136,14 +158,21 @@ mod tests {
 
     #[test]
     fn lengths_are_read_in_both_units_and_written_as_they_were() {
-        for (text, length) in [("2", Length::Px(2.0)), ("0.35mm", Length::Mm(0.35)), (" 1e-3 mm", Length::Mm(0.001))] {
+        for (text, length) in [
+            ("2", Length::Px(2.0)),
+            ("0.35mm", Length::Mm(0.35)),
+            (" 1e-3 mm", Length::Mm(0.001)),
+            ("0.3%", Length::Percent(0.3)),
+        ] {
             assert_eq!(text.parse(), Ok(length));
             assert_eq!(length.to_string().parse(), Ok(length));
         }
-        for bad in ["", "mm", "2cm", "wide", "2px"] {
+        for bad in ["", "mm", "2cm", "wide", "2px", "%"] {
             assert!(bad.parse::<Length>().is_err(), "{bad}");
         }
-        assert_eq!(Length::Mm(0.5).px(Some(4.0)), Some(2.0));
-        assert_eq!((Length::Mm(0.5).px(None), Length::Px(3.0).px(None)), (None, Some(3.0)));
+        let units = |px_per_mm| Units { px_per_mm, height_px: 400.0 };
+        assert_eq!(Length::Mm(0.5).px(units(Some(4.0))), Some(2.0));
+        assert_eq!((Length::Mm(0.5).px(units(None)), Length::Px(3.0).px(units(None))), (None, Some(3.0)));
+        assert_eq!(Length::Percent(0.5).px(units(None)), Some(2.0));
     }
 }

@@ -3,7 +3,7 @@
 //! In: a [`PageSize`] and where the drawing's lines are. Out: a [`Page`]. Lines keep the picture's pixels; the page says which
 //! rectangle of them it shows and how large that is, so that a drawing has the same numbers on any paper.
 
-use super::length::Millimetres;
+use super::length::{Millimetres, Units};
 use super::{LineSegment, VisibleLines};
 use crate::error::{Error, ParseError, Result};
 use crate::scene::Size;
@@ -205,8 +205,8 @@ pub(super) struct Page {
     /// Its extent on paper as SVG writes it: a number for each side, and the unit of both.
     lengths: DVec2,
     unit: &'static str,
-    /// Pixels in a millimetre, where that is known.
-    pub px_per_mm: Option<f64>,
+    /// What lengths are told in.
+    pub units: Units,
 }
 
 impl Page {
@@ -219,8 +219,14 @@ impl Page {
     ) -> Self {
         let Size { width, height } = lines.size;
         let picture = DVec2::new(f64::from(width), f64::from(height));
-        let whole =
-            |lengths, unit, px_per_mm| Self { origin_px: DVec2::ZERO, extent_px: picture, lengths, unit, px_per_mm };
+        let units = |px_per_mm| Units { px_per_mm, height_px: picture.y };
+        let whole = |lengths, unit, px_per_mm| Self {
+            origin_px: DVec2::ZERO,
+            extent_px: picture,
+            lengths,
+            unit,
+            units: units(px_per_mm),
+        };
         match size {
             PageSize::Unset => whole(picture, "", None),
             PageSize::WidthMm(width) => {
@@ -237,7 +243,7 @@ impl Page {
                 let px_per_mm = 1.0 / room.min_element();
                 let extent_px = paper_mm * px_per_mm;
                 let origin_px = (low + high - extent_px) * 0.5;
-                Self { origin_px, extent_px, lengths: paper_mm, unit: "mm", px_per_mm: Some(px_per_mm) }
+                Self { origin_px, extent_px, lengths: paper_mm, unit: "mm", units: units(Some(px_per_mm)) }
             }
         }
     }
@@ -250,7 +256,7 @@ impl Page {
     /// Points in a pixel.
     #[cfg(feature = "pdf")]
     pub(super) fn points_per_px(&self) -> f64 {
-        match self.px_per_mm {
+        match self.units.px_per_mm {
             Some(px_per_mm) => POINTS_PER_INCH / (px_per_mm * MM_PER_INCH),
             None => POINTS_PER_INCH / PX_PER_INCH,
         }
@@ -313,7 +319,7 @@ mod tests {
         let assert_fits = |[a, b]: [[f64; 2]; 2], text: &str, margin: f64, sides: [f64; 2]| {
             let page = page(&line(a, b), sheet(text), margin);
             assert_eq!(page.lengths(), sides.map(|side| format!("{side}mm")), "{text}");
-            let mm = |px: [f64; 2]| (DVec2::from(px) - page.origin_px) / page.px_per_mm.unwrap();
+            let mm = |px: [f64; 2]| (DVec2::from(px) - page.origin_px) / page.units.px_per_mm.unwrap();
             let (low, high) = (mm(a), mm(b));
             assert!((low + high - DVec2::from(sides)).abs().max_element() < 1e-9, "{text}: centred");
             let free = low.min(DVec2::from(sides) - high);
@@ -330,7 +336,7 @@ mod tests {
         assert_fits([[10.0, 50.0], [20.0, 50.0]], "letter", 15.0, [279.4, 215.9]);
         // Nothing is drawn: the picture as a whole.
         let nothing = Page::new(&line([1.0; 2], [2.0; 2]), |_| false, sheet("A4"), 15.0);
-        assert_eq!(nothing.px_per_mm, Some(600.0 / 267.0));
+        assert_eq!(nothing.units.px_per_mm, Some(600.0 / 267.0));
     }
 
     #[test]

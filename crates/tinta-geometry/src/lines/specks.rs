@@ -13,6 +13,7 @@
 //! Nothing is left out because something else was: a long line never goes bit by bit.
 
 use super::layers::Layer;
+use super::length::Units;
 use super::svg::SvgSettings;
 use super::{LineSegment, VisibleLines};
 use crate::bvh::{Box3, BoxTree};
@@ -29,7 +30,7 @@ impl VisibleLines {
     pub fn without_specks(&self, settings: &SvgSettings) -> Result<Self> {
         settings.check()?;
         self.check()?;
-        let px_per_mm = super::drawing::page(self, settings).px_per_mm;
+        let units = super::drawing::page(self, settings).units;
         let mut keeps = vec![true; self.segments.len()];
         // Hidden lines lie in layers of their own, which may be switched off.
         for is_visible in [true, false] {
@@ -38,7 +39,7 @@ impl VisibleLines {
                 .iter()
                 .enumerate()
                 .filter(|(_, segment)| segment.is_visible == is_visible)
-                .map(|(number, segment)| Stroke::new(number, segment, settings, px_per_mm))
+                .map(|(number, segment)| Stroke::new(number, segment, settings, units))
                 .collect();
             let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));
             for stroke in Strokes::new(&strokes, border).too_short() {
@@ -69,16 +70,16 @@ struct Stroke {
 }
 
 impl Stroke {
-    fn new(number: usize, segment: &LineSegment, settings: &SvgSettings, px_per_mm: Option<f64>) -> Self {
+    fn new(number: usize, segment: &LineSegment, settings: &SvgSettings, units: Units) -> Self {
         let layer: Layer = segment.layer();
         let ends = segment.ends_px;
         Self {
             number,
             ends,
             length: ends[0].distance(ends[1]),
-            width: settings.width_px(layer, px_per_mm),
-            least: settings.min_length_px(layer, px_per_mm),
-            least_side: settings.min_length_px(layer, px_per_mm).min(settings.width_px(layer, px_per_mm)),
+            width: settings.width_px(layer, units),
+            least: settings.min_length_px(layer, units),
+            least_side: settings.min_length_px(layer, units).min(settings.width_px(layer, units)),
         }
     }
 

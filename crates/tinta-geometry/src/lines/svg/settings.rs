@@ -3,7 +3,7 @@
 use crate::edges::Class;
 use crate::error::{Error, Result};
 use crate::lines::layers::{ClassColors, ClassWidths, Layer};
-use crate::lines::length::{LINE_WIDTH, LINE_WIDTH_RANGE, LINE_WIDTH_SAID, Length, Millimetres};
+use crate::lines::length::{LINE_WIDTH, LINE_WIDTH_RANGE, LINE_WIDTH_SAID, Length, Millimetres, Units};
 use crate::lines::page::{PageSize, Paper};
 use crate::scene::{Background, Color};
 use crate::settings::{HasSettings, Kind, Setting, Table, Value, under};
@@ -255,11 +255,11 @@ impl SvgSettings {
     }
 
     /// A layer's width, pixels: what is said of it, or for hidden lines half of what their class has.
-    pub(in crate::lines) fn width_px(&self, layer: Layer, px_per_mm: Option<f64>) -> f64 {
-        let px = |length: Length| length.px(px_per_mm).unwrap_or(0.0);
+    pub(in crate::lines) fn width_px(&self, layer: Layer, units: Units) -> f64 {
+        let px = |length: Length| length.px(units).unwrap_or(0.0);
         match (self.class_widths.0.of(layer), layer) {
             (Some(width), _) => px(width),
-            (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), px_per_mm) * HIDDEN_WIDTH,
+            (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), units) * HIDDEN_WIDTH,
             (None, _) => px(self.width()),
         }
     }
@@ -288,9 +288,9 @@ impl SvgSettings {
 
     /// Below which length a stroke of a layer may be left out, pixels. A pen is as wide as any other line. Creases that belong to
     /// an edge of a part end at others; what ends free are folds of a scan.
-    pub(in crate::lines) fn min_length_px(&self, layer: Layer, px_per_mm: Option<f64>) -> f64 {
-        let width = self.width_px(layer, px_per_mm);
-        let length = self.min_length.and_then(|length| length.px(px_per_mm)).unwrap_or(width);
+    pub(in crate::lines) fn min_length_px(&self, layer: Layer, units: Units) -> f64 {
+        let width = self.width_px(layer, units);
+        let length = self.min_length.and_then(|length| length.px(units)).unwrap_or(width);
         match layer {
             Layer::Visible(Class::Crease) | Layer::Hidden(Class::Crease) => {
                 length.max(LEAST_CREASE * length.min(width))
@@ -316,6 +316,10 @@ const HIDDEN_STRENGTH: f32 = 0.5;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn units(px_per_mm: Option<f64>) -> Units {
+        Units { px_per_mm, height_px: 512.0 }
+    }
 
     fn base() -> SvgSettings {
         SvgSettings::default()
@@ -365,15 +369,15 @@ mod tests {
     fn hidden_lines_are_half_as_wide_and_grey_unless_said_otherwise() {
         let hidden = Layer::Hidden(Class::Crease);
         let dashed = SvgSettings { hidden: Hidden::Dashed, ..base() };
-        assert_eq!((dashed.width_px(hidden, None), dashed.color(hidden)), (1.0, Color([0.5; 3])));
+        assert_eq!((dashed.width_px(hidden, units(None)), dashed.color(hidden)), (1.0, Color([0.5; 3])));
         let red = Color([1.0, 0.0, 0.0]);
         let mut told = dashed.clone();
         told.class_widths.0.set_class(Class::Crease, Length::Mm(3.0));
         told.class_colors.0.set_class(Class::Crease, red);
-        assert_eq!((told.width_px(hidden, Some(2.0)), told.color(hidden)), (3.0, Color([1.0, 0.5, 0.5])));
+        assert_eq!((told.width_px(hidden, units(Some(2.0))), told.color(hidden)), (3.0, Color([1.0, 0.5, 0.5])));
         told.class_widths.0.set_hidden(Length::Px(0.25));
         told.class_colors.0.set_hidden(red);
-        assert_eq!((told.width_px(hidden, Some(2.0)), told.color(hidden)), (0.25, red));
+        assert_eq!((told.width_px(hidden, units(Some(2.0))), told.color(hidden)), (0.25, red));
         let pen = SvgSettings { is_for_pen: true, ..dashed.clone() };
         assert_eq!(pen.color(hidden), Color([0.0; 3]), "a pen's ink does not thin");
         let on_black = SvgSettings { background: Background::Color(Color([0.0; 3])), ..told };
@@ -383,11 +387,11 @@ mod tests {
     #[test]
     fn lines_are_half_a_millimetre_wide_on_a_sheet() {
         let layer = Layer::Visible(Class::Silhouette);
-        assert_eq!(base().width_px(layer, None), 2.0);
+        assert_eq!(base().width_px(layer, units(None)), 2.0);
         let paper = SvgSettings { page_size: PageSize::Paper("A4".parse().unwrap()), ..base() };
-        assert_eq!(paper.width_px(layer, Some(3.0)), 1.5);
-        assert_eq!(paper.min_length_px(layer, Some(3.0)), 1.5);
-        assert_eq!(paper.min_length_px(Layer::Visible(Class::Crease), Some(3.0)), 12.0);
-        assert_eq!(SvgSettings { line_width: Some(Length::Px(4.0)), ..paper }.width_px(layer, Some(3.0)), 4.0);
+        assert_eq!(paper.width_px(layer, units(Some(3.0))), 1.5);
+        assert_eq!(paper.min_length_px(layer, units(Some(3.0))), 1.5);
+        assert_eq!(paper.min_length_px(Layer::Visible(Class::Crease), units(Some(3.0))), 12.0);
+        assert_eq!(SvgSettings { line_width: Some(Length::Px(4.0)), ..paper }.width_px(layer, units(Some(3.0))), 4.0);
     }
 }
