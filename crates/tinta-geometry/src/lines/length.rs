@@ -12,7 +12,7 @@ pub enum Length {
     Px(f64),
     /// Millimetres on paper: of a drawing that has a size there.
     Mm(f64),
-    /// Hundredths of the picture's height.
+    /// Hundredths of the picture's height, and at least 0.7 pixels: thinner lines are lost on a screen.
     Percent(f64),
 }
 
@@ -21,6 +21,9 @@ const MM: &str = "mm";
 
 /// What shares of the picture's height end in.
 const PERCENT: &str = "%";
+
+/// What a share of the height is at least, pixels.
+const LEAST_SHARE_PX: f64 = 0.7;
 
 /// What lengths are told in for one drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,7 +40,7 @@ impl Length {
         match self {
             Self::Px(px) => Some(px),
             Self::Mm(mm) => units.px_per_mm.map(|px| mm * px),
-            Self::Percent(percent) => Some(units.height_px * percent / 100.0),
+            Self::Percent(percent) => Some((units.height_px * percent / 100.0).max(LEAST_SHARE_PX)),
         }
     }
 
@@ -173,6 +176,6 @@ mod tests {
         let units = |px_per_mm| Units { px_per_mm, height_px: 400.0 };
         assert_eq!(Length::Mm(0.5).px(units(Some(4.0))), Some(2.0));
         assert_eq!((Length::Mm(0.5).px(units(None)), Length::Px(3.0).px(units(None))), (None, Some(3.0)));
-        assert_eq!(Length::Percent(0.5).px(units(None)), Some(2.0));
+        assert_eq!([0.5, 0.1].map(|percent| Length::Percent(percent).px(units(None))), [Some(2.0), Some(0.7)]);
     }
 }
