@@ -204,7 +204,7 @@ fn carry_out_render(arguments: Arguments, given: &Given, session: &mut Session) 
 ///
 /// That sentence, as the program prints it.
 pub fn check(words: impl IntoIterator<Item = OsString>) -> std::result::Result<Option<String>, String> {
-    match parse(words) {
+    match parse(bare::with_command(words.into_iter().collect(), false).0) {
         Ok(_) => Ok(None),
         Err(Stop::Help(help)) => Ok(Some(help.to_string())),
         Err(Stop::Wrong(error)) => Err(plain(&error.with_dashes().to_string())),

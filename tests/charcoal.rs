@@ -283,7 +283,7 @@ fn recipes_are_overruled_by_options_and_nonsense_is_refused_by_name() {
         let line = line(options);
         refused_in_one_line(&line.iter().map(String::as_str).collect::<Vec<_>>(), words);
     };
-    refused(&["--improve", "clamps"], &["--improve", "paper-coordinate"]);
+    refused(&["--improve", "polish"], &["--improve", "paper-coordinate"]);
     refused(&["--charcoal", "lighter"], &["--charcoal", "darker", "closure"]);
     refused(&["--light-1", "0,0,0"], &["--light-1"]);
     refused(&["--texture-size", "5000"], &["--texture-size 5000x5000", "4096"]);

@@ -89,7 +89,7 @@ const MISTAKES: [(&str, &str); 75] = [
     ),
     (
         "render triangle.obj -o out.png --border-width 0",
-        "--border-width 0: a border is 1 to 64 pixels wide; --style inking draws wider lines",
+        "--border-width 0: a border is 1 to 64 pixels wide, or up to 10% of the picture's height; --style inking draws wider lines",
     ),
     (
         "render triangle.obj -o out.png --style inking --classes crease,boundry",
@@ -144,7 +144,7 @@ const MISTAKES: [(&str, &str); 75] = [
     ),
     (
         "render triangle.obj -o out.xyz",
-        "out.xyz: nothing is written as .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg or .json for lines, .gif or .apng for an animation",
+        "out.xyz: nothing is written as .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for lines, .gif or .apng for an animation",
     ),
     ("render triangle.obj -o nowhere/out.png", "nowhere/out.png: the folder nowhere does not exist; create it first"),
     ("render triangle.obj -o dir", "dir: this is a directory; name a file in it"),

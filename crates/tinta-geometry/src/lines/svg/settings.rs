@@ -141,7 +141,7 @@ impl SvgSettings {
                  paper (0.35mm); also outline (what has only background on one side), hidden, hidden-CLASS",
                 |svg: &mut Self| &mut svg.class_widths,
             )
-            .said("--line-width for all, half of it for hidden ones"),
+            .said("that of all lines, half of it for hidden ones"),
             Setting::open_field(
                 "min-length",
                 "LENGTH",
