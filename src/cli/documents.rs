@@ -94,7 +94,8 @@ fn every_command_in_the_documents_is_one() {
         if cfg!(not(feature = "window")) && named.text.starts_with("tinta view") {
             continue;
         }
-        let (mut whole, words) = (super::help::whole(), words(&named.text));
+        let words = words(&named.text).iter().map(Into::into).collect();
+        let (mut whole, words) = (super::help::whole(), super::bare::with_command(words, false).0);
         let Err(error) = whole.try_get_matches_from_mut(&words) else { continue };
         let is_only_named = !named.in_block
             && matches!(
@@ -102,7 +103,6 @@ fn every_command_in_the_documents_is_one() {
                 ErrorKind::MissingRequiredArgument | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
             );
         if !is_only_named && !matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-            let words: Vec<_> = words.iter().map(Into::into).collect();
             let sentence = super::mistakes::sentence(&error, &whole, &words);
             wrong.push(format!("{}:{}: {}: {sentence}", named.document.display(), named.line, named.text));
         }

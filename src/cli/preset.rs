@@ -31,8 +31,8 @@ pub(super) struct PresetArguments {
 #[derive(clap::Args)]
 pub(super) struct LookArguments {
     #[arg(long, value_name = "LOOK", value_parser = Look::of_name, help = format!(
-        "What the picture looks like: {}; --preset, --style and every option override it [default: {}, unless --style or --preset \
-         is given, or lines are drawn]",
+        "What the picture looks like: {}; a preset and every option override it [default: {}, unless a style or preset is given, \
+         or lines are drawn]",
         Look::list(), LOOKS[0].name
     ))]
     look: Option<Look>,
