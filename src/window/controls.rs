@@ -4,8 +4,14 @@
 //! the same words. What there is to turn is declared beside the styles; nothing is listed here.
 
 use crate::error::Result;
-use crate::settings::{HasSettings, Kind, Setting, Table};
+use crate::preset::{LOOKS, Look};
+use crate::scene::SceneSettings;
+use crate::settings::{HasSettings, Kind, Options, Setting, Table};
 use crate::styles::Style;
+
+/// The settings of the scene that a window shows and sets: the others are the models' or the mouse's.
+pub const SCENE_SETTINGS: [&str; 8] =
+    ["view", "fov", "parallel", "framing", "background", "color", "bare-color", "surface"];
 
 /// Whether a style is as its source has it.
 pub(super) fn is_faithful(style: &Style) -> bool {
@@ -20,6 +26,38 @@ fn published(style: &Style) -> Style {
 /// The controls of a style: all of its settings but those that have one value only, or stand for several others.
 pub(super) fn of(style: &Style) -> Vec<Control<Style>> {
     of_table(Style::table(), style, &published(style))
+}
+
+/// The controls of the scene.
+pub(super) fn of_scene(scene: &SceneSettings) -> Vec<Control<SceneSettings>> {
+    let all = of_table(SceneSettings::table(), scene, &SceneSettings::default());
+    all.into_iter().filter(|control| SCENE_SETTINGS.contains(&control.setting.name)).collect()
+}
+
+/// The looks that a window can show: those that draw no vectors.
+pub(super) fn looks() -> impl Iterator<Item = Look> {
+    LOOKS.into_iter().filter(|look| !look.draws_lines())
+}
+
+/// What a look makes of a side's style and of the scene. What another look sets of the scene is as by default again.
+///
+/// # Errors
+///
+/// As [`Look::preset`].
+pub(super) fn of_look(look: Look, style: &Style, scene: &SceneSettings) -> Result<(Style, SceneSettings)> {
+    let mut scene = scene.clone();
+    let table = SceneSettings::table();
+    for other in looks() {
+        for name in of_scene_in(&other.preset()?.options).keys() {
+            if let Some(setting) = table.find(&scene, name) {
+                setting.set(&mut scene, &table.default_of(setting))?;
+            }
+        }
+    }
+    let options = look.preset()?.options;
+    apply_to_scene(&mut scene, &options)?;
+    let is_of_one_style = options.contains_key("style");
+    Ok((if is_of_one_style { Style::from_options(&options)? } else { published(style) }, scene))
 }
 
 /// The same for settings of any table.
@@ -75,13 +113,65 @@ impl<T: Clone + 'static> Control<T> {
 /// A sentence that begins with the option, for a style without it and for values it cannot have. What no value of its own
 /// can tell, the style's plan refuses.
 pub(super) fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result<(), String> {
-    let (setting, value) = (find(style, option)?, value.trim());
+    let setting = find(style, option)?;
+    set(setting, style, option, value)
+}
+
+/// Sets a control of the scene.
+///
+/// # Errors
+///
+/// A sentence that begins with the option, for one that a window does not have and for values it cannot have.
+pub(super) fn turn_scene(scene: &mut SceneSettings, option: &str, value: &str) -> std::result::Result<(), String> {
+    set(find_of_scene(option)?, scene, option, value)
+}
+
+/// Sets it back to its default.
+///
+/// # Errors
+///
+/// Those of [`turn_scene`].
+pub(super) fn turn_scene_back(scene: &mut SceneSettings, option: &str) -> std::result::Result<(), String> {
+    let setting = find_of_scene(option)?;
+    let default = setting.value(&SceneSettings::default()).unwrap_or_default();
+    turned(setting.set(scene, &default))
+}
+
+/// Sets what options say of the scene that a window can set.
+///
+/// # Errors
+///
+/// Those of [`Table::apply`].
+pub(super) fn apply_to_scene(scene: &mut SceneSettings, options: &Options) -> Result<()> {
+    SceneSettings::table().apply(scene, &of_scene_in(options))
+}
+
+/// Those of the options that say something of the scene that a window can set.
+pub(super) fn of_scene_in(options: &Options) -> Options {
+    let is_one = |name: &str| SCENE_SETTINGS.contains(&name);
+    options.iter().filter(|(name, _)| is_one(name)).map(|(name, value)| (name.clone(), value.clone())).collect()
+}
+
+fn find_of_scene(option: &str) -> std::result::Result<&'static Setting<SceneSettings>, String> {
+    let name = option.trim_start_matches("--");
+    let setting = SceneSettings::table().settings.iter().find(|setting| setting.name == name);
+    let setting = setting.filter(|setting| SCENE_SETTINGS.contains(&setting.name));
+    setting.ok_or_else(|| format!("{option}: the window has no such setting; it has {}", SCENE_SETTINGS.join(", ")))
+}
+
+fn set<T: Clone + 'static>(
+    setting: &Setting<T>,
+    of: &mut T,
+    option: &str,
+    value: &str,
+) -> std::result::Result<(), String> {
+    let value = value.trim();
     if let Kind::Numbers { .. } = setting.kind
         && value.split(',').any(|number| number.trim().parse().is_ok_and(|number: f64| !number.is_finite()))
     {
         return Err(format!("{option} {value}: give a finite number"));
     }
-    turned(setting.set(style, value))
+    turned(setting.set(of, value))
 }
 
 /// Sets it back to what is published.

@@ -205,12 +205,16 @@ impl Job {
         Arc::ptr_eq(&self.scene, &other.scene) && self.settings.size == other.settings.size
     }
 
+    /// Whether they are seen from the same place, as another's are.
+    pub fn is_of_same_view(&self, other: &Self) -> bool {
+        self.orbit == other.orbit && self.settings.camera == other.settings.camera
+    }
+
     /// Whether it would draw the same as another.
     pub fn is_same(&self, other: &Self) -> bool {
-        let key = |job: &Self| (job.settings.size, job.settings.background, job.settings.color);
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.orbit == other.orbit
-            && key(self) == key(other)
+            && self.settings == other.settings
             && self.drawings == other.drawings
     }
 }

@@ -64,6 +64,10 @@ pub enum ViewerEvent {
     Buffer(String),
     /// Background colour.
     Background(String),
+    /// A setting of the scene: option, value.
+    Scene(String, String),
+    /// The same back to its default.
+    SceneDefault(String),
     /// The panel, shown or not.
     Panel,
     /// The key sheet.
@@ -84,6 +88,8 @@ pub enum ViewerEvent {
     SaveTurn,
     /// The side's settings, into a preset's file.
     SavePreset,
+    /// A look on the active side, by its name.
+    Look(String),
     /// Settings from a preset's file or by its name.
     OpenPreset(String),
 }

@@ -1,10 +1,10 @@
 //! The panel: a widget for every control of the active style. It reads the state and makes events, nothing else.
 
-use super::controls::{self, Control};
+use super::controls;
 use super::event::{Layout, Side, ViewerEvent};
 use super::viewer::Viewer;
+use super::widget::{self, Change};
 use crate::preset::SHIPPED;
-use crate::settings::Kind;
 use crate::styles::{Origin, Style, StyleName};
 use egui::{Color32, RichText, Ui};
 
@@ -34,9 +34,12 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
     choices(ui, "style", style.name(), StyleName::ALL.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::Style(side, name.to_owned()));
     });
+    let look = state.look().map_or("none", |look| look.name);
+    let looks = controls::looks().map(|look| (look.name, look.about));
+    choices_with_help(ui, "look", look, looks, |name| events.push(ViewerEvent::Look(name.to_owned())));
     let buffers = super::buffer::buffers(style.style_name()).into_iter().map(|buffer| buffer.name());
     choices(ui, "shown", state.buffer.name(), buffers, |name| events.push(ViewerEvent::Buffer(name.to_owned())));
-    choices(ui, "presets", "", SHIPPED.iter().map(|(name, _)| *name), |name| {
+    choices(ui, "presets", "choose a paper's", SHIPPED.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::OpenPreset(name.to_owned()));
     });
     preset_file(ui, events);
@@ -44,7 +47,21 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
     ui.separator();
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         for control in controls::of(style) {
-            ui.push_id((control.setting.name, side as usize), |ui| one(ui, &control, side, events));
+            let option = control.option();
+            let change = ui.push_id((control.setting.name, side as usize), |ui| widget::show(ui, &control)).inner;
+            events.extend(change.map(|change| match change {
+                Change::Set(value) => ViewerEvent::Set(side, option, value),
+                Change::Default => ViewerEvent::Default(side, option),
+            }));
+        }
+        ui.separator();
+        for control in controls::of_scene(&state.scene_settings()) {
+            let option = control.option();
+            let change = ui.push_id(("scene", control.setting.name), |ui| widget::show(ui, &control)).inner;
+            events.extend(change.map(|change| match change {
+                Change::Set(value) => ViewerEvent::Scene(option, value),
+                Change::Default => ViewerEvent::SceneDefault(option),
+            }));
         }
         ui.separator();
         ui.label("the same by");
@@ -106,102 +123,29 @@ fn choices<'a>(
     label: &str,
     chosen: &str,
     names: impl Iterator<Item = &'a str>,
+    choose: impl FnMut(&'a str),
+) {
+    choices_with_help(ui, label, chosen, names.map(|name| (name, "")), choose);
+}
+
+/// Names to choose from, each with what it is said to be.
+fn choices_with_help<'a>(
+    ui: &mut Ui,
+    label: &str,
+    chosen: &str,
+    names: impl Iterator<Item = (&'a str, &'a str)>,
     mut choose: impl FnMut(&'a str),
 ) {
     ui.horizontal(|ui| {
         ui.label(label);
         egui::ComboBox::from_id_salt(label).selected_text(chosen).show_ui(ui, |ui| {
-            for name in names {
-                if ui.selectable_label(name == chosen, name).clicked() {
+            for (name, help) in names {
+                let choice = ui.selectable_label(name == chosen, name);
+                let choice = if help.is_empty() { choice } else { choice.on_hover_text(help) };
+                if choice.clicked() {
                     choose(name);
                 }
             }
         });
     });
-}
-
-/// A control: its name, its widget, and the way back to the published value.
-fn one(ui: &mut Ui, control: &Control<Style>, side: Side, events: &mut Vec<ViewerEvent>) {
-    let (setting, value) = (control.setting, &control.value);
-    ui.horizontal(|ui| {
-        let name = RichText::new(setting.label());
-        let name = if control.is_default() { name } else { name.strong() };
-        ui.label(name).on_hover_text(format!("{} {}", control.option(), setting.help));
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let back = ui.add_enabled(!control.is_default(), egui::Button::new("↺").small());
-            if back.on_hover_text(format!("back to the default: {}", control.default)).clicked() {
-                events.push(ViewerEvent::Default(side, control.option()));
-            }
-            if let Kind::Switch | Kind::Flag | Kind::Choice(_) = setting.kind
-                && let Some(text) = widget(ui, &setting.kind, value)
-            {
-                events.push(ViewerEvent::Set(side, control.option(), text));
-            }
-        });
-    });
-    if let Some(open) = setting.open
-        && matches!(setting.kind, Kind::Numbers { .. })
-    {
-        let mut is_open = value == open;
-        if ui.checkbox(&mut is_open, open).changed() {
-            let text = if is_open { open.to_owned() } else { control.given() };
-            events.push(ViewerEvent::Set(side, control.option(), text));
-        }
-    }
-    if let Kind::Numbers { .. } | Kind::Several(_) | Kind::File | Kind::Text { .. } = setting.kind
-        && let Some(text) = widget(ui, &setting.kind, value)
-    {
-        events.push(ViewerEvent::Set(side, control.option(), text));
-    }
-}
-
-/// A widget for a value; its new value once it has been turned.
-fn widget(ui: &mut Ui, kind: &Kind, value: &str) -> Option<String> {
-    match kind {
-        &Kind::Numbers { range: [low, high], decimals, .. } => {
-            let mut numbers: Vec<f64> = value.split(',').filter_map(|number| number.parse().ok()).collect();
-            let mut has_changed = false;
-            for number in &mut numbers {
-                let slider = egui::Slider::new(number, low..=high)
-                    .clamping(egui::SliderClamping::Never)
-                    .fixed_decimals(decimals);
-                has_changed |= ui.add(slider).changed();
-            }
-            let text = |number: &f64| {
-                let rounded = format!("{number:.decimals$}");
-                rounded.parse::<f64>().map_or(rounded, |number| number.to_string())
-            };
-            has_changed.then(|| numbers.iter().map(text).collect::<Vec<_>>().join(","))
-        }
-        Kind::Choice(names) | Kind::Recipe(names) => {
-            let mut chosen = None;
-            egui::ComboBox::from_id_salt("choice").selected_text(value).show_ui(ui, |ui| {
-                for name in names {
-                    if ui.selectable_label(*name == value, *name).clicked() {
-                        chosen = Some((*name).to_owned());
-                    }
-                }
-            });
-            chosen
-        }
-        Kind::Switch | Kind::Flag => {
-            let mut is_on = value == "on";
-            ui.checkbox(&mut is_on, "").changed().then(|| if is_on { "on" } else { "off" }.to_owned())
-        }
-        Kind::Several(_) | Kind::File | Kind::Text { .. } => {
-            // What is being typed is kept until it is finished: half a word is no value.
-            let id = ui.id().with("typed");
-            let mut text: String = ui.data_mut(|data| data.get_temp(id)).unwrap_or_else(|| value.to_owned());
-            let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(f32::INFINITY));
-            if field.has_focus() {
-                ui.data_mut(|data| data.insert_temp(id, text));
-                return None;
-            }
-            if field.lost_focus() {
-                ui.data_mut(|data| data.remove::<String>(id));
-                return (text != value).then_some(text);
-            }
-            None
-        }
-    }
 }
