@@ -177,6 +177,11 @@ fn prices_are_the_passes_times_and_the_lines_error_of_this_view() {
     let f1 = |side: &tinta::window::SideCost| side.error.as_ref().unwrap().f1;
     assert!(f1(left) > 0.5 && f1(right) > 0.8, "{} {}", f1(left), f1(right));
     assert_eq!(viewer.costs.history.len(), 2);
+    // The plot's times are those that are written above it.
+    for (side, point) in viewer.costs.sides.iter().zip(&viewer.costs.history) {
+        assert_eq!((side.style, side.frame_ms), (point.style, point.ms));
+        assert!(side.frame_ms > 0.0);
+    }
     shown(&mut viewer, [ViewerEvent::Turn([0.1, 0.0])]);
     assert_eq!(viewer.costs.history.len(), 2, "of the new view only");
 }

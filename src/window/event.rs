@@ -72,6 +72,8 @@ pub enum ViewerEvent {
     Panel,
     /// The key sheet.
     KeySheet,
+    /// The end of the window.
+    Quit,
     /// The whole screen.
     FullScreen,
     /// Times and errors, shown or not.
@@ -110,6 +112,8 @@ pub enum Effect {
     Save(Save),
     /// Cover the whole screen, or no longer.
     FullScreen(bool),
+    /// Close the window.
+    Quit,
 }
 
 /// Kinds of files.

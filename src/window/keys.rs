@@ -39,6 +39,8 @@ const SHEET: &[(&str, &str)] = &[
     ("drop a file", "show that model; a preset (.toml): its style and settings"),
     ("F11", "full screen"),
     ("H", "this sheet"),
+    ("Esc", "close what is open: this sheet, times and errors, the panel, full screen"),
+    ("Q", "quit"),
 ];
 
 /// What an arrow turns or moves by, shares of the picture's height.
@@ -58,6 +60,7 @@ pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Opti
             Key::L => Some(ViewerEvent::SaveLines),
             Key::T => Some(ViewerEvent::SaveTurn),
             Key::P => Some(ViewerEvent::SavePreset),
+            Key::Q => Some(ViewerEvent::Quit),
             _ => None,
         };
     }
@@ -97,7 +100,10 @@ pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Opti
         Key::P => Some(ViewerEvent::Projection),
         Key::H => Some(ViewerEvent::KeySheet),
         Key::F11 => Some(ViewerEvent::FullScreen),
+        Key::Q => Some(ViewerEvent::Quit),
         Key::Escape if state.has_key_sheet => Some(ViewerEvent::KeySheet),
+        Key::Escape if state.has_price => Some(ViewerEvent::Price),
+        Key::Escape if state.has_panel => Some(ViewerEvent::Panel),
         Key::Escape if state.is_full_screen => Some(ViewerEvent::FullScreen),
         Key::ArrowLeft => arrow(-1.0, 0.0),
         Key::ArrowRight => arrow(1.0, 0.0),
@@ -151,5 +157,13 @@ mod tests {
         assert_eq!(escape(&ViewerState::default()), None);
         let covered = ViewerState { has_key_sheet: true, is_full_screen: true, ..ViewerState::default() };
         assert_eq!(escape(&covered), Some(ViewerEvent::KeySheet));
+        let mut all = ViewerState { has_price: true, has_panel: true, ..covered };
+        let mut closed = Vec::new();
+        while let Some(event) = escape(&all) {
+            all.update(event.clone());
+            closed.push(event);
+        }
+        let expected = [ViewerEvent::KeySheet, ViewerEvent::Price, ViewerEvent::Panel, ViewerEvent::FullScreen];
+        assert_eq!(closed, expected);
     }
 }

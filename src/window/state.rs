@@ -35,6 +35,8 @@ pub struct ViewerState {
     pub area: Size,
     /// Whether the panel is shown.
     pub has_panel: bool,
+    /// Whether a line says how to begin, until something was done.
+    pub has_hint: bool,
     /// Whether the key sheet is.
     pub has_key_sheet: bool,
     /// Whether times and errors are.
@@ -69,6 +71,7 @@ impl Default for ViewerState {
             scene: SceneSettings::default(),
             area: SceneSettings::default().size,
             has_panel: false,
+            has_hint: false,
             has_key_sheet: false,
             has_price: false,
             is_full_screen: false,
@@ -201,6 +204,8 @@ impl ViewerState {
     /// Lets an event happen; what comes of it outside of this value is returned.
     pub fn update(&mut self, event: ViewerEvent) -> Option<Effect> {
         self.message = None;
+        // A window is resized by itself, too.
+        self.has_hint &= matches!(event, ViewerEvent::Resize(_));
         let result = self.changed(event);
         result.unwrap_or_else(|problem| {
             self.message = Some(problem);
@@ -245,6 +250,7 @@ impl ViewerState {
             ViewerEvent::Panel => self.has_panel = !self.has_panel,
             ViewerEvent::KeySheet => self.has_key_sheet = !self.has_key_sheet,
             ViewerEvent::Price => self.has_price = !self.has_price,
+            ViewerEvent::Quit => return Ok(Some(Effect::Quit)),
             ViewerEvent::FullScreen => {
                 self.is_full_screen = !self.is_full_screen;
                 return Ok(Some(Effect::FullScreen(self.is_full_screen)));

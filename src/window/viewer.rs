@@ -136,7 +136,7 @@ impl Viewer {
         match effect {
             Some(Effect::Open(models)) => self.open(models),
             Some(Effect::Save(kind)) => self.save(kind),
-            effect @ Some(Effect::FullScreen(_)) => return effect,
+            effect @ Some(Effect::FullScreen(_) | Effect::Quit) => return effect,
             None => {}
         }
         None
