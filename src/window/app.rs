@@ -112,12 +112,7 @@ impl Shown {
         let (window, gl) = WindowGl::open(event_loop, attributes)?;
         let context = egui::Context::default();
         context.set_fonts(fonts());
-        context.set_theme(egui::Theme::Dark);
-        // What fades in has to be painted again and again.
-        context.all_styles_mut(|style| {
-            style.animation_time = 0.0;
-            style.visuals.override_text_color = Some(egui::Color32::from_gray(TEXT_GREY));
-        });
+        dress(&context);
         let egui = egui_winit::State::new(
             context,
             ViewportId::ROOT,
@@ -304,6 +299,16 @@ impl ApplicationHandler<News> for App {
     }
 }
 
+/// Dark panels with texts that can be read.
+fn dress(context: &egui::Context) {
+    context.set_theme(egui::Theme::Dark);
+    context.all_styles_mut(|style| {
+        // What fades in has to be painted again and again.
+        style.animation_time = 0.0;
+        style.visuals.override_text_color = Some(egui::Color32::from_gray(TEXT_GREY));
+    });
+}
+
 /// DejaVu for everything: egui's own fonts have licences of their own.
 pub(super) fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
@@ -319,7 +324,48 @@ pub(super) fn fonts() -> FontDefinitions {
 
 #[cfg(test)]
 mod tests {
-    use super::reason;
+    use super::{dress, reason};
+    use crate::window::panel::{CHANGED, FAITHFUL, HINT};
+    use egui::Color32;
+
+    /// Contrast of two colours as WCAG 2 defines it: from 1 to 21.
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let luminance = |color: Color32| {
+            let [red, green, blue] = [color.r(), color.g(), color.b()].map(|byte| {
+                let share = f64::from(byte) / 255.0;
+                if share <= 0.03928 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+            });
+            0.2126 * red + 0.7152 * green + 0.0722 * blue
+        };
+        let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
+        a.max(b) / a.min(b)
+    }
+
+    #[test]
+    fn every_text_has_the_contrast_that_wcag_asks_for() {
+        assert!((contrast(Color32::WHITE, Color32::BLACK) - 21.0).abs() < 1e-9);
+        assert!(contrast(Color32::GRAY, Color32::WHITE) < 4.5, "the measure tells what is too faint");
+        let context = egui::Context::default();
+        dress(&context);
+        let visuals = context.style().visuals.clone();
+        let text = visuals.override_text_color.unwrap();
+        let widgets = &visuals.widgets;
+        let states = [&widgets.inactive, &widgets.hovered, &widgets.active, &widgets.open];
+        let mut pairs = vec![
+            (text, visuals.panel_fill),
+            (text, visuals.window_fill),
+            (text, visuals.selection.bg_fill),
+            (text, visuals.extreme_bg_color),
+            (visuals.strong_text_color(), visuals.panel_fill),
+            (HINT, visuals.extreme_bg_color),
+            (FAITHFUL, visuals.panel_fill),
+            (CHANGED, visuals.panel_fill),
+        ];
+        pairs.extend(states.map(|state| (text, state.weak_bg_fill)));
+        for (text, behind) in pairs {
+            assert!(contrast(text, behind) >= 4.5, "{text:?} on {behind:?}: {:.2}", contrast(text, behind));
+        }
+    }
 
     #[test]
     fn a_reason_names_no_place_in_a_source() {

@@ -74,6 +74,9 @@ fn of_table<T: Clone + 'static>(table: &'static Table<T>, of: &T, published: &T)
     table.of(Some(of)).into_iter().filter(|setting| turns(&setting.kind)).filter_map(control).collect()
 }
 
+/// A colour to begin with.
+const WHITE: &str = "#ffffff";
+
 /// A setting as a panel shows it.
 pub(super) struct Control<T: 'static> {
     /// The setting.
@@ -90,14 +93,21 @@ impl<T: Clone + 'static> Control<T> {
         format!("--{}", self.setting.name)
     }
 
-    /// Numbers to begin with where it is no longer left open: the default's if it has any, else the range's upper ends.
+    /// What to begin with where it is no longer left open: the default's if it has any, else the range's upper ends, or white.
     pub(super) fn given(&self) -> String {
         match self.setting.kind {
             Kind::Numbers { count, range: [_, high], .. } if self.setting.open == Some(&*self.default) => {
                 vec![high.to_string(); count].join(",")
             }
+            Kind::Color if self.setting.open == Some(&*self.default) => WHITE.to_owned(),
             _ => self.default.clone(),
         }
+    }
+
+    /// Whether its name or its help has all of these words in it.
+    pub(super) fn is_found_by(&self, words: &str) -> bool {
+        let text = format!("{} {} {}", self.setting.name, self.setting.label(), self.setting.help).to_lowercase();
+        words.to_lowercase().split_whitespace().all(|word| text.contains(word))
     }
 
     /// Whether it is as published.
@@ -234,6 +244,32 @@ mod tests {
             }
         }
         assert!(count > 200, "{count}");
+    }
+
+    #[test]
+    fn a_control_is_found_by_words_of_its_name_and_its_help_and_by_no_others() {
+        let found = |words: &str| {
+            let scene = SceneSettings::default();
+            let controls = of_scene(&scene);
+            let found = controls.iter().filter(|control| control.is_found_by(words));
+            found.map(|control| control.setting.name).collect::<Vec<_>>()
+        };
+        assert_eq!(found("").len(), SCENE_SETTINGS.len());
+        assert_eq!(found("bare color"), ["bare-color"]);
+        assert_eq!(found("TEXTURES shading"), ["surface"], "words of its help, in either case");
+        assert_eq!(found("parallel projection"), ["parallel"]);
+        assert_eq!(found("zebra"), [""; 0]);
+    }
+
+    #[test]
+    fn a_colour_that_is_the_models_own_can_be_given_and_taken_back() {
+        let mut scene = SceneSettings::default();
+        let control = of_scene(&scene).into_iter().find(|control| control.setting.name == "color").unwrap();
+        assert_eq!((control.value.as_str(), &control.setting.kind), ("own", &Kind::Color));
+        turn_scene(&mut scene, "--color", &control.given()).unwrap();
+        assert_eq!(control.setting.value(&scene).as_deref(), Some(WHITE));
+        turn_scene_back(&mut scene, "--color").unwrap();
+        assert_eq!(scene, SceneSettings::default());
     }
 
     #[test]

@@ -43,6 +43,21 @@ const SHEET: &[(&str, &str)] = &[
     ("Q", "quit"),
 ];
 
+/// What can be saved: the key with Ctrl, what it is, the event.
+pub(super) const SAVES: [(Key, &str, ViewerEvent); 4] = [
+    (Key::S, "picture", ViewerEvent::SavePicture),
+    (Key::L, "lines", ViewerEvent::SaveLines),
+    (Key::T, "turn", ViewerEvent::SaveTurn),
+    (Key::P, "preset", ViewerEvent::SavePreset),
+];
+
+/// What the key sheet says of saving this.
+pub(super) fn about_saving(key: Key) -> String {
+    let keys = format!("Ctrl {}", key.name());
+    let what = SHEET.iter().find(|(listed, _)| *listed == keys).map_or("", |(_, what)| *what);
+    format!("{keys}: {what}")
+}
+
 /// What an arrow turns or moves by, shares of the picture's height.
 const STEP: f64 = 1.0 / 24.0;
 
@@ -55,14 +70,8 @@ const DIVIDER_STEP: f64 = 0.05;
 /// The event of a key; `None` for a key that does nothing.
 pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Option<ViewerEvent> {
     if modifiers.command {
-        return match key {
-            Key::S => Some(ViewerEvent::SavePicture),
-            Key::L => Some(ViewerEvent::SaveLines),
-            Key::T => Some(ViewerEvent::SaveTurn),
-            Key::P => Some(ViewerEvent::SavePreset),
-            Key::Q => Some(ViewerEvent::Quit),
-            _ => None,
-        };
+        let save = SAVES.iter().find(|(of_it, ..)| *of_it == key).map(|(_, _, event)| event.clone());
+        return save.or_else(|| (key == Key::Q).then_some(ViewerEvent::Quit));
     }
     let view =
         |plain: &str, shifted: &str| Some(ViewerEvent::View(if modifiers.shift { shifted } else { plain }.to_owned()));
@@ -133,6 +142,17 @@ mod tests {
         }
         let (_, listed) = sheet().find(|(keys, _)| *keys == "1 to 9").unwrap();
         assert_eq!(listed, StyleName::ALL.map(|(name, _)| name).join(", "));
+    }
+
+    #[test]
+    fn what_is_saved_is_in_the_key_sheet() {
+        for (key, what, _) in SAVES {
+            let about = about_saving(key);
+            assert!(
+                about.contains(": save ") && about.contains(if what == "preset" { "settings" } else { what }),
+                "{about}"
+            );
+        }
     }
 
     #[test]

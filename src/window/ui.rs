@@ -19,6 +19,9 @@ const PANEL_WIDTH: f32 = 300.0;
 /// Height of the line below the panes, points.
 pub(super) const STATUS_HEIGHT: f32 = 24.0;
 
+/// Height of what stands around the list of keys, points.
+const KEY_SHEET_MARGIN: f32 = 110.0;
+
 /// What of a window panel and status line take, points.
 pub(super) fn taken(state: &ViewerState) -> [f32; 2] {
     [if state.has_panel { PANEL_WIDTH } else { 0.0 }, STATUS_HEIGHT]
@@ -266,12 +269,15 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     }
     if state.has_key_sheet {
         let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
-            egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
-                for (keys, what) in keys::sheet() {
-                    ui.strong(keys);
-                    ui.label(what);
-                    ui.end_row();
-                }
+            // In a small window the rest is scrolled to.
+            egui::ScrollArea::both().max_height(context.content_rect().height() - KEY_SHEET_MARGIN).show(ui, |ui| {
+                egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
+                    for (keys, what) in keys::sheet() {
+                        ui.strong(keys);
+                        ui.label(what);
+                        ui.end_row();
+                    }
+                });
             });
             ui.button("close").clicked()
         });
