@@ -19,7 +19,7 @@ const SHEET: &[(&str, &str)] = &[
     ("wheel, pinch", "nearer, farther"),
     ("1 to 9", STYLES),
     ("S", "one style; two with a divider to drag; two and their difference"),
-    ("O", "the other side: its style is chosen by number, its settings are in the panel"),
+    ("O", "the other side: its style by number, its settings in the panel"),
     ("B", "buffers: map, normals, depth, borders, tones, edge classes"),
     ("Space", "panel with every setting"),
     ("M", "time of each pass, error against the exact lines"),
@@ -39,7 +39,7 @@ const SHEET: &[(&str, &str)] = &[
     ("drop a file", "show that model; a preset (.toml): its style and settings"),
     ("F11", "full screen"),
     ("H", "this sheet"),
-    ("Esc", "close what is open: this sheet, times and errors, the panel, full screen"),
+    ("Esc", "close what is open: sheet, times, panel, full screen"),
     ("Q", "quit"),
 ];
 

@@ -116,8 +116,8 @@ fn grouped<T: Clone + 'static>(
     let found: Vec<Control<T>> = controls.into_iter().filter(|control| control.is_found_by(words)).collect();
     for group in found.chunk_by(|a, b| a.setting.heading == b.setting.heading) {
         let whole = group[0].setting.heading;
-        // What is in brackets has no room here.
-        let heading = RichText::new(whole.split(" (").next().unwrap_or(whole)).strong();
+        // What explains it has no room here.
+        let heading = RichText::new(whole.split(['(', ':']).next().unwrap_or(whole).trim()).strong();
         if words.is_empty() {
             egui::CollapsingHeader::new(heading)
                 .default_open(true)

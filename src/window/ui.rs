@@ -270,15 +270,18 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     if state.has_key_sheet {
         let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
             // In a small window the rest is scrolled to.
-            egui::ScrollArea::both().max_height(context.content_rect().height() - KEY_SHEET_MARGIN).show(ui, |ui| {
-                egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
-                    for (keys, what) in keys::sheet() {
-                        ui.strong(keys);
-                        ui.label(what);
-                        ui.end_row();
-                    }
-                });
-            });
+            egui::ScrollArea::vertical().max_height(context.content_rect().height() - KEY_SHEET_MARGIN).show(
+                ui,
+                |ui| {
+                    egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
+                        for (keys, what) in keys::sheet() {
+                            ui.strong(keys);
+                            ui.label(what);
+                            ui.end_row();
+                        }
+                    });
+                },
+            );
             ui.button("close").clicked()
         });
         if shown.is_some_and(|shown| shown.inner == Some(true)) {
