@@ -66,7 +66,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
         let words = search(ui);
         grouped(ui, controls::of(style), &words, |ui, control| {
             let option = control.option();
-            let change = ui.push_id((control.setting.name, side as usize), |ui| widget::show(ui, &control)).inner;
+            let change = ui.push_id((control.setting.name, side as usize), |ui| widget::show(ui, control)).inner;
             events.extend(change.map(|change| match change {
                 Change::Set(value) => ViewerEvent::Set(side, option, value),
                 Change::Default => ViewerEvent::Default(side, option),
@@ -74,7 +74,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
         });
         grouped(ui, controls::of_scene(&state.scene_settings()), &words, |ui, control| {
             let option = control.option();
-            let change = ui.push_id(("scene", control.setting.name), |ui| widget::show(ui, &control)).inner;
+            let change = ui.push_id(("scene", control.setting.name), |ui| widget::show(ui, control)).inner;
             events.extend(change.map(|change| match change {
                 Change::Set(value) => ViewerEvent::Scene(option, value),
                 Change::Default => ViewerEvent::SceneDefault(option),
