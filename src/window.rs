@@ -10,7 +10,7 @@
 //! | `state.rs`, `event.rs`, `orbit.rs`, `controls.rs`, `buffer.rs`, `compose.rs` | values: what is shown, what happens, how it changes |
 //! | `viewer.rs` | the state with the threads that work for it |
 //! | `draw.rs`, `render_threads.rs`, `load.rs`, `watch.rs`, `cost.rs`, `save.rs`, `report.rs` | the threads and what they tell |
-//! | `ui.rs`, `panel.rs`, `plot.rs`, `keys.rs` | widgets: they read the state and make events |
+//! | `ui.rs`, `panel.rs`, `widget.rs`, `plot.rs`, `keys.rs` | widgets: they read the state and make events |
 //! | `app.rs`, `replay.rs`, `player.rs` | the window itself, and recordings played in it |
 //!
 //! ```
@@ -44,10 +44,12 @@ mod state;
 mod ui;
 mod viewer;
 mod watch;
+mod widget;
 
 pub use app::{WindowOptions, open};
 pub use buffer::{Buffer, buffers};
 pub use compose::composed;
+pub use controls::SCENE_SETTINGS;
 pub use cost::{Costs, Point, SideCost};
 pub use draw::{Drawer, Drawing, Job};
 pub use event::{Effect, Layout, Save, Side, ViewerEvent};

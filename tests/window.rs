@@ -62,7 +62,7 @@ fn by_command(command: &str, backend: &str) -> Picture {
 fn the_viewers_picture_is_the_one_its_command_line_draws_byte_for_byte() {
     for (backend, name) in [(Backend::Egl, "egl"), (Backend::OsMesa, "osmesa")] {
         let mut viewer = viewer(&["builtin:bust"], backend, None);
-        let steps: [Vec<ViewerEvent>; 8] = [
+        let steps: [Vec<ViewerEvent>; 10] = [
             vec![],
             vec![ViewerEvent::Turn([0.3, 0.1])],
             vec![ViewerEvent::Zoom(2.5), ViewerEvent::Move([0.1, -0.2])],
@@ -71,6 +71,12 @@ fn the_viewers_picture_is_the_one_its_command_line_draws_byte_for_byte() {
             vec![ViewerEvent::Buffer("borders".to_owned())],
             vec![style("inking"), ViewerEvent::Buffer("final".to_owned()), set("--line-width", "3.5")],
             vec![ViewerEvent::Reset, style("charcoal"), ViewerEvent::Background("tan".to_owned())],
+            vec![ViewerEvent::Projection, ViewerEvent::Look("print".to_owned())],
+            vec![
+                ViewerEvent::Zoom(1.5),
+                ViewerEvent::Scene("bare-color".to_owned(), "tomato".to_owned()),
+                ViewerEvent::Scene("surface".to_owned(), "plain".to_owned()),
+            ],
         ];
         for (number, step) in steps.into_iter().enumerate() {
             let picture = shown(&mut viewer, step);
@@ -171,6 +177,11 @@ fn prices_are_the_passes_times_and_the_lines_error_of_this_view() {
     let f1 = |side: &tinta::window::SideCost| side.error.as_ref().unwrap().f1;
     assert!(f1(left) > 0.5 && f1(right) > 0.8, "{} {}", f1(left), f1(right));
     assert_eq!(viewer.costs.history.len(), 2);
+    // The plot's times are those that are written above it.
+    for (side, point) in viewer.costs.sides.iter().zip(&viewer.costs.history) {
+        assert_eq!((side.style, side.frame_ms), (point.style, point.ms));
+        assert!(side.frame_ms > 0.0);
+    }
     shown(&mut viewer, [ViewerEvent::Turn([0.1, 0.0])]);
     assert_eq!(viewer.costs.history.len(), 2, "of the new view only");
 }
@@ -191,7 +202,7 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
     viewer.rest().unwrap();
     for (event, name) in [
         (ViewerEvent::SavePicture, "open-box-three-pass.png"),
-        (ViewerEvent::SaveLines, "open-box-three-pass.svg"),
+        (ViewerEvent::SaveLines, "open-box-lines.svg"),
         (ViewerEvent::SaveTurn, "open-box-three-pass.gif"),
         (ViewerEvent::SavePreset, "open-box-three-pass.toml"),
     ] {
@@ -229,6 +240,39 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
     }
     let preset = std::fs::read_to_string(folder.path().join("open-box-three-pass.toml")).unwrap();
     assert!(preset.contains("style = \"three-pass\"\ntones = 2"), "{preset}");
+}
+
+#[test]
+fn in_a_split_both_styles_are_saved_under_their_own_names_and_no_file_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = ViewerOptions {
+        state: ViewerState::new(vec!["builtin:open-box".to_owned()], Default::default()),
+        load: LoadOptions::default(),
+        backend: Backend::Egl,
+        shaders: None,
+        folder: folder.path().to_path_buf(),
+    };
+    let mut viewer = Viewer::start(options, || {}).unwrap();
+    let right = ViewerEvent::Style(Side::Right, "phong".to_owned());
+    let events = [ViewerEvent::Resize([48, 40]), ViewerEvent::Layout(Layout::Split), right];
+    shown(&mut viewer, events);
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    // The second is asked for while the first is being written.
+    for event in [ViewerEvent::SaveTurn, ViewerEvent::SaveTurn, ViewerEvent::SavePreset, ViewerEvent::SavePicture] {
+        viewer.event(event);
+    }
+    drop(viewer);
+    let names = ["open-box-three-pass.gif", "open-box-phong.gif", "open-box-three-pass-2.gif", "open-box-phong-2.gif"];
+    let [left, right, left_again, right_again] = names.map(read);
+    assert!(left.starts_with(b"GIF89a") && right.starts_with(b"GIF89a"));
+    assert_ne!(left, right);
+    assert_eq!((left, right), (left_again, right_again));
+    for style in ["three-pass", "phong"] {
+        let preset = String::from_utf8(read(&format!("open-box-{style}.toml"))).unwrap();
+        assert!(preset.contains(&format!("style = \"{style}\"")), "{preset}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), names.len() + 2 + 1);
+    assert!(folder.path().join("open-box-three-pass-phong.png").exists());
 }
 
 /// A display of one's own; ends with this.

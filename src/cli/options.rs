@@ -89,7 +89,7 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
     let check = move |text: &str| table.check(setting.name, text).map(|()| text.to_owned());
     match &setting.kind {
         Kind::File => arg.value_parser(clap::value_parser!(PathBuf)),
-        Kind::Numbers { .. } | Kind::Text { .. } => arg.value_parser(check).allow_hyphen_values(true),
+        Kind::Numbers { .. } | Kind::Text { .. } | Kind::Color => arg.value_parser(check).allow_hyphen_values(true),
         Kind::Choice(names) if names.iter().any(|name| name.starts_with('-')) => {
             arg.value_parser(check).allow_hyphen_values(true)
         }

@@ -8,7 +8,7 @@ use std::time::Instant;
 use tinta::mesh::refuse_address;
 use tinta::settings::{HasSettings, Setting};
 use tinta::window::{
-    Buffer, Layout, Orbit, Replay, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
+    Buffer, Layout, Orbit, Replay, SCENE_SETTINGS, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
 };
 use tinta::{Backend, Error, Result, SceneSettings, Size, Style, StyleName};
 
@@ -75,7 +75,7 @@ impl Selection for OfView {
     const HAS_HEADINGS: bool = false;
 
     fn has(setting: &Setting<SceneSettings>) -> bool {
-        ["view", "fov", "parallel", "background", "color"].contains(&setting.name)
+        SCENE_SETTINGS.contains(&setting.name)
     }
 }
 
@@ -116,11 +116,8 @@ pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
 
 /// What is shown first.
 fn state(arguments: &Arguments) -> Result<ViewerState> {
-    let SceneSettings { camera, background, color, .. } = SceneSettings::from_options(&arguments.scene.options)?;
-    let (view, parallel, fov_y_degrees) = (camera.view, camera.parallel, camera.fov_y_degrees);
-    let orbit = Orbit { view, parallel, fov_y_degrees, ..Orbit::default() };
-    let mut state = ViewerState::new(arguments.models.clone(), orbit);
-    (state.background, state.color) = (background, color);
+    let mut state = ViewerState::new(arguments.models.clone(), Orbit::default());
+    state.put_scene(SceneSettings::from_options(&arguments.scene.options)?);
     // Options are for every style that has them, whichever is chosen later.
     for (_, name) in StyleName::ALL {
         match arguments.styles.style(name) {

@@ -36,6 +36,9 @@ pub struct WindowOptions {
 /// Brightness of texts on the dark panels: egui's own is faint.
 const TEXT_GREY: u8 = 215;
 
+/// A window less wide, in points, begins without the panel, and folds it when it becomes so.
+const NARROW: u32 = 800;
+
 /// A thread has news.
 #[derive(Debug, Clone, Copy)]
 struct News;
@@ -46,7 +49,7 @@ struct News;
 ///
 /// [`Error::NoWindow`] without a display or OpenGL on it, what keeps the renderer from drawing at all, and for a recording
 /// what keeps its pictures from being written.
-pub fn open(options: WindowOptions) -> Result<Option<PlayedRecord>> {
+pub fn open(mut options: WindowOptions) -> Result<Option<PlayedRecord>> {
     let no_window = |error: winit::error::EventLoopError| Error::NoWindow { reason: reason(&error.to_string()) };
     let event_loop = EventLoop::<News>::with_user_event().build().map_err(no_window)?;
     let proxy = event_loop.create_proxy();
@@ -54,7 +57,12 @@ pub fn open(options: WindowOptions) -> Result<Option<PlayedRecord>> {
     let wake = move || {
         let _ = proxy.send_event(News);
     };
-    let viewer = Viewer::start(options.viewer.clone(), wake)?;
+    // A recording says by itself what is open.
+    if options.replay.is_none() {
+        let state = &mut options.viewer.state;
+        (state.has_panel, state.has_hint) = (options.size.width >= NARROW, true);
+    }
+    let viewer = Viewer::start(options.viewer, wake)?;
     let player = options.replay.map(|replay| Player::new(replay, options.started));
     let mut app = App { viewer: Some(viewer), shown: None, size: options.size, player, result: Ok(()) };
     event_loop.run_app(&mut app).map_err(no_window)?;
@@ -89,6 +97,10 @@ pub(super) struct Shown {
     title: String,
     /// Whether the drawing area is as large as the window leaves it.
     pub follows_window: bool,
+    /// Whether it is to be closed.
+    pub is_over: bool,
+    /// Whether there is no room for the panel beside the panes.
+    is_narrow: bool,
 }
 
 impl Shown {
@@ -100,12 +112,7 @@ impl Shown {
         let (window, gl) = WindowGl::open(event_loop, attributes)?;
         let context = egui::Context::default();
         context.set_fonts(fonts());
-        context.set_theme(egui::Theme::Dark);
-        // What fades in has to be painted again and again.
-        context.all_styles_mut(|style| {
-            style.animation_time = 0.0;
-            style.visuals.override_text_color = Some(egui::Color32::from_gray(TEXT_GREY));
-        });
+        dress(&context);
         let egui = egui_winit::State::new(
             context,
             ViewportId::ROOT,
@@ -114,12 +121,23 @@ impl Shown {
             None,
             Some(gl.largest_texture()),
         );
-        let mut shown = Self { viewer, textures: Textures::default(), egui, gl, window, title, follows_window };
+        let mut shown = Self {
+            viewer,
+            textures: Textures::default(),
+            egui,
+            gl,
+            window,
+            title,
+            follows_window,
+            is_over: false,
+            is_narrow: size.width < NARROW,
+        };
         if follows_window {
             // The first picture is drawn while egui still finds out how much room there is.
-            let status = f64::from(ui::STATUS_HEIGHT) * shown.window.scale_factor();
+            let [panel, status] = ui::taken(&shown.viewer.state)
+                .map(|points| (f64::from(points) * shown.window.scale_factor()).round() as u32);
             let Size { width, height } = shown.size();
-            shown.event(ViewerEvent::Resize([width, height.saturating_sub(status.round() as u32)]));
+            shown.event(ViewerEvent::Resize([width.saturating_sub(panel), height.saturating_sub(status)]));
         }
         shown.viewer.ask();
         Ok(shown)
@@ -166,9 +184,22 @@ impl Shown {
     }
 
     pub(super) fn event(&mut self, event: ViewerEvent) {
-        if let Some(Effect::FullScreen(is_full)) = self.viewer.event(event) {
-            self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
+        match self.viewer.event(event) {
+            Some(Effect::FullScreen(is_full)) => {
+                self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
+            }
+            Some(Effect::Quit) => self.is_over = true,
+            _ => {}
         }
+    }
+
+    /// Folds the panel when the window becomes too narrow for it; opened again it stays.
+    fn fold_panel(&mut self) {
+        let is_narrow = f64::from(self.size().width) < f64::from(NARROW) * self.window.scale_factor();
+        if is_narrow && !self.is_narrow && self.viewer.state.has_panel {
+            self.event(ViewerEvent::Panel);
+        }
+        self.is_narrow = is_narrow;
     }
 }
 
@@ -192,6 +223,10 @@ impl App {
             return Ok(());
         }
         let (_, delay) = shown.frame(false)?;
+        if shown.is_over {
+            event_loop.exit();
+            return Ok(());
+        }
         match delay {
             Duration::ZERO => shown.window.request_redraw(),
             delay => event_loop.set_control_flow(
@@ -252,6 +287,9 @@ impl ApplicationHandler<News> for App {
             event => {
                 if let WindowEvent::Resized(_) = event {
                     shown.gl.resize(shown.size());
+                    if self.player.is_none() {
+                        shown.fold_panel();
+                    }
                 }
                 if shown.egui.on_window_event(&shown.window, &event).repaint {
                     shown.window.request_redraw();
@@ -259,6 +297,16 @@ impl ApplicationHandler<News> for App {
             }
         }
     }
+}
+
+/// Dark panels with texts that can be read.
+fn dress(context: &egui::Context) {
+    context.set_theme(egui::Theme::Dark);
+    context.all_styles_mut(|style| {
+        // What fades in has to be painted again and again.
+        style.animation_time = 0.0;
+        style.visuals.override_text_color = Some(egui::Color32::from_gray(TEXT_GREY));
+    });
 }
 
 /// DejaVu for everything: egui's own fonts have licences of their own.
@@ -276,7 +324,48 @@ pub(super) fn fonts() -> FontDefinitions {
 
 #[cfg(test)]
 mod tests {
-    use super::reason;
+    use super::{dress, reason};
+    use crate::window::panel::{CHANGED, FAITHFUL, HINT};
+    use egui::Color32;
+
+    /// Contrast of two colours as WCAG 2 defines it: from 1 to 21.
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let luminance = |color: Color32| {
+            let [red, green, blue] = [color.r(), color.g(), color.b()].map(|byte| {
+                let share = f64::from(byte) / 255.0;
+                if share <= 0.03928 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+            });
+            0.2126 * red + 0.7152 * green + 0.0722 * blue
+        };
+        let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
+        a.max(b) / a.min(b)
+    }
+
+    #[test]
+    fn every_text_has_the_contrast_that_wcag_asks_for() {
+        assert!((contrast(Color32::WHITE, Color32::BLACK) - 21.0).abs() < 1e-9);
+        assert!(contrast(Color32::GRAY, Color32::WHITE) < 4.5, "the measure tells what is too faint");
+        let context = egui::Context::default();
+        dress(&context);
+        let visuals = context.style().visuals.clone();
+        let text = visuals.override_text_color.unwrap();
+        let widgets = &visuals.widgets;
+        let states = [&widgets.inactive, &widgets.hovered, &widgets.active, &widgets.open];
+        let mut pairs = vec![
+            (text, visuals.panel_fill),
+            (text, visuals.window_fill),
+            (text, visuals.selection.bg_fill),
+            (text, visuals.extreme_bg_color),
+            (visuals.strong_text_color(), visuals.panel_fill),
+            (HINT, visuals.extreme_bg_color),
+            (FAITHFUL, visuals.panel_fill),
+            (CHANGED, visuals.panel_fill),
+        ];
+        pairs.extend(states.map(|state| (text, state.weak_bg_fill)));
+        for (text, behind) in pairs {
+            assert!(contrast(text, behind) >= 4.5, "{text:?} on {behind:?}: {:.2}", contrast(text, behind));
+        }
+    }
 
     #[test]
     fn a_reason_names_no_place_in_a_source() {

@@ -4,8 +4,14 @@
 //! the same words. What there is to turn is declared beside the styles; nothing is listed here.
 
 use crate::error::Result;
-use crate::settings::{HasSettings, Kind, Setting, Table};
+use crate::preset::{LOOKS, Look};
+use crate::scene::SceneSettings;
+use crate::settings::{HasSettings, Kind, Options, Setting, Table};
 use crate::styles::Style;
+
+/// The settings of the scene that a window shows and sets: the others are the models' or the mouse's.
+pub const SCENE_SETTINGS: [&str; 8] =
+    ["view", "fov", "parallel", "framing", "background", "color", "bare-color", "surface"];
 
 /// Whether a style is as its source has it.
 pub(super) fn is_faithful(style: &Style) -> bool {
@@ -22,6 +28,38 @@ pub(super) fn of(style: &Style) -> Vec<Control<Style>> {
     of_table(Style::table(), style, &published(style))
 }
 
+/// The controls of the scene.
+pub(super) fn of_scene(scene: &SceneSettings) -> Vec<Control<SceneSettings>> {
+    let all = of_table(SceneSettings::table(), scene, &SceneSettings::default());
+    all.into_iter().filter(|control| SCENE_SETTINGS.contains(&control.setting.name)).collect()
+}
+
+/// The looks that a window can show: those that draw no vectors.
+pub(super) fn looks() -> impl Iterator<Item = Look> {
+    LOOKS.into_iter().filter(|look| !look.draws_lines())
+}
+
+/// What a look makes of a side's style and of the scene. What another look sets of the scene is as by default again.
+///
+/// # Errors
+///
+/// As [`Look::preset`].
+pub(super) fn of_look(look: Look, style: &Style, scene: &SceneSettings) -> Result<(Style, SceneSettings)> {
+    let mut scene = scene.clone();
+    let table = SceneSettings::table();
+    for other in looks() {
+        for name in of_scene_in(&other.preset()?.options).keys() {
+            if let Some(setting) = table.find(&scene, name) {
+                setting.set(&mut scene, &table.default_of(setting))?;
+            }
+        }
+    }
+    let options = look.preset()?.options;
+    apply_to_scene(&mut scene, &options)?;
+    let is_of_one_style = options.contains_key("style");
+    Ok((if is_of_one_style { Style::from_options(&options)? } else { published(style) }, scene))
+}
+
 /// The same for settings of any table.
 fn of_table<T: Clone + 'static>(table: &'static Table<T>, of: &T, published: &T) -> Vec<Control<T>> {
     let turns = |kind: &Kind| match kind {
@@ -35,6 +73,9 @@ fn of_table<T: Clone + 'static>(table: &'static Table<T>, of: &T, published: &T)
     };
     table.of(Some(of)).into_iter().filter(|setting| turns(&setting.kind)).filter_map(control).collect()
 }
+
+/// A colour to begin with.
+const WHITE: &str = "#ffffff";
 
 /// A setting as a panel shows it.
 pub(super) struct Control<T: 'static> {
@@ -52,14 +93,21 @@ impl<T: Clone + 'static> Control<T> {
         format!("--{}", self.setting.name)
     }
 
-    /// Numbers to begin with where it is no longer left open: the default's if it has any, else the range's upper ends.
+    /// What to begin with where it is no longer left open: the default's if it has any, else the range's upper ends, or white.
     pub(super) fn given(&self) -> String {
         match self.setting.kind {
             Kind::Numbers { count, range: [_, high], .. } if self.setting.open == Some(&*self.default) => {
                 vec![high.to_string(); count].join(",")
             }
+            Kind::Color if self.setting.open == Some(&*self.default) => WHITE.to_owned(),
             _ => self.default.clone(),
         }
+    }
+
+    /// Whether its name or its help has all of these words in it.
+    pub(super) fn is_found_by(&self, words: &str) -> bool {
+        let text = format!("{} {} {}", self.setting.name, self.setting.label(), self.setting.help).to_lowercase();
+        words.to_lowercase().split_whitespace().all(|word| text.contains(word))
     }
 
     /// Whether it is as published.
@@ -75,13 +123,65 @@ impl<T: Clone + 'static> Control<T> {
 /// A sentence that begins with the option, for a style without it and for values it cannot have. What no value of its own
 /// can tell, the style's plan refuses.
 pub(super) fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result<(), String> {
-    let (setting, value) = (find(style, option)?, value.trim());
+    let setting = find(style, option)?;
+    set(setting, style, option, value)
+}
+
+/// Sets a control of the scene.
+///
+/// # Errors
+///
+/// A sentence that begins with the option, for one that a window does not have and for values it cannot have.
+pub(super) fn turn_scene(scene: &mut SceneSettings, option: &str, value: &str) -> std::result::Result<(), String> {
+    set(find_of_scene(option)?, scene, option, value)
+}
+
+/// Sets it back to its default.
+///
+/// # Errors
+///
+/// Those of [`turn_scene`].
+pub(super) fn turn_scene_back(scene: &mut SceneSettings, option: &str) -> std::result::Result<(), String> {
+    let setting = find_of_scene(option)?;
+    let default = setting.value(&SceneSettings::default()).unwrap_or_default();
+    turned(setting.set(scene, &default))
+}
+
+/// Sets what options say of the scene that a window can set.
+///
+/// # Errors
+///
+/// Those of [`Table::apply`].
+pub(super) fn apply_to_scene(scene: &mut SceneSettings, options: &Options) -> Result<()> {
+    SceneSettings::table().apply(scene, &of_scene_in(options))
+}
+
+/// Those of the options that say something of the scene that a window can set.
+pub(super) fn of_scene_in(options: &Options) -> Options {
+    let is_one = |name: &str| SCENE_SETTINGS.contains(&name);
+    options.iter().filter(|(name, _)| is_one(name)).map(|(name, value)| (name.clone(), value.clone())).collect()
+}
+
+fn find_of_scene(option: &str) -> std::result::Result<&'static Setting<SceneSettings>, String> {
+    let name = option.trim_start_matches("--");
+    let setting = SceneSettings::table().settings.iter().find(|setting| setting.name == name);
+    let setting = setting.filter(|setting| SCENE_SETTINGS.contains(&setting.name));
+    setting.ok_or_else(|| format!("{option}: the window has no such setting; it has {}", SCENE_SETTINGS.join(", ")))
+}
+
+fn set<T: Clone + 'static>(
+    setting: &Setting<T>,
+    of: &mut T,
+    option: &str,
+    value: &str,
+) -> std::result::Result<(), String> {
+    let value = value.trim();
     if let Kind::Numbers { .. } = setting.kind
         && value.split(',').any(|number| number.trim().parse().is_ok_and(|number: f64| !number.is_finite()))
     {
         return Err(format!("{option} {value}: give a finite number"));
     }
-    turned(setting.set(style, value))
+    turned(setting.set(of, value))
 }
 
 /// Sets it back to what is published.
@@ -144,6 +244,32 @@ mod tests {
             }
         }
         assert!(count > 200, "{count}");
+    }
+
+    #[test]
+    fn a_control_is_found_by_words_of_its_name_and_its_help_and_by_no_others() {
+        let found = |words: &str| {
+            let scene = SceneSettings::default();
+            let controls = of_scene(&scene);
+            let found = controls.iter().filter(|control| control.is_found_by(words));
+            found.map(|control| control.setting.name).collect::<Vec<_>>()
+        };
+        assert_eq!(found("").len(), SCENE_SETTINGS.len());
+        assert_eq!(found("bare color"), ["bare-color"]);
+        assert_eq!(found("TEXTURES shading"), ["surface"], "words of its help, in either case");
+        assert_eq!(found("parallel projection"), ["parallel"]);
+        assert_eq!(found("zebra"), [""; 0]);
+    }
+
+    #[test]
+    fn a_colour_that_is_the_models_own_can_be_given_and_taken_back() {
+        let mut scene = SceneSettings::default();
+        let control = of_scene(&scene).into_iter().find(|control| control.setting.name == "color").unwrap();
+        assert_eq!((control.value.as_str(), &control.setting.kind), ("own", &Kind::Color));
+        turn_scene(&mut scene, "--color", &control.given()).unwrap();
+        assert_eq!(control.setting.value(&scene).as_deref(), Some(WHITE));
+        turn_scene_back(&mut scene, "--color").unwrap();
+        assert_eq!(scene, SceneSettings::default());
     }
 
     #[test]

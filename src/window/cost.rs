@@ -35,6 +35,8 @@ pub struct SideCost {
     pub side: Side,
     /// The style's name.
     pub style: &'static str,
+    /// A whole frame, from the style's plan to the picture read back, milliseconds by the clock.
+    pub frame_ms: f64,
     /// Each pass and its time.
     pub passes: Vec<PassTime>,
     /// Its lines' error; `None` until it is known and for a style without lines.
@@ -48,7 +50,7 @@ pub struct SideCost {
 pub struct Point {
     /// The style's name.
     pub style: &'static str,
-    /// All passes, milliseconds.
+    /// A whole frame, milliseconds.
     pub ms: f64,
     /// One less F1: 0 where ink and lines are the same.
     pub error: f64,
@@ -56,13 +58,6 @@ pub struct Point {
 
 /// Most points kept.
 const MOST_POINTS: usize = 64;
-
-impl SideCost {
-    /// All passes together, milliseconds by the clock: drivers that draw on the processor answer timer queries too early.
-    pub fn ms(&self) -> f64 {
-        self.passes.iter().map(|pass| pass.cpu_ms).sum()
-    }
-}
 
 impl Costs {
     /// Forgets everything and gives up what is going on: the view has changed.
@@ -89,8 +84,8 @@ impl Costs {
     pub fn take(&mut self, scene: Scene, costs: Vec<Cost>, reporter: Reporter) {
         self.style_changed();
         let mut inks = Vec::new();
-        for Cost { side, style, passes, ink } in costs {
-            self.sides.push(SideCost { side, style, passes, error: None, has_lines: ink.is_some() });
+        for Cost { side, style, frame_ms, passes, ink } in costs {
+            self.sides.push(SideCost { side, style, frame_ms, passes, error: None, has_lines: ink.is_some() });
             inks.extend(ink.map(|ink| (side, ink)));
         }
         if inks.is_empty() {
@@ -117,7 +112,7 @@ impl Costs {
         self.measuring = None;
         for (side, error) in errors {
             if let Some(side_cost) = self.sides.iter_mut().find(|side_cost| side_cost.side == side) {
-                let point = Point { style: side_cost.style, ms: side_cost.ms(), error: 1.0 - error.f1 };
+                let point = Point { style: side_cost.style, ms: side_cost.frame_ms, error: 1.0 - error.f1 };
                 self.history.push(point);
                 side_cost.error = Some(error);
             }

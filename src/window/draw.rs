@@ -12,7 +12,7 @@ use crate::gl::{Backend, ContextInfo};
 use crate::measure::Ink;
 use crate::picture::Picture;
 use crate::plan::prune::prune;
-use crate::renderer::{PassTime, Renderer, milliseconds_since};
+use crate::renderer::{PassTime, Renderer, median, milliseconds_since};
 use crate::scene::{Scene, SceneSettings};
 use crate::styles::{Show, Style};
 use std::collections::HashMap;
@@ -52,6 +52,8 @@ pub struct Cost {
     pub side: Side,
     /// The style's name.
     pub style: &'static str,
+    /// Time of a whole frame, from the style's plan to the picture read back: the median of a few, milliseconds.
+    pub frame_ms: f64,
     /// Time of each pass.
     pub passes: Vec<PassTime>,
     /// The lines it draws; `None` for a style without.
@@ -161,6 +163,12 @@ impl Drawer {
         self.renderer.draw(scene, &plan)
     }
 
+    fn frame_ms(&mut self, scene: &Scene, style: &Style) -> Result<f64> {
+        let start = Instant::now();
+        self.draw_scene(scene, style, Show::Final)?;
+        Ok(milliseconds_since(start))
+    }
+
     /// Times the passes of a job's pictures and draws their lines by themselves.
     ///
     /// # Errors
@@ -174,8 +182,10 @@ impl Drawer {
             self.renderer.choose_context(&scene, &plan)?;
             let plan = prune(&plan, &scene, &self.renderer.pruning(1)).plan;
             let passes = self.renderer.time_passes(&scene, &plan, TIMED_FRAMES)?;
+            let frames: Result<Vec<f64>> = (0..TIMED_FRAMES).map(|_| self.frame_ms(&scene, style)).collect();
+            let frame_ms = median(frames?).unwrap_or_default();
             let ink = Ink::of_style(&mut self.renderer, &scene, style)?;
-            costs.push(Cost { side: *side, style: style.name(), passes, ink });
+            costs.push(Cost { side: *side, style: style.name(), frame_ms, passes, ink });
         }
         Ok((scene, costs))
     }
@@ -205,12 +215,16 @@ impl Job {
         Arc::ptr_eq(&self.scene, &other.scene) && self.settings.size == other.settings.size
     }
 
+    /// Whether they are seen from the same place, as another's are.
+    pub fn is_of_same_view(&self, other: &Self) -> bool {
+        self.orbit == other.orbit && self.settings.camera == other.settings.camera
+    }
+
     /// Whether it would draw the same as another.
     pub fn is_same(&self, other: &Self) -> bool {
-        let key = |job: &Self| (job.settings.size, job.settings.background, job.settings.color);
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.orbit == other.orbit
-            && key(self) == key(other)
+            && self.settings == other.settings
             && self.drawings == other.drawings
     }
 }

@@ -64,10 +64,16 @@ pub enum ViewerEvent {
     Buffer(String),
     /// Background colour.
     Background(String),
+    /// A setting of the scene: option, value.
+    Scene(String, String),
+    /// The same back to its default.
+    SceneDefault(String),
     /// The panel, shown or not.
     Panel,
     /// The key sheet.
     KeySheet,
+    /// The end of the window.
+    Quit,
     /// The whole screen.
     FullScreen,
     /// Times and errors, shown or not.
@@ -84,6 +90,8 @@ pub enum ViewerEvent {
     SaveTurn,
     /// The side's settings, into a preset's file.
     SavePreset,
+    /// A look on the active side, by its name.
+    Look(String),
     /// Settings from a preset's file or by its name.
     OpenPreset(String),
 }
@@ -104,6 +112,8 @@ pub enum Effect {
     Save(Save),
     /// Cover the whole screen, or no longer.
     FullScreen(bool),
+    /// Close the window.
+    Quit,
 }
 
 /// Kinds of files.

@@ -19,7 +19,7 @@ const SHEET: &[(&str, &str)] = &[
     ("wheel, pinch", "nearer, farther"),
     ("1 to 9", STYLES),
     ("S", "one style; two with a divider to drag; two and their difference"),
-    ("O", "the other side: its style is chosen by number, its settings are in the panel"),
+    ("O", "the other side: its style by number, its settings in the panel"),
     ("B", "buffers: map, normals, depth, borders, tones, edge classes"),
     ("Space", "panel with every setting"),
     ("M", "time of each pass, error against the exact lines"),
@@ -39,7 +39,24 @@ const SHEET: &[(&str, &str)] = &[
     ("drop a file", "show that model; a preset (.toml): its style and settings"),
     ("F11", "full screen"),
     ("H", "this sheet"),
+    ("Esc", "close what is open: sheet, times, panel, full screen"),
+    ("Q", "quit"),
 ];
+
+/// What can be saved: the key with Ctrl, what it is, the event.
+pub(super) const SAVES: [(Key, &str, ViewerEvent); 4] = [
+    (Key::S, "picture", ViewerEvent::SavePicture),
+    (Key::L, "lines", ViewerEvent::SaveLines),
+    (Key::T, "turn", ViewerEvent::SaveTurn),
+    (Key::P, "preset", ViewerEvent::SavePreset),
+];
+
+/// What the key sheet says of saving this.
+pub(super) fn about_saving(key: Key) -> String {
+    let keys = format!("Ctrl {}", key.name());
+    let what = SHEET.iter().find(|(listed, _)| *listed == keys).map_or("", |(_, what)| *what);
+    format!("{keys}: {what}")
+}
 
 /// What an arrow turns or moves by, shares of the picture's height.
 const STEP: f64 = 1.0 / 24.0;
@@ -53,13 +70,8 @@ const DIVIDER_STEP: f64 = 0.05;
 /// The event of a key; `None` for a key that does nothing.
 pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Option<ViewerEvent> {
     if modifiers.command {
-        return match key {
-            Key::S => Some(ViewerEvent::SavePicture),
-            Key::L => Some(ViewerEvent::SaveLines),
-            Key::T => Some(ViewerEvent::SaveTurn),
-            Key::P => Some(ViewerEvent::SavePreset),
-            _ => None,
-        };
+        let save = SAVES.iter().find(|(of_it, ..)| *of_it == key).map(|(_, _, event)| event.clone());
+        return save.or_else(|| (key == Key::Q).then_some(ViewerEvent::Quit));
     }
     let view =
         |plain: &str, shifted: &str| Some(ViewerEvent::View(if modifiers.shift { shifted } else { plain }.to_owned()));
@@ -97,7 +109,10 @@ pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Opti
         Key::P => Some(ViewerEvent::Projection),
         Key::H => Some(ViewerEvent::KeySheet),
         Key::F11 => Some(ViewerEvent::FullScreen),
+        Key::Q => Some(ViewerEvent::Quit),
         Key::Escape if state.has_key_sheet => Some(ViewerEvent::KeySheet),
+        Key::Escape if state.has_price => Some(ViewerEvent::Price),
+        Key::Escape if state.has_panel => Some(ViewerEvent::Panel),
         Key::Escape if state.is_full_screen => Some(ViewerEvent::FullScreen),
         Key::ArrowLeft => arrow(-1.0, 0.0),
         Key::ArrowRight => arrow(1.0, 0.0),
@@ -130,6 +145,17 @@ mod tests {
     }
 
     #[test]
+    fn what_is_saved_is_in_the_key_sheet() {
+        for (key, what, _) in SAVES {
+            let about = about_saving(key);
+            assert!(
+                about.contains(": save ") && about.contains(if what == "preset" { "settings" } else { what }),
+                "{about}"
+            );
+        }
+    }
+
+    #[test]
     fn no_key_makes_an_event_that_is_refused() {
         let mut count = 0;
         for key in Key::ALL {
@@ -151,5 +177,13 @@ mod tests {
         assert_eq!(escape(&ViewerState::default()), None);
         let covered = ViewerState { has_key_sheet: true, is_full_screen: true, ..ViewerState::default() };
         assert_eq!(escape(&covered), Some(ViewerEvent::KeySheet));
+        let mut all = ViewerState { has_price: true, has_panel: true, ..covered };
+        let mut closed = Vec::new();
+        while let Some(event) = escape(&all) {
+            all.update(event.clone());
+            closed.push(event);
+        }
+        let expected = [ViewerEvent::KeySheet, ViewerEvent::Price, ViewerEvent::Panel, ViewerEvent::FullScreen];
+        assert_eq!(closed, expected);
     }
 }

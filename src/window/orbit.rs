@@ -70,10 +70,10 @@ impl Orbit {
         self.zoom == 1.0 && self.pan == [0.0; 2]
     }
 
-    /// As fitted to any scene, not moved, not zoomed.
-    fn fitted(&self) -> CameraSettings {
+    /// As fitted to any scene, not moved, not zoomed; what an orbit does not say is as in `other`.
+    pub(super) fn fitted(&self, other: &CameraSettings) -> CameraSettings {
         let Self { view, parallel, fov_y_degrees, .. } = *self;
-        CameraSettings { view, parallel, fov_y_degrees, ..CameraSettings::default() }
+        CameraSettings { view, parallel, fov_y_degrees, ..other.clone() }
     }
 
     /// The camera settings for a scene shown with these others.
@@ -82,7 +82,7 @@ impl Orbit {
     ///
     /// [`crate::Error::Setting`] where the fitted camera is refused.
     pub fn settings(&self, scene: &Scene, settings: &SceneSettings) -> Result<CameraSettings> {
-        let fitted = self.fitted();
+        let fitted = self.fitted(&settings.camera);
         if self.is_fitted() {
             return Ok(fitted);
         }

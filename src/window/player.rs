@@ -137,7 +137,7 @@ impl Player {
             return Err(Self::refused(self.frame, problem));
         }
         self.frame += 1;
-        Ok(self.is_over())
+        Ok(self.is_over() || shown.is_over)
     }
 
     /// A frame that goes on with what the one before it has started.

@@ -22,13 +22,13 @@ const LEAST_RANGE: f64 = 0.05;
 /// Shows times and errors.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer) {
     for side in viewer.state.sides() {
-        let Some(drawing) = viewer.drawing(*side) else { continue };
         let style = viewer.state.style(*side).name();
-        ui.strong(format!("{style}: {:.1} ms a frame", drawing.frame_ms));
         let Some(side_cost) = viewer.costs.sides.iter().find(|side_cost| side_cost.side == *side) else {
-            ui.label("timing the passes");
+            ui.strong(style);
+            ui.label("timing frames and passes");
             continue;
         };
+        ui.strong(format!("{style}: {:.1} ms a frame", side_cost.frame_ms));
         for pass in &side_cost.passes {
             ui.label(format!("{}  {:.2} ms", pass.name, pass.cpu_ms));
         }
@@ -65,7 +65,7 @@ fn plot(ui: &mut Ui, costs: &Costs) {
     let worst = costs.history.iter().map(|point| point.error).fold(LEAST_RANGE, f64::max);
     let axis_labels = [
         (area.left_top(), Align2::LEFT_BOTTOM, format!("error (1 - F1): {worst:.2}")),
-        (area.right_bottom(), Align2::RIGHT_TOP, format!("{slowest:.1} ms")),
+        (area.right_bottom(), Align2::RIGHT_TOP, format!("{slowest:.1} ms a frame")),
     ];
     let places: Vec<Pos2> = costs.history.iter().map(|point| place(point, [slowest, worst], area)).collect();
     let mut taken: Vec<Rect> = places.iter().map(|place| Rect::from_center_size(*place, Vec2::splat(7.0))).collect();

@@ -1,5 +1,6 @@
 //! Files from the window: what is shown, its exact lines, a turn, a preset; and the command line that makes the same.
 
+use super::controls;
 use super::draw::{Drawer, Job};
 use super::event::{Save, Side};
 use super::state::ViewerState;
@@ -16,7 +17,9 @@ use crate::scene::{Scene, SceneSettings, Size};
 use crate::settings::HasSettings;
 use crate::shell;
 use crate::styles::Show;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Pictures of a turn, and how long each is shown, milliseconds: what `--turntable 36` makes of it.
 const TURN: (u32, u16) = (36, 69);
@@ -34,6 +37,8 @@ pub(super) struct Surroundings {
     pub files: Vec<PathBuf>,
     /// Who draws.
     pub context: Option<Box<ContextInfo>>,
+    /// Names that were given to files, some of which are still being written.
+    pub names: Arc<Mutex<HashSet<PathBuf>>>,
 }
 
 /// The command that makes the same as is shown of a side, into a file of this kind.
@@ -46,18 +51,19 @@ pub(super) fn command(
     job: &Job,
     surroundings: &Surroundings,
     save: Save,
+    side: Side,
     output: &str,
 ) -> Result<String> {
-    Ok(recipe(state, job, surroundings, save)?.command_line(output))
+    Ok(recipe(state, job, surroundings, save, side)?.command_line(output))
 }
 
-/// The recipe of what is shown of the active side, without the files' contents.
-fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save) -> Result<Recipe> {
+/// The recipe of what is shown of a side, without the files' contents.
+fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save, side: Side) -> Result<Recipe> {
     let mut options = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
     options.extend(surroundings.load.to_options()?);
     // The exact lines have no style.
     if save != Save::Lines {
-        options.extend(style_options(state, job, state.active)?);
+        options.extend(style_options(state, job, side)?);
     }
     if save == Save::Turn {
         options.insert("turntable".to_owned(), OptionValue::text(TURN.0.to_string()));
@@ -66,7 +72,7 @@ fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Sav
     Ok(Recipe {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         command: "render".to_owned(),
-        style: if save == Save::Lines { "lines" } else { state.style(state.active).name() }.to_owned(),
+        style: if save == Save::Lines { "lines" } else { state.style(side).name() }.to_owned(),
         size: [width, height],
         models: state.models.clone(),
         options,
@@ -76,19 +82,19 @@ fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Sav
 }
 
 /// The same with the files' contents.
-fn whole_recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save) -> Result<Recipe> {
+fn whole_recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save, side: Side) -> Result<Recipe> {
     let mut paths = surroundings.files.clone();
-    if let Some((_, style, _)) = job.drawings.iter().find(|(side, ..)| *side == state.active && save != Save::Lines) {
+    if let Some((_, style, _)) = job.drawings.iter().find(|(drawn, ..)| *drawn == side && save != Save::Lines) {
         if draws_with_textures(style, &job.scene) {
             let materials = job.scene.objects.iter().flat_map(|object| &object.mesh.materials);
             paths.extend(materials.filter_map(|material| material.texture.clone()));
         }
         paths.extend(files_of(style));
     }
-    let mut seen = std::collections::HashSet::new();
+    let mut seen = HashSet::new();
     paths.retain(|path| seen.insert(path.clone()));
     let files = paths.iter().filter_map(|path| FileRecord::of(path).ok()).collect();
-    Ok(Recipe { files, ..recipe(state, job, surroundings, save)? })
+    Ok(Recipe { files, ..recipe(state, job, surroundings, save, side)? })
 }
 
 /// The options of what is shown of a side.
@@ -100,7 +106,8 @@ fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> 
     Ok(options)
 }
 
-/// Writes a file of what is shown and says where, with the command that makes the same.
+/// Writes files of what is shown and says where, with the command that makes the same: of turns and presets one for each style
+/// that is shown.
 ///
 /// # Errors
 ///
@@ -112,27 +119,46 @@ pub(super) fn save(
     surroundings: &Surroundings,
     save: Save,
 ) -> Result<String> {
-    let path = free_name(&surroundings.folder, &stem(state), save);
+    let active = [state.active];
+    let sides = match save {
+        Save::Picture | Save::Lines => &active,
+        Save::Turn | Save::Preset => state.sides(),
+    };
+    let said: Result<Vec<String>> =
+        sides.iter().map(|side| save_of(state, job, shown, surroundings, save, *side)).collect();
+    Ok(said?.join("; "))
+}
+
+/// Writes one file and says where.
+fn save_of(
+    state: &ViewerState,
+    job: &Job,
+    shown: Option<&Picture>,
+    surroundings: &Surroundings,
+    save: Save,
+    side: Side,
+) -> Result<String> {
+    let path = free_name(surroundings, &stem(state, save, side), save);
     let name = path.to_string_lossy().into_owned();
-    let command = command(state, job, surroundings, save, &name);
+    let command = command(state, job, surroundings, save, side, &name);
     match save {
         Save::Picture => {
             let Some(shown) = shown else { return Ok("there is no picture yet".to_owned()) };
             let target = Target::check(&name, false)?;
             if state.sides().len() == 1 {
-                let recipe = whole_recipe(state, job, surroundings, save).ok();
+                let recipe = whole_recipe(state, job, surroundings, save, side).ok();
                 target.write_with(shown, recipe.and_then(|recipe| recipe.note()).as_ref())?;
             } else {
                 // A cut or a difference is put together here: no command makes it.
                 target.write(shown)?;
                 let each = command.unwrap_or_else(|error| error.to_string());
-                return Ok(format!("{name}; the {} style alone: {each}", state.style(state.active).name()));
+                return Ok(format!("{name}; the {} style alone: {each}", state.style(side).name()));
             }
         }
         Save::Lines => {
             let target = TextTarget::check(&name)?;
             let lines = VisibleLines::of(&job.scene()?, &LineSettings::default())?;
-            let recipe = whole_recipe(state, job, surroundings, save)?;
+            let recipe = whole_recipe(state, job, surroundings, save, side)?;
             let settings = SvgSettings {
                 title: state.models.join(", "),
                 command: recipe.command_line("drawing.svg"),
@@ -142,9 +168,12 @@ pub(super) fn save(
             };
             target.write(&svg(&lines, &settings)?)?;
         }
-        Save::Turn => turn(job, state.active, surroundings.backend, &name)?,
+        Save::Turn => turn(job, side, surroundings.backend, &name)?,
         Save::Preset => {
-            let options = style_options(state, job, state.active)?;
+            // Not from where: a preset is for any model.
+            let mut options = controls::of_scene_in(&job.settings.to_options()?);
+            options.remove("view");
+            options.extend(style_options(state, job, side)?);
             TextTarget::check(&name)?.write(&to_toml(&options, "Saved by tinta view."))?;
             let use_it = shell::quoted(&name);
             return Ok(format!("{name}; render, compare and measure take it: --preset {use_it}"));
@@ -170,17 +199,21 @@ fn turn(job: &Job, side: Side, backend: Backend, name: &str) -> Result<()> {
     writer.finish().map(drop)
 }
 
-/// `bust-three-pass`.
-fn stem(state: &ViewerState) -> String {
+/// `bust-three-pass`: the model with the styles that are in the file.
+fn stem(state: &ViewerState, save: Save, side: Side) -> String {
     let first = state.models.first().map_or("tinta", String::as_str);
     let model = first.strip_prefix("builtin:").unwrap_or(first);
     let model = Path::new(model).file_stem().map_or("model".into(), |stem| stem.to_string_lossy());
-    let styles: Vec<&str> = state.sides().iter().map(|side| state.style(*side).name()).collect();
+    let styles: Vec<&str> = match save {
+        Save::Picture => state.sides().iter().map(|side| state.style(*side).name()).collect(),
+        Save::Lines => vec!["lines"],
+        Save::Turn | Save::Preset => vec![state.style(side).name()],
+    };
     format!("{model}-{}", styles.join("-"))
 }
 
-/// A name that no file has yet, so that nothing is written over.
-fn free_name(folder: &Path, stem: &str, save: Save) -> PathBuf {
+/// A name that no file has yet, nor one that is being written, so that nothing is written over.
+fn free_name(surroundings: &Surroundings, stem: &str, save: Save) -> PathBuf {
     let extension = match save {
         Save::Picture => "png",
         Save::Lines => "svg",
@@ -188,8 +221,12 @@ fn free_name(folder: &Path, stem: &str, save: Save) -> PathBuf {
         Save::Preset => "toml",
     };
     let name = |number: u32| match number {
-        1 => folder.join(format!("{stem}.{extension}")),
-        number => folder.join(format!("{stem}-{number}.{extension}")),
+        1 => surroundings.folder.join(format!("{stem}.{extension}")),
+        number => surroundings.folder.join(format!("{stem}-{number}.{extension}")),
     };
-    (1..).map(name).find(|path| path.symlink_metadata().is_err()).unwrap_or_else(|| name(1))
+    let mut given = surroundings.names.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_free = |path: &PathBuf| path.symlink_metadata().is_err() && !given.contains(path);
+    let path = (1..).map(name).find(is_free).unwrap_or_else(|| name(1));
+    given.insert(path.clone());
+    path
 }

@@ -4,9 +4,10 @@ use super::buffer::{Buffer, buffers};
 use super::controls;
 use super::event::{Effect, Layout, Save, Side, ViewerEvent};
 use super::orbit::Orbit;
+use crate::camera::CameraSettings;
 use crate::camera::View;
-use crate::preset::{OptionValue, Preset};
-use crate::scene::{Background, Color, SceneSettings, Size};
+use crate::preset::{Look, OptionValue, Preset};
+use crate::scene::{SceneSettings, Size};
 use crate::styles::{Style, StyleName};
 
 /// All that decides what the viewer shows.
@@ -28,14 +29,14 @@ pub struct ViewerState {
     pub divider: f64,
     /// What is shown of them.
     pub buffer: Buffer,
-    /// Behind the models.
-    pub background: Background,
-    /// One colour for all surfaces.
-    pub color: Option<Color>,
+    /// The scene of both sides; its size is that of a pane, and from where it is seen says the orbit.
+    pub(super) scene: SceneSettings,
     /// Size of the drawing area, pixels.
     pub area: Size,
     /// Whether the panel is shown.
     pub has_panel: bool,
+    /// Whether a line says how to begin, until something was done.
+    pub has_hint: bool,
     /// Whether the key sheet is.
     pub has_key_sheet: bool,
     /// Whether times and errors are.
@@ -58,7 +59,6 @@ const LARGEST_SIDE: u32 = 16_384;
 impl Default for ViewerState {
     fn default() -> Self {
         let all = || StyleName::ALL.into_iter().map(|(_, name)| Style::named(name)).collect();
-        let SceneSettings { background, color, size, .. } = SceneSettings::default();
         Self {
             models: Vec::new(),
             orbit: Orbit::default(),
@@ -68,10 +68,10 @@ impl Default for ViewerState {
             layout: Layout::Single,
             divider: 0.5,
             buffer: Buffer::default(),
-            background,
-            color,
-            area: size,
+            scene: SceneSettings::default(),
+            area: SceneSettings::default().size,
             has_panel: false,
+            has_hint: false,
             has_key_sheet: false,
             has_price: false,
             is_full_screen: false,
@@ -162,14 +162,28 @@ impl ViewerState {
         self.panes().first().map_or(self.area, |pane| pane.size)
     }
 
-    /// What the scene is drawn with, its camera aside.
+    /// What the scene is drawn with as long as it is neither moved nor zoomed.
     pub fn scene_settings(&self) -> SceneSettings {
-        SceneSettings {
-            size: self.picture_size(),
-            background: self.background,
-            color: self.color,
-            ..SceneSettings::default()
+        let camera = self.orbit.fitted(&self.scene.camera);
+        SceneSettings { size: self.picture_size(), camera, ..self.scene.clone() }
+    }
+
+    /// Shows the scene so; of the camera the view, the projection and what is in the middle.
+    pub fn put_scene(&mut self, scene: SceneSettings) {
+        let CameraSettings { view, parallel, fov_y_degrees, .. } = scene.camera;
+        if view != self.orbit.view {
+            self.orbit.look_from(view);
         }
+        (self.orbit.parallel, self.orbit.fov_y_degrees) = (parallel, fov_y_degrees);
+        self.scene = scene;
+    }
+
+    /// Sets a setting of the scene.
+    fn set_scene(&mut self, option: &str, value: &str) -> Result<(), String> {
+        let mut scene = self.scene_settings();
+        controls::turn_scene(&mut scene, option, value)?;
+        self.put_scene(scene);
+        Ok(())
     }
 
     /// The window's title: model and styles.
@@ -190,6 +204,8 @@ impl ViewerState {
     /// Lets an event happen; what comes of it outside of this value is returned.
     pub fn update(&mut self, event: ViewerEvent) -> Option<Effect> {
         self.message = None;
+        // A window is resized by itself, too.
+        self.has_hint &= matches!(event, ViewerEvent::Resize(_));
         let result = self.changed(event);
         result.unwrap_or_else(|problem| {
             self.message = Some(problem);
@@ -224,10 +240,17 @@ impl ViewerState {
             ViewerEvent::Divide(share) => self.divider = finite(share)?.clamp(DIVIDER_MARGIN, 1.0 - DIVIDER_MARGIN),
             ViewerEvent::NextBuffer => self.buffer = self.next_buffer(),
             ViewerEvent::Buffer(name) => self.buffer = name.parse()?,
-            ViewerEvent::Background(color) => self.background = Background::Color(color.parse()?),
+            ViewerEvent::Background(color) => self.set_scene("background", &color)?,
+            ViewerEvent::Scene(option, value) => self.set_scene(&option, &value)?,
+            ViewerEvent::SceneDefault(option) => {
+                let mut scene = self.scene_settings();
+                controls::turn_scene_back(&mut scene, &option)?;
+                self.put_scene(scene);
+            }
             ViewerEvent::Panel => self.has_panel = !self.has_panel,
             ViewerEvent::KeySheet => self.has_key_sheet = !self.has_key_sheet,
             ViewerEvent::Price => self.has_price = !self.has_price,
+            ViewerEvent::Quit => return Ok(Some(Effect::Quit)),
             ViewerEvent::FullScreen => {
                 self.is_full_screen = !self.is_full_screen;
                 return Ok(Some(Effect::FullScreen(self.is_full_screen)));
@@ -241,6 +264,7 @@ impl ViewerState {
             ViewerEvent::SaveLines => return Ok(Some(Effect::Save(Save::Lines))),
             ViewerEvent::SaveTurn => return Ok(Some(Effect::Save(Save::Turn))),
             ViewerEvent::SavePreset => return Ok(Some(Effect::Save(Save::Preset))),
+            ViewerEvent::Look(name) => self.choose_look(Look::of_name(&name)?)?,
             ViewerEvent::OpenPreset(name) => self.open_preset(&name)?,
         }
         Ok(None)
@@ -267,13 +291,43 @@ impl ViewerState {
         known.get((index + 1) % known.len().max(1)).copied().unwrap_or_default()
     }
 
-    /// Puts a preset's style and settings on the active side. What is not a style's, the camera say, is left as it is.
+    /// Puts a look on the active side, and what it says of the scene on both.
+    fn choose_look(&mut self, look: Look) -> Result<(), String> {
+        if look.draws_lines() {
+            return Err(format!(
+                "the look {} draws vectors, which the window does not show; tinta render --look {} writes them",
+                look.name, look.name
+            ));
+        }
+        let (style, scene) = controls::of_look(look, self.style(self.active), &self.scene_settings())
+            .map_err(|error| error.to_string())?;
+        self.put_style(self.active, style);
+        self.put_scene(scene);
+        Ok(())
+    }
+
+    /// The look that the active side has, if it has one.
+    pub(super) fn look(&self) -> Option<Look> {
+        let (style, scene) = (self.style(self.active), self.scene_settings());
+        let has = |look: &Look| {
+            controls::of_look(*look, style, &scene).is_ok_and(|of_look| of_look == (style.clone(), scene.clone()))
+        };
+        controls::looks().find(has)
+    }
+
+    /// Puts a preset's style and settings on the active side, and what it says of the scene on both.
     fn open_preset(&mut self, name: &str) -> Result<(), String> {
         let mut preset = Preset::read(name).map_err(|error| error.to_string())?;
         let shown = self.chosen[self.active as usize].name();
         preset.options.entry("style".to_owned()).or_insert_with(|| OptionValue::text(shown));
         let style = preset.style().map_err(|error| error.to_string())?;
+        let mut scene = self.scene_settings();
+        controls::apply_to_scene(&mut scene, &preset.options).map_err(|error| {
+            let all: Vec<_> = preset.options.keys().map(|key| (key.clone(), key.clone())).collect();
+            preset.attributed(error, &all).to_string()
+        })?;
         self.put_style(self.active, style);
+        self.put_scene(scene);
         Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! Tests of the viewer's state.
 
 use super::*;
+use crate::settings::{HasSettings, Options};
 use crate::styles::{Cartoon, Charcoal, CharcoalRecipe};
 
 fn after(events: impl IntoIterator<Item = ViewerEvent>) -> ViewerState {
@@ -21,7 +22,7 @@ fn it_begins_as_render_does() {
     let state = ViewerState::default();
     assert_eq!(*state.style(Side::Left), Style::named(StyleName::ThreePass));
     let (shown, default) = (state.scene_settings(), SceneSettings::default());
-    assert_eq!((shown.size, shown.background, shown.color), (default.size, default.background, default.color));
+    assert_eq!(shown, default);
     assert!(state.orbit.is_fitted());
 }
 
@@ -143,6 +144,61 @@ fn a_preset_draws_in_the_viewer_what_it_draws_elsewhere() {
         assert!(said.contains(words), "{text}: {said}");
         assert_eq!(style, Style::named(StyleName::ThreePass), "{text}");
     }
+}
+
+#[test]
+fn a_look_is_a_style_and_a_scene_and_the_next_takes_back_what_it_has_set() {
+    let look = |name: &str| ViewerEvent::Look(name.to_owned());
+    let print = after([look("print")]);
+    let options = Look::of_name("print").unwrap().preset().unwrap().options;
+    assert_eq!(*print.style(Side::Left), Style::from_options(&options).unwrap());
+    let scene = print.scene_settings();
+    assert_eq!(
+        scene,
+        SceneSettings { size: scene.size, ..SceneSettings::from_options(&of_scene(&options)).unwrap() },
+        "what a look says of the scene is what render makes of it"
+    );
+    assert_ne!(scene, SceneSettings { size: scene.size, ..SceneSettings::default() });
+    assert_eq!(print.look().map(|look| look.name), Some("print"));
+    let published = after([look("print"), look("published")]);
+    assert_eq!(*published.style(Side::Left), Style::named(StyleName::Ink));
+    assert_eq!(published.scene_settings(), SceneSettings::default());
+    // The user's own background is no look's.
+    let tan = ViewerEvent::Background("tan".to_owned());
+    let kept = after([tan, look("charcoal"), look("print")]).scene_settings();
+    assert_ne!(kept.background, SceneSettings::default().background);
+}
+
+fn of_scene(options: &Options) -> Options {
+    let table = SceneSettings::table();
+    options.clone().into_iter().filter(|(name, _)| table.has(name)).collect()
+}
+
+#[test]
+fn a_look_of_vectors_is_refused_in_a_sentence_and_offered_nowhere() {
+    let mut state = ViewerState::default();
+    state.update(ViewerEvent::Look("technical".to_owned()));
+    assert!(state.message.as_ref().is_some_and(|message| message.contains("tinta render --look technical")));
+    let names: Vec<&str> = controls::looks().map(|look| look.name).collect();
+    assert_eq!(names, ["print", "charcoal", "published"]);
+}
+
+#[test]
+fn every_setting_of_the_scene_is_set_from_the_window_and_goes_back() {
+    let default = ViewerState::default().scene_settings();
+    for control in controls::of_scene(&default) {
+        let samples = control.setting.kind.samples(&control.value);
+        let other = samples.iter().find(|sample| **sample != control.value).unwrap();
+        let mut state = after([ViewerEvent::Scene(control.option(), other.clone())]);
+        let set = control.setting.value(&state.scene_settings());
+        assert_ne!(set.as_deref(), Some(&*control.value), "{}", control.option());
+        state.update(ViewerEvent::SceneDefault(control.option()));
+        assert_eq!(state.scene_settings(), default, "{}", control.option());
+    }
+    assert_eq!(controls::of_scene(&default).len(), controls::SCENE_SETTINGS.len(), "each is a setting of the scene");
+    let mut state = ViewerState::default();
+    state.update(ViewerEvent::Scene("copies".to_owned(), "2".to_owned()));
+    assert!(state.message.is_some_and(|message| message.starts_with("copies: the window has no such setting")));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use super::event::{Side, ViewerEvent};
 use super::keys;
 use super::panel;
 use super::plot;
-use super::state::{Content, Pane};
+use super::state::{Content, Pane, ViewerState};
 use super::viewer::Viewer;
 use crate::picture::Picture;
 use egui::{Align2, Color32, Context, CursorIcon, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2};
@@ -18,6 +18,14 @@ const PANEL_WIDTH: f32 = 300.0;
 
 /// Height of the line below the panes, points.
 pub(super) const STATUS_HEIGHT: f32 = 24.0;
+
+/// Height of what stands around the list of keys, points.
+const KEY_SHEET_MARGIN: f32 = 110.0;
+
+/// What of a window panel and status line take, points.
+pub(super) fn taken(state: &ViewerState) -> [f32; 2] {
+    [if state.has_panel { PANEL_WIDTH } else { 0.0 }, STATUS_HEIGHT]
+}
 
 /// How far from the divider a pointer takes it, points.
 const DIVIDER_REACH: f32 = 6.0;
@@ -79,7 +87,9 @@ pub(super) fn frame(
     textures.update(context, viewer);
     let state = &viewer.state;
     // While a text is typed its letters are no keys of ours.
-    if context.memory(|memory| memory.focused()).is_none() {
+    let is_typing = context.memory(|memory| memory.focused()).is_some();
+    // Esc closes a list that is open, and nothing besides.
+    if !is_typing && !egui::Popup::is_any_open(context) {
         let pressed = |event: &egui::Event| match event {
             egui::Event::Key { key, pressed: true, modifiers, .. } => keys::event(*key, *modifiers, state),
             _ => None,
@@ -211,12 +221,25 @@ fn divider(ui: &Ui, top: Pos2, area: Rect, events: &mut Vec<ViewerEvent>) {
     }
 }
 
+/// How to begin, in a line.
+fn hint(context: &Context) {
+    let offset = [8.0, -8.0 - STATUS_HEIGHT];
+    egui::Area::new("hint".into()).anchor(Align2::LEFT_BOTTOM, offset).interactable(false).show(context, |ui| {
+        egui::Frame::popup(ui.style()).show(ui, |ui| {
+            ui.add(egui::Label::new("Drag to turn, wheel to zoom, H for keys").extend());
+        });
+    });
+}
+
 /// What lies over the panes: keys, costs, what is wrong, what is being read.
 fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     let state = &viewer.state;
     let window = |title: &str| egui::Window::new(title.to_owned()).collapsible(false).resizable(false).movable(false);
     if state.has_price {
         window("times and errors").anchor(Align2::LEFT_TOP, [8.0, 8.0]).show(context, |ui| plot::show(ui, viewer));
+    }
+    if state.has_hint && viewer.stage.is_none() {
+        hint(context);
     }
     if let Some(stage) = &viewer.stage {
         window("loading").anchor(Align2::CENTER_TOP, [0.0, 8.0]).show(context, |ui| {
@@ -246,13 +269,19 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     }
     if state.has_key_sheet {
         let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
-            egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
-                for (keys, what) in keys::sheet() {
-                    ui.strong(keys);
-                    ui.label(what);
-                    ui.end_row();
-                }
-            });
+            // In a small window the rest is scrolled to.
+            egui::ScrollArea::vertical().max_height(context.content_rect().height() - KEY_SHEET_MARGIN).show(
+                ui,
+                |ui| {
+                    egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
+                        for (keys, what) in keys::sheet() {
+                            ui.strong(keys);
+                            ui.label(what);
+                            ui.end_row();
+                        }
+                    });
+                },
+            );
             ui.button("close").clicked()
         });
         if shown.is_some_and(|shown| shown.inner == Some(true)) {

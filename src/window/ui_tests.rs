@@ -63,6 +63,19 @@ fn the_area_is_what_the_window_leaves_it() {
 }
 
 #[test]
+fn the_hint_goes_with_the_first_drag_and_what_the_panel_takes_is_known_before_it_is_shown() {
+    let mut frames = Frames::new();
+    (frames.viewer.state.has_panel, frames.viewer.state.has_hint) = (true, true);
+    let [panel, status] = taken(&frames.viewer.state);
+    (0..3).for_each(|_| drop(frames.show(Vec::new())));
+    let area = frames.viewer.state.area;
+    assert_eq!([area.width as f32, area.height as f32], [400.0 - panel, 300.0 + STATUS_HEIGHT - status]);
+    assert!(frames.viewer.state.has_hint, "nothing was done yet");
+    frames.drag(PointerButton::Primary, Pos2::new(20.0, 100.0), Pos2::new(50.0, 100.0));
+    assert!(!frames.viewer.state.has_hint);
+}
+
+#[test]
 fn a_drag_turns_and_one_with_the_other_button_moves() {
     let mut frames = Frames::new();
     let before = frames.viewer.state.orbit.view.azimuth_degrees;

@@ -102,6 +102,7 @@ impl Viewer {
             folder: options.folder,
             files: Vec::new(),
             context: None,
+            names: Default::default(),
         };
         let mut viewer = Self {
             state: options.state,
@@ -135,7 +136,7 @@ impl Viewer {
         match effect {
             Some(Effect::Open(models)) => self.open(models),
             Some(Effect::Save(kind)) => self.save(kind),
-            effect @ Some(Effect::FullScreen(_)) => return effect,
+            effect @ Some(Effect::FullScreen(_) | Effect::Quit) => return effect,
             None => {}
         }
         None
@@ -263,7 +264,14 @@ impl Viewer {
     /// The command line that draws what is shown of the active side.
     pub fn command(&self) -> Option<std::result::Result<String, String>> {
         let job = self.job()?;
-        let command = super::save::command(&self.state, &job, &self.surroundings, Save::Picture, "drawing.png");
+        let command = super::save::command(
+            &self.state,
+            &job,
+            &self.surroundings,
+            Save::Picture,
+            self.state.active,
+            "drawing.png",
+        );
         Some(command.map_err(|error| error.to_string()))
     }
 
@@ -404,7 +412,7 @@ impl Viewer {
         let is_same_view = self
             .drawn
             .as_ref()
-            .is_some_and(|before| before.orbit == job.orbit && before.is_of_same_scene_and_size(&job));
+            .is_some_and(|before| before.is_of_same_view(&job) && before.is_of_same_scene_and_size(&job));
         match is_same_view {
             true => self.costs.style_changed(),
             false => self.costs.view_changed(),

@@ -109,7 +109,7 @@ impl Surface {
 crate::choices!(Surface);
 
 /// What the user asks of the scene.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SceneSettings {
     /// How often the models are repeated, on a square grid on the ground, as the first paper's scenes grow. Default 1.
     pub copies: u32,

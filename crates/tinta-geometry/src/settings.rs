@@ -86,7 +86,9 @@ pub enum Kind {
     Flag,
     /// The path of a file that is read.
     File,
-    /// A text of its own grammar: colours, a size.
+    /// A colour: a CSS name, `#rrggbb` or `rgb(r,g,b)`.
+    Color,
+    /// A text of its own grammar: colours by class, a size.
     Text {
         /// Some values worth offering.
         offered: &'static [&'static str],
@@ -107,7 +109,7 @@ impl Kind {
             Self::Choice(names) | Self::Recipe(names) | Self::Several(names) => names.clone(),
             Self::Text { offered, .. } => offered.to_vec(),
             Self::Switch => vec!["on", "off"],
-            Self::Numbers { .. } | Self::Flag | Self::File => Vec::new(),
+            Self::Numbers { .. } | Self::Flag | Self::File | Self::Color => Vec::new(),
         }
     }
 
@@ -123,6 +125,7 @@ impl Kind {
             }
             Self::Switch | Self::Flag => vec![on_off(default != "on").to_owned()],
             Self::Text { example, .. } => vec![(*example).to_owned()],
+            Self::Color => vec!["rgb(10.5 20 30)".to_owned()],
             Self::Choice(names) | Self::Recipe(names) | Self::Several(names) => {
                 names.iter().map(|name| (*name).to_owned()).collect()
             }

@@ -221,7 +221,7 @@ impl Value for Size {
 
 impl Value for Color {
     fn kind() -> Kind {
-        Kind::Text { offered: &[], example: "rgb(10.5 20 30)" }
+        Kind::Color
     }
 
     fn text(&self) -> String {

@@ -1,0 +1,120 @@
+//! The widget of a control, by what its setting can be.
+
+use super::controls::Control;
+use crate::scene::Color;
+use crate::settings::Kind;
+use egui::{RichText, Ui};
+
+/// What was done to a control: its new value, or back to the default.
+pub(super) enum Change {
+    /// To this value.
+    Set(String),
+    /// To the default.
+    Default,
+}
+
+/// A control: its name, its widget, and the way back to the published value. What was done to it is returned.
+pub(super) fn show<T: Clone + 'static>(ui: &mut Ui, control: &Control<T>) -> Option<Change> {
+    let (setting, value) = (control.setting, &control.value);
+    let mut change = None;
+    ui.horizontal(|ui| {
+        let name = RichText::new(setting.label());
+        let name = if control.is_default() { name } else { name.strong() };
+        ui.label(name).on_hover_text(format!("{} {}", control.option(), setting.help));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let back = ui.add_enabled(!control.is_default(), egui::Button::new("↺").small());
+            if back.on_hover_text(format!("back to the default: {}", control.default)).clicked() {
+                change = Some(Change::Default);
+            }
+            if let Kind::Switch | Kind::Flag | Kind::Choice(_) | Kind::Color = setting.kind
+                && let Some(text) = widget(ui, &setting.kind, value)
+            {
+                change = Some(Change::Set(text));
+            }
+        });
+    });
+    if let Some(open) = setting.open
+        && matches!(setting.kind, Kind::Numbers { .. } | Kind::Color)
+    {
+        let mut is_open = value == open;
+        if ui.checkbox(&mut is_open, open).changed() {
+            change = Some(Change::Set(if is_open { open.to_owned() } else { control.given() }));
+        }
+    }
+    if let Kind::Numbers { .. } | Kind::Several(_) | Kind::File | Kind::Text { .. } = setting.kind
+        && let Some(text) = widget(ui, &setting.kind, value)
+    {
+        change = Some(Change::Set(text));
+    }
+    change
+}
+
+fn picker(ui: &mut Ui, value: &str) -> Option<String> {
+    // Left open there is none to show.
+    let color: Color = value.parse().ok()?;
+    let mut bytes = color.0.map(|channel| (channel * 255.0).round() as u8);
+    let has_changed = ui.color_edit_button_srgb(&mut bytes).changed();
+    has_changed.then(|| Color(bytes.map(|byte| f32::from(byte) / 255.0)).to_string())
+}
+
+/// Names to choose from.
+fn choice(ui: &mut Ui, names: &[&str], value: &str) -> Option<String> {
+    let mut chosen = None;
+    egui::ComboBox::from_id_salt("choice").selected_text(value).show_ui(ui, |ui| {
+        for name in names {
+            if ui.selectable_label(*name == value, *name).clicked() {
+                chosen = Some((*name).to_owned());
+            }
+        }
+    });
+    chosen
+}
+
+/// A widget for a value; its new value once it has been turned.
+fn widget(ui: &mut Ui, kind: &Kind, value: &str) -> Option<String> {
+    match kind {
+        &Kind::Numbers { range: [low, high], decimals, .. } => {
+            let mut numbers: Vec<f64> = value.split(',').filter_map(|number| number.parse().ok()).collect();
+            let mut has_changed = false;
+            for number in &mut numbers {
+                let slider = egui::Slider::new(number, low..=high)
+                    .clamping(egui::SliderClamping::Never)
+                    .fixed_decimals(decimals);
+                has_changed |= ui.add(slider).changed();
+            }
+            let text = |number: &f64| {
+                let rounded = format!("{number:.decimals$}");
+                rounded.parse::<f64>().map_or(rounded, |number| number.to_string())
+            };
+            has_changed.then(|| numbers.iter().map(text).collect::<Vec<_>>().join(","))
+        }
+        Kind::Choice(names) | Kind::Recipe(names) => choice(ui, names, value),
+        Kind::Color => picker(ui, value),
+        Kind::Switch | Kind::Flag => {
+            let mut is_on = value == "on";
+            ui.checkbox(&mut is_on, "").changed().then(|| if is_on { "on" } else { "off" }.to_owned())
+        }
+        Kind::Text { offered, .. } if !offered.is_empty() => {
+            let [chosen, typed] = ui.horizontal(|ui| [choice(ui, offered, "choose"), typed(ui, value)]).inner;
+            chosen.or(typed)
+        }
+        Kind::Several(_) | Kind::File | Kind::Text { .. } => typed(ui, value),
+    }
+}
+
+/// A field for a text.
+fn typed(ui: &mut Ui, value: &str) -> Option<String> {
+    // What is being typed is kept until it is finished: half a word is no value.
+    let id = ui.id().with("typed");
+    let mut text: String = ui.data_mut(|data| data.get_temp(id)).unwrap_or_else(|| value.to_owned());
+    let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(f32::INFINITY));
+    if field.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, text));
+        return None;
+    }
+    if field.lost_focus() {
+        ui.data_mut(|data| data.remove::<String>(id));
+        return (text != value).then_some(text);
+    }
+    None
+}
