@@ -1,6 +1,6 @@
 //! What all pages share: how they begin, and their one style sheet, light and dark.
 
-use tinta_geometry::markup::escaped;
+use crate::markup::escaped;
 
 /// The style sheet of every page.
 pub const STYLE_SHEET: &str = include_str!("page.css");

@@ -15,7 +15,7 @@ use crate::measure::Row;
 use crate::page::{Pictures, beginning};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 const SCRIPT: &str = include_str!("page.js");
@@ -85,13 +85,15 @@ fn answers(machines: &[Machine<'_>]) -> String {
 
 /// What is shown of models, styles and machines.
 fn choices(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
-    let model_names = model_names(models.iter().copied());
-    let select = |id: &str, label: &str, all: &str, names: &[&str]| {
+    let as_they_are = BTreeMap::new();
+    let select = |id: &str, label: &str, all: &str, names: &[&str], shown: &BTreeMap<&str, String>| {
         if names.len() < 2 {
             return String::new();
         }
-        let shown = |name: &&str| model_names.get(*name).cloned().unwrap_or_else(|| (*name).to_owned());
-        let option = |name: &&str| format!("<option value=\"{}\">{}</option>", escaped(name), escaped(&shown(name)));
+        let option = |name: &&str| {
+            let shown = shown.get(name).map_or(*name, String::as_str);
+            format!("<option value=\"{}\">{}</option>", escaped(name), escaped(shown))
+        };
         let options: String = names.iter().map(option).collect();
         format!(
             "<label>{label} <select id=\"choose-{id}\"><option value=\"\">{all}</option>{options}</select></label>\n"
@@ -101,9 +103,9 @@ fn choices(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
     let machines: Vec<&str> = machines.iter().map(|machine| machine.name.as_str()).collect();
     format!(
         "<form class=\"choices\" hidden=\"hidden\">\n{}{}{}</form>\n",
-        select("model", "Model", "all, plots of their mean", models),
-        select("style", "Style, table only", "all", &styles),
-        select("machine", "Machine", "all", &machines),
+        select("model", "Model", "all, plots of their mean", models, &model_names(models.iter().copied())),
+        select("style", "Style, table only", "all", &styles, &as_they_are),
+        select("machine", "Machine", "all", &machines, &as_they_are),
     )
 }
 
