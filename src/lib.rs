@@ -137,6 +137,8 @@ pub mod record;
 pub mod contact_sheet;
 #[cfg(feature = "measuring")]
 pub mod measure;
+#[cfg(any(feature = "cli", feature = "measuring"))]
+pub mod page;
 #[cfg(feature = "measuring")]
 pub mod report;
 #[cfg(feature = "measuring")]

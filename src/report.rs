@@ -11,6 +11,7 @@
 //! assert_eq!(table.lines().count(), 1);
 //! ```
 
+mod answer;
 mod canvas;
 mod columns;
 mod html;
@@ -50,7 +51,7 @@ pub struct ReportInfo {
 /// A picture on the page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReportPicture {
-    /// What is seen on it.
+    /// What is seen on it, besides the model.
     pub caption: String,
     /// The model it belongs to: shown when that model is chosen; `None`: always.
     pub model: Option<String>,

@@ -40,6 +40,15 @@ const CHECK: &str = r##"
       && element.getBoundingClientRect().right > view.innerWidth + 0.5).map((element) => element.outerHTML.slice(0, 80)),
     smallestText: Math.min(...shown(".plot svg").flatMap((svg) => Array.from(svg.querySelectorAll("text")).map((text) =>
       parseFloat(text.getAttribute("font-size")) * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width))),
+    brokenWords: shown("#rows th button").flatMap((button) => {
+      const text = button.firstChild;
+      return Array.from(text.data.matchAll(/\S+/g)).filter((word) => {
+        const range = inside.createRange();
+        range.setStart(text, word.index);
+        range.setEnd(text, word.index + word[0].length);
+        return range.getClientRects().length > 1 || range.getBoundingClientRect().right > button.getBoundingClientRect().right + 0.5;
+      }).map((word) => word[0]);
+    }),
     rows: shown("#rows tbody tr").length, plots: shown(".plot svg").length,
     headers: shown("#rows th").length, time: sorted("Time, ms"), model: sorted("Model"), f1: sorted("Lines F1"),
   };
@@ -112,7 +121,7 @@ fn keep(name: &str, rows: &[Row]) {
 
 #[test]
 fn the_page_sorts_and_chooses_and_fits_phones_and_screens() {
-    let widths = [360, 1280];
+    let widths = [360, 1400];
     let rows = made_up_rows("a machine with a rather long name, x86_64, 2 threads", 1.0);
     keep("report", &rows);
     let Some(found) = in_browser(&html(&rows, &info()).unwrap(), widths) else {
@@ -126,6 +135,7 @@ fn the_page_sorts_and_chooses_and_fits_phones_and_screens() {
         assert_eq!(found["problems"], serde_json::json!([]));
         assert_eq!(found["inner"], width);
         assert_eq!(found["wider"], serde_json::json!([]), "at {width}");
+        assert_eq!(found["brokenWords"], serde_json::json!([]), "at {width}");
         for scroll in ["scroll", "scrollAfter"] {
             assert!(found[scroll].as_u64().unwrap() <= width.into(), "{scroll} {} at {width}", found[scroll]);
         }
@@ -145,7 +155,7 @@ fn the_page_sorts_and_chooses_and_fits_phones_and_screens() {
             }
         }
         assert_eq!(found["model"][0]["values"][0], "builtin:bust");
-        assert_eq!(found["model"][1]["values"][0], "models/stanford-bunny.obj");
+        assert_eq!(found["model"][1]["values"][0], "stanford-bunny.obj", "the folder is named once, below");
         assert_eq!(found["chosenRows"], serde_json::json!(vec!["fandisk.obj inking"; 4]));
         assert_eq!(found["chosenPlots"], serde_json::json!(vec!["fandisk.obj"; 3]));
         assert_eq!((found["chosenPictures"].as_u64(), found["count"].as_str()), (Some(1), Some(&*count)));

@@ -6,6 +6,7 @@ use std::ffi::OsString;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use tinta::markup::escaped;
+use tinta::page::{Pictures, beginning};
 use tinta::preset::{LOOKS, Look};
 use tinta::{Error, Result, Size, TextTarget};
 
@@ -79,12 +80,8 @@ fn html(model: &str, size: Size) -> String {
             name = look.name,
         );
     }
-    format!(
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Looks</title>\n\
-         <style>\n{}</style>\n</head>\n<body>\n<h1>Looks</h1>\n<main class=\"pictures\">\n{figures}</main>\n</body>\n</html>\n",
-        include_str!("../report/page.css")
-    )
+    beginning("Looks", Pictures::Beside)
+        + &format!("<h1>Looks</h1>\n<main class=\"pictures\">\n{figures}</main>\n</body>\n</html>\n")
 }
 
 #[cfg(test)]

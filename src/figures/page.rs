@@ -9,6 +9,7 @@ mod numbers;
 
 use super::{ClaimRecord, Content, Figure, Numbers, PassColumn, Text};
 use crate::markup::escaped;
+use crate::page::{Pictures, beginning};
 use crate::picture::Picture;
 use crate::scene::Size;
 use crate::styles::{Show, Style};
@@ -99,25 +100,6 @@ impl FigureRecord {
     }
 }
 
-const STYLE: &str = "\
-body { font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 76rem; padding: 0 1rem 3rem; color: #222; background: #fff; }
-h1 { font-size: 1.6rem; line-height: 1.2; } h2 { margin-top: 3rem; border-bottom: 2px solid #222; } h3 { margin: 2.2rem 0 .3rem; }
-nav a { display: inline-block; margin: 0 .9rem .4rem 0; } a { color: #1d5aa6; }
-.pictures { display: flex; flex-wrap: wrap; gap: 1rem; margin: .8rem 0; }
-figure { margin: 0; max-width: 100%; } img { max-width: 100%; height: auto; display: block; border: 1px solid #ddd; }
-.four figure { flex: 1 1 14rem; max-width: 22rem; } figcaption { font-size: .9rem; color: #444; }
-pre { background: #f3f3f3; padding: .5rem .7rem; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; margin: .5rem 0; }
-.table { overflow-x: auto; } table { border-collapse: collapse; font-size: .9rem; margin: .6rem 0; }
-th, td { padding: .2rem .6rem; border-bottom: 1px solid #ddd; text-align: right; } td { white-space: nowrap; } th { vertical-align: bottom; } td.name, th.name { text-align: left; }
-p { max-width: 48rem; } .left-out { color: #8a3a00; } .hint { color: #555; }
-.columns { display: flex; flex-wrap: wrap; gap: 1rem; } .columns > div { flex: 1 1 18rem; min-width: 0; }
-.pass { border: 1px solid #888; border-radius: .4rem; padding: .4rem .7rem; margin: .5rem 0; }
-.pass ol { margin: .3rem 0; padding-left: 1.3rem; font-size: .85rem; overflow-wrap: anywhere; }
-.matrices { display: flex; align-items: center; gap: .7rem; } .matrix { border-left: 2px solid #222; border-right: 2px solid #222; }
-.claim { border-top: 1px solid #ddd; padding: .3rem 0; } .claim p { margin: .4rem 0; }
-.claim span { color: #fff; border-radius: .3rem; padding: .05rem .45rem; font-size: .85rem; }
-.confirmed { background: #1a6b2f; } .refuted { background: #a8321e; } .untested { background: #666; }";
-
 /// What was drawn, measured and found.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
@@ -142,13 +124,7 @@ pub fn page(shown: Shown<'_>, gl: &str, size: Size) -> String {
 fn write(out: &mut String, shown: Shown<'_>, gl: &str, size: Size) -> std::fmt::Result {
     let Shown { figures: records, numbers, .. } = shown;
     let version = env!("CARGO_PKG_VERSION");
-    writeln!(
-        out,
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\" xml:lang=\"en\">\n<head>"
-    )?;
-    writeln!(out, "<meta charset=\"utf-8\" />")?;
-    writeln!(out, "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />")?;
-    writeln!(out, "<title>Three texts' figures, drawn again</title>\n<style>\n{STYLE}\n</style>\n</head>\n<body>")?;
+    out.push_str(&beginning("Three texts' figures, drawn again", Pictures::Within));
     writeln!(out, "<h1>Three texts' figures, drawn again</h1>")?;
     writeln!(
         out,
@@ -173,15 +149,19 @@ fn write(out: &mut String, shown: Shown<'_>, gl: &str, size: Size) -> std::fmt::
             continue;
         }
         writeln!(out, "<h2>{}</h2>\n<p class=\"hint\"><cite>{}</cite></p>", text.name(), text.title())?;
+        writeln!(out, "<div class=\"figures\">")?;
         for record in of_text {
             section(out, record, shown)?;
         }
+        writeln!(out, "</div>")?;
     }
     writeln!(out, "</body>\n</html>")
 }
 
 fn section(out: &mut String, record: &FigureRecord, shown: Shown<'_>) -> std::fmt::Result {
-    writeln!(out, "<section id=\"{}\">", record.id)?;
+    let has_columns = !record.passes.is_empty() || record.id.ends_with("-claims") || record.id.ends_with("-numbers");
+    let class = if record.pictures.len() > 1 || has_columns { " class=\"wide\"" } else { "" };
+    writeln!(out, "<section id=\"{}\"{class}>", record.id)?;
     writeln!(
         out,
         "<h3>{}. {}</h3>\n<p>{}</p>",
@@ -223,7 +203,7 @@ fn pictures<'p>(
     if records.len() == 0 {
         return Ok(());
     }
-    let class = if records.len() > 2 { "pictures four" } else { "pictures" };
+    let class = if records.len() > 2 { "row many" } else { "row" };
     writeln!(out, "<div class=\"{class}\">")?;
     for picture in records {
         let (file, label, Size { width, height }) = (escaped(&picture.file), escaped(&picture.label), picture.size);

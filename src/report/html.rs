@@ -4,19 +4,20 @@
 //! scripts everything is shown; `page.js` hides what was not chosen and sorts.
 
 use super::ReportInfo;
+use super::answer::answer;
 use super::columns::{Column, Value, columns};
 use super::plot::{Shape, plot, subtitle};
 use super::ratios::ratios;
-use super::settings::{Machine, Measure, machines, models, points};
+use super::settings::{Machine, Measure, machines, model_names, models, points};
 use crate::error::Result;
 use crate::markup::escaped;
 use crate::measure::Row;
+use crate::page::{Pictures, beginning};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-const STYLE_SHEET: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
 /// The page of these rows.
@@ -28,20 +29,13 @@ pub fn html(rows: &[Row], info: &ReportInfo) -> Result<String> {
     let machines = machines(rows);
     let all: Vec<&Row> = rows.iter().collect();
     let models = models(&all);
-    let mut page = format!(
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; \
-         style-src 'unsafe-inline'; script-src 'unsafe-inline'\"/>\n\
-         <meta name=\"color-scheme\" content=\"light dark\"/>\n<title>Error and run time - tinta measure</title>\n\
-         <style>\n{STYLE_SHEET}</style>\n</head>\n<body>\n"
-    );
+    let mut page = beginning("Error and run time - tinta measure", Pictures::Within);
     page.push_str(&heading(rows, &models, &machines));
     page.push_str("<main>\n");
     page.push_str(&choices(rows, &models, &machines));
     page.push_str(&plots(&models, &machines)?);
     page.push_str(&machine_table(&machines));
-    page.push_str(&pictures(info));
+    page.push_str(&pictures(info, &models));
     page.push_str(&row_table(rows, &machines));
     page.push_str(&run(rows, info, &machines));
     page.push_str(&meanings());
@@ -67,8 +61,9 @@ fn heading(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
         _ => format!("measured on {}", counted(machines.len(), "machine")),
     };
     format!(
-        "<header>\n<h1>Error and run time</h1>\n<p>{} on {}, {machine}. Lines are compared with the exact visible lines, \
+        "<header>\n<h1>Error and run time</h1>\n{}<p>{} on {}, {machine}. Lines are compared with the exact visible lines, \
          tones with rays cast in double precision.</p>\n<nav aria-label=\"Sections\">{}</nav>\n</header>\n",
+        answers(machines),
         counted(settings, "setting"),
         counted(models.len(), "model"),
         [("plots", "Plots"), ("rows", "Table"), ("run", "Machine and command"), ("columns", "What the columns mean")]
@@ -77,14 +72,29 @@ fn heading(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
     )
 }
 
+/// The answer for each machine, in a sentence or two.
+fn answers(machines: &[Machine<'_>]) -> String {
+    let mut text = String::new();
+    for machine in machines {
+        let Some(answer) = answer(&points(&machine.rows, Measure::Lines)) else { continue };
+        let place = if machines.len() > 1 { format!("On {}: ", machine.name) } else { String::new() };
+        let _ = writeln!(text, "<p class=\"answer\">{}</p>", escaped(&format!("{place}{answer}")));
+    }
+    text
+}
+
 /// What is shown of models, styles and machines.
 fn choices(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
-    let select = |id: &str, label: &str, all: &str, names: &[&str]| {
+    let as_they_are = BTreeMap::new();
+    let select = |id: &str, label: &str, all: &str, names: &[&str], shown: &BTreeMap<&str, String>| {
         if names.len() < 2 {
             return String::new();
         }
-        let options: String =
-            names.iter().map(|name| format!("<option value=\"{0}\">{0}</option>", escaped(name))).collect();
+        let option = |name: &&str| {
+            let shown = shown.get(name).map_or(*name, String::as_str);
+            format!("<option value=\"{}\">{}</option>", escaped(name), escaped(shown))
+        };
+        let options: String = names.iter().map(option).collect();
         format!(
             "<label>{label} <select id=\"choose-{id}\"><option value=\"\">{all}</option>{options}</select></label>\n"
         )
@@ -93,9 +103,9 @@ fn choices(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
     let machines: Vec<&str> = machines.iter().map(|machine| machine.name.as_str()).collect();
     format!(
         "<form class=\"choices\" hidden=\"hidden\">\n{}{}{}</form>\n",
-        select("model", "Model", "all, plots of their mean", models),
-        select("style", "Style, table only", "all", &styles),
-        select("machine", "Machine", "all", &machines),
+        select("model", "Model", "all, plots of their mean", models, &model_names(models.iter().copied())),
+        select("style", "Style, table only", "all", &styles, &as_they_are),
+        select("machine", "Machine", "all", &machines, &as_they_are),
     )
 }
 
@@ -215,7 +225,7 @@ fn machine_table(machines: &[Machine<'_>]) -> String {
     )
 }
 
-fn pictures(info: &ReportInfo) -> String {
+fn pictures(info: &ReportInfo, models: &[&str]) -> String {
     if info.pictures.is_empty() {
         return String::new();
     }
@@ -223,8 +233,10 @@ fn pictures(info: &ReportInfo) -> String {
         "<section id=\"pictures\">\n<h2>Where the errors lie</h2>\n<p>Black is ink on a line, red a line without ink, blue ink without a line, grey ink that does not count (soft creases). Shown are each style's published settings and the best. Press a picture to see it in full size.</p>\n\
                     <div class=\"pictures\">\n"
             .to_owned();
+    let names = model_names(models.iter().copied());
     for picture in &info.pictures {
-        let caption = escaped(&picture.caption);
+        let model = picture.model.as_deref().and_then(|model| names.get(model));
+        let caption = escaped(&model.into_iter().chain([&picture.caption]).cloned().collect::<Vec<_>>().join(", "));
         let _ = writeln!(
             text,
             "<figure data-model=\"{}\"><button type=\"button\" class=\"picture\" aria-pressed=\"false\">\
@@ -239,6 +251,7 @@ fn pictures(info: &ReportInfo) -> String {
 
 fn row_table(rows: &[Row], machines: &[Machine<'_>]) -> String {
     let columns = columns();
+    let names = model_names(rows.iter().map(|row| row.model.as_str()));
     // What is the same everywhere tells nothing, what differs does.
     let differs = |column: &Column| {
         let mut values = rows.iter().map(|row| column.value(row));
@@ -259,6 +272,9 @@ fn row_table(rows: &[Row], machines: &[Machine<'_>]) -> String {
         })
         .collect();
     let cell = |column: &Column, row: &Row| match column.value(row) {
+        Value::Text(text) if column.name == "model" => {
+            Cell { text: names.get(&*text).cloned().unwrap_or(text), number: None, is_code: false }
+        }
         Value::Text(text) => Cell { text, number: None, is_code: column.name == "options" },
         Value::Number(number) => {
             Cell { text: format!("{number:.*}", column.decimals), number: Some(number), is_code: false }

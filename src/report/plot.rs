@@ -6,7 +6,7 @@
 use super::canvas::{Anchor, Axes, Canvas, FAINT, MIDDLE, text_width, wrapped};
 use super::labels::{Rectangle, place};
 use super::marks;
-use super::settings::{Machine, Measure, Point, Points, pareto, points};
+use super::settings::{Machine, Measure, Point, Points, model_names, pareto, points};
 use crate::error::Result;
 use std::ops::Range;
 
@@ -36,8 +36,8 @@ const LONGEST_LABEL: usize = 46;
 impl Shape {
     fn layout(self) -> Layout {
         match self {
-            Self::Wide => Layout { width: 880.0, height: 420.0, left: 64.0, text: 13.0, title: 17.0 },
-            Self::Narrow => Layout { width: 360.0, height: 300.0, left: 56.0, text: 12.0, title: 15.0 },
+            Self::Wide => Layout { width: 880.0, height: 420.0, left: 80.0, text: 14.0, title: 18.0 },
+            Self::Narrow => Layout { width: 360.0, height: 300.0, left: 64.0, text: 12.0, title: 15.0 },
         }
     }
 }
@@ -45,6 +45,8 @@ impl Shape {
 /// What the plot is of: the models and the machine.
 pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
     let Points { models, left_out, .. } = points(&machine.rows, measure);
+    let names = model_names(models.iter().map(String::as_str));
+    let models: Vec<String> = models.iter().map(|model| names[model.as_str()].clone()).collect();
     let what = match &models[..] {
         [model] => model.clone(),
         _ => format!("Mean over {} models: {}", models.len(), models.join(", ")),
@@ -153,7 +155,7 @@ fn described(point: &Point) -> String {
 }
 
 /// Three digits.
-fn short(number: f64) -> String {
+pub(super) fn short(number: f64) -> String {
     if number == 0.0 {
         return "0".to_owned();
     }

@@ -99,6 +99,17 @@ pub(super) fn models<'a>(rows: &[&'a Row]) -> Vec<&'a str> {
     models
 }
 
+/// What each model is called: its file's name, where no other has the same.
+pub(super) fn model_names<'a>(models: impl Iterator<Item = &'a str>) -> BTreeMap<&'a str, String> {
+    let file = |model: &str| {
+        let name = std::path::Path::new(model).file_name();
+        name.map_or_else(|| model.to_owned(), |name| name.to_string_lossy().into_owned())
+    };
+    let models: BTreeSet<&str> = models.collect();
+    let is_shared = |model: &str| models.iter().filter(|other| file(other) == file(model)).count() > 1;
+    models.iter().map(|model| (*model, if is_shared(model) { (*model).to_owned() } else { file(model) })).collect()
+}
+
 /// A setting in a plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {

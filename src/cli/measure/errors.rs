@@ -48,6 +48,6 @@ pub(super) fn error_page(arguments: &Arguments, row: &Row, picture: &Picture) ->
 pub(super) fn known_picture(arguments: &Arguments, row: &Row) -> Option<ReportPicture> {
     let png = std::fs::read(error_path(arguments, row)).ok()?;
     let f1 = row.lines.as_ref().map(|lines| format!(", F1 {:.3}", lines.f1)).unwrap_or_default();
-    let caption = format!("{}, {}x{}: {}{f1}", row.model, row.size[0], row.size[1], row.options);
+    let caption = format!("{}x{}: {}{f1}", row.size[0], row.size[1], row.options);
     Some(ReportPicture { caption, model: Some(row.model.clone()), png })
 }

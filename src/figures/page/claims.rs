@@ -44,7 +44,7 @@ fn claim(out: &mut String, text: Text, record: &ClaimRecord) -> Result {
     writeln!(out, "<p><b>{}.</b> {}</p>", escaped(&place(text, record.section, record.line)), escaped(record.says))?;
     let name = record.finding.verdict.name();
     let measured = escaped(&record.measured());
-    writeln!(out, "<p><span class=\"{class}\">{name}</span> {measured}</p>")?;
+    writeln!(out, "<p><span class=\"verdict {class}\">{name}</span> {measured}</p>")?;
     if record.finding.verdict != Verdict::NotTestable {
         writeln!(out, "<p class=\"hint\">Confirmed if {}.</p>", escaped(record.rule))?;
     }

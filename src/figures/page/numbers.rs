@@ -130,8 +130,8 @@ fn why(out: &mut String, numbers: &Numbers, about: &str) -> Result {
 }
 
 fn table(out: &mut String, heads: &[&str], rows: &[Vec<String>]) -> Result {
-    let class = |column: usize| if column == 0 { " class=\"name\"" } else { "" };
-    writeln!(out, "<div class=\"table\"><table>\n<tr>")?;
+    let class = |column: usize| if column == 0 { "" } else { " class=\"number\"" };
+    writeln!(out, "<div class=\"scroll\" tabindex=\"0\"><table>\n<tr>")?;
     for (column, head) in heads.iter().enumerate() {
         writeln!(out, "<th{}>{}</th>", class(column), escaped(head))?;
     }
