@@ -53,6 +53,7 @@ sources![
     "improved/plane-map.vert",
     "improved/slope-threshold.frag",
     "improved/specks.frag",
+    "improved/toon-far.vert",
     "improved/tap-apart.frag",
     "improved/texel-biased.frag",
     "improved/texel-depth-texture.frag",

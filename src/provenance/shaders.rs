@@ -57,6 +57,7 @@ pub const SHADERS: &[ShaderNumbers] = &[
     ),
     ours("improved/texel-biased.frag", &["2.0"], "normals from 0 to 1 into -1 to 1"),
     ours("improved/texel-depth-texture.frag", &["2.0"], "normals from 0 to 1 into -1 to 1"),
+    ours("improved/toon-far.vert", &["0.5"], "light from -1 to 1 into 0 to 1, as in toon.vert"),
     printed("improved/two-targets.frag", &["0.65", "0.8", "0.95"], "E, appendix 1, step 2"),
     printed("improved/two-targets.vert", &["0.5"], "E, appendix 1, step 2: (dot + 1) * 0.5"),
     printed("valente/charcoal.vert", &["0.5"], "V, section 3.2: paperCoord"),

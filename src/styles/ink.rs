@@ -18,6 +18,7 @@ use crate::plan::{
 };
 use crate::scene::{Background, Scene, Size};
 use crate::settings::{ON_OFF, Setting, Value as _, under, within};
+use glam::DVec3;
 
 /// Settings of `ink`.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +41,9 @@ pub struct Ink {
     /// What is added to it for each unit of a surface's slope towards the eye, which the map knows less exactly the steeper.
     /// Default 0.3; more draws fewer lines near outlines.
     pub gap_per_slope: f32,
+    /// The direction towards a light that is far away, eye space, of any length; `None` is the listing's, near at (1, 1, 1). Default
+    /// none.
+    pub tone_light: Option<[f32; 3]>,
     /// The tones below. Default those of the three passes.
     pub tones: Tones,
     /// Whether faces turned away from the eye are left out. Default no.
@@ -84,6 +88,7 @@ impl Default for Ink {
             least_gap_px: 1.5,
             gap_per_slope: 0.3,
             line_width: LineWidth::Pixels(2),
+            tone_light: None,
             tones: Tones::default(),
             cull_back_faces: false,
             map_target: MapTarget::Copy,
@@ -132,6 +137,15 @@ impl Ink {
                 |ink: &mut Self| &mut ink.quality,
             )
             .ours("no slower than the three passes"),
+            Setting::open_field(
+                "tone-light",
+                "X,Y,Z",
+                "listing",
+                "Direction towards a light that is far away, in eye space, so that a flat face has one tone; listing: near, as the \
+                 three passes have it",
+                |ink: &mut Self| &mut ink.tone_light,
+            )
+            .ours("the three passes' light"),
             Setting::field(
                 "least-gap",
                 "PIXELS",
@@ -203,6 +217,9 @@ impl Ink {
             return Err(Error::setting("show", "there is no ink with --no-borders; leave out one of the two"));
         }
         self.line_width.check()?;
+        if self.tone_light.is_some_and(|light| !light.iter().all(|x| x.is_finite()) || light == [0.0; 3]) {
+            return Err(Error::setting("tone-light", "a direction is three finite numbers, not all 0"));
+        }
         self.tones.check()
     }
 
@@ -227,14 +244,24 @@ impl Ink {
 
     /// The published tones; the background is cleared and needs no square.
     fn tone_pass(&self, scene: &Scene) -> Pass {
-        let published = self.tones.are_published();
+        let published = self.tones.are_published() && self.tone_light.is_none();
         let fragments = match published {
             true => vec!["evangelista/toon.frag"],
             false => vec!["evangelista/toon-settings.frag", self.tones.shader()],
         };
-        let program = Program { vertex: "evangelista/toon.vert", fragments };
+        let mut uniforms = if published { Vec::new() } else { self.tones.uniforms(false) };
+        let vertex = match self.tone_light {
+            None => "evangelista/toon.vert",
+            Some(light) => {
+                // In f64 no length of three numbers in f32 is beyond reach.
+                let direction = DVec3::from_array(light.map(f64::from)).normalize().as_vec3();
+                uniforms.push(Uniform { name: "lightDirection", value: Value::Vec3(direction.to_array()) });
+                "improved/toon-far.vert"
+            }
+        };
+        let program = Program { vertex, fragments };
         let objects = Draw {
-            uniforms: if published { Vec::new() } else { self.tones.uniforms(false) },
+            uniforms,
             textures: if published { Vec::new() } else { self.tones.textures() },
             cull_back_faces: self.cull_back_faces,
             facts: Facts { shorter: self.tones.shorter(&program), ..Facts::plain() },

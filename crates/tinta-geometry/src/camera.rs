@@ -27,7 +27,7 @@ pub use framing::Framing;
 use crate::error::{Error, ParseError, Result};
 use crate::settings::{Kind, Problem, Setting, Value, under};
 use crate::tolerances::{
-    CAMERA_ALIGNMENT, DEPTH_MARGIN, FRAME_FILL, LARGEST_COORDINATE, LARGEST_DISTANCE, NEAREST_FRACTION, SAME_POINT,
+    CAMERA_ALIGNMENT, DEPTH_MARGIN, LARGEST_COORDINATE, LARGEST_DISTANCE, NEAREST_FRACTION, SAME_POINT,
 };
 use glam::dcamera::rh::proj::opengl;
 use glam::dcamera::rh::view::look_at_mat4;
@@ -336,9 +336,10 @@ impl CameraSettings {
         };
         let frame = points.map(|point| in_frame(point) - across.extend(0.0));
         let target = target + right * across.x + true_up * across.y;
+        let fill = self.framing.fill();
         let half_height = frame.clone().map(|p| p.y.abs().max(p.x.abs() / aspect)).fold(0.0, f64::max);
         let projection = if self.parallel {
-            let fitted = (2.0 * half_height / FRAME_FILL).max(radius * NEAREST_FRACTION);
+            let fitted = (2.0 * half_height / fill).max(radius * NEAREST_FRACTION);
             Projection::Parallel { height: self.height.unwrap_or(fitted) }
         } else {
             Projection::Perspective { fov_y_degrees: self.fov_y_degrees }
@@ -347,7 +348,7 @@ impl CameraSettings {
             (Some(eye), _) => (eye - target).length(),
             (None, Projection::Parallel { .. }) => frame.clone().map(|p| p.z).fold(0.0, f64::max) + radius,
             (None, Projection::Perspective { fov_y_degrees }) => {
-                let tan_y = (fov_y_degrees.to_radians() * 0.5).tan() * FRAME_FILL;
+                let tan_y = (fov_y_degrees.to_radians() * 0.5).tan() * fill;
                 let needed = frame.clone().map(|p| p.z + p.y.abs().max(p.x.abs() / aspect) / tan_y);
                 needed.fold(0.0, f64::max).max(radius * NEAREST_FRACTION)
             }
@@ -430,6 +431,7 @@ impl CameraSettings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tolerances::{FRAME_FILL, OUTLINE_FILL};
 
     fn box_corners(half: DVec3, centre: DVec3) -> Vec<DVec3> {
         (0..8).map(|i| centre + half * DVec3::new(sign(i & 1), sign(i >> 1 & 1), sign(i >> 2))).collect()
@@ -526,7 +528,7 @@ mod tests {
                     seen.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), ndc| (low.min(ndc), high.max(ndc)));
                 // A thousandth of the half width is a quarter of a pixel of 512.
                 assert!((low + high).truncate().abs().max_element() < 1e-3, "{settings:?}: {low} to {high}");
-                assert!((high.truncate().max_element() - FRAME_FILL).abs() < 1e-3, "{settings:?}: {high}");
+                assert!((high.truncate().max_element() - OUTLINE_FILL).abs() < 1e-3, "{settings:?}: {high}");
                 // What is given is not moved.
                 let settings = CameraSettings { target: Some(DVec3::X), ..settings };
                 assert_eq!(fit(&settings, &lopsided, aspect).unwrap().target, DVec3::X);

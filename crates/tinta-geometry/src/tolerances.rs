@@ -30,6 +30,9 @@ pub const CAMERA_ALIGNMENT: f64 = 1e-6;
 /// Share of the picture's half-width and half-height that the fitted scene fills; the rest is margin for ink.
 pub const FRAME_FILL: f64 = 0.92;
 
+/// The same of what is seen of a scene where that is centred: a margin of 6 % on each side, as on a page.
+pub const OUTLINE_FILL: f64 = 0.88;
+
 /// Share of the scene's depth added before the nearest and behind the farthest point: the map's 8-bit depth (errata E8)
 /// has 255 steps for all of it, so the margin is kept small.
 pub const DEPTH_MARGIN: f64 = 0.01;

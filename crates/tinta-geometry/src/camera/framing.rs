@@ -2,7 +2,7 @@
 //!
 //! In: points relative to a camera's first target, x right, y up, z towards the eye. Out: by how much the target moves.
 
-use crate::tolerances::FRAME_FILL;
+use crate::tolerances::{FRAME_FILL, OUTLINE_FILL};
 use glam::{DVec2, DVec3};
 
 /// What is put into the picture's middle where neither eye nor target are given.
@@ -18,6 +18,14 @@ pub enum Framing {
 impl Framing {
     /// Both, as the user writes them.
     pub const ALL: [(&'static str, Self); 2] = [("middle", Self::Middle), ("outline", Self::Outline)];
+
+    /// Share of the picture's half-width and half-height that is filled.
+    pub(super) fn fill(self) -> f64 {
+        match self {
+            Self::Middle => FRAME_FILL,
+            Self::Outline => OUTLINE_FILL,
+        }
+    }
 }
 
 crate::choices!(Framing);
@@ -35,7 +43,7 @@ pub(super) fn middle_of_parallel(points: impl Iterator<Item = DVec3>) -> DVec2 {
 ///
 /// `tan_half` is the tangent of half the field of view, horizontally and vertically.
 pub(super) fn middle_of_perspective(points: impl Iterator<Item = DVec3> + Clone, tan_half: DVec2) -> DVec2 {
-    let tan_half = tan_half * FRAME_FILL;
+    let tan_half = tan_half * OUTLINE_FILL;
     // The planes through the picture's sides touch the points: of each pair of planes their position is all there is to find.
     let none = [DVec2::NEG_INFINITY; 2];
     let [after, before] = points.clone().fold(none, |[after, before], point| {
