@@ -1,4 +1,10 @@
 //! What all pages share: how they begin, and their one style sheet, light and dark.
+//!
+//! ```
+//! use tinta::page::{Pictures, beginning};
+//!
+//! assert!(beginning("Looks", Pictures::Beside).contains("<title>Looks</title>"));
+//! ```
 
 use crate::markup::escaped;
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use tinta::mesh::Normals;
 use tinta::plan::{Step, Value};
 use tinta::renderer::StepPicture;
-use tinta::styles::{Border, Cartoon, Filter, Ink, LineWidth, MapEncoding, Quality, Supersample};
+use tinta::styles::{Border, Cartoon, Filter, Ink, LineWidth, MapEncoding, MapTarget, Quality, Supersample};
 use tinta::{CameraSettings, LoadOptions, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, load};
 
 const SIZE: Size = Size { width: 160, height: 160 };
@@ -304,4 +304,19 @@ fn the_best_ink_has_more_than_two_shades_and_the_same_lines() {
     };
     assert_eq!(shades(&pictures[0]), 2);
     assert!(shades(&pictures[1]) > 2);
+}
+
+#[test]
+fn a_map_drawn_into_a_texture_is_the_same_whatever_was_drawn_into_the_framebuffer_before() {
+    for backend in BACKENDS {
+        let scene = scene("builtin:bust", 90, 90);
+        let ink = |map_target| Style::Ink(Ink { map_target, ..Ink::default() });
+        let plan = ink(MapTarget::Texture).plan(&scene, Show::Final).unwrap();
+        let alone = renderer(backend).draw(&scene, &plan).unwrap();
+        let mut renderer = renderer(backend);
+        // Its last program is the other's first, and the framebuffer is upside down to the driver where a texture is not.
+        let before = ink(MapTarget::Copy).plan(&scene, Show::Map).unwrap();
+        renderer.draw(&scene, &before).unwrap();
+        assert!(renderer.draw(&scene, &plan).unwrap() == alone, "{backend:?}");
+    }
 }

@@ -33,6 +33,8 @@ pub(crate) struct Resources {
     pub(super) surface: Size,
     targets: Targets,
     pass_scissor: Option<Rectangle>,
+    /// Whether the steps draw into textures instead of the framebuffer.
+    into_textures: bool,
     pub(super) textures: Textures,
     /// The edges last drawn as lines and as points, as indices on the device.
     pub(super) edges: [Option<EdgeIndices>; 2],
@@ -54,6 +56,7 @@ impl Resources {
             surface: Size { width: 1, height: 1 },
             targets: Targets::default(),
             pass_scissor: None,
+            into_textures: false,
             textures: Textures::default(),
             edges: [None, None],
             submission: Submission::Buffers,
@@ -106,6 +109,7 @@ impl Resources {
     /// What the steps that follow draw into, of a prepared plan, and the pixels they may change.
     pub(crate) fn begin(&mut self, target: Target, scissor: Option<Rectangle>) -> Result<()> {
         self.pass_scissor = scissor;
+        self.into_textures = matches!(target, Target::Textures(_));
         self.targets.begin(&self.gl, target)
     }
 
@@ -219,7 +223,7 @@ impl Resources {
             .programs
             .get_mut(program)
             .ok_or_else(|| Error::gl("drawing", "a plan was carried out without being prepared"))?;
-        program.bind();
+        program.bind(self.into_textures);
         for uniform in &draw.uniforms {
             program.set(uniform.name, uniform.value);
         }

@@ -160,6 +160,10 @@ pub(super) struct Program {
     live: Live,
     id: glow::Program,
     locations: HashMap<&'static str, Option<glow::UniformLocation>>,
+    /// Whether it last drew into textures; `None` where it has not drawn.
+    into_textures: Option<bool>,
+    /// Whether it has to be given a uniform that differs before it draws.
+    is_stale: bool,
 }
 
 impl Program {
@@ -168,7 +172,8 @@ impl Program {
         // SAFETY: the context is current; shaders are attached, detached and deleted in that order.
         unsafe {
             let id = gl.glow.create_program().map_err(out_of_names)?;
-            let linked = Self { live: Live::new(gl), id, locations: HashMap::new() };
+            let linked =
+                Self { live: Live::new(gl), id, locations: HashMap::new(), into_textures: None, is_stale: false };
             let vertex = Shader::new(gl, glow::VERTEX_SHADER, program.vertex)?;
             let mut shaders = vec![vertex];
             for path in &program.fragments {
@@ -189,7 +194,14 @@ impl Program {
         }
     }
 
-    pub(super) fn bind(&self) {
+    /// Makes it the one that draws, into textures or the framebuffer.
+    ///
+    /// The framebuffer is upside down to Mesa, and what turns `dFdy` and `gl_FragCoord` over for it is a constant of the program's,
+    /// which Mesa 22 hands on only if a uniform changes: a program that draws first into one and then into the other has to be
+    /// given its uniforms anew.
+    pub(super) fn bind(&mut self, into_textures: bool) {
+        self.is_stale = self.into_textures.is_some_and(|before| before != into_textures);
+        self.into_textures = Some(into_textures);
         // SAFETY: the context is current and this program alive.
         unsafe { self.live.0.glow.use_program(Some(self.id)) }
     }
@@ -201,8 +213,17 @@ impl Program {
         // SAFETY: the context is current, this program alive and bound.
         let location =
             self.locations.entry(name).or_insert_with(|| unsafe { gl.get_uniform_location(id, name) }).as_ref();
+        let other = |x: f32| if x == 0.0 { 1.0 } else { 0.0 };
         // SAFETY: as above; the value has the type the shader declares, which a test of every program checks.
         unsafe {
+            if location.is_some() && std::mem::take(&mut self.is_stale) {
+                match value {
+                    plan::Value::Int(x) => gl.uniform_1_i32(location, i32::from(x == 0)),
+                    plan::Value::Float(x) => gl.uniform_1_f32(location, other(x)),
+                    plan::Value::Vec2([x, y]) => gl.uniform_2_f32(location, other(x), y),
+                    plan::Value::Vec3([x, y, z]) => gl.uniform_3_f32(location, other(x), y, z),
+                }
+            }
             match value {
                 plan::Value::Int(x) => gl.uniform_1_i32(location, x),
                 plan::Value::Float(x) => gl.uniform_1_f32(location, x),
