@@ -1,4 +1,4 @@
-//! The window under Xvfb: time to the first picture, pictures a second in a drag, the longest frame while a large model is
+//! The window under Xvfb: time to the first picture, pictures a second while the model turns, the longest frame while a large model is
 //! read, and processor time at rest. docs/viewer.md has the command and what it gave.
 //!
 //! Each round starts the program anew for each row. Raw values go to `target/bench/window.json`.
@@ -11,10 +11,11 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
+use tinta::renderer::median;
 
-const USAGE: &str = "cargo bench --bench window -- --model FILE --large FILE [--rounds N]
+const USAGE: &str = "cargo bench --bench window -- --model FILE [--large FILE] [--rounds N]
   --model FILE   the model that is turned (the Stanford bunny)
-  --large FILE   the model that is read while frames go on (1.1 million triangles)
+  --large FILE   the model that is read while frames go on (1.1 million triangles); without it only turning is timed
   --rounds N     interleaved rounds (default 5)";
 
 /// Frames of a drag.
@@ -24,18 +25,23 @@ const DRAG_FRAMES: usize = 150;
 const WARM_UP: usize = 30;
 
 /// What is turned: a name, and options.
-const DRAGS: [(&str, &[&str]); 6] = [
-    ("three-pass", &[]),
-    ("three-pass --cull back", &["--cull", "back"]),
+const DRAGS: [(&str, &[&str]); 11] = [
+    ("three-pass", &["--style", "three-pass"]),
+    ("three-pass --cull back", &["--style", "three-pass", "--cull", "back"]),
+    ("three-pass --coarse", &["--style", "three-pass", "--coarse"]),
     ("mrt", &["--style", "mrt"]),
     ("mrt --cull back", &["--style", "mrt", "--cull", "back"]),
     ("inking", &["--style", "inking"]),
+    ("inking --coarse", &["--style", "inking", "--coarse"]),
     ("charcoal", &["--style", "charcoal"]),
+    ("look print", &["--look", "print"]),
+    ("look print --coarse", &["--look", "print", "--coarse"]),
+    ("lines", &["--style", "lines"]),
 ];
 
 struct Settings {
     model: String,
-    large: String,
+    large: Option<String>,
     rounds: usize,
 }
 
@@ -50,7 +56,7 @@ fn settings() -> Option<Settings> {
             _ => return None,
         }
     }
-    Some(Settings { model: model?, large: large?, rounds })
+    Some(Settings { model: model?, large, rounds })
 }
 
 fn main() {
@@ -61,33 +67,44 @@ fn main() {
     let display = Display::start();
     let mut first = Series::new("bust, first picture");
     let mut drags: Vec<Series> = DRAGS.iter().map(|(name, _)| Series::new(name)).collect();
+    // Two threads' pictures come in pairs, so that the middle time between two says little: how many there are a second is a round's.
+    let mut rates: Vec<Vec<f64>> = vec![Vec::new(); DRAGS.len()];
     let mut longest = Series::new("large model, longest frame");
     let mut middle = Series::new("large model, middle frame");
     let mut idle = Series::new("at rest, in 5 s");
     let drag = recording("drag", (1..=DRAG_FRAMES).map(|_| json!({ "turn": [0.01, 0.002] })), "drag");
-    let load = recording("load", [json!({ "open": [settings.large] })].into_iter(), "free");
+    let load = recording("load", settings.large.iter().map(|large| json!({ "open": [large] })), "free");
     for round in 1..=settings.rounds {
         println!("round {round} of {}", settings.rounds);
+        for ((series, rates), (_, options)) in drags.iter_mut().zip(&mut rates).zip(DRAGS) {
+            let record = display.play(&[&[settings.model.as_str()], options].concat(), &drag);
+            let times: Vec<f64> = numbers(&record["drag_frame_ms"]["all"]).into_iter().skip(WARM_UP).collect();
+            rates.push(1000.0 * times.len() as f64 / times.iter().sum::<f64>());
+            series.times.extend(times);
+        }
+        if settings.large.is_none() {
+            continue;
+        }
         let record = display.play(&["builtin:bust"], &recording("first", std::iter::empty(), "drag"));
         first.times.extend(record["first_picture_ms"].as_f64());
-        for (series, (_, options)) in drags.iter_mut().zip(DRAGS) {
-            let record = display.play(&[&[settings.model.as_str()], options].concat(), &drag);
-            series.times.extend(numbers(&record["drag_frame_ms"]["all"]).into_iter().skip(WARM_UP));
-        }
         let record = display.play(&["builtin:bust"], &load);
         longest.times.extend(record["free_frame_ms"]["max"].as_f64());
         middle.times.extend(record["free_frame_ms"]["median"].as_f64());
         idle.times.push(display.idle_ms(&settings.model));
     }
-    println!("\nwindow at 1280x720, in milliseconds");
-    let single = print_table(&[first, longest, middle, idle], "");
-    println!("\n{} at 512x512 in a drag, from one new picture on the screen to the next", settings.model);
-    // Two threads' pictures come in pairs, so that the middle time between two says little.
-    let rate = |series: &Series| 1000.0 * series.times.len() as f64 / series.times.iter().sum::<f64>();
-    let rates: Vec<(String, f64)> = drags.iter().map(|series| (series.name.clone(), rate(series))).collect();
+    let mut single = Value::Null;
+    if settings.large.is_some() {
+        println!("\nwindow at 1280x720, in milliseconds");
+        single = print_table(&[first, longest, middle, idle], "");
+    }
+    println!("\n{} at 512x512 while it turns, from one new picture on the screen to the next", settings.model);
     let drags = print_table(&drags, "three-pass");
-    rates.iter().for_each(|(name, rate)| println!("  {name:<34}{rate:>10.1} pictures a second"));
-    write_record("window", &json!({ "single": single, "drags": drags }));
+    println!("\npictures a second: median of {} rounds, and each", settings.rounds);
+    for ((name, _), rates) in DRAGS.iter().zip(&rates) {
+        let all: Vec<String> = rates.iter().map(|rate| format!("{rate:.1}")).collect();
+        println!("  {name:<34}{:>10.1}   {}", median(rates.clone()).unwrap_or(f64::NAN), all.join(" "));
+    }
+    write_record("window", &json!({ "single": single, "drags": drags, "rates": rates }));
 }
 
 /// Writes a recording of a 512x512 area in which these events happen, one a frame.

@@ -9,6 +9,7 @@
 mod again;
 mod bare;
 mod batch;
+mod camera_file;
 mod compare;
 mod completions;
 #[cfg(test)]
@@ -19,6 +20,8 @@ mod figures;
 mod help;
 mod info;
 mod inputs;
+#[cfg(feature = "judging")]
+mod judge;
 mod looks;
 mod man;
 #[cfg(feature = "measuring")]
@@ -71,6 +74,7 @@ Examples:
   tinta compare builtin:gear -o both.png          compare lines of two styles
   tinta edges cow.obj                             count edges by class
   tinta measure cow.obj -o cow --quick            measure error and run time
+  tinta judge cow.png --model cow.obj             judge any program's drawing
   tinta textures -o textures                      write charcoal's textures
   tinta figures -o figures                        redraw the texts' figures
   tinta stress -o stress                          test with extreme cases
@@ -100,6 +104,8 @@ enum Command {
     Edges(Box<edges::Arguments>),
     #[cfg(feature = "measuring")]
     Measure(Box<measure::Arguments>),
+    #[cfg(feature = "judging")]
+    Judge(Box<judge::Arguments>),
     Textures(textures::Arguments),
     #[cfg(feature = "measuring")]
     Figures(figures::Arguments),
@@ -175,6 +181,8 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
         Command::Edges(arguments) => edges::run(&arguments),
         #[cfg(feature = "measuring")]
         Command::Measure(arguments) => measure::run(&arguments, given, &mut Session::for_one()),
+        #[cfg(feature = "judging")]
+        Command::Judge(arguments) => judge::run(&arguments, given),
         Command::Textures(arguments) => textures::run(&arguments),
         #[cfg(feature = "measuring")]
         Command::Figures(arguments) => figures::run(&arguments),

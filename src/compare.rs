@@ -21,6 +21,7 @@
 
 use crate::picture::Picture;
 use crate::scene::Size;
+use glam::DVec2;
 use serde::Serialize;
 
 /// Darkness from which a pixel is ink, of 255.
@@ -29,8 +30,10 @@ const INK_FROM: u8 = 64;
 /// Which pixels of a picture are ink.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InkMask {
-    size: Size,
-    ink: Vec<bool>,
+    /// The picture's size.
+    pub size: Size,
+    /// Row by row from the top.
+    pub ink: Vec<bool>,
 }
 
 impl InkMask {
@@ -47,11 +50,33 @@ impl InkMask {
 
     /// A mask of these pixels' darkness, of 255, row by row from the top: ink from a quarter on.
     pub fn of_darkness(size: Size, darkness: &[u8]) -> Self {
-        Self { size, ink: darkness.iter().map(|darkness| *darkness >= INK_FROM).collect() }
+        Self::of_darkness_from(size, darkness, INK_FROM)
+    }
+
+    /// The same, ink from another darkness on.
+    pub fn of_darkness_from(size: Size, darkness: &[u8], from: u8) -> Self {
+        Self { size, ink: darkness.iter().map(|darkness| *darkness >= from).collect() }
+    }
+
+    /// The ink at whose pixels' middles this holds.
+    #[must_use]
+    pub fn kept(mut self, holds: impl Fn(DVec2) -> bool) -> Self {
+        let width = self.size.width as usize;
+        for (index, ink) in self.ink.iter_mut().enumerate().filter(|(_, ink)| **ink) {
+            *ink = holds(DVec2::new((index % width) as f64 + 0.5, (index / width) as f64 + 0.5));
+        }
+        self
+    }
+
+    /// The ink that another mask of the same size has too.
+    #[must_use]
+    pub fn and(mut self, other: &Self) -> Self {
+        self.ink.iter_mut().zip(&other.ink).for_each(|(ink, other)| *ink &= *other);
+        self
     }
 
     /// The pixels in which points lie, given from the upper left corner, y down; those outside the picture are left out.
-    pub fn of_points(size: Size, points: impl Iterator<Item = glam::DVec2>) -> Self {
+    pub fn of_points(size: Size, points: impl Iterator<Item = DVec2>) -> Self {
         let mut ink = vec![false; size.pixel_count()];
         for point in points {
             let (x, y) = (point.x.floor(), point.y.floor());

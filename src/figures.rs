@@ -33,7 +33,8 @@ pub use claims::{Claim, ClaimRecord, Finding, Number, Verdict, claims, markdown,
 pub use draw::Artist;
 pub use filters::{Kernel, kernels};
 pub use measure::{
-    ARTICLE, Article, BackgroundRow, FilterRow, FrameRow, HowToMeasure, MixRow, Numbers, Reason, measure, steps,
+    ARTICLE, Article, BackgroundRow, FilterRow, FrameRow, HowToMeasure, MixRow, Numbers, Reason, Turn, measure,
+    triangles_a_turn,
 };
 pub use mix::{Mix, TRIANGLES};
 pub use passes::{PassColumn, PassSteps, pass_columns};

@@ -23,11 +23,14 @@ mod display_lists;
 mod edges;
 pub(crate) mod execute;
 mod faults;
+mod fixed_function;
 mod immediate;
 mod legacy;
 mod meshes;
 mod objects;
 mod quads;
+mod smooth_edges;
+mod sources;
 mod squares;
 mod targets;
 mod textures;
@@ -41,10 +44,14 @@ use immediate::Immediate;
 use legacy::Legacy;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
+use std::rc::Rc;
+
+/// What a browser calls GL_CONTEXT_LOST.
+const CONTEXT_LOST_WEBGL: u32 = 0x9242;
 
 /// The loaded GL functions of one context, what it says about itself, and how many of its objects are alive.
 pub(crate) struct Gl {
-    glow: glow::Context,
+    glow: Rc<glow::Context>,
     legacy: Legacy,
     /// What draws without buffers; else the name of the first function of it that the driver lacks.
     immediate: std::result::Result<Immediate, String>,
@@ -71,7 +78,9 @@ impl Gl {
         let code = unsafe { self.glow.get_error() };
         // SAFETY: as above; the driver has the function where the table does.
         match unsafe { self.legacy.reset_status() } {
-            glow::NO_ERROR if code == glow::CONTEXT_LOST => self.lost.set(Some("GL_CONTEXT_LOST")),
+            glow::NO_ERROR if [glow::CONTEXT_LOST, CONTEXT_LOST_WEBGL].contains(&code) => {
+                self.lost.set(Some("GL_CONTEXT_LOST"))
+            }
             glow::NO_ERROR => {}
             glow::GUILTY_CONTEXT_RESET => self.lost.set(Some("GL_GUILTY_CONTEXT_RESET")),
             glow::INNOCENT_CONTEXT_RESET => self.lost.set(Some("GL_INNOCENT_CONTEXT_RESET")),

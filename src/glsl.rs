@@ -5,6 +5,9 @@
 //! assert!(filter.starts_with("#version 120") && filter.contains("DETECTION_FACTOR 0.2f"));
 //! ```
 
+pub mod es;
+mod tokens;
+
 /// A shader's path below `glsl/` and its text.
 pub type Source = (&'static str, &'static str);
 
@@ -44,10 +47,22 @@ sources![
     "evangelista/two-pass-settings.frag",
     "evangelista/two-pass.frag",
     "evangelista/two-pass.vert",
+    "fixed/one-texture.frag",
+    "fixed/smooth-line.frag",
+    "fixed/smooth-point.frag",
+    "fixed/transform.vert",
+    "fixed/two-textures.frag",
+    "fixed/untextured.frag",
     "improved/box-filter.frag",
+    "improved/ink-depth-buffer.frag",
+    "improved/ink-depth-map.frag",
+    "improved/ink-turn-normals.frag",
+    "improved/ink-turn-planes.frag",
     "improved/map-biased.vert",
     "improved/map-float.frag",
     "improved/map-float.vert",
+    "improved/normal-map.frag",
+    "improved/normal-map.vert",
     "improved/plane-ink.frag",
     "improved/plane-map.frag",
     "improved/plane-map.vert",

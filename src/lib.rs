@@ -69,9 +69,11 @@
 //! | styles and their buffers | [`styles`], [`Style`], [`Show`] |
 //! | a style of your own | [`plan`], and `examples/own_style.rs` |
 //! | contexts, drawing, timing | [`gl`], [`renderer`], [`Renderer`] |
+//! | a view that is turned by hand | [`orbit`] |
 //! | pictures and animations | [`picture`], [`animation`] |
 //! | presets, and pictures that can be made again | [`preset`], [`recipe`] |
 //! | error against run time | [`measure`], [`report`], [`figures`], [`stress`] |
+//! | anyone's drawing against the exact lines | [`judge`] |
 //!
 //! # How it is built
 //!
@@ -89,7 +91,7 @@
 //! # Cargo features
 //!
 //! `cli`, `measuring` and `window` are on by default. For the library alone turn them off with `default-features = false` and
-//! choose: `animation`, `formats` (glTF and JPEG), `presets`, `recipes`, `measuring`; `assimp` adds the formats that the system's
+//! choose: `animation`, `formats` (glTF and JPEG), `presets`, `recipes`, `measuring`, of it `line-error` alone; `assimp` adds the formats that the system's
 //! libassimp reads.
 
 #![deny(unreachable_pub)]
@@ -101,8 +103,8 @@
 use tinta_geometry::markup;
 #[cfg(feature = "measuring")]
 use tinta_geometry::threads;
-use tinta_geometry::{bytes, choice, clock, files, values};
-pub use tinta_geometry::{camera, edges, error, hiding, limits, lines, scene, settings, tolerances};
+use tinta_geometry::{bytes, clock, files, values};
+pub use tinta_geometry::{camera, choice, edges, error, hiding, limits, lines, scene, settings, tolerances};
 
 mod random;
 pub mod output;
@@ -120,6 +122,7 @@ pub mod provenance;
 // Drawing it.
 pub mod gl;
 pub mod renderer;
+pub mod orbit;
 #[cfg(feature = "animation")]
 pub mod animation;
 
@@ -135,8 +138,10 @@ pub mod record;
 // What it is worth.
 #[cfg(any(feature = "cli", feature = "measuring"))]
 pub mod contact_sheet;
-#[cfg(feature = "measuring")]
+#[cfg(feature = "line-error")]
 pub mod measure;
+#[cfg(feature = "judging")]
+pub mod judge;
 #[cfg(any(feature = "cli", feature = "measuring"))]
 pub mod page;
 #[cfg(feature = "measuring")]

@@ -16,6 +16,7 @@
 mod materials;
 mod pcx;
 pub(crate) mod png_text;
+mod powers_of_two;
 mod read;
 mod small;
 
@@ -46,7 +47,9 @@ impl Picture {
     #[must_use]
     pub fn from_bottom_up(size: Size, pixels: &[u8]) -> Self {
         let row = size.width as usize * 4;
-        Self { size, pixels: pixels.chunks_exact(row).rev().flatten().copied().collect() }
+        let mut rows = Vec::with_capacity(pixels.len());
+        pixels.chunks_exact(row).rev().for_each(|row| rows.extend_from_slice(row));
+        Self { size, pixels: rows }
     }
 
     /// The pixel in column `x` from the left and row `y` from the top, both clamped to the picture.
@@ -75,6 +78,15 @@ impl Picture {
         self
     }
 
+    /// The same without alpha.
+    fn rgb(&self) -> Vec<u8> {
+        let mut rgb = vec![0; self.size.pixel_count() * 3];
+        for (to, from) in rgb.chunks_exact_mut(3).zip(self.pixels.chunks_exact(4)) {
+            to.copy_from_slice(&from[..3]);
+        }
+        rgb
+    }
+
     fn is_opaque(&self) -> bool {
         self.pixels.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX)
     }
@@ -100,7 +112,7 @@ impl Picture {
         let (pixels, color) = if has_alpha && format.has_alpha() {
             (&self.pixels, ExtendedColorType::Rgba8)
         } else {
-            rgb = self.pixels.chunks_exact(4).flat_map(|pixel| &pixel[..3]).copied().collect();
+            rgb = self.rgb();
             (&rgb, ExtendedColorType::Rgb8)
         };
         let Size { width, height } = self.size;
@@ -120,6 +132,28 @@ impl Picture {
         }
     }
 
+    /// The bytes of a file; where the format is PNG, with a note in it. The error is what the encoder says.
+    fn file(&self, format: PictureFormat, note: Option<&Note>) -> std::result::Result<Vec<u8>, String> {
+        match note.filter(|_| format == PictureFormat::Png) {
+            Some(Note { keyword, text }) => png_text::encode(self, keyword, text).map_err(|error| error.to_string()),
+            None => {
+                let mut bytes = Vec::new();
+                self.encode(format, false, &mut bytes).map_err(|error| error.to_string())?;
+                Ok(bytes)
+            }
+        }
+    }
+
+    /// The bytes of a PNG file, with a note in it if there is one: those that [`Target::write_with`] writes.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::File`] for a picture of more pixels than the format holds.
+    pub fn png_bytes(&self, note: Option<&Note>) -> Result<Vec<u8>> {
+        self.file(PictureFormat::Png, note)
+            .map_err(|error| Error::output("-", format!("the picture cannot be encoded ({error}); draw a smaller one")))
+    }
+
     /// Writes the picture to a file, in the format that the name's extension says. The file appears complete or stays as it
     /// was. [`Target::check`] finds what keeps it from being written before the work.
     ///
@@ -128,7 +162,7 @@ impl Picture {
     /// [`Error::File`] for an unknown extension, a directory, a folder that is missing or may not be written, and for a
     /// picture that is not opaque in a format without transparency; [`Error::File`].
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        Target::file(path.as_ref(), !self.is_opaque())?.write(self)
+        Target::of_file(path.as_ref(), !self.is_opaque())?.write(self)
     }
 
     /// Reads a PNG file, for comparisons.
@@ -217,11 +251,16 @@ impl Target {
     pub fn check(path: &str, transparent: bool) -> Result<Self> {
         match path {
             "-" => Ok(Self::Stdout),
-            _ => Self::file(Path::new(path), transparent),
+            _ => Self::of_file(Path::new(path), transparent),
         }
     }
 
-    fn file(file: &Path, transparent: bool) -> Result<Self> {
+    /// As [`Target::check`] of a file, whatever its name; `-` is one here.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn of_file(file: &Path, transparent: bool) -> Result<Self> {
         let refuse = |problem: String| Error::output(file, problem);
         if file.is_dir() {
             return Err(refuse("this is a directory; name a file in it".to_owned()));
@@ -261,14 +300,7 @@ impl Target {
             Self::Stdout => ("-".to_owned(), PictureFormat::Png),
             Self::File { path, format } => (path.display().to_string(), *format),
         };
-        let mut bytes = Vec::new();
-        let encoded = match note.filter(|_| format == PictureFormat::Png) {
-            Some(Note { keyword, text }) => {
-                png_text::encode(picture, keyword, text).map(|whole| bytes = whole).map_err(|error| error.to_string())
-            }
-            None => picture.encode(format, false, &mut bytes).map_err(|error| error.to_string()),
-        };
-        encoded.map_err(|error| {
+        let bytes = picture.file(format, note).map_err(|error| {
             Error::output(
                 name,
                 match self {

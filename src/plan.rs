@@ -28,15 +28,18 @@ mod facts;
 pub mod prune;
 mod submission;
 mod target;
+mod tiles;
 
 pub use check::Flaw;
 pub use facts::{Facts, Shorter, WhereEven};
 pub use submission::Submission;
+pub(crate) use target::DEPTH_COPIES;
 pub use target::{Attachment, Attachments, Drawn, Format, SettingValue, Target};
+pub use tiles::{Tile, TileLimits};
 
 use crate::mesh::Part;
 use crate::picture::Picture;
-use crate::scene::Rectangle;
+use crate::scene::{Rectangle, Size};
 use std::sync::Arc;
 
 /// The steps of one picture.
@@ -71,7 +74,11 @@ pub struct Pass {
 }
 
 /// One thing for GL to do.
-#[expect(clippy::large_enum_variant, reason = "most steps draw, and a plan has about ten: a box would save nothing")]
+// Where addresses have 32 bits the variant is not that large.
+#[cfg_attr(
+    target_pointer_width = "64",
+    expect(clippy::large_enum_variant, reason = "most steps draw, and a plan has about ten: a box would save nothing")
+)]
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Step {
@@ -274,6 +281,17 @@ pub enum Value {
     Vec3([f32; 3]),
     /// int
     Int(i32),
+    /// vec2: how far apart the texels of what a pass leaves are, 1 / its size in pixels. That of a tile is a tile's.
+    TexelSize([f32; 2]),
+    /// vec2: a place on what is drawn, in pixels from its lower left corner. In a tile it is counted from the tile's.
+    PixelPlace([f32; 2]),
+}
+
+impl Value {
+    /// [`Value::TexelSize`] of what is this large.
+    pub fn texel_size(size: Size) -> Self {
+        Self::TexelSize([1.0 / size.width as f32, 1.0 / size.height as f32])
+    }
 }
 
 /// The textures a plan can read.

@@ -128,12 +128,26 @@ impl Preset {
         Ok(preset)
     }
 
+    /// Options that come from somewhere else; `name` is what errors call it.
+    pub fn of_options(name: &str, options: Options) -> Self {
+        Self { name: name.to_owned(), options, lines: BTreeMap::new() }
+    }
+
     /// The same over another: what this one does not set is as the other has it.
     #[must_use]
     pub fn over(mut self, below: Self) -> Self {
         below.options.into_iter().for_each(|(name, value)| {
             self.options.entry(name).or_insert(value);
         });
+        self
+    }
+
+    /// The same without the scene's settings that are listed under a heading.
+    #[must_use]
+    pub fn without(mut self, heading: &str) -> Self {
+        let is_of =
+            |name: &String| SceneSettings::table().settings.iter().any(|s| s.name == name && s.heading == heading);
+        self.options.retain(|name, _| !is_of(name));
         self
     }
 
@@ -149,13 +163,23 @@ impl Preset {
     /// [`Error::File`] with the line for an option that there is not and for a value that an option cannot have;
     /// [`Error::File`] for a file that cannot be read.
     pub fn style(&self) -> Result<Style> {
+        self.check_names()?;
+        let all: Vec<(String, String)> = self.options.keys().map(|key| (key.clone(), key.clone())).collect();
+        Style::from_options(&self.options).map_err(|error| self.attributed(error, &all))
+    }
+
+    /// Refuses the first name that no option has.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::File`] with the preset's line and the name that was meant.
+    pub fn check_names(&self) -> Result<()> {
         if let Some(key) = self.options.keys().find(|key| !is_known(key)) {
             let otherwise = "keys are long names of tinta render --help";
             let choice = meant_or(key, &known(), otherwise);
             return Err(self.refuse(key, format!("{key}: there is no such option; {choice}")));
         }
-        let all: Vec<(String, String)> = self.options.keys().map(|key| (key.clone(), key.clone())).collect();
-        Style::from_options(&self.options).map_err(|error| self.attributed(error, &all))
+        Ok(())
     }
 
     /// An error about an option that the preset gave, with the preset's name and line; `used` are the options of it that count,

@@ -24,8 +24,8 @@ use crate::files::{Failure, shown};
 use crate::gl::ContextInfo;
 use crate::markup::{RECIPE_BEGIN, RECIPE_END};
 use crate::picture::{Note, png_text};
-use crate::preset::{OptionValue, Options};
 use crate::scene::Scene;
+use crate::settings::{OptionValue, Options};
 use crate::shell;
 use crate::styles::Style;
 use serde::{Deserialize, Serialize};
@@ -158,6 +158,25 @@ pub fn draws_with_textures(style: &Style, scene: &Scene) -> bool {
         Style::Sand(_) => true,
         _ => false,
     }
+}
+
+/// The files that a picture was made of, each once: the models, what they brought with them, and where a style drew it what that
+/// draws with. `scene` begins with the models; built-in ones are no files.
+pub fn files_read(models: &[String], beside: &[PathBuf], scene: &Scene, style: Option<&Style>) -> Vec<PathBuf> {
+    let mut paths: Vec<PathBuf> =
+        models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
+    paths.extend(beside.iter().cloned());
+    if let Some(style) = style {
+        if draws_with_textures(style, scene) {
+            let objects = scene.objects.iter().take(models.len());
+            let materials = objects.flat_map(|object| &object.mesh.materials);
+            paths.extend(materials.filter_map(|material| material.texture.clone()));
+        }
+        paths.extend(files_of(style));
+    }
+    let mut seen = std::collections::HashSet::new();
+    paths.retain(|path| seen.insert(path.clone()));
+    paths
 }
 
 impl Recipe {

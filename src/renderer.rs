@@ -18,21 +18,22 @@
 mod drawer;
 
 use crate::camera::CameraSettings;
+use crate::clock::Instant;
 pub use crate::clock::milliseconds_since;
 use crate::error::{Error, Result};
 use crate::gl::context::Context;
 use crate::gl::{Backend, ContextInfo, Fault};
+use crate::limits::DRAWN_AT_ONCE_PIXELS;
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::prune::{Pruning, prune};
 use crate::plan::{Draw, Geometry, LineDrawing, Plan, Program, Step};
-use crate::scene::{Scene, SceneSettings};
+use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
-use drawer::{Drawer, Frame};
+use drawer::{Canvas, Drawer, Frame};
 use serde::Serialize;
 use std::collections::HashMap;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Draws scenes. Keeps meshes, shaders and textures between pictures; belongs to the thread that made it. Those of other
 /// threads that draw with the same software driver wait while it draws, because Mesa does not bear them at work at once.
@@ -40,8 +41,8 @@ use std::time::Instant;
 /// After an error it holds nothing and can go on with the next picture, unless its context is lost: then every further call
 /// says so again ([`Error::ContextLost`]), and a new renderer has to be made.
 ///
-/// With [`Backend::Auto`] a picture that is too large for its context is drawn by the first other one that can, which is opened
-/// then and kept; smaller pictures are drawn by the first as before.
+/// A picture that is too large for its context is drawn in tiles. With [`Backend::Auto`] it is drawn by the first other context that
+/// can draw it in one piece, if there is one, which is opened then and kept; smaller pictures are drawn by the first as before.
 pub struct Renderer {
     backend: Backend,
     fault: Option<Fault>,
@@ -49,6 +50,8 @@ pub struct Renderer {
     drawers: Vec<Drawer>,
     /// Which of them draws.
     used: usize,
+    /// Largest surface drawn at once, where that is to be less than the contexts' largest.
+    confined_to: Option<Size>,
 }
 
 impl std::fmt::Debug for Renderer {
@@ -99,9 +102,49 @@ impl Renderer {
         Self::open(backend, Some(fault))
     }
 
+    /// Draws on a canvas of a browser's page, by WebGL; what the page shows of it is the last picture drawn.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoContext`] where the browser has no WebGL or too little of it.
+    #[cfg(target_arch = "wasm32")]
+    pub fn on_canvas(canvas: web_sys::HtmlCanvasElement) -> Result<Self> {
+        let context = Context::on_canvas(canvas)?;
+        Ok(Self {
+            backend: Backend::Auto,
+            fault: None,
+            drawers: vec![Drawer::new(context)],
+            used: 0,
+            confined_to: None,
+        })
+    }
+
     fn open(backend: Backend, fault: Option<Fault>) -> Result<Self> {
         let context = Context::open(backend, fault)?;
-        Ok(Self { backend, fault, drawers: vec![Drawer::new(context)], used: 0 })
+        Ok(Self { backend, fault, drawers: vec![Drawer::new(context)], used: 0, confined_to: None })
+    }
+
+    /// Draws what is larger than this in tiles that are not, as if the context could draw no larger ones: less memory, more time.
+    /// `None` is as large as the contexts can, the default.
+    ///
+    /// ```
+    /// # fn main() -> tinta::Result<()> {
+    /// use std::sync::Arc;
+    /// use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Size, Style, StyleName, load};
+    ///
+    /// let mesh = load("builtin:gear", &LoadOptions::default())?.mesh;
+    /// let settings = SceneSettings { size: Size { width: 500, height: 300 }, ..Default::default() };
+    /// let scene = Scene::new(vec![Arc::new(mesh)], &settings)?;
+    /// let mut renderer = Renderer::new(Backend::Auto)?;
+    /// renderer.confine(Some(Size { width: 256, height: 256 }));
+    /// let picture = renderer.render(&scene, &Style::named(StyleName::ThreePass))?;
+    /// assert_eq!(picture.size, scene.size);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn confine(&mut self, largest: Option<Size>) {
+        self.confined_to = largest;
+        self.drawers.iter_mut().for_each(|drawer| drawer.confine(largest));
     }
 
     /// What the context says about itself: the one that was chosen last.
@@ -119,23 +162,30 @@ impl Renderer {
         let surface = scene.size.times(plan.supersample);
         self.used = 0;
         self.drawer().resources.refuse_if_lost("drawing")?;
-        if self.backend != Backend::Auto || self.drawer().context.draws(surface) {
+        if self.backend != Backend::Auto || self.confined_to.is_some() || self.drawer().draws_at_once(surface) {
             return Ok(());
         }
-        if let Some(known) = self.drawers.iter().position(|drawer| drawer.context.draws(surface)) {
+        if let Some(known) = self.drawers.iter().position(|drawer| drawer.draws_at_once(surface)) {
             self.used = known;
             return self.drawer().resources.refuse_if_lost("drawing");
+        }
+        if surface.pixel_count() > DRAWN_AT_ONCE_PIXELS && self.drawer().tiles(plan, surface).is_some() {
+            return Ok(());
         }
         let devices: Vec<&str> = self.drawers.iter().map(|drawer| drawer.context.info().device.as_str()).collect();
         if let Some(context) = Context::open_for(self.backend, self.fault, surface, &devices) {
             let mut drawer = Drawer::new(context);
+            drawer.confine(self.confined_to);
             drawer.resources.replace_shaders(self.drawers[0].resources.given_shaders());
             self.drawers.push(drawer);
         }
-        // Where none is large enough the largest refuses the picture.
+        // In one piece before in tiles; where neither can be had the largest refuses the picture.
         let fitness = |number: &usize| {
-            let context = &self.drawers[*number].context;
-            (context.draws(surface), context.info().largest_picture.pixel_count())
+            let drawer = &self.drawers[*number];
+            let largest = drawer.context.info().largest_picture.pixel_count();
+            // Of those that draw tiles the first is as good as any.
+            let in_tiles = drawer.tiles(plan, surface).map(|_| usize::MAX);
+            (drawer.draws_at_once(surface), in_tiles.unwrap_or(largest))
         };
         self.used = (0..self.drawers.len()).rev().max_by_key(fitness).unwrap_or(0);
         Ok(())
@@ -205,7 +255,11 @@ impl Renderer {
         let Ok(plan) = style.plan(&scene, show) else { return Ok(()) };
         // Only the shaders that will be drawn with.
         let plan = pruning.map_or_else(|| plan.clone(), |pruning| prune(&plan, &scene, pruning).plan);
-        self.draw(&scene, &plan).map(drop)
+        self.with_context(&scene, &plan, |frame| {
+            let tile = frame.tiles[0];
+            frame.all_steps(tile)?;
+            frame.read_back(tile).map(drop)
+        })
     }
 
     /// Draws a scene in a style, without what cannot change the picture.
@@ -225,11 +279,7 @@ impl Renderer {
     ///
     /// [`Error::Plan`] before anything is drawn, [`Error::PictureTooLarge`], [`Error::Shader`], [`Error::Gl`].
     pub fn draw(&mut self, scene: &Scene, plan: &Plan) -> Result<Picture> {
-        self.with_context(scene, plan, |frame| {
-            frame.all_steps()?;
-            frame.read_back()?;
-            Ok(frame.picture(plan.output))
-        })
+        self.with_context(scene, plan, |frame| frame.picture(plan.output))
     }
 
     /// Draws `frames` frames after `warm_up` unmeasured ones and returns each one's milliseconds, read-back included.
@@ -241,8 +291,10 @@ impl Renderer {
         self.with_context(scene, plan, |frame| {
             let mut one = || {
                 let start = Instant::now();
-                frame.all_steps()?;
-                frame.read_back()?;
+                for tile in frame.tiles.clone() {
+                    frame.all_steps(tile)?;
+                    frame.read_back(tile)?;
+                }
                 Ok(milliseconds_since(start))
             };
             for _ in 0..warm_up {
@@ -266,18 +318,26 @@ impl Renderer {
         self.with_context(scene, plan, |frame| {
             let mut times: Vec<(Vec<f64>, Vec<f64>)> = vec![Default::default(); plan.passes.len()];
             for _ in 0..frames {
-                for (pass, (cpu, gpu)) in plan.passes.iter().zip(&mut times) {
-                    let timer = if has_timers { Some(frame.resources.timer()?) } else { None };
-                    let start = Instant::now();
-                    timer.iter().for_each(|timer| timer.begin());
-                    frame.resources.begin(pass.target, pass.scissor)?;
-                    for step in &pass.steps {
-                        frame.resources.step(scene, step)?;
+                let mut sums = vec![(0.0, has_timers.then_some(0.0)); plan.passes.len()];
+                for tile in frame.tiles.clone() {
+                    frame.resources.begin_tile(plan, tile)?;
+                    for (pass, (cpu_ms, gpu_ms)) in plan.passes.iter().zip(&mut sums) {
+                        let timer = if has_timers { Some(frame.resources.timer()?) } else { None };
+                        let start = Instant::now();
+                        timer.iter().for_each(|timer| timer.begin());
+                        frame.resources.begin(pass.target, pass.scissor)?;
+                        for step in &pass.steps {
+                            frame.resources.step(scene, step)?;
+                        }
+                        timer.iter().for_each(|timer| timer.end());
+                        frame.resources.finish();
+                        *cpu_ms += milliseconds_since(start);
+                        *gpu_ms = timer.map(|timer| gpu_ms.unwrap_or_default() + timer.milliseconds());
                     }
-                    timer.iter().for_each(|timer| timer.end());
-                    frame.resources.finish();
-                    cpu.push(milliseconds_since(start));
-                    gpu.extend(timer.iter().map(|timer| timer.milliseconds()));
+                }
+                for ((cpu_ms, gpu_ms), (cpu, gpu)) in sums.into_iter().zip(&mut times) {
+                    cpu.push(cpu_ms);
+                    gpu.extend(gpu_ms);
                 }
             }
             let row = |(pass, (cpu, gpu)): (&crate::plan::Pass, (Vec<f64>, Vec<f64>))| PassTime {
@@ -296,28 +356,22 @@ impl Renderer {
     /// As [`Renderer::draw`].
     pub fn step_pictures(&mut self, scene: &Scene, plan: &Plan) -> Result<Vec<StepPicture>> {
         self.with_context(scene, plan, |frame| {
-            let mut pictures = Vec::new();
-            for pass in &plan.passes {
-                for step in &pass.steps {
-                    frame.resources.begin(pass.target, pass.scissor)?;
-                    frame.resources.step(scene, step)?;
-                    // Before reading: a copy that failed leaves a texture of another size.
-                    frame.resources.check(pass.name)?;
+            let mut canvases = Vec::new();
+            for (number, tile) in frame.tiles.clone().into_iter().enumerate() {
+                frame.resources.begin_tile(plan, tile)?;
+                let steps = plan.passes.iter().flat_map(|pass| pass.steps.iter().map(move |step| (pass, step)));
+                for (place, (pass, step)) in steps.enumerate() {
                     let is_final = matches!(step, Step::Draw(Draw { geometry: Geometry::PictureSquare, .. }));
-                    let size = if is_final { scene.size } else { scene.size.times(plan.supersample) };
-                    let pixels = &mut frame.pixels[..size.pixel_count() * 4];
-                    match step {
-                        Step::CopyFramebuffer | Step::CopyDepth => frame.resources.read_copy(step, size, pixels),
-                        Step::Clear { .. } | Step::ClearEach { .. } | Step::Draw(_) => {
-                            frame.resources.read_framebuffer(size, pixels)
-                        }
+                    let times = if is_final { plan.supersample } else { 1 };
+                    if number == 0 {
+                        let whole = if is_final { scene.size } else { tile.whole };
+                        canvases.push((pass.name, step.name(), Canvas::new(whole)?));
                     }
-                    let picture = Picture::from_bottom_up(size, pixels);
-                    frame.resources.check(pass.name)?;
-                    pictures.push(StepPicture { pass: pass.name, step: step.name(), picture });
+                    frame.step(pass, step, tile, times, &mut canvases[place].2)?;
                 }
             }
-            Ok(pictures)
+            let picture = |(pass, step, canvas): (_, _, Canvas)| StepPicture { pass, step, picture: canvas.picture };
+            Ok(canvases.into_iter().map(picture).collect())
         })
     }
 

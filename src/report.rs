@@ -55,7 +55,9 @@ pub struct ReportPicture {
     pub caption: String,
     /// The model it belongs to: shown when that model is chosen; `None`: always.
     pub model: Option<String>,
-    /// The whole PNG file.
+    /// The drawing that has these errors, a whole PNG file; `None` where it is not kept.
+    pub drawing: Option<Vec<u8>>,
+    /// The errors, a whole PNG file.
     pub png: Vec<u8>,
 }
 
@@ -78,6 +80,16 @@ pub fn csv(rows: &[Row]) -> String {
         writer.write_record(&line).unwrap_or_default();
     }
     writer.into_inner().map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
+}
+
+/// A row with its columns by their names: numbers, texts, and `null` for what a style does not have.
+pub fn record(row: &Row) -> Vec<(String, serde_json::Value)> {
+    let cell = |value: Value| match value {
+        Value::Text(text) => text.into(),
+        Value::Number(number) => number.into(),
+        Value::Missing => serde_json::Value::Null,
+    };
+    columns().iter().map(|column| (column.name.clone().into_owned(), cell(column.value(row)))).collect()
 }
 
 /// Writes `results.csv`, `plot-*.svg` and `report.html` into the folder, which must be there.

@@ -26,6 +26,7 @@ mod cartoon;
 mod charcoal;
 mod dietrich;
 mod gradients;
+mod ignored;
 mod ink;
 mod inking;
 mod lens;
@@ -48,7 +49,8 @@ pub use charcoal::{
     TextureSource,
 };
 pub use dietrich::Dietrich;
-pub use ink::{Ink, Quality};
+pub use ignored::is_ignored;
+pub use ink::{CreaseBy, Ink, Quality};
 pub use inking::{Inking, LightOn, PaintMode};
 pub use line_width::LineWidth;
 pub use map::{MapEncoding, MapTarget};

@@ -7,9 +7,9 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `state.rs`, `event.rs`, `orbit.rs`, `controls.rs`, `buffer.rs`, `compose.rs` | values: what is shown, what happens, how it changes |
+//! | `state.rs`, `event.rs`, `line_style.rs`, `controls.rs`, `buffer.rs`, `paint.rs`, `compose.rs` | values: what is shown, what happens, how it changes |
 //! | `viewer.rs` | the state with the threads that work for it |
-//! | `draw.rs`, `render_threads.rs`, `load.rs`, `watch.rs`, `cost.rs`, `save.rs`, `report.rs` | the threads and what they tell |
+//! | `draw.rs`, `coarse.rs`, `render_threads.rs`, `exact.rs`, `load.rs`, `watch.rs`, `cost.rs`, `save.rs`, `report.rs` | the threads and what they tell |
 //! | `ui.rs`, `panel.rs`, `widget.rs`, `plot.rs`, `keys.rs` | widgets: they read the state and make events |
 //! | `app.rs`, `replay.rs`, `player.rs` | the window itself, and recordings played in it |
 //!
@@ -25,14 +25,17 @@
 
 mod app;
 mod buffer;
+mod coarse;
 mod compose;
 mod controls;
 mod cost;
 mod draw;
 mod event;
+mod exact;
 mod keys;
+mod line_style;
 mod load;
-mod orbit;
+mod paint;
 mod panel;
 mod player;
 mod plot;
@@ -46,6 +49,7 @@ mod viewer;
 mod watch;
 mod widget;
 
+pub use crate::orbit::Orbit;
 pub use app::{WindowOptions, open};
 pub use buffer::{Buffer, buffers};
 pub use compose::composed;
@@ -53,8 +57,10 @@ pub use controls::SCENE_SETTINGS;
 pub use cost::{Costs, Point, SideCost};
 pub use draw::{Drawer, Drawing, Job};
 pub use event::{Effect, Layout, Save, Side, ViewerEvent};
+pub use exact::{ExactLines, Found, LineJob};
+pub use line_style::{LINE_SETTINGS, LineStyle, LinesShown};
 pub use load::Stage;
-pub use orbit::Orbit;
+pub use paint::{over, painted};
 pub use player::PlayedRecord;
 pub use replay::Replay;
 pub use state::{Content, Pane, ViewerState};

@@ -54,10 +54,13 @@ fn copy(from: &Path, to: &Path) {
 fn copy_of_the_sources() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("adding-a-style/sources");
     let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(folder.join("tests")).unwrap();
-    // Without the tests and benchmarks that Cargo.toml names it is refused.
-    let files = ["Cargo.toml", "Cargo.lock", "tests/main.rs", "tests/leaks.rs"];
-    for part in files.into_iter().chain(["benches", "crates", "glsl", "models", "presets", "src"]) {
+    for parent in ["tests", "python", "web"] {
+        std::fs::create_dir_all(folder.join(parent)).unwrap();
+    }
+    // Without the tests, benchmarks and packages that Cargo.toml names it is refused.
+    let files = ["Cargo.toml", "Cargo.lock", "tests/main.rs", "tests/leaks.rs", "python/Cargo.toml", "web/Cargo.toml"];
+    let folders = ["benches", "crates", "glsl", "models", "presets", "python/src", "src", "web/src"];
+    for part in files.into_iter().chain(folders) {
         copy(&root().join(part), &folder.join(part));
     }
     folder

@@ -64,8 +64,9 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     let refuse = |output: &str, options: &[&str], words: &[&str]| {
         refused_in_one_line(&[&["render", "builtin:ant", "-o", output], options].concat(), words);
     };
-    refuse(&png, &["--style", "lines"], &["a.png: style lines writes .svg, .pdf or .json"]);
-    refuse("turn.gif", &["--style", "lines"], &["style lines writes .svg, .pdf or .json"]);
+    refuse("turn.gif", &["--style", "lines"], &["style lines writes .svg, .pdf, .json or a still picture"]);
+    refuse(&png, &["--style", "lines", "--page", "A4"], &["--page", "no paper"]);
+    refuse("a.jpg", &["--style", "lines", "--transparent"], &["a.jpg", "no transparency"]);
     refuse(&svg, &["--style", "three-pass"], &["a.svg: style three-pass draws pixels", ".png"]);
     refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "sand, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);

@@ -8,7 +8,7 @@ use std::process::Command;
 
 fn documents() -> Vec<(PathBuf, String)> {
     let mut paths = vec![root().join("README.md"), root().join("CHANGELOG.md"), root().join("CONTRIBUTING.md")];
-    for folder in ["docs", "models", "fuzz", "contrib"] {
+    for folder in ["docs", "models", "fuzz", "contrib", "python"] {
         let files = std::fs::read_dir(root().join(folder)).into_iter().flatten();
         paths.extend(files.map(|file| file.unwrap().path()));
     }
@@ -20,7 +20,7 @@ fn documents() -> Vec<(PathBuf, String)> {
 }
 
 /// Folders of this project; a word that begins with one is a path.
-const FOLDERS: [&str; 20] = [
+const FOLDERS: [&str; 21] = [
     ".ci/",
     "crates/",
     "src/",
@@ -34,6 +34,7 @@ const FOLDERS: [&str; 20] = [
     "examples/",
     "fuzz/",
     "contrib/",
+    "python/",
     "evangelista/",
     "improved/",
     "phong/",
@@ -315,6 +316,7 @@ fn the_limits_are_documented_as_they_are() {
         ("MEMORY_SLACK_BYTES", MEMORY_SLACK_BYTES as u64),
         ("MODEL_BYTES", MODEL_BYTES),
         ("MATERIAL_FILE_BYTES", MATERIAL_FILE_BYTES),
+        ("DRAWING_BYTES", DRAWING_BYTES),
         ("PICTURE_FILE_BYTES", PICTURE_FILE_BYTES),
         ("ROWS_BYTES", ROWS_BYTES),
         ("BATCH_BYTES", BATCH_BYTES),
@@ -336,6 +338,9 @@ fn the_limits_are_documented_as_they_are() {
         ("REMARKS", REMARKS as u64),
         ("DOUBLED_FACES", DOUBLED_FACES as u64),
         ("SHOWN_CHARACTERS", SHOWN_CHARACTERS as u64),
+        ("DRAWN_PIXELS", DRAWN_PIXELS as u64),
+        ("DRAWN_AT_ONCE_PIXELS", DRAWN_AT_ONCE_PIXELS as u64),
+        ("TILE_SIDE_PX", u64::from(TILE_SIDE_PX)),
     ];
     let source = std::fs::read_to_string(root().join("crates/tinta-geometry/src/limits.rs")).unwrap();
     assert_eq!(source.matches("pub const ").count(), limits.len(), "a limit that this test does not know");

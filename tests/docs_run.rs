@@ -35,7 +35,7 @@ fn every_sentence_quoted_in_troubleshooting_is_said() {
         "render empty.obj -o a.png",
         "render nowhere.obj -o a.png",
         "render builtin:ant -o nodir/a.png",
-        "render builtin:ant -o a.png --look published --size 20000",
+        "render builtin:ant -o a.png --look published --size 30000",
         "render builtin:open-box -o a.png --style inking --line-width 300 --size 16",
         "render builtin:open-box -o a.png --style inking --texture on --size 16",
         "render builtin:open-box -o a.svg --eye 100,0,0 --target 200,0,0",

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
 use tinta::figures::{
-    Claim, Content, Drawing, Figure, HowToMeasure, Panel, TRIANGLES, Text, claims, figures, kernels, measure,
+    Claim, Content, Drawing, Figure, HowToMeasure, Panel, TRIANGLES, Text, Turn, claims, figures, kernels, measure,
     measure_claims, only, pass_columns,
 };
 use tinta::gl::is_software;
@@ -314,9 +314,10 @@ fn what_cannot_be_done_is_said_in_a_sentence() {
 fn every_measured_number_has_a_sentence_and_none_calls_this_renderer_what_it_is_not() {
     let mut renderer = crate::support::renderer(Backend::Auto);
     let how = HowToMeasure { size: SIZE, frames: 4, scenes: 2 };
-    let mut steps = 0;
-    let numbers = measure(&mut renderer, &how, || steps += 1).unwrap();
-    assert_eq!(steps, tinta::figures::steps(&how));
+    let mut turns = Vec::new();
+    let numbers = measure(&mut renderer, &how, |turn| turns.push(turn)).unwrap();
+    let [of_scenes, of_squares] = [Turn::Scenes, Turn::Squares].map(|turn| vec![turn; how.frames]);
+    assert_eq!(turns, [of_scenes, of_squares].concat());
     for about in ["frames", "filter", "background", "throughput"] {
         assert!(numbers.reasons.iter().any(|reason| reason.about == about), "nothing about {about}");
     }

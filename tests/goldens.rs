@@ -279,16 +279,32 @@ fn bust_dietrich() {
     golden("bust-dietrich", BUST, &Style::named(StyleName::Dietrich), Show::Final);
 }
 
-/// The goldens of the window, or all others.
-pub fn names(of_the_window: bool) -> Vec<String> {
+/// Whose pictures goldens are, by how their names begin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Goldens {
+    /// Of styles.
+    Styles,
+    /// Of looks.
+    Looks,
+    /// Of the window.
+    Window,
+}
+
+/// The names of these goldens.
+pub fn names(which: Goldens) -> Vec<String> {
     let files = std::fs::read_dir(root().join("tests/goldens")).unwrap().map(|file| file.unwrap().path());
     let names = files.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned());
-    names.filter(|name| name.starts_with("window-") == of_the_window).collect()
+    let of = |name: &String| match name {
+        name if name.starts_with("window-") => Goldens::Window,
+        name if name.starts_with("look-") => Goldens::Looks,
+        _ => Goldens::Styles,
+    };
+    names.filter(|name| of(name) == which).collect()
 }
 
 #[test]
 fn every_golden_has_its_test() {
-    let names = names(false);
+    let names = names(Goldens::Styles);
     let tests = include_str!("goldens.rs");
     for name in &names {
         let test = format!("\nfn {}() {{\n", name.replace('-', "_"));

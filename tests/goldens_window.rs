@@ -1,13 +1,14 @@
-//! The goldens of the window: what it shows after the events of a recording. One run of it draws them all, one test compares each.
+//! The goldens of the window: what it shows after the events of a recording. One run of a recording draws all of its pictures, one
+//! test compares each. `tour.jsonl` is played in panes of its own sizes, `sizes.jsonl` in windows of several.
 //!
 //! `TINTA_UPDATE_GOLDENS=1 cargo test goldens_window::split` draws that one anew and then fails.
 
-use crate::goldens::{compare, how_to_update, names};
+use crate::goldens::{Goldens, compare, how_to_update, names};
 use crate::support::root;
 use crate::window::Display;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
-use tinta::Picture;
+use tinta::{Picture, Size};
 
 /// The recording's pictures by name; none where no window can be opened, which is said.
 fn tour() -> Option<&'static BTreeMap<String, Picture>> {
@@ -17,14 +18,50 @@ fn tour() -> Option<&'static BTreeMap<String, Picture>> {
 
 fn replay() -> Option<BTreeMap<String, Picture>> {
     let display = Display::start()?;
+    Some(played(&display, "tour", 1, &["builtin:bust", "--look", "published"]))
+}
+
+/// Windows by name, their size in points, and how many pixels make one.
+const WINDOWS: [(&str, &str, u32); 3] =
+    [("1280x720", "1280x720", 1), ("640x480", "640x480", 1), ("double", "640x480", 2)];
+
+/// The line below the panes, points: it says how long pictures took.
+const STATUS_HEIGHT: u32 = 24;
+
+/// The pictures of the other recording by window and name.
+fn sizes() -> Option<&'static BTreeMap<String, Picture>> {
+    static PICTURES: OnceLock<Option<BTreeMap<String, Picture>>> = OnceLock::new();
+    let play = || {
+        let display = Display::start()?;
+        let mut all = BTreeMap::new();
+        for (window, size, scale) in WINDOWS {
+            let pictures = played(&display, "sizes", scale, &["builtin:gear", "--look", "published", "--window", size]);
+            let named =
+                |(name, picture): (String, Picture)| (format!("{window}-{name}"), without_status(picture, scale));
+            all.extend(pictures.into_iter().map(named));
+        }
+        Some(all)
+    };
+    PICTURES.get_or_init(play).as_ref()
+}
+
+/// A window's picture without what differs from run to run.
+fn without_status(picture: Picture, scale: u32) -> Picture {
+    let size = Size { width: picture.size.width, height: picture.size.height - STATUS_HEIGHT * scale };
+    Picture { size, pixels: picture.pixels[..size.pixel_count() * 4].to_vec() }
+}
+
+/// Plays a recording; its pictures by name.
+fn played(display: &Display, recording: &str, scale: u32, arguments: &[&str]) -> BTreeMap<String, Picture> {
     let folder = tempfile::tempdir().unwrap();
-    let recording = std::fs::read_to_string(root().join("tests/recordings/tour.jsonl")).unwrap();
-    let file = folder.path().join("tour.jsonl");
+    let recording = std::fs::read_to_string(root().join(format!("tests/recordings/{recording}.jsonl"))).unwrap();
+    let file = folder.path().join("recording.jsonl");
     std::fs::write(&file, recording.replace("OUT/", &format!("{}/", folder.path().display()))).unwrap();
-    let output = display.view(&["builtin:bust", "--look", "published", "--replay", file.to_str().unwrap(), "--json"]);
+    let output = display.view_at(scale, &[arguments, &["--replay", file.to_str().unwrap(), "--json"]].concat());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert!(record["first_picture_ms"].as_f64().unwrap() > 0.0);
+    assert_eq!(record["scale"].as_f64(), Some(f64::from(scale)));
     let pictures = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path());
     let pictures = pictures.filter(|path| path.extension().is_some_and(|extension| extension == "png"));
     let named = |path: std::path::PathBuf| {
@@ -32,14 +69,28 @@ fn replay() -> Option<BTreeMap<String, Picture>> {
     };
     let pictures: BTreeMap<String, Picture> = pictures.map(named).collect();
     assert_eq!(pictures.len(), recording.matches("OUT/").count(), "one for each in the recording");
-    Some(pictures)
+    pictures
 }
 
 fn golden(name: &str) {
-    let Some(pictures) = tour() else { return };
-    let how = how_to_update(&format!("goldens_window::{}", name.replace('-', "_")));
+    compare_with(tour(), name);
+}
+
+fn golden_of_sizes(name: &str) {
+    compare_with(sizes(), name);
+}
+
+fn compare_with(pictures: Option<&BTreeMap<String, Picture>>, name: &str) {
+    let Some(pictures) = pictures else { return };
+    let how = how_to_update(&format!("goldens_window::{}", test_of(name)));
     compare(&format!("window-{name}"), &pictures[name], "the window")
         .unwrap_or_else(|failure| panic!("{failure}\n{how}"));
+}
+
+/// The test that compares a picture: a name begins with a letter.
+fn test_of(name: &str) -> String {
+    let name = name.replace('-', "_");
+    if name.starts_with(|first: char| first.is_ascii_digit()) { format!("window_{name}") } else { name }
 }
 
 #[test]
@@ -93,14 +144,49 @@ fn back() {
 }
 
 #[test]
-fn every_picture_of_the_recording_has_its_golden_and_its_test() {
-    let Some(pictures) = tour() else { return };
-    let mut goldens = names(true);
+fn window_1280x720_panel() {
+    golden_of_sizes("1280x720-panel");
+}
+
+#[test]
+fn window_1280x720_keys() {
+    golden_of_sizes("1280x720-keys");
+}
+
+#[test]
+fn window_640x480_panel() {
+    golden_of_sizes("640x480-panel");
+}
+
+#[test]
+fn window_640x480_keys() {
+    golden_of_sizes("640x480-keys");
+}
+
+#[test]
+fn double_panel() {
+    golden_of_sizes("double-panel");
+}
+
+#[test]
+fn double_keys() {
+    golden_of_sizes("double-keys");
+}
+
+#[test]
+fn every_picture_of_the_recordings_has_its_golden_and_its_test() {
+    let Some((tour, sizes)) = tour().zip(sizes()) else { return };
+    let mut goldens = names(Goldens::Window);
     goldens.sort();
-    assert_eq!(goldens, pictures.keys().map(|name| format!("window-{name}")).collect::<Vec<_>>());
+    let mut pictures: Vec<String> = tour.keys().chain(sizes.keys()).map(|name| format!("window-{name}")).collect();
+    pictures.sort();
+    assert_eq!(goldens, pictures);
     let tests = include_str!("goldens_window.rs");
-    for name in pictures.keys() {
-        assert!(tests.contains(&format!("    golden(\"{name}\");\n")), "{name} has no test");
+    for (call, names) in [("golden", tour), ("golden_of_sizes", sizes)] {
+        for name in names.keys() {
+            let test = format!("fn {}() {{\n    {call}(\"{name}\");\n", test_of(name));
+            assert!(tests.contains(&test), "{name} has no test");
+        }
     }
 }
 

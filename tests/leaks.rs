@@ -127,6 +127,7 @@ fn check_switches(at_once: usize, looks: [usize; 2]) {
                 orbit: Orbit::default(),
                 settings: settings.clone(),
                 drawings: vec![(Side::Left, styles[number % styles.len()].clone(), Show::Final)],
+                is_coarse: false,
             };
             drawer.draw(&job).unwrap();
         }

@@ -30,15 +30,18 @@ mod gltf;
 mod gltf_files;
 mod gltf_refused;
 mod goldens;
+mod goldens_looks;
 #[cfg(feature = "window")]
 mod goldens_window;
 mod hiding;
 mod hostile;
 mod improved;
+mod ink_creases;
 mod ink_specks;
 mod inking;
 #[cfg(unix)]
 mod installing;
+mod judge;
 mod licences;
 mod lines_brute;
 mod lines_degenerate;
@@ -77,6 +80,7 @@ mod surfaces;
 mod support;
 mod svg;
 mod textures;
+mod tiles;
 mod turntable;
 mod twin;
 #[cfg(feature = "window")]

@@ -172,7 +172,7 @@ fn a_rows_error_is_found_again_from_the_picture_and_the_written_lines() {
     let soft_settings = LineSettings {
         classes: tinta::edges::ClassSet::of(&[Class::Crease]),
         crease_angle: tinta::edges::CreaseAngle::from_degrees(20.0).unwrap(),
-        finds_outline: false,
+        ..LineSettings::as_published()
     };
     let limit = LineSettings::as_published().crease_angle.degrees();
     let soft: Vec<_> = read(&soft_settings).into_iter().filter(|(_, angle)| *angle <= limit).collect();

@@ -123,9 +123,10 @@ pub fn info() -> ReportInfo {
         RgbImage::from_pixel(900, 400, Rgb(color)).write_to(&mut png, ImageFormat::Png).unwrap();
         png.into_inner()
     };
-    let picture = |model: &str, color| ReportPicture {
+    let picture = |model: &str, color, drawing: Option<[u8; 3]>| ReportPicture {
         caption: format!("two-pass on {model}: agreed black, missed red, invented blue"),
         model: Some(model.to_owned()),
+        drawing: drawing.map(png),
         png: png(color),
     };
     ReportInfo {
@@ -135,7 +136,10 @@ pub fn info() -> ReportInfo {
             ("Processor".to_owned(), "AMD EPYC 7B13, 2 threads".to_owned()),
             (NASTY.to_owned(), NASTY.to_owned()),
         ],
-        pictures: vec![picture("builtin:bust", [230, 159, 0]), picture("fandisk.obj", [0, 114, 178])],
+        pictures: vec![
+            picture("builtin:bust", [230, 159, 0], None),
+            picture("fandisk.obj", [0, 114, 178], Some([204, 121, 167])),
+        ],
     }
 }
 

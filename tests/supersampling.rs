@@ -127,9 +127,10 @@ fn grain_and_paper_stay_as_wide_and_as_strong_and_the_outline_is_smooth() {
 #[test]
 fn a_picture_too_large_to_be_supersampled_is_refused_by_the_options_name() {
     let mut renderer = renderer(BACKENDS[0]);
-    let limit = renderer.context().largest_picture;
+    // What others draw in tiles of any number this one draws in one viewport: its paper lies on the clip coordinates.
+    let limit = renderer.context().largest_viewport;
     let scene = scene("builtin:open-box", limit.width / 4 + 1, 1);
-    let style = Style::ThreePass(Cartoon { supersample: Supersample::Four, ..Cartoon::default() });
+    let style = Style::Charcoal(Charcoal { supersample: Supersample::Four, ..Charcoal::default() });
     let message = renderer.render(&scene, &style).unwrap_err().to_string();
     assert!(message.starts_with("supersample 4"), "{message}");
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 use resvg::{tiny_skia, usvg};
 use roxmltree::{Document, Node};
 use tinta::edges::{Class, ClassCounts};
-use tinta::lines::{Hidden, Length, LineSegment, LineTimes, PageSize, svg};
+use tinta::lines::{Hidden, Length, LineSegment, LineTimes, PageSize, raster, svg};
 use tinta::{Background, Color, Size, SvgSettings, VisibleLines};
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
@@ -75,6 +75,32 @@ pub fn rendered(text: &str) -> tiny_skia::Pixmap {
 fn rgba(pixels: &tiny_skia::Pixmap, x: u32, y: u32) -> [u8; 4] {
     let color = pixels.pixel(x, y).unwrap().demultiply();
     [color.red(), color.green(), color.blue(), color.alpha()]
+}
+
+#[test]
+fn pixels_of_lines_are_those_that_another_renderer_makes_of_their_svg() {
+    let settings = SvgSettings::default();
+    for hidden in [Hidden::None, Hidden::Dashed, Hidden::Ghost] {
+        for background in [Background::Color(Color([1.0; 3])), Background::Transparent] {
+            let settings = SvgSettings { hidden, background, line_width: Some(Length::Px(3.0)), ..settings.clone() };
+            let ours = raster(&drawing(), &settings).unwrap();
+            let theirs = rendered(&svg(&drawing(), &settings).unwrap());
+            assert_eq!((ours.size.width, ours.size.height), (theirs.width(), theirs.height()));
+            let (mut sum, mut far) = (0u64, 0);
+            for (index, pixel) in ours.pixels.chunks_exact(4).enumerate() {
+                let [x, y] = [index as u32 % theirs.width(), index as u32 / theirs.width()];
+                // What is covered, on white.
+                let on_white = |[red, _, _, alpha]: [u8; 4]| 255 - u32::from(255 - red) * u32::from(alpha) / 255;
+                let difference = on_white(pixel.try_into().unwrap()).abs_diff(on_white(rgba(&theirs, x, y)));
+                sum += u64::from(difference);
+                far += usize::from(difference > 40);
+            }
+            let inked = ours.pixels.chunks_exact(4).filter(|pixel| pixel[3] > 128 && pixel[0] < 128).count();
+            assert!(inked > 500, "{inked}");
+            let mean = sum as f64 / inked as f64;
+            assert!(mean < 4.0 && far < inked / 50, "{hidden:?}: {mean} {far} of {inked}");
+        }
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use tinta::window::{Layout, Side, Viewer, ViewerEvent, ViewerOptions, ViewerState};
-use tinta::{Backend, LoadOptions, Picture, View};
+use tinta::{Backend, LoadOptions, Picture, Size, View};
 
 /// A viewer of these models without a window, at rest.
 fn viewer(models: &[&str], backend: Backend, shaders: Option<&Path>) -> Viewer {
@@ -80,7 +80,7 @@ fn the_viewers_picture_is_the_one_its_command_line_draws_byte_for_byte() {
         ];
         for (number, step) in steps.into_iter().enumerate() {
             let picture = shown(&mut viewer, step);
-            let command = viewer.command().unwrap().unwrap();
+            let command = viewer.commands().remove(0).unwrap();
             let drawn = by_command(&command, name);
             let difference = drawn.difference(&picture.opaque()).unwrap();
             assert_eq!(difference.pixels, 0, "step {number} on {name}: {command}");
@@ -155,6 +155,24 @@ fn a_model_is_read_again_when_its_file_changes_and_what_cannot_be_read_leaves_th
     assert!(viewer.problem.as_ref().unwrap().contains("none.obj"), "{:?}", viewer.problem);
     assert_eq!(viewer.triangle_count(), Some(2));
     assert!(viewer.shown().is_some());
+}
+
+#[test]
+fn a_model_is_stood_up_in_the_window_and_the_command_says_so() {
+    let mut viewer = viewer(&["builtin:gear"], Backend::Auto, None);
+    let before = viewer.shown().unwrap();
+    let up = |axis: &str| ViewerEvent::Model("--up-axis".to_owned(), axis.to_owned());
+    let turned = shown(&mut viewer, [up("z")]);
+    assert_ne!(turned, before);
+    let command = viewer.commands().remove(0).unwrap();
+    assert!(command.contains("--up-axis z"), "{command}");
+    assert_eq!(turned.difference(&by_command(&command, "auto")).unwrap().pixels, 0);
+    assert_eq!(shown(&mut viewer, [ViewerEvent::ModelDefault("--up-axis".to_owned())]), before);
+    // What cannot be read so leaves the last one and its command.
+    viewer.event(ViewerEvent::Model("--skin".to_owned(), "/nowhere.png".to_owned()));
+    viewer.rest().unwrap();
+    assert!(viewer.problem.as_ref().is_some_and(|problem| problem.contains("nowhere.png")), "{:?}", viewer.problem);
+    assert!(!viewer.commands().remove(0).unwrap().contains("nowhere"));
 }
 
 #[test]
@@ -242,6 +260,221 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
     assert!(preset.contains("style = \"three-pass\"\ntones = 2"), "{preset}");
 }
 
+/// A viewer of this model whose files go into this folder, at rest.
+fn saving_viewer(model: &str, folder: &Path) -> Viewer {
+    let options = ViewerOptions {
+        state: ViewerState::new(vec![model.to_owned()], Default::default()),
+        load: LoadOptions::default(),
+        backend: Backend::Auto,
+        shaders: None,
+        folder: folder.to_path_buf(),
+    };
+    let mut viewer = Viewer::start(options, || {}).unwrap();
+    viewer.event(ViewerEvent::Resize([160, 120]));
+    viewer.rest().unwrap();
+    viewer
+}
+
+/// What saving this says.
+fn saved(viewer: &mut Viewer, event: ViewerEvent) -> String {
+    viewer.event(event);
+    while viewer.state.message.as_deref() == Some("saving") {
+        viewer.wait().unwrap();
+    }
+    viewer.state.message.clone().unwrap()
+}
+
+#[test]
+fn lines_are_saved_byte_for_byte_as_the_command_line_writes_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("b o x.obj");
+    std::fs::copy(root().join("models/open-box.obj"), &file).unwrap();
+    let lines = |option: &str, value: &str| ViewerEvent::Lines(option.to_owned(), value.to_owned());
+    for model in ["builtin:gear", file.to_str().unwrap()] {
+        let mut viewer = saving_viewer(model, folder.path());
+        let steps: [Vec<ViewerEvent>; 4] = [
+            vec![],
+            vec![ViewerEvent::Overlay(Side::Left, true), lines("--hidden", "dashed"), ViewerEvent::Turn([0.3, 0.1])],
+            vec![style("lines"), lines("--class-colors", "outline=red,crease=royalblue"), ViewerEvent::Zoom(1.5)],
+            vec![ViewerEvent::Look("technical".to_owned()), ViewerEvent::Background("tan".to_owned())],
+        ];
+        for (number, step) in steps.into_iter().enumerate() {
+            shown(&mut viewer, step);
+            let message = saved(&mut viewer, ViewerEvent::SaveLines);
+            let (name, command) = message.strip_prefix("saved ").unwrap().split_once("; the same by ").unwrap();
+            let again = folder.path().join("again.svg");
+            let command = command.replace(name, again.to_str().unwrap()).replace("tinta ", "exec \"$0\" ");
+            let output = Command::new("sh").args(["-c", &command, env!("CARGO_BIN_EXE_tinta")]).output().unwrap();
+            assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
+            let [saved, again] = [Path::new(name), &again].map(|path| std::fs::read_to_string(path).unwrap());
+            assert!(saved.contains("<path"), "{model} {number}");
+            assert!(saved == again, "{model} {number}: {command}");
+        }
+    }
+}
+
+/// An SVG as an independent rasteriser draws it.
+fn rasterised(svg: &str) -> Picture {
+    let tree = resvg::usvg::Tree::from_str(svg, &Default::default()).unwrap();
+    let size = tree.size().to_int_size();
+    let mut pixmap = resvg::tiny_skia::Pixmap::new(size.width(), size.height()).unwrap();
+    resvg::render(&tree, Default::default(), &mut pixmap.as_mut());
+    Picture { size: Size { width: size.width(), height: size.height() }, pixels: pixmap.take() }
+}
+
+#[test]
+fn lines_in_the_window_are_the_files_lines_as_another_program_draws_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut viewer = saving_viewer("builtin:gear", folder.path());
+    for hidden in ["none", "dashed", "ghost"] {
+        let set = ViewerEvent::Lines("--hidden".to_owned(), hidden.to_owned());
+        let picture = shown(&mut viewer, [style("lines"), set]);
+        let message = saved(&mut viewer, ViewerEvent::SaveLines);
+        let name = message.strip_prefix("saved ").unwrap().split_once("; ").unwrap().0;
+        let other = rasterised(&std::fs::read_to_string(name).unwrap());
+        assert_eq!(picture.size, other.size);
+        let ink = |picture: &Picture| {
+            picture.pixels.chunks_exact(4).map(|pixel| 1.0 - f64::from(pixel[0]) / 255.0).collect::<Vec<_>>()
+        };
+        let [ours, theirs] = [ink(&picture), ink(&other)];
+        let all: f64 = theirs.iter().sum();
+        assert!(all > 500.0, "{hidden}: {all}");
+        // A quarter of a pixel aside would be a quarter of the ink.
+        let elsewhere: f64 = ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs()).sum();
+        assert!(elsewhere < 0.05 * all, "{hidden}: {elsewhere} of {all} pixels of ink are elsewhere");
+    }
+}
+
+#[test]
+fn lines_over_a_picture_darken_it_where_they_are_and_go_when_they_are_taken_away() {
+    let mut viewer = viewer(&["builtin:gear"], Backend::Auto, None);
+    let plain = viewer.shown().unwrap();
+    let over = shown(&mut viewer, [ViewerEvent::Overlay(Side::Left, true)]);
+    let alone = shown(&mut viewer, [style("lines")]);
+    let is_white = |pixel: &[u8]| pixel == [255; 4];
+    let pixels = |picture: &Picture| picture.pixels.chunks_exact(4).map(<[u8]>::to_vec).collect::<Vec<_>>();
+    let mut inked = 0;
+    for ((plain, over), alone) in pixels(&plain).iter().zip(&pixels(&over)).zip(&pixels(&alone)) {
+        if is_white(alone) {
+            assert_eq!(plain, over, "nothing is drawn where no line is");
+        }
+        inked += usize::from(plain != over);
+    }
+    assert!(inked > 300, "{inked}");
+    assert_eq!(shown(&mut viewer, [style("three-pass")]), plain);
+    // On one side of a split alone.
+    let split = shown(&mut viewer, [ViewerEvent::Layout(Layout::Difference), style("lines")]);
+    assert_ne!(split, alone);
+    let beside =
+        shown(&mut viewer, [ViewerEvent::Layout(Layout::Split), ViewerEvent::Style(Side::Right, "lines".to_owned())]);
+    assert_eq!(beside, alone, "lines on both sides are one picture");
+}
+
+#[test]
+fn while_the_model_turns_lines_are_only_shown_over_the_picture_of_their_view() {
+    let mut viewer = viewer(&["builtin:gear"], Backend::Auto, None);
+    shown(&mut viewer, [ViewerEvent::Overlay(Side::Left, true)]);
+    let mut with_lines = std::collections::HashSet::new();
+    for _ in 0..40 {
+        viewer.event(ViewerEvent::Turn([0.01, 0.005]));
+        viewer.ask();
+        while !viewer.is_asked() {
+            viewer.wait().unwrap();
+            viewer.ask();
+        }
+        with_lines.insert(viewer.shown().unwrap().pixels);
+    }
+    viewer.rest().unwrap();
+    let last = viewer.shown().unwrap();
+    let expected = {
+        let mut still = self::viewer(&["builtin:gear"], Backend::Auto, None);
+        let turns = (0..40).map(|_| ViewerEvent::Turn([0.01, 0.005]));
+        shown(&mut still, turns.chain([ViewerEvent::Overlay(Side::Left, true)]))
+    };
+    assert_eq!(last, expected);
+    assert!(with_lines.len() > 1);
+}
+
+#[test]
+fn lines_by_themselves_follow_the_model_while_it_turns() {
+    let mut viewer = viewer(&["builtin:gear"], Backend::Auto, None);
+    shown(&mut viewer, [style("lines")]);
+    let mut seen = std::collections::HashSet::new();
+    for _ in 0..12 {
+        viewer.event(ViewerEvent::Turn([0.02, 0.01]));
+        viewer.ask();
+        while !viewer.is_asked() {
+            viewer.wait().unwrap();
+            viewer.ask();
+        }
+        seen.insert(viewer.shown().unwrap().pixels);
+    }
+    // Each view's lines are begun when those of the one before have been found.
+    assert!(seen.len() > 8, "{}", seen.len());
+}
+
+#[test]
+fn pictures_are_coarser_while_the_model_moves_only_if_that_is_allowed_and_never_at_rest() {
+    let mut viewer = viewer(&["builtin:gear"], Backend::Auto, None);
+    let blocks = |picture: &Picture| {
+        let row = picture.size.width as usize * 4;
+        let rows: Vec<&[u8]> = picture.pixels.chunks_exact(row).collect();
+        let is_wide = |row: &[u8]| row.chunks_exact(8).all(|pair| pair[..4] == pair[4..]);
+        rows.chunks_exact(2).all(|pair| pair[0] == pair[1] && is_wide(pair[0]))
+    };
+    let turn = || [ViewerEvent::Turn([0.1, 0.05])];
+    let fine = shown(&mut viewer, turn());
+    viewer.is_moving = true;
+    assert!(!blocks(&shown(&mut viewer, turn())), "not asked for");
+    let coarse = shown(&mut viewer, [ViewerEvent::Coarse(true), turn()[0].clone()]);
+    assert!(blocks(&coarse) && coarse.size == fine.size);
+    let colors = |picture: &Picture| {
+        picture.pixels.chunks_exact(4).map(<[u8]>::to_vec).collect::<std::collections::HashSet<_>>()
+    };
+    assert!(colors(&coarse).len() > 3, "something is drawn");
+    let saved = saved(&mut viewer, ViewerEvent::SavePicture);
+    assert!(saved.contains("wait"), "{saved}");
+    viewer.is_moving = false;
+    let last = shown(&mut viewer, []);
+    assert!(!blocks(&last));
+    assert_eq!(last.difference(&by_command(&viewer.commands().remove(0).unwrap(), "auto")).unwrap().pixels, 0);
+    // What is there in full is not drawn again.
+    viewer.is_moving = true;
+    assert_eq!(shown(&mut viewer, []), last);
+}
+
+#[test]
+fn lines_that_cannot_be_are_a_sentence_and_the_next_ones_are_drawn() {
+    let mut viewer = viewer(&["builtin:gear"], Backend::Auto, None);
+    shown(&mut viewer, [style("lines")]);
+    viewer.event(ViewerEvent::Lines("--line-width".to_owned(), "2mm".to_owned()));
+    viewer.rest().unwrap();
+    assert!(viewer.lines.problem().is_some_and(|problem| problem.contains("mm")), "{:?}", viewer.lines.problem());
+    viewer.event(ViewerEvent::LinesDefault("--line-width".to_owned()));
+    viewer.rest().unwrap();
+    assert_eq!(viewer.lines.problem(), None);
+}
+
+#[test]
+fn a_turn_of_lines_and_a_preset_of_them_are_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut viewer = saving_viewer("builtin:open-box", folder.path());
+    shown(&mut viewer, [ViewerEvent::Resize([48, 40]), style("lines"), set("--hidden", "dashed")]);
+    let turn = saved(&mut viewer, ViewerEvent::SaveTurn);
+    assert!(turn.contains("open-box-lines.gif; no command"), "{turn}");
+    assert!(std::fs::read(folder.path().join("open-box-lines.gif")).unwrap().starts_with(b"GIF89a"));
+    let preset = saved(&mut viewer, ViewerEvent::SavePreset);
+    assert!(preset.contains("open-box-lines.toml"), "{preset}");
+    let path = folder.path().join("open-box-lines.toml").to_str().unwrap().to_owned();
+    let drawn = Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .args(["render", "builtin:open-box", "--preset", &path, "-o"])
+        .arg(folder.path().join("box.svg"))
+        .output()
+        .unwrap();
+    assert!(drawn.status.success(), "{}", String::from_utf8_lossy(&drawn.stderr));
+    assert!(std::fs::read_to_string(folder.path().join("box.svg")).unwrap().contains("stroke-dasharray"));
+}
+
 #[test]
 fn in_a_split_both_styles_are_saved_under_their_own_names_and_no_file_twice() {
     let folder = tempfile::tempdir().unwrap();
@@ -285,7 +518,7 @@ impl Display {
     /// Starts Xvfb; says so where there is none.
     pub fn start() -> Option<Self> {
         let started = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "1280x720x24", "-nolisten", "tcp"])
+            .args(["-displayfd", "1", "-screen", "0", "1280x960x24", "-nolisten", "tcp"])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn();
@@ -300,7 +533,12 @@ impl Display {
 
     /// Runs `tinta view` on it.
     pub fn view(&self, arguments: &[&str]) -> Output {
-        view(&[("DISPLAY", &self.name)], arguments)
+        self.view_at(1, arguments)
+    }
+
+    /// Runs it on a screen with so many pixels to a point.
+    pub fn view_at(&self, scale: u32, arguments: &[&str]) -> Output {
+        view(&[("DISPLAY", &self.name), ("WINIT_X11_SCALE_FACTOR", &scale.to_string())], arguments)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::model_cache::ModelCache;
 use super::models::load_meshes;
-use super::progress::Progress;
+use super::progress::{Steps, TimedProgress};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use tinta::figures::page::{FigureRecord, PictureRecord, Shown, page, png_source,
 use tinta::figures::plot::{PLOT_SIZE, plot, title};
 use tinta::figures::{
     Artist, Claim, ClaimRecord, Content, Drawing, Figure, Host, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel,
-    TRIANGLES, figures, markdown, measure, measure_claims, only, pass_columns, steps,
+    TRIANGLES, Turn, figures, markdown, measure, measure_claims, only, pass_columns, triangles_a_turn,
 };
 use tinta::shell::quoted;
 use tinta::{Backend, Error, LoadOptions, Mesh, Picture, Renderer, Result, Size, Target, TextTarget};
@@ -61,6 +61,35 @@ const BUILTIN_CHARACTER: &str = "builtin:soldier";
 /// Tones of figure 13, a plot each.
 const PLOTS: [u8; 3] = [1, 2, 3];
 
+/// What takes time, in the order of [`expected`].
+enum Work {
+    Panel,
+    ClaimPictures,
+    Scenes,
+    Squares,
+    Claim,
+}
+
+/// How long it takes at first guess, seconds: what was seen with two cores and a software renderer, whose proportions are
+/// everyone's. What is measured says more as soon as it is.
+fn expected(panels: usize, claims: usize, is_measured: bool, how: &HowToMeasure) -> [Steps; 5] {
+    /// A picture with its file, a turn of what is small, a triangle, a claim without and with its frames.
+    const PICTURE: f64 = 0.09;
+    const TURN: f64 = 0.3;
+    const TRIANGLE: f64 = 0.5e-6;
+    const CLAIM: [f64; 2] = [0.1, 0.03];
+    let turns = if is_measured { how.frames } else { 0 };
+    let pixels = how.size.pixel_count() as f64 / (512.0 * 512.0);
+    let steps = |count, seconds| Steps { count, seconds };
+    [
+        steps(panels, PICTURE * pixels.max(0.2)),
+        steps(claims, PICTURE * pixels.max(0.2)),
+        steps(turns, TURN * pixels + TRIANGLE * triangles_a_turn(how) as f64),
+        steps(turns, TURN * pixels),
+        steps(claims, CLAIM[0] + CLAIM[1] * how.frames as f64),
+    ]
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let chosen = only(figures(arguments.size), &arguments.only)?;
     if arguments.output.join("figures.json").exists() {
@@ -80,8 +109,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let is_measured = chosen.iter().any(Figure::needs_numbers);
     let claims_target = if claims.is_empty() { None } else { Some(folder.text("claims.md")?) };
     let panels: usize = chosen.iter().map(|figure| figure.panels().len()).sum();
-    let measured_steps = if is_measured { steps(&how) } else { 0 };
-    let progress = Progress::new("drawing", (panels + measured_steps + claims.len() * 2) as u64);
+    let progress = TimedProgress::new("drawing", &expected(panels, claims.len(), is_measured, &how));
     let mut records = Vec::new();
     for figure in &chosen {
         let mut record = FigureRecord::new(figure, arguments.command(figure.id));
@@ -90,7 +118,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
                 Some(drawn) => record.pictures.push(drawn),
                 None => record.left_out.push(format!("{}, for {NO_TEXTURED_MODEL}", panel.label)),
             }
-            progress.step();
+            progress.step(Work::Panel as usize);
         }
         if figure.content == Content::Passes {
             record.passes = pass_columns(&how)?;
@@ -104,13 +132,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
             pictures.extend(arguments.drawn(&folder, &mut artist, &mut renderer, &panel)?);
         }
         claim_pictures.push((claim.id, pictures));
-        progress.step();
+        progress.step(Work::ClaimPictures as usize);
     }
     let numbers = match is_measured {
-        true => Some(measure(&mut renderer, &how, || progress.step())?),
+        true => Some(measure(&mut renderer, &how, |turn| {
+            progress.step(match turn {
+                Turn::Scenes => Work::Scenes as usize,
+                Turn::Squares => Work::Squares as usize,
+            });
+        })?),
         false => None,
     };
-    let found = measure_claims(&mut renderer, &claims, &how, numbers.as_ref(), || progress.step())?;
+    let found = measure_claims(&mut renderer, &claims, &how, numbers.as_ref(), || {
+        progress.step(Work::Claim as usize);
+    })?;
     if let Some(numbers) = &numbers
         && let Some(record) = records.iter_mut().find(|record| record.id == "evangelista-13")
     {
@@ -267,6 +302,20 @@ mod tests {
         files.sort_unstable();
         files.dedup();
         assert_eq!(files.len(), count);
+    }
+
+    #[test]
+    fn the_time_left_is_that_of_all_that_is_to_come() {
+        let how = HowToMeasure { size: Size { width: 512, height: 512 }, frames: 21, scenes: TRIANGLES.len() };
+        let seconds = |is_measured| expected(70, 72, is_measured, &how).map(Steps::total).iter().sum::<f64>();
+        let [drawn, measured] = [seconds(false), seconds(true)];
+        assert!(
+            drawn > 10.0 && measured > drawn + 21.0,
+            "{drawn} {measured}: what is measured is not done when all is drawn"
+        );
+        let quick = HowToMeasure { frames: 3, scenes: 3, ..how };
+        let seconds = expected(70, 72, true, &quick).map(Steps::total).iter().sum::<f64>();
+        assert!(seconds < measured / 2.0, "{seconds} of {measured}");
     }
 
     #[test]

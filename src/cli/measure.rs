@@ -128,7 +128,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
     }
     given.inputs(&arguments.models).keep_in(&arguments.output, WRITTEN)?;
     let how = MeasureSettings {
-        tolerance_px: tolerance(arguments)?,
+        tolerance_px: arguments.tolerance,
         frames: arguments.frames.map_or(FRAMES[usize::from(arguments.quick)], |frames| frames as usize),
         machine: arguments
             .machine
@@ -136,6 +136,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
             .filter(|name| !name.trim().is_empty())
             .unwrap_or_else(|| MeasureSettings::default().machine),
     };
+    how.check()?;
     let of_scene = scene_options(given.words.iter().cloned());
     let mut settings = settings(&arguments.styles, arguments.quick)?;
     // A preset's style is measured beside the others, unless it is one of them.
@@ -200,10 +201,10 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
             let (measured, left_out) = measure(renderer, &subject, some, &how, step)?;
             progress.skip(turn, left_out.len() * turns(how.frames));
             left_out.iter().for_each(|reason| super::say(&format!("tinta: {reason}")));
-            for Measured { row, error_picture } in measured {
+            for Measured { row, drawing, error_picture } in measured {
                 log.append(&row)?;
                 if let Some(picture) = error_picture.filter(|_| is_shown(&row)) {
-                    pictures.push(error_page(arguments, &row, &picture)?);
+                    pictures.push(error_page(arguments, &row, [&drawing, &picture])?);
                 }
                 rows.push(row);
             }
@@ -264,13 +265,6 @@ fn scene_options(words: impl Iterator<Item = String>) -> String {
     options
 }
 
-fn tolerance(arguments: &Arguments) -> Result<f64> {
-    if arguments.tolerance > 0.0 && arguments.tolerance <= 1000.0 {
-        return Ok(arguments.tolerance);
-    }
-    Err(Error::value("tolerance", arguments.tolerance, "it is a number of pixels above 0 and at most 1000"))
-}
-
 /// A model at a size.
 struct Group {
     model: String,
@@ -317,7 +311,7 @@ fn in_words(time: Duration) -> String {
     }
 }
 
-fn make_folder(folder: &Path) -> Result<()> {
+pub(super) fn make_folder(folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder).map_err(|error| {
         let problem = match folder.is_file() {
             true => "this is a file; name a folder".to_owned(),

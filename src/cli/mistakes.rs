@@ -2,7 +2,7 @@
 //! can be said, such as the name that was meant.
 
 use super::help::options;
-use crate::choice::{meant_or, nearest};
+use crate::choice::{meant_or, nearest, no_option};
 use clap::Command;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
@@ -76,9 +76,8 @@ fn unknown_option(error: &clap::Error, command: &Command, words: &[OsString]) ->
         "tinta" => "tinta".to_owned(),
         name => format!("tinta {name}"),
     };
-    let sentence = format!("{command_name} has no option {}", shortened(name));
-    let meant = meant_option(command, name.trim_start_matches('-'));
-    Some(meant.map_or(sentence.clone(), |meant| format!("{sentence}; did you mean --{meant}?")))
+    let meant = meant_option(command, name.trim_start_matches('-')).map(|meant| format!("--{meant}"));
+    Some(no_option(&command_name, &shortened(name), meant.as_deref()))
 }
 
 /// The option of a command that somebody meant who wrote this name, without dashes.

@@ -12,7 +12,7 @@ use std::ffi::OsString;
 use std::marker::PhantomData;
 use std::path::PathBuf;
 use tinta::camera;
-use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
+use tinta::settings::{EXCLUSIVE, HasSettings, Kind, OptionValue, Options, Setting, Table};
 use tinta::styles::{Ramp, TextureSource};
 use tinta::{
     CameraSettings, Error, LineSettings, LoadOptions, Result, SceneSettings, Show, Style, StyleName, SvgSettings,
@@ -40,15 +40,6 @@ pub(super) struct Chosen<S> {
     paths: Vec<(&'static str, PathBuf)>,
     selection: PhantomData<S>,
 }
-
-/// Settings that exclude each other, by an option and those that cannot stand beside it.
-const CONFLICTS: [(&str, &[&str]); 5] = [
-    ("eye", &["view"]),
-    ("transparent", &["background"]),
-    ("width-mm", &["dpi"]),
-    ("page", &["width-mm", "dpi"]),
-    ("pen", &["class-widths", "line-width"]),
-];
 
 impl<S: Selection> Chosen<S> {
     fn all() -> impl Iterator<Item = &'static Setting<S::Of>> {
@@ -89,7 +80,9 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
     let check = move |text: &str| table.check(setting.name, text).map(|()| text.to_owned());
     match &setting.kind {
         Kind::File => arg.value_parser(clap::value_parser!(PathBuf)),
-        Kind::Numbers { .. } | Kind::Text { .. } | Kind::Color => arg.value_parser(check).allow_hyphen_values(true),
+        Kind::Numbers { .. } | Kind::Text { .. } | Kind::Color | Kind::Colors { .. } => {
+            arg.value_parser(check).allow_hyphen_values(true)
+        }
         Kind::Choice(names) if names.iter().any(|name| name.starts_with('-')) => {
             arg.value_parser(check).allow_hyphen_values(true)
         }
@@ -106,7 +99,7 @@ pub(super) fn with_settings<T: Clone + Send + Sync + 'static>(
 ) -> Command {
     settings.fold(command, |command, setting| {
         let arg = arg(table, setting).help_heading(has_headings.then_some(setting.heading));
-        let excluded = CONFLICTS.iter().filter(|(option, _)| *option == setting.name).flat_map(|(_, others)| *others);
+        let excluded = EXCLUSIVE.iter().filter(|(option, _)| *option == setting.name).flat_map(|(_, others)| *others);
         command.arg(arg.conflicts_with_all(excluded))
     })
 }
@@ -200,7 +193,7 @@ impl StyleArguments {
     }
 
     /// How the style lines draws it; some of that it has in common with inking.
-    pub(super) fn svg_settings(&self, lines: &LineArguments) -> Result<SvgSettings> {
+    pub(super) fn svg_settings<S: Selection<Of = SvgSettings>>(&self, lines: &Chosen<S>) -> Result<SvgSettings> {
         let mut svg = SvgSettings::from_options(&self.given.options)?;
         SvgSettings::table().apply(&mut svg, &lines.options)?;
         Ok(svg)
@@ -255,11 +248,22 @@ impl Selection for OfCamera {
     }
 }
 
-pub(super) type CameraArguments = Chosen<OfCamera>;
+/// The camera's settings, one by one or out of a file.
+#[derive(clap::Args)]
+#[command(next_help_heading = camera::HEADING)]
+pub(super) struct CameraArguments {
+    /// Read the camera from this file: the JSON that --json prints, a glTF or GLB model, or the 16 numbers of the matrix from world to clip space, row by row; single options override it [default: none]
+    // Its settings stand among the others by the time anyone asks: see preset.rs.
+    #[arg(id = "camera", long, hide_short_help = true, value_name = "FILE")]
+    _file: Option<PathBuf>,
+
+    #[command(flatten)]
+    given: Chosen<OfCamera>,
+}
 
 impl CameraArguments {
     pub(super) fn settings(&self) -> Result<CameraSettings> {
-        SceneSettings::from_options(&self.options).map(|scene| scene.camera)
+        SceneSettings::from_options(&self.given.options).map(|scene| scene.camera)
     }
 }
 

@@ -5,19 +5,22 @@
 //! them. An option given on the command line beats the preset's, and so does one that excludes it.
 
 use super::Arguments;
+use super::camera_file;
 use super::inputs::Inputs;
 #[cfg(feature = "measuring")]
 use super::measure::StyleOptions;
 use super::mistakes::{meant_option, sentence};
-use super::options::ignored::is_ignored;
 #[cfg(feature = "measuring")]
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
 use std::ffi::OsString;
+use std::path::PathBuf;
+use tinta::camera;
 use tinta::preset::{LOOKS, Look, OptionValue, Options, Preset};
 use tinta::settings::{HasSettings, ON_OFF};
+use tinta::styles::is_ignored;
 use tinta::{Error, Result, Style};
 
 #[derive(clap::Args)]
@@ -39,7 +42,8 @@ pub(super) struct LookArguments {
 }
 
 /// Options that say what is done with a picture, not which picture it is: they are in no preset and no recipe.
-const OF_ONE_RUN: [&str; 19] = [
+const OF_ONE_RUN: [&str; 20] = [
+    "camera",
     "dump",
     "explain",
     "frames",
@@ -162,21 +166,29 @@ impl<'a> Merge<'a> {
         let Some((name, given)) = matches.subcommand() else { return Ok(None) };
         let Some(command) = whole.find_subcommand(name) else { return Ok(None) };
         let file = given.try_get_one::<String>("preset").ok().flatten();
-        let look = given.try_get_one::<Look>("look").map(|look| look.copied());
+        // Whether a command has an option its matches tell in debug builds only.
+        let has_looks = long(command, "look").is_some();
+        let look = if has_looks { given.try_get_one::<Look>("look").ok().flatten().copied() } else { None };
         let preset = file.map(|file| Preset::read(file)).transpose()?;
         let look = match look {
-            // The command has no looks.
-            Err(_) => None,
-            Ok(None) if preset.is_none() && has_default_look(given) => Some(LOOKS[0]),
-            Ok(look) => look,
+            None if has_looks && preset.is_none() && has_default_look(given) => Some(LOOKS[0]),
+            look => look,
         };
         let look = look.map(Look::preset).transpose()?;
         let is_of_look = |key: &&String| !preset.as_ref().is_some_and(|preset| preset.options.contains_key(*key));
         let of_look = look.iter().flat_map(|look| look.options.keys()).filter(is_of_look).cloned().collect();
         let preset = match (preset, look) {
-            (Some(preset), Some(look)) => preset.over(look),
-            (Some(preset), None) | (None, Some(preset)) => preset,
-            (None, None) => return Ok(None),
+            (Some(preset), Some(look)) => Some(preset.over(look)),
+            (preset, look) => preset.or(look),
+        };
+        let camera = given.try_get_one::<PathBuf>("camera").ok().flatten();
+        let camera = camera.map(|file| camera_file::read(file)).transpose()?;
+        let preset = match (camera, preset) {
+            (Some(camera), Some(preset)) => camera.over(preset.without(camera::HEADING)),
+            (camera, preset) => match camera.or(preset) {
+                Some(preset) => preset,
+                None => return Ok(None),
+            },
         };
         Ok(Some(Self { preset, of_look, name, command, given }))
     }

@@ -9,6 +9,8 @@ mod prune;
 #[cfg(test)]
 mod round_trip;
 
+#[cfg(feature = "window")]
+pub(super) use lines::StyleChoice;
 pub(super) use lines::is_of_lines;
 
 use super::Verdict;

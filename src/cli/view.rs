@@ -2,15 +2,17 @@
 
 use super::options::{Chosen, ModelArguments, Selection, StyleArguments};
 use super::preset::{LookArguments, PresetArguments};
+use super::render::StyleChoice;
 use super::standard_input;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::mesh::refuse_address;
 use tinta::settings::{HasSettings, Setting};
 use tinta::window::{
-    Buffer, Layout, Orbit, Replay, SCENE_SETTINGS, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
+    Buffer, LINE_SETTINGS, Layout, LineStyle, Orbit, Replay, SCENE_SETTINGS, Side, ViewerEvent, ViewerOptions,
+    ViewerState, WindowOptions, open,
 };
-use tinta::{Backend, Error, Result, SceneSettings, Size, Style, StyleName};
+use tinta::{Backend, Error, Result, SceneSettings, Size, Style, StyleName, SvgSettings};
 
 /// Show models in a window: turn them, compare styles, change every setting
 #[derive(clap::Args)]
@@ -20,12 +22,12 @@ pub(super) struct Arguments {
     #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
     models: Vec<String>,
 
-    #[arg(long, help = format!("Style: {} [default: three-pass]", StyleName::list()), value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
-    style: StyleName,
+    #[arg(long, help = format!("Style: {}, lines [default: three-pass]", StyleName::list()), value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
+    style: StyleChoice,
 
     /// Second style, right of a divider [default: none]
     #[arg(long, value_name = "STYLE")]
-    right: Option<StyleName>,
+    right: Option<StyleChoice>,
 
     #[command(flatten)]
     scene: Chosen<OfView>,
@@ -33,6 +35,10 @@ pub(super) struct Arguments {
     /// Size of the window in points, or one number for a square [default: 1280x720]
     #[arg(long, hide_short_help = true, value_name = "WxH", default_value = "1280x720", hide_default_value = true)]
     window: Size,
+
+    /// Draw at half the width and height while the model moves, without the faces that look away [default: off]
+    #[arg(long, hide_short_help = true)]
+    coarse: bool,
 
     /// OpenGL for the pictures from: egl, osmesa, auto (the first that works); the window has its own [default: auto]
     #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
@@ -64,6 +70,9 @@ pub(super) struct Arguments {
     styles: StyleArguments,
 
     #[command(flatten)]
+    lines: Chosen<OfLinesInView>,
+
+    #[command(flatten)]
     models_are_read: ModelArguments,
 }
 
@@ -76,6 +85,17 @@ impl Selection for OfView {
 
     fn has(setting: &Setting<SceneSettings>) -> bool {
         SCENE_SETTINGS.contains(&setting.name)
+    }
+}
+
+/// The settings of exact lines that a window shows and no other style has.
+struct OfLinesInView;
+
+impl Selection for OfLinesInView {
+    type Of = SvgSettings;
+
+    fn has(setting: &Setting<SvgSettings>) -> bool {
+        LINE_SETTINGS.contains(&setting.name) && !Style::table().has(setting.name)
     }
 }
 
@@ -114,17 +134,30 @@ pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
     }
 }
 
+/// How exact lines look.
+fn line_style(arguments: &Arguments) -> Result<LineStyle> {
+    let drawing = arguments.styles.svg_settings(&arguments.lines)?;
+    drawing.check()?;
+    Ok(LineStyle::new(arguments.styles.line_settings()?, drawing))
+}
+
 /// What is shown first.
 fn state(arguments: &Arguments) -> Result<ViewerState> {
     let mut state = ViewerState::new(arguments.models.clone(), Orbit::default());
     state.put_scene(SceneSettings::from_options(&arguments.scene.options)?);
     // Options are for every style that has them, whichever is chosen later.
+    let is_shown = |choice: StyleChoice| [Some(arguments.style), arguments.right].contains(&Some(choice));
     for (_, name) in StyleName::ALL {
         match arguments.styles.style(name) {
             Ok(style) => state.prepare_style(&style),
-            Err(error) if name == arguments.style || Some(name) == arguments.right => return Err(error),
+            Err(error) if is_shown(StyleChoice::Picture(name)) => return Err(error),
             Err(_) => state.prepare_style(&Style::named(name)),
         }
+    }
+    match line_style(arguments) {
+        Ok(style) => state.put_line_style(style),
+        Err(error) if is_shown(StyleChoice::Lines) => return Err(error),
+        Err(_) => {}
     }
     state.update(ViewerEvent::Style(Side::Left, arguments.style.name().to_owned()));
     if let Some(right) = arguments.right {
@@ -132,5 +165,6 @@ fn state(arguments: &Arguments) -> Result<ViewerState> {
         state.update(ViewerEvent::Layout(Layout::Split));
     }
     state.buffer = Buffer::Show(arguments.styles.show);
+    state.is_coarse_while_moving = arguments.coarse;
     Ok(state)
 }

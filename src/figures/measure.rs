@@ -207,17 +207,26 @@ const DISTANCES: [f64; 4] = [0.35, 0.6, 1.0, 3.0];
 /// Tones and passes of figure 13.
 const CURVES: [(u8, u8); 6] = [(1, 2), (1, 3), (2, 2), (2, 3), (3, 2), (3, 3)];
 
-/// How many steps [`measure`] reports.
-pub fn steps(how: &HowToMeasure) -> usize {
-    how.frames * 2
+/// What [`measure`] has timed when it says so: a frame each of all that take turns, [`HowToMeasure::frames`] times.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turn {
+    /// Scenes.
+    Scenes,
+    /// Squares.
+    Squares,
 }
 
-/// Measures; `step` is called as often as [`steps`] says.
+/// How many frames of how many triangles are drawn in a turn of [`Turn::Scenes`], about: figure 13's scenes are most of them.
+pub fn triangles_a_turn(how: &HowToMeasure) -> usize {
+    TRIANGLES.into_iter().take(how.scenes).sum::<usize>() * CURVES.len() * 2
+}
+
+/// Measures; `step` is told of each turn.
 ///
 /// # Errors
 ///
 /// As [`Renderer::draw`].
-pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut()) -> Result<Numbers> {
+pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut(Turn)) -> Result<Numbers> {
     let kit = Kit::new()?;
     let settings = SceneSettings { size: how.size, ..SceneSettings::default() };
     let mut scenes = Vec::new();
@@ -254,7 +263,7 @@ pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut
     empty.passes.truncate(1);
     empty.passes[0].steps.truncate(1);
     contestants.push(Contestant::new(&smallest, empty));
-    take_turns(renderer, &mut contestants, how.frames, &mut step)?;
+    take_turns(renderer, &mut contestants, how.frames, &mut || step(Turn::Scenes))?;
 
     let large = Size { width: how.size.width * 2, height: how.size.height * 2 };
     let square = Scene::new(
@@ -262,7 +271,7 @@ pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut
         &SceneSettings { size: large, ..settings },
     )?;
     let mut squares = throughput::contestants(&Arc::new(square))?;
-    take_turns(renderer, &mut squares, how.frames, &mut step)?;
+    take_turns(renderer, &mut squares, how.frames, &mut || step(Turn::Squares))?;
 
     let (curve, others) = contestants.split_at(curves);
     let rows = curve.iter().zip(CURVES.iter().cycle());

@@ -64,11 +64,12 @@ impl Resources {
         unsafe {
             match is_smooth {
                 true => self.gl.glow.enable(smooth),
-                false => self.gl.glow.disable(smooth),
+                false if self.has_pipeline => self.gl.glow.disable(smooth),
+                false => {}
             }
             self.gl.glow.line_width(width_px);
             self.gl.legacy.point_size(width_px);
-            self.gl.legacy.load_matrix(PROJECTION, &scene.clip_from_view());
+            self.gl.legacy.load_matrix(PROJECTION, &self.in_tile(scene.clip_from_view()));
         }
         let mut first = 0;
         for (number, (run, indices)) in runs.iter().zip(&edges.indices).enumerate() {
@@ -89,7 +90,7 @@ impl Resources {
                 // within the bound vertex buffer.
                 unsafe {
                     let first_byte = (first * size_of::<u32>()) as i32;
-                    self.gl.glow.draw_elements(mode, indices.len() as i32, glow::UNSIGNED_INT, first_byte);
+                    self.gl.legacy.draw_elements(&self.gl.glow, mode, indices.len() as i32, first_byte);
                 }
             } else {
                 let places = Places::Positions(&scene.arrays(object).vertices);
@@ -105,9 +106,9 @@ impl Resources {
             }
             first += indices.len();
         }
-        // SAFETY: the context is current.
-        unsafe { self.gl.glow.disable(smooth) };
         if is_smooth {
+            // SAFETY: the context is current.
+            unsafe { self.gl.glow.disable(smooth) };
             self.draw_unseen()?;
         }
         Ok(())
@@ -141,12 +142,12 @@ impl Resources {
             };
             let ends = run.ends.iter().filter_map(|[a, b]| Some([in_clip_space(a)?, in_clip_space(b)?]));
             let quads = match mark {
-                Mark::Lines => line_quads(ends, self.surface, width_px),
-                Mark::Points => point_quads(ends, self.surface, width_px),
+                Mark::Lines => line_quads(ends, self.tile.whole, width_px),
+                Mark::Points => point_quads(ends, self.tile.whole, width_px),
             };
             // SAFETY: the context is current.
             unsafe {
-                self.gl.legacy.load_matrix(PROJECTION, &Mat4::IDENTITY);
+                self.gl.legacy.load_matrix(PROJECTION, &self.in_tile(Mat4::IDENTITY));
                 self.gl.legacy.load_matrix(MODELVIEW, &Mat4::IDENTITY);
                 self.gl.legacy.color(run.color);
             }
@@ -161,7 +162,7 @@ impl Resources {
             // SAFETY: the context is current and the bound buffer holds four numbers for each vertex drawn.
             unsafe {
                 self.gl.legacy.clip_position_array();
-                self.gl.glow.draw_arrays(legacy::QUADS, 0, quads.len() as i32);
+                self.gl.legacy.draw_arrays(&self.gl.glow, legacy::QUADS, 0, quads.len() as i32);
             }
         }
         Ok(())

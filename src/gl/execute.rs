@@ -3,14 +3,16 @@
 use super::Gl;
 use super::display_lists::{self, DisplayLists};
 use super::edges::EdgeIndices;
+use super::fixed_function;
 use super::legacy;
 use super::meshes::{FaceIndices, MeshBuffers, OfVertices};
 use super::objects::{Buffer, Program, Shader, TimerQuery};
+use super::sources;
 use super::targets::{Targets, clear_each};
 use super::textures::Textures;
 use crate::error::{Error, Result};
 use crate::glsl;
-use crate::plan::{self, Blend, Depth, Draw, Geometry, LineDrawing, Plan, Step, Submission, Target};
+use crate::plan::{self, Blend, Depth, Draw, Geometry, LineDrawing, Plan, Step, Submission, Target, Tile};
 use crate::scene::{Rectangle, Scene, Size};
 use crate::tolerances::BACKGROUND_DISTANCE;
 use glam::{Mat4, Vec3, Vec4};
@@ -21,7 +23,7 @@ use std::rc::Rc;
 /// The GL objects of a renderer, kept between pictures. Its methods need the context current.
 pub(crate) struct Resources {
     pub(super) gl: Rc<Gl>,
-    programs: HashMap<plan::Program, Program>,
+    pub(super) programs: HashMap<plan::Program, Program>,
     pub(super) meshes: Vec<MeshBuffers>,
     /// The lists of faces of this plan's draws.
     pub(super) faces: Vec<FaceIndices>,
@@ -29,13 +31,17 @@ pub(crate) struct Resources {
     pub(super) coordinates: Vec<OfVertices<[f32; 2]>>,
     pub(super) colors: Vec<OfVertices<[f32; 4]>>,
     pub(super) squares: Option<Buffer>,
-    /// The size of what is drawn into: the picture's, or a multiple of it.
-    pub(super) surface: Size,
+    /// What is drawn of the whole, which is as large as the picture or a multiple of it.
+    pub(super) tile: Tile,
+    /// How many times as wide and high as the picture the whole is.
+    supersample: u32,
     targets: Targets,
     pass_scissor: Option<Rectangle>,
     /// Whether the steps draw into textures instead of the framebuffer.
     into_textures: bool,
     pub(super) textures: Textures,
+    /// Whether what has no shaders is drawn by the driver, as in OpenGL 2.1, or by shaders that do the same.
+    pub(super) has_pipeline: bool,
     /// The edges last drawn as lines and as points, as indices on the device.
     pub(super) edges: [Option<EdgeIndices>; 2],
     /// How the plan at hand wants vertices handed over, and those kept for that.
@@ -53,11 +59,13 @@ impl Resources {
             coordinates: Vec::new(),
             colors: Vec::new(),
             squares: None,
-            surface: Size { width: 1, height: 1 },
+            tile: Tile::whole(Size { width: 1, height: 1 }),
+            supersample: 1,
             targets: Targets::default(),
             pass_scissor: None,
             into_textures: false,
             textures: Textures::default(),
+            has_pipeline: legacy::HAS_PIPELINE,
             edges: [None, None],
             submission: Submission::Buffers,
             lists: DisplayLists::default(),
@@ -79,8 +87,6 @@ impl Resources {
         }
         self.submission = plan.submission;
         self.lists.prepare(plan.submission);
-        self.surface = scene.size.times(plan.supersample);
-        self.targets.prepare(&gl, plan, self.surface)?;
         self.upload_meshes(scene)?;
         self.upload_faces(scene, plan)?;
         self.upload_paint(plan)?;
@@ -97,13 +103,22 @@ impl Resources {
                 );
                 return Err(Error::gl("setting up", what));
             }
-            if let Step::Draw(Draw { program: Some(program), .. }) = step
-                && !self.programs.contains_key(program)
+            if let Step::Draw(draw) = step
+                && let Some(program) = fixed_function::program_of(draw, self.has_pipeline)
+                && !self.programs.contains_key(&program)
             {
-                self.programs.insert(program.clone(), Program::new(&gl, program)?);
+                let linked = Program::new(&gl, &program)?;
+                self.programs.insert(program, linked);
             }
         }
         gl.check("setting up")
+    }
+
+    /// What of a prepared plan the steps that follow draw: all of it, or one of its tiles.
+    pub(crate) fn begin_tile(&mut self, plan: &Plan, tile: Tile) -> Result<()> {
+        self.tile = tile;
+        self.supersample = plan.supersample;
+        self.targets.prepare(&self.gl.clone(), plan, tile.size())
     }
 
     /// What the steps that follow draw into, of a prepared plan, and the pixels they may change.
@@ -130,7 +145,7 @@ impl Resources {
                     }
                     if *depth {
                         self.gl.glow.depth_mask(true);
-                        self.gl.glow.clear_depth_f64(1.0);
+                        self.gl.glow.clear_depth(1.0);
                         buffers |= glow::DEPTH_BUFFER_BIT;
                     }
                     self.gl.glow.clear(buffers);
@@ -142,15 +157,23 @@ impl Resources {
                 Ok(())
             }
             Step::Draw(draw) => self.draw(scene, draw),
-            Step::CopyFramebuffer => self.targets.copy_color(&self.gl, self.surface, self.pass_scissor),
-            Step::CopyDepth => self.targets.copy_depth(&self.gl, self.surface, self.pass_scissor),
+            Step::CopyFramebuffer => self.targets.copy_color(&self.gl, self.tile.size(), self.copied_part()),
+            Step::CopyDepth => self.targets.copy_depth(&self.gl, self.tile.size(), self.copied_part()),
         }
     }
 
     fn draw(&mut self, scene: &Scene, draw: &Draw) -> Result<()> {
-        let size = if draw.geometry == Geometry::PictureSquare { scene.size } else { self.surface };
-        // SAFETY: the context is current; the size is within its limits, as it was made that large.
-        unsafe { self.gl.glow.viewport(0, 0, size.width as i32, size.height as i32) };
+        let Tile { drawn, viewport, .. } = self.tile;
+        // As far left and below as the tile lies right and above of the viewport's corner.
+        let corner = [viewport.x as i32 - drawn.x as i32, viewport.y as i32 - drawn.y as i32];
+        let [x, y, width, height] = match draw.geometry {
+            Geometry::PictureSquare => {
+                [0, 0, drawn.width / self.supersample, drawn.height / self.supersample].map(|number| number as i32)
+            }
+            _ => [corner[0], corner[1], viewport.width as i32, viewport.height as i32],
+        };
+        // SAFETY: the context is current; the size is within its limits, by which tiles are made.
+        unsafe { self.gl.glow.viewport(x, y, width, height) };
         self.set_state(draw);
         self.bind_textures(draw)?;
         self.bind_program(draw)?;
@@ -163,8 +186,11 @@ impl Resources {
                 self.draw_objects(scene, draw, paint, material_unit.map(|unit| unit as u32))?;
             }
             Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
-                let as_quads = *line_drawing == LineDrawing::Quads || !self.gl.info.draws_edges(*width_px, *is_smooth);
-                if as_quads {
+                let by_gl = self.gl.info.draws_edges(*width_px, *is_smooth) && (self.has_pipeline || !*is_smooth);
+                let as_quads = *line_drawing == LineDrawing::Quads || !by_gl;
+                if as_quads && *is_smooth && *line_drawing == LineDrawing::Gl && !self.has_pipeline {
+                    self.draw_smooth_edges(scene, runs, *mark, *width_px)?;
+                } else if as_quads {
                     self.draw_edge_quads(scene, runs, *mark, *width_px)?;
                 } else {
                     self.draw_edges(scene, runs, *mark, *width_px, *is_smooth)?;
@@ -174,13 +200,18 @@ impl Resources {
                 let far_away = Mat4::from_translation(Vec3::new(0.0, 0.0, -BACKGROUND_DISTANCE));
                 // x and y as they are, depth that of the far plane: a parallel projection that fills the picture.
                 let flat = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::ZERO, Vec4::new(0.0, 0.0, 1.0, 1.0));
-                self.draw_square(0, *color, &far_away, &flat)?;
+                self.draw_square(0, *color, &far_away, &self.in_tile(flat))?;
             }
             Geometry::ScreenSquare | Geometry::PictureSquare => {
-                self.draw_square(4, [1.0; 4], &Mat4::IDENTITY, &Mat4::IDENTITY)?;
+                self.draw_square(4, [1.0; 4], &Mat4::IDENTITY, &self.in_tile(Mat4::IDENTITY))?;
             }
         }
         Ok(())
+    }
+
+    /// A projection of the whole picture as this tile's viewport has it.
+    pub(super) fn in_tile(&self, clip_from_view: Mat4) -> Mat4 {
+        self.tile.clip_from_picture().map_or(clip_from_view, |tile| tile * clip_from_view)
     }
 
     fn bind_textures(&self, draw: &Draw) -> Result<()> {
@@ -196,6 +227,9 @@ impl Resources {
             texture
                 .ok_or_else(|| Error::gl("drawing", "a plan was carried out without being checked"))?
                 .bind(unit as u32);
+        }
+        if !self.has_pipeline {
+            return Ok(());
         }
         let is_fixed = draw.program.as_ref().is_none_or(|program| program.fragments.is_empty());
         for unit in 0..legacy::FIXED_UNITS {
@@ -214,29 +248,37 @@ impl Resources {
     }
 
     fn bind_program(&mut self, draw: &Draw) -> Result<()> {
-        let Some(program) = &draw.program else {
+        let Some(drawing) = fixed_function::program_of(draw, self.has_pipeline) else {
             // SAFETY: the context is current; no program is the fixed-function pipeline.
             unsafe { self.gl.glow.use_program(None) };
             return Ok(());
         };
         let program = self
             .programs
-            .get_mut(program)
+            .get_mut(&drawing)
             .ok_or_else(|| Error::gl("drawing", "a plan was carried out without being prepared"))?;
         program.bind(self.into_textures);
         for uniform in &draw.uniforms {
-            program.set(uniform.name, uniform.value);
+            program.set(uniform.name, self.tile.value(uniform.value));
         }
-        for (unit, (sampler, _)) in draw.textures.iter().enumerate() {
-            program.set_sampler(sampler, unit as u32);
+        for (unit, (sampler, _)) in (0..).zip(&draw.textures) {
+            program.set_sampler(fixed_function::sampler(draw, &drawing, unit).unwrap_or(sampler), unit);
         }
         Ok(())
     }
 
+    /// What a copying step copies: all of the tile, or what its pass is confined to; nothing is read beyond that.
+    fn copied_part(&self) -> Option<Rectangle> {
+        self.pass_scissor.and_then(|scissor| self.tile.part(scissor))
+    }
+
     fn set_scissor(&self, scissor: Option<Rectangle>) {
+        const NOTHING: Rectangle = Rectangle { x: 0, y: 0, width: 0, height: 0 };
+        // The surface may be larger than a tile.
+        let confined = scissor.or((!self.tile.is_whole()).then_some(self.tile.drawn));
         // SAFETY: the context is current; the rectangle's numbers are below 2^31, as the surface's are.
         unsafe {
-            match scissor {
+            match confined.map(|scissor| self.tile.part(scissor).unwrap_or(NOTHING)) {
                 Some(Rectangle { x, y, width, height }) => {
                     self.gl.glow.enable(glow::SCISSOR_TEST);
                     self.gl.glow.scissor(x as i32, y as i32, width as i32, height as i32);
@@ -250,8 +292,10 @@ impl Resources {
         let gl = &self.gl.glow;
         // SAFETY: the context is current; the names are of GL 2.1.
         unsafe {
-            // Drivers can be told to smooth every polygon, which C. Dachsbacher's article warns of (errata D13).
-            gl.disable(glow::POLYGON_SMOOTH);
+            if self.has_pipeline {
+                // Drivers can be told to smooth every polygon, which C. Dachsbacher's article warns of (errata D13).
+                gl.disable(glow::POLYGON_SMOOTH);
+            }
             match draw.depth {
                 Depth::TestAndWrite | Depth::TestOnly | Depth::Equal => {
                     gl.enable(glow::DEPTH_TEST);
@@ -297,13 +341,13 @@ impl Resources {
         }
     }
 
-    /// Reads the framebuffer, RGBA8, bottom row first, into memory of exactly that size.
-    pub(crate) fn read_framebuffer(&self, size: Size, pixels: &mut [u8]) {
-        assert_eq!(pixels.len(), size.pixel_count() * 4, "memory for {size} pixels");
-        let (width, height) = (size.width as i32, size.height as i32);
+    /// Reads this part of the framebuffer, RGBA8, bottom row first, into memory of exactly that size.
+    pub(crate) fn read_framebuffer(&self, part: Rectangle, pixels: &mut [u8]) {
+        assert_eq!(pixels.len(), part.pixel_count() * 4, "memory for {part:?}");
+        let [x, y, width, height] = [part.x, part.y, part.width, part.height].map(|number| number as i32);
         let target = glow::PixelPackData::Slice(Some(pixels));
         // SAFETY: the context is current, rows are packed without gaps, and the memory has the size asserted.
-        unsafe { self.gl.glow.read_pixels(0, 0, width, height, glow::RGBA, glow::UNSIGNED_BYTE, target) };
+        unsafe { self.gl.glow.read_pixels(x, y, width, height, glow::RGBA, glow::UNSIGNED_BYTE, target) };
     }
 
     /// Reads the texture that this copying step filled, as [`Resources::read_framebuffer`] does; of depth as grey.
@@ -313,12 +357,11 @@ impl Resources {
         let copied = if is_depth { self.targets.depth_map() } else { self.targets.border_map() };
         let Some(texture) = copied else { return };
         texture.bind(0);
-        let (format, bytes) =
-            if is_depth { (glow::DEPTH_COMPONENT, size.pixel_count()) } else { (glow::RGBA, pixels.len()) };
-        let target = glow::PixelPackData::Slice(Some(&mut pixels[..bytes]));
+        let bytes = if is_depth { size.pixel_count() } else { pixels.len() };
+        let sides = [size.width as i32, size.height as i32];
         // SAFETY: the context is current, the bound texture was copied from a framebuffer of this size; rows are packed
         // without gaps and the memory has one byte a pixel for depth, four for colour.
-        unsafe { self.gl.glow.get_tex_image(glow::TEXTURE_2D, 0, format, glow::UNSIGNED_BYTE, target) };
+        unsafe { self.gl.legacy.read_texture(&self.gl.glow, texture.id(), sides, is_depth, &mut pixels[..bytes]) };
         if is_depth {
             for pixel in (0..bytes).rev() {
                 let grey = pixels[pixel];
@@ -383,10 +426,10 @@ impl Resources {
         paths
     }
 
-    /// Compiles a shader by itself and lets go of it.
+    /// Compiles a shader by itself and lets go of it; in a browser, which compiles whole programs alone, it is only rewritten.
     pub(crate) fn compile(&self, path: &str) -> Result<()> {
-        let kind = if path.ends_with(".vert") { glow::VERTEX_SHADER } else { glow::FRAGMENT_SHADER };
-        Shader::new(&self.gl, kind, path).map(drop)
+        let source = sources::of_shader(&self.gl, path)?;
+        if legacy::HAS_PIPELINE { Shader::new(&self.gl, &source).map(drop) } else { Ok(()) }
     }
 
     /// Deletes everything; the context must be current.

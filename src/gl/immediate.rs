@@ -73,6 +73,7 @@ impl Immediate {
     /// # Safety
     ///
     /// `load` returns null or the address of the GL function of that name for the current context.
+    #[cfg_attr(target_arch = "wasm32", expect(dead_code, reason = "browsers have no such calls"))]
     pub(super) unsafe fn load(mut load: impl FnMut(&CStr) -> *const c_void) -> std::result::Result<Self, String> {
         let mut find = |name: &'static CStr| {
             let address = load(name);

@@ -1,269 +1,36 @@
-//! The fixed-function entry points of OpenGL 2.1 that glow lacks, loaded by name into one small table.
+//! The fixed-function pipeline of OpenGL 2.1: its matrices, current colour and vertex arrays.
+//!
+//! A driver of OpenGL 2.1 has it, and glow lacks its functions: `src/gl/legacy/driver.rs` loads them by name. A browser has not:
+//! `src/gl/legacy/browser.rs` keeps the same state itself and hands it to shaders. Both have the same methods.
 
-use std::ffi::{CStr, c_char, c_void};
+#[cfg(target_arch = "wasm32")]
+mod browser;
+#[cfg(not(target_arch = "wasm32"))]
+mod driver;
+
+#[cfg(target_arch = "wasm32")]
+pub(super) use browser::*;
+#[cfg(not(target_arch = "wasm32"))]
+pub(super) use driver::*;
 
 /// `GL_MODELVIEW`
 pub(super) const MODELVIEW: u32 = 0x1700;
 /// `GL_PROJECTION`
 pub(super) const PROJECTION: u32 = 0x1701;
-/// `GL_VERTEX_ARRAY`
-pub(super) const VERTEX_ARRAY: u32 = 0x8074;
-/// `GL_NORMAL_ARRAY`
-pub(super) const NORMAL_ARRAY: u32 = 0x8075;
-/// `GL_COLOR_ARRAY`
-pub(super) const COLOR_ARRAY: u32 = 0x8076;
-/// `GL_TEXTURE_COORD_ARRAY`
-pub(super) const TEXTURE_COORD_ARRAY: u32 = 0x8078;
-/// `GL_TEXTURE_ENV`
-const TEXTURE_ENV: u32 = 0x2300;
-/// `GL_TEXTURE_ENV_MODE`
-const TEXTURE_ENV_MODE: u32 = 0x2200;
-/// `GL_MODULATE`
-const MODULATE: i32 = 0x2100;
 /// `GL_POINT_SMOOTH`
 pub(super) const POINT_SMOOTH: u32 = 0x0B10;
 /// `GL_LUMINANCE_ALPHA`
 pub(super) const LUMINANCE_ALPHA: u32 = 0x190A;
-/// `GL_LUMINANCE8_ALPHA8`
-pub(super) const LUMINANCE8_ALPHA8: u32 = 0x8045;
 /// `GL_RGBA` as the internal format the article copies to.
 pub(super) const RGBA: u32 = 0x1908;
-/// `GL_GENERATE_MIPMAP`
-pub(super) const GENERATE_MIPMAP: u32 = 0x8191;
 /// `GL_QUADS`
 pub(super) const QUADS: u32 = 0x0007;
 /// `GL_ALPHA_BITS`
 pub(super) const ALPHA_BITS: u32 = 0x0D55;
 /// `GL_DEPTH_BITS`
 pub(super) const DEPTH_BITS: u32 = 0x0D56;
-/// `GL_SMOOTH_LINE_WIDTH_RANGE`
-pub(super) const SMOOTH_LINE_WIDTH_RANGE: u32 = 0x0B22;
 /// `GL_ALIASED_LINE_WIDTH_RANGE`
 pub(super) const ALIASED_LINE_WIDTH_RANGE: u32 = 0x846E;
-/// `GL_SMOOTH_POINT_SIZE_RANGE`
-pub(super) const SMOOTH_POINT_SIZE_RANGE: u32 = 0x0B12;
-/// `GL_ALIASED_POINT_SIZE_RANGE`
-pub(super) const ALIASED_POINT_SIZE_RANGE: u32 = 0x846D;
-
-type Enumerated = unsafe extern "system" fn(u32);
-type LoadMatrix = unsafe extern "system" fn(*const f32);
-type Color = unsafe extern "system" fn(f32, f32, f32, f32);
-type VertexPointer = unsafe extern "system" fn(i32, u32, i32, *const c_void);
-type NormalPointer = unsafe extern "system" fn(u32, i32, *const c_void);
-type TextureEnvironment = unsafe extern "system" fn(u32, u32, i32);
-type PointSize = unsafe extern "system" fn(f32);
-type GetString = unsafe extern "system" fn(u32) -> *const c_char;
-type ResetStatus = unsafe extern "system" fn() -> u32;
-
-/// The functions, each of the type the specification gives it.
-pub(super) struct Legacy {
-    matrix_mode: Enumerated,
-    load_matrix: LoadMatrix,
-    color: Color,
-    enable_client_state: Enumerated,
-    disable_client_state: Enumerated,
-    client_active_texture: Enumerated,
-    vertex_pointer: VertexPointer,
-    normal_pointer: NormalPointer,
-    color_pointer: VertexPointer,
-    texture_coordinate_pointer: VertexPointer,
-    texture_environment: TextureEnvironment,
-    point_size: PointSize,
-    get_string: GetString,
-    reset_status: Option<ResetStatus>,
-}
-
-impl Legacy {
-    /// Loads the table; the error names the first function the driver does not have.
-    ///
-    /// # Safety
-    ///
-    /// `load` returns null or the address of the GL function of that name for the current context.
-    pub(super) unsafe fn load(mut load: impl FnMut(&CStr) -> *const c_void) -> Result<Self, String> {
-        let mut find = |name: &'static CStr| {
-            let address = load(name);
-            if address.is_null() {
-                return Err(format!("the driver has no {}, which OpenGL 2.1 requires", name.to_string_lossy()));
-            }
-            Ok(address)
-        };
-        // SAFETY: each address is that of the function named, whose C type is the one in the table.
-        unsafe {
-            Ok(Self {
-                matrix_mode: std::mem::transmute::<*const c_void, Enumerated>(find(c"glMatrixMode")?),
-                load_matrix: std::mem::transmute::<*const c_void, LoadMatrix>(find(c"glLoadMatrixf")?),
-                color: std::mem::transmute::<*const c_void, Color>(find(c"glColor4f")?),
-                enable_client_state: std::mem::transmute::<*const c_void, Enumerated>(find(c"glEnableClientState")?),
-                disable_client_state: std::mem::transmute::<*const c_void, Enumerated>(find(c"glDisableClientState")?),
-                client_active_texture: std::mem::transmute::<*const c_void, Enumerated>(find(
-                    c"glClientActiveTexture",
-                )?),
-                vertex_pointer: std::mem::transmute::<*const c_void, VertexPointer>(find(c"glVertexPointer")?),
-                normal_pointer: std::mem::transmute::<*const c_void, NormalPointer>(find(c"glNormalPointer")?),
-                color_pointer: std::mem::transmute::<*const c_void, VertexPointer>(find(c"glColorPointer")?),
-                texture_coordinate_pointer: std::mem::transmute::<*const c_void, VertexPointer>(find(
-                    c"glTexCoordPointer",
-                )?),
-                texture_environment: std::mem::transmute::<*const c_void, TextureEnvironment>(find(c"glTexEnvi")?),
-                point_size: std::mem::transmute::<*const c_void, PointSize>(find(c"glPointSize")?),
-                get_string: std::mem::transmute::<*const c_void, GetString>(find(c"glGetString")?),
-                reset_status: None,
-            })
-        }
-    }
-
-    /// Adds what ARB_robustness has, for [`Legacy::reset_status`].
-    ///
-    /// # Safety
-    ///
-    /// As [`Legacy::load`], and the context has the extension: drivers give addresses for functions they do not have.
-    pub(super) unsafe fn load_robustness(&mut self, mut load: impl FnMut(&CStr) -> *const c_void) {
-        // The extension's own name, then that of KHR_robustness and OpenGL 4.5.
-        let names = [c"glGetGraphicsResetStatusARB", c"glGetGraphicsResetStatus"];
-        if let Some(address) = names.into_iter().map(&mut load).find(|address| !address.is_null()) {
-            // SAFETY: the address is that of the function named, whose C type this is.
-            self.reset_status = Some(unsafe { std::mem::transmute::<*const c_void, ResetStatus>(address) });
-        }
-    }
-
-    /// glGetGraphicsResetStatusARB: why the context is lost, GL_NO_ERROR if it is not or nobody knows.
-    ///
-    /// # Safety
-    ///
-    /// The context is current.
-    pub(super) unsafe fn reset_status(&self) -> u32 {
-        // SAFETY: the caller's promise.
-        self.reset_status.map_or(glow::NO_ERROR, |reset_status| unsafe { reset_status() })
-    }
-
-    /// glGetString; `None` where the context does not know the name, or is lost.
-    ///
-    /// # Safety
-    ///
-    /// The context is current.
-    pub(super) unsafe fn string(&self, name: u32) -> Option<String> {
-        // SAFETY: the caller's promise; GL's strings end with 0 and live as long as the context.
-        unsafe {
-            let text = (self.get_string)(name);
-            (!text.is_null()).then(|| CStr::from_ptr(text).to_string_lossy().into_owned())
-        }
-    }
-
-    /// glMatrixMode and glLoadMatrixf: `mode` is [`MODELVIEW`] or [`PROJECTION`].
-    ///
-    /// # Safety
-    ///
-    /// The context is current.
-    pub(super) unsafe fn load_matrix(&self, mode: u32, matrix: &glam::Mat4) {
-        // SAFETY: the caller's promise; the matrix is 16 floats, column by column.
-        unsafe {
-            (self.matrix_mode)(mode);
-            (self.load_matrix)(matrix.as_ref().as_ptr());
-        }
-    }
-
-    /// glColor4f.
-    ///
-    /// # Safety
-    ///
-    /// The context is current.
-    pub(super) unsafe fn color(&self, [red, green, blue, alpha]: [f32; 4]) {
-        // SAFETY: the caller's promise.
-        unsafe { (self.color)(red, green, blue, alpha) }
-    }
-
-    /// Positions and normals interleaved, three floats each, from the start of the bound array buffer; no colours, no texture
-    /// coordinates.
-    ///
-    /// # Safety
-    ///
-    /// The context is current and the buffer bound to GL_ARRAY_BUFFER holds such vertices.
-    pub(super) unsafe fn position_and_normal_arrays(&self) {
-        const STRIDE: i32 = 24;
-        // SAFETY: the caller's promise; with a buffer bound the pointers are offsets into it.
-        unsafe {
-            self.no_texture_coordinates();
-            (self.disable_client_state)(COLOR_ARRAY);
-            (self.enable_client_state)(VERTEX_ARRAY);
-            (self.enable_client_state)(NORMAL_ARRAY);
-            (self.vertex_pointer)(3, glow::FLOAT, STRIDE, std::ptr::null());
-            (self.normal_pointer)(glow::FLOAT, STRIDE, std::ptr::without_provenance(12));
-        }
-    }
-
-    /// Positions in clip space, four floats each, from the start of the bound array buffer, and nothing else.
-    ///
-    /// # Safety
-    ///
-    /// As [`Legacy::position_and_normal_arrays`].
-    pub(super) unsafe fn clip_position_array(&self) {
-        // SAFETY: as above.
-        unsafe {
-            self.no_texture_coordinates();
-            (self.disable_client_state)(COLOR_ARRAY);
-            (self.enable_client_state)(VERTEX_ARRAY);
-            (self.disable_client_state)(NORMAL_ARRAY);
-            (self.vertex_pointer)(4, glow::FLOAT, 0, std::ptr::null());
-        }
-    }
-
-    /// Texture coordinates of a unit, two floats a vertex, from the start of the bound array buffer.
-    ///
-    /// # Safety
-    ///
-    /// The context is current and the bound buffer holds them for as many vertices as will be drawn.
-    pub(super) unsafe fn texture_coordinate_array(&self, unit: u32) {
-        // SAFETY: as above.
-        unsafe {
-            (self.client_active_texture)(glow::TEXTURE0 + unit);
-            (self.enable_client_state)(TEXTURE_COORD_ARRAY);
-            (self.texture_coordinate_pointer)(2, glow::FLOAT, 0, std::ptr::null());
-        }
-    }
-
-    /// Colours, four floats a vertex, from the start of the bound array buffer; until other arrays are set.
-    ///
-    /// # Safety
-    ///
-    /// As [`Legacy::texture_coordinate_array`].
-    pub(super) unsafe fn color_array(&self) {
-        // SAFETY: as above.
-        unsafe {
-            (self.enable_client_state)(COLOR_ARRAY);
-            (self.color_pointer)(4, glow::FLOAT, 0, std::ptr::null());
-        }
-    }
-
-    unsafe fn no_texture_coordinates(&self) {
-        for unit in 0..FIXED_UNITS {
-            // SAFETY: the caller's promise.
-            unsafe {
-                (self.client_active_texture)(glow::TEXTURE0 + unit);
-                (self.disable_client_state)(TEXTURE_COORD_ARRAY);
-            }
-        }
-    }
-
-    /// Multiplies the active texture unit's colour with what came before it, where no fragment shader runs.
-    ///
-    /// # Safety
-    ///
-    /// The context is current.
-    pub(super) unsafe fn modulate(&self) {
-        // SAFETY: the caller's promise.
-        unsafe { (self.texture_environment)(TEXTURE_ENV, TEXTURE_ENV_MODE, MODULATE) }
-    }
-
-    /// glPointSize.
-    ///
-    /// # Safety
-    ///
-    /// The context is current; the size is above 0.
-    pub(super) unsafe fn point_size(&self, size_px: f32) {
-        // SAFETY: the caller's promise.
-        unsafe { (self.point_size)(size_px) }
-    }
-}
 
 /// Texture units that plans use without a fragment shader; every driver of OpenGL 2.1 has two.
 pub(super) const FIXED_UNITS: u32 = 2;

@@ -11,7 +11,6 @@ use crate::mesh::{Mesh, Part, VertexArrays};
 use crate::plan::{Draw, FaceList, Faces, Geometry, Paint, Plan, Step, Submission};
 use crate::scene::{Color, Object, Scene};
 use glam::DVec3;
-use glow::HasContext;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -112,7 +111,7 @@ impl Resources {
         material_unit: Option<u32>,
     ) -> Result<()> {
         // SAFETY: the context is current.
-        unsafe { self.gl.legacy.load_matrix(PROJECTION, &scene.clip_from_view()) };
+        unsafe { self.gl.legacy.load_matrix(PROJECTION, &self.in_tile(scene.clip_from_view())) };
         let mut bound = None;
         for (number, object) in scene.objects.iter().enumerate() {
             let listed = match draw.faces.as_ref().map_or(Some(&Faces::All), |faces| faces.get(number)) {
@@ -135,7 +134,7 @@ impl Resources {
                     if let Some(list) = lists.coordinates {
                         buffer_of(&self.coordinates, list)?.bind();
                         // SAFETY: the context is current; the buffer just bound has coordinates for every vertex.
-                        unsafe { self.gl.legacy.texture_coordinate_array(0) };
+                        unsafe { self.gl.legacy.texture_coordinate_array(0, 2) };
                     }
                     if let Some(list) = lists.colors {
                         buffer_of(&self.colors, list)?.bind();
@@ -175,7 +174,7 @@ impl Resources {
                 // bound vertex buffers, both by construction of `VertexArrays`.
                 unsafe {
                     let first_byte = part.first as i32 * size_of::<u32>() as i32;
-                    self.gl.glow.draw_elements(glow::TRIANGLES, part.count as i32, glow::UNSIGNED_INT, first_byte);
+                    self.gl.legacy.draw_elements(&self.gl.glow, glow::TRIANGLES, part.count as i32, first_byte);
                 }
             }
         }
@@ -285,7 +284,7 @@ impl MeshBuffers {
         if let (Some(unit), Some(coordinates)) = (material_unit, &self.texture_coordinates) {
             coordinates.bind();
             // SAFETY: the context is current and the bound buffer has coordinates for every vertex.
-            unsafe { gl.legacy.texture_coordinate_array(unit) };
+            unsafe { gl.legacy.texture_coordinate_array(unit, 2) };
         }
         self.indices.bind();
     }

@@ -1,6 +1,7 @@
 //! GL objects with one owner each, deleted when it is dropped, which must happen while their context is current.
 
-use super::{Gl, legacy};
+use super::sources::Source;
+use super::{Gl, sources};
 use crate::error::{Error, Result};
 use crate::plan::{self, Sampling};
 use glow::HasContext;
@@ -126,8 +127,7 @@ impl Texture {
                 gl.glow.tex_parameter_i32(target, name, value as i32);
             }
             if sampling == Sampling::MipmapRepeated {
-                // The way of GL 1.4 to 2.1: the smaller levels follow whenever the largest is uploaded.
-                gl.glow.tex_parameter_i32(target, legacy::GENERATE_MIPMAP, 1);
+                gl.legacy.keep_mipmaps(&gl.glow);
             }
             Ok(texture)
         }
@@ -174,14 +174,12 @@ impl Program {
             let id = gl.glow.create_program().map_err(out_of_names)?;
             let linked =
                 Self { live: Live::new(gl), id, locations: HashMap::new(), into_textures: None, is_stale: false };
-            let vertex = Shader::new(gl, glow::VERTEX_SHADER, program.vertex)?;
-            let mut shaders = vec![vertex];
-            for path in &program.fragments {
-                shaders.push(Shader::new(gl, glow::FRAGMENT_SHADER, path)?);
-            }
+            let sources = sources::of_program(gl, program)?;
+            let shaders: Vec<Shader> = sources.iter().map(|source| Shader::new(gl, source)).collect::<Result<_>>()?;
             for shader in &shaders {
                 gl.glow.attach_shader(id, shader.id);
             }
+            gl.legacy.before_linking(&gl.glow, id);
             gl.glow.link_program(id);
             for shader in &shaders {
                 gl.glow.detach_shader(id, shader.id);
@@ -204,6 +202,7 @@ impl Program {
         self.into_textures = Some(into_textures);
         // SAFETY: the context is current and this program alive.
         unsafe { self.live.0.glow.use_program(Some(self.id)) }
+        self.live.0.legacy.program_bound(self.id);
     }
 
     /// Sets a uniform of this program, which is bound; one the driver has optimised away is no error.
@@ -220,14 +219,18 @@ impl Program {
                 match value {
                     plan::Value::Int(x) => gl.uniform_1_i32(location, i32::from(x == 0)),
                     plan::Value::Float(x) => gl.uniform_1_f32(location, other(x)),
-                    plan::Value::Vec2([x, y]) => gl.uniform_2_f32(location, other(x), y),
+                    plan::Value::Vec2([x, y]) | plan::Value::TexelSize([x, y]) | plan::Value::PixelPlace([x, y]) => {
+                        gl.uniform_2_f32(location, other(x), y);
+                    }
                     plan::Value::Vec3([x, y, z]) => gl.uniform_3_f32(location, other(x), y, z),
                 }
             }
             match value {
                 plan::Value::Int(x) => gl.uniform_1_i32(location, x),
                 plan::Value::Float(x) => gl.uniform_1_f32(location, x),
-                plan::Value::Vec2([x, y]) => gl.uniform_2_f32(location, x, y),
+                plan::Value::Vec2([x, y]) | plan::Value::TexelSize([x, y]) | plan::Value::PixelPlace([x, y]) => {
+                    gl.uniform_2_f32(location, x, y);
+                }
                 plan::Value::Vec3([x, y, z]) => gl.uniform_3_f32(location, x, y, z),
             }
         }
@@ -247,6 +250,7 @@ impl Program {
 
 impl Drop for Program {
     fn drop(&mut self) {
+        self.live.0.legacy.program_deleted(self.id);
         // SAFETY: the context is current and this program alive and ours.
         unsafe { self.live.0.glow.delete_program(self.id) }
     }
@@ -259,23 +263,19 @@ pub(super) struct Shader {
 }
 
 impl Shader {
-    /// Compiles the shader of this path below `glsl/`.
-    pub(super) fn new(gl: &Rc<Gl>, kind: u32, path: &str) -> Result<Self> {
-        let failed = |log: &str| Error::Shader { path: path.to_owned(), log: one_line(log) };
-        let replaced = gl.replaced_shaders.borrow();
-        let built_in = || crate::glsl::source(path);
-        let source = replaced.get(path).map(String::as_str).or_else(built_in);
-        let source = source.ok_or_else(|| failed("it is not part of this program"))?;
+    /// Compiles a shader.
+    pub(super) fn new(gl: &Rc<Gl>, source: &Source) -> Result<Self> {
+        let Source { kind, path, text } = source;
         // SAFETY: the context is current.
         unsafe {
-            let id = gl.glow.create_shader(kind).map_err(out_of_names)?;
+            let id = gl.glow.create_shader(*kind).map_err(out_of_names)?;
             let shader = Self { live: Live::new(gl), id };
-            gl.glow.shader_source(id, source);
+            gl.glow.shader_source(id, text);
             gl.glow.compile_shader(id);
             if gl.glow.get_shader_compile_status(id) {
                 return Ok(shader);
             }
-            Err(failed(&gl.glow.get_shader_info_log(id)))
+            Err(Error::Shader { path: path.clone(), log: one_line(&gl.glow.get_shader_info_log(id)) })
         }
     }
 }
@@ -325,7 +325,7 @@ impl Drop for TimerQuery {
     }
 }
 
-fn one_line(log: &str) -> String {
+pub(super) fn one_line(log: &str) -> String {
     log.trim().lines().map(str::trim).collect::<Vec<_>>().join("; ")
 }
 

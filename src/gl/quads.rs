@@ -46,7 +46,7 @@ fn moved(point: Vec4, by: Vec2) -> [f32; 4] {
 }
 
 /// The part of a line behind the near plane, z = -w, where w is above 0.
-fn behind_near_plane([a, b]: [Vec4; 2]) -> Option<[Vec4; 2]> {
+pub(super) fn behind_near_plane([a, b]: [Vec4; 2]) -> Option<[Vec4; 2]> {
     let (depth_a, depth_b) = (a.z + a.w, b.z + b.w);
     let at_plane = || a.lerp(b, depth_a / (depth_a - depth_b));
     let ends = match (depth_a >= 0.0, depth_b >= 0.0) {

@@ -8,7 +8,6 @@ use super::objects::Buffer;
 use crate::error::Result;
 use crate::plan::Submission;
 use glam::Mat4;
-use glow::HasContext;
 
 /// Position and normal of each corner: the background square, then the screen square at the near plane.
 const SQUARES: [[f32; 6]; 8] = [
@@ -62,7 +61,7 @@ impl Resources {
         // SAFETY: the context is current and the bound buffer holds both squares, four vertices each.
         unsafe {
             self.gl.legacy.position_and_normal_arrays();
-            self.gl.glow.draw_arrays(mode, first as i32, count as i32);
+            self.gl.legacy.draw_arrays(&self.gl.glow, mode, first as i32, count as i32);
         }
         Ok(())
     }

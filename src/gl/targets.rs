@@ -7,7 +7,7 @@ use super::context::ContextInfo;
 use super::objects::Texture;
 use super::{Gl, legacy};
 use crate::error::{Error, Result};
-use crate::plan::{Attachments, Drawn, Format, Plan, Sampling, Target};
+use crate::plan::{Attachments, DEPTH_COPIES, Drawn, Format, Plan, Sampling, Step, Target};
 use crate::scene::{Rectangle, Size};
 pub(super) use framebuffer::clear_each;
 use framebuffer::{Framebuffer, Renderbuffer};
@@ -26,6 +26,12 @@ impl Targets {
     /// Makes what the plan draws into where there is none of this size yet.
     pub(super) fn prepare(&mut self, gl: &Rc<Gl>, plan: &Plan, size: Size) -> Result<()> {
         check(&gl.info, plan)?;
+        if !legacy::COPIES_DEPTH && plan.steps().any(|(_, step)| *step == Step::CopyDepth) {
+            let said = DEPTH_COPIES
+                .map(|[asked_by, instead]| format!("--{} {} for {}", instead.setting, instead.value, asked_by.value));
+            let problem = format!("{} copies no depth buffer; use {}", gl.info.renderer, said.join(", "));
+            return Err(Error::settings(&DEPTH_COPIES.map(|[asked_by, _]| asked_by.setting), problem));
+        }
         let attachments = plan.attachments();
         let is_there = |drawn: &TextureTargets| drawn.size == size && drawn.attachments == attachments;
         if !attachments.is_empty() && !self.drawn.as_ref().is_some_and(is_there) {
@@ -175,10 +181,11 @@ impl TextureTargets {
 
 fn empty_texture(gl: &Rc<Gl>, size: Size, format: Format) -> Result<Texture> {
     let texture = Texture::new(gl, glow::TEXTURE_2D, Sampling::NearestClamped)?;
+    let [bytes, halves, floats] = legacy::DRAWN_TEXELS;
     let (format, kind) = match format {
-        Format::Unorm8 => (glow::RGBA8, glow::UNSIGNED_BYTE),
-        Format::Float16 => (glow::RGBA16F, glow::FLOAT),
-        Format::Float32 => (glow::RGBA32F, glow::FLOAT),
+        Format::Unorm8 => bytes,
+        Format::Float16 => halves,
+        Format::Float32 => floats,
     };
     let (width, height) = (size.width as i32, size.height as i32);
     // SAFETY: the context is current, the texture just bound; no texels are given, so none are read.

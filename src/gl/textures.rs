@@ -109,15 +109,20 @@ fn upload(gl: &Rc<Gl>, picture: &Picture, sampling: Sampling) -> Result<Texture>
         let what = format!("a texture of {} pixels; this driver takes {largest} at most", picture.size);
         return Err(Error::gl("uploading a picture", what));
     }
+    let has_powers = width.is_power_of_two() && height.is_power_of_two();
+    if legacy::REPEATS_POWERS_OF_TWO_ONLY && sampling != Sampling::NearestClamped && !has_powers {
+        return upload(gl, &picture.with_powers_of_two(), sampling);
+    }
     let texture = Texture::new(gl, glow::TEXTURE_2D, sampling)?;
-    let rows: Vec<u8> = picture.pixels.chunks_exact(width as usize * 4).rev().flatten().copied().collect();
+    let row = width as usize * 4;
+    let rows: Vec<u8> = picture.clone().opaque().pixels.chunks_exact(row).rev().flatten().copied().collect();
     let texels = glow::PixelUnpackData::Slice(Some(&rows));
     // SAFETY: the context is current, the texture bound, rows are packed without gaps and of the size given.
     unsafe {
         gl.glow.tex_image_2d(
             glow::TEXTURE_2D,
             0,
-            glow::RGB8 as i32,
+            legacy::PICTURE_TEXELS as i32,
             width as i32,
             height as i32,
             0,
@@ -125,26 +130,25 @@ fn upload(gl: &Rc<Gl>, picture: &Picture, sampling: Sampling) -> Result<Texture>
             glow::UNSIGNED_BYTE,
             texels,
         );
+        if sampling == Sampling::MipmapRepeated {
+            gl.legacy.make_mipmaps(&gl.glow);
+        }
     }
     gl.check("uploading a picture")?;
     Ok(texture)
 }
 
 fn upload_table(gl: &Rc<Gl>, table: &PlanTable) -> Result<Texture> {
-    let texture = Texture::new(gl, glow::TEXTURE_1D, Sampling::NearestClamped)?;
+    let texture = Texture::new(gl, legacy::TABLE_TARGET, Sampling::NearestClamped)?;
     let texels = glow::PixelUnpackData::Slice(Some(table.texels.as_flattened()));
+    let (format, kind, width) = (legacy::LUMINANCE_ALPHA, glow::UNSIGNED_BYTE, table.texels.len() as i32);
+    let stored = legacy::TABLE_TEXELS as i32;
     // SAFETY: the context is current, the texture bound, and the texels are two bytes each, packed.
     unsafe {
-        gl.glow.tex_image_1d(
-            glow::TEXTURE_1D,
-            0,
-            legacy::LUMINANCE8_ALPHA8 as i32,
-            table.texels.len() as i32,
-            0,
-            legacy::LUMINANCE_ALPHA,
-            glow::UNSIGNED_BYTE,
-            texels,
-        );
+        match legacy::TABLE_TARGET {
+            glow::TEXTURE_2D => gl.glow.tex_image_2d(glow::TEXTURE_2D, 0, stored, width, 1, 0, format, kind, texels),
+            target => gl.glow.tex_image_1d(target, 0, stored, width, 0, format, kind, texels),
+        }
     }
     Ok(texture)
 }

@@ -86,7 +86,7 @@ impl Ink {
     }
 
     /// Pixels with ink and their middles.
-    fn pixels(&self, from: u8) -> impl Iterator<Item = (usize, DVec2)> {
+    pub(crate) fn pixels(&self, from: u8) -> impl Iterator<Item = (usize, DVec2)> {
         let width = self.size.width as usize;
         let is_ink = move |(_, darkness): &(usize, &u8)| **darkness >= from;
         let inked = self.darkness.iter().enumerate().filter(is_ink);
@@ -94,7 +94,7 @@ impl Ink {
     }
 
     /// The darkest ink whose pixel's middle lies within a distance of a place.
-    fn darkest_within(&self, px: DVec2, tolerance_px: f64) -> u8 {
+    pub(crate) fn darkest_within(&self, px: DVec2, tolerance_px: f64) -> u8 {
         let (low, high) = ((px - tolerance_px - 0.5).floor(), (px + tolerance_px + 0.5).ceil());
         let clamp = |value: f64, size: u32| value.clamp(0.0, f64::from(size)) as usize;
         let columns = clamp(low.x, self.size.width)..clamp(high.x, self.size.width);

@@ -26,6 +26,7 @@ pub struct Reference {
     /// Points along the lines.
     pub samples: Vec<Sample>,
     nearest: RTree<Place>,
+    /// Points along the soft creases.
     ignored: RTree<Place>,
 }
 
@@ -78,27 +79,57 @@ impl Reference {
         Self::with_progress(scene, settings, &Progress::default())
     }
 
+    /// As [`Reference::of`], with what of the lines is hidden.
+    ///
+    /// # Errors
+    ///
+    /// As [`VisibleLines::of`].
+    pub fn with_hidden(scene: &Scene, settings: &LineSettings) -> Result<Self> {
+        let all = LineSettings { finds_hidden: true, ..settings.clone() };
+        Self::of_lines(scene, VisibleLines::of(scene, &all)?, &all, &Progress::default())
+    }
+
     /// As [`Reference::of`], for whoever may want it to be given up.
     ///
     /// # Errors
     ///
     /// As [`VisibleLines::with_progress`].
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
-        let lines = VisibleLines::with_progress(scene, settings, progress)?;
+        // Ink is held against what is seen.
+        let seen = LineSettings { finds_hidden: false, ..settings.clone() };
+        Self::of_lines(scene, VisibleLines::with_progress(scene, &seen, progress)?, settings, progress)
+    }
+
+    fn of_lines(scene: &Scene, lines: VisibleLines, settings: &LineSettings, progress: &Progress) -> Result<Self> {
         let soft = LineSettings {
             classes: ClassSet::of(&[Class::Crease]),
             crease_angle: CreaseAngle::from_degrees(SOFT_CREASE_DEGREES)?,
+            finds_hidden: false,
             finds_outline: false,
         };
         let limit = settings.crease_angle.degrees();
         let is_between = |segment: &&LineSegment| segment.angle_degrees.is_none_or(|angle| angle <= limit);
         let soft = VisibleLines::with_progress(scene, &soft, progress)?;
-        let ignored = soft.segments.iter().filter(|segment| segment.is_visible).filter(is_between).flat_map(samples);
+        let ignored = soft.segments.iter().filter(|segment| segment.is_visible).filter(is_between).flat_map(samples_of);
         let ignored = tree(ignored.map(|sample| sample.px));
         let visible = lines.segments.iter().filter(|segment| segment.is_visible);
-        let samples: Vec<Sample> = visible.flat_map(samples).collect();
+        let samples: Vec<Sample> = visible.flat_map(samples_of).collect();
         let nearest = tree(samples.iter().map(|sample| sample.px));
         Ok(Self { size: lines.size, crease_angle: settings.crease_angle, samples, nearest, ignored, lines })
+    }
+
+    /// The same with each visible point moved; the lines themselves stay where they are.
+    #[must_use]
+    pub fn moved(&self, to: impl Fn(DVec2) -> DVec2) -> Self {
+        let samples: Vec<Sample> = self.samples.iter().map(|sample| Sample { px: to(sample.px), ..*sample }).collect();
+        Self {
+            size: self.size,
+            lines: self.lines.clone(),
+            crease_angle: self.crease_angle,
+            nearest: tree(samples.iter().map(|sample| sample.px)),
+            ignored: tree(self.ignored.iter().map(|place| to(place.0))),
+            samples,
+        }
     }
 
     /// Length of all visible lines, pixels.
@@ -118,7 +149,7 @@ impl Reference {
 }
 
 /// The middles of a segment's equal pieces.
-fn samples(segment: &LineSegment) -> impl Iterator<Item = Sample> + use<> {
+pub(crate) fn samples_of(segment: &LineSegment) -> impl Iterator<Item = Sample> + use<> {
     let [a, b] = segment.ends_px;
     let class = segment.class;
     let length = a.distance(b);

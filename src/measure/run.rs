@@ -1,6 +1,7 @@
 //! Draws settings, times them in turn and measures them.
 
-use super::ink::{Ink, Verdict};
+use super::error_picture::error_picture;
+use super::ink::Ink;
 use super::reference::Reference;
 use super::tones::ReferenceLight;
 use super::{PassRow, Row, RunTime};
@@ -49,6 +50,8 @@ pub struct Subject {
 pub struct Measured {
     /// The numbers.
     pub row: Row,
+    /// What the style draws.
+    pub drawing: Picture,
     /// Agreed ink black, missed lines red, invented ink blue, what does not count grey; `None` without lines.
     pub error_picture: Option<Picture>,
 }
@@ -69,6 +72,24 @@ impl Default for MeasureSettings {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let machine = format!("{} {}, {threads} threads", std::env::consts::OS, std::env::consts::ARCH);
         Self { tolerance_px: 2.0, frames: 21, machine }
+    }
+}
+
+impl MeasureSettings {
+    /// Refuses nonsense, before any work.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a tolerance that is no distance, and for no frame.
+    pub fn check(&self) -> Result<()> {
+        if !(self.tolerance_px > 0.0 && self.tolerance_px <= 1000.0) {
+            let problem = "it is a number of pixels above 0 and at most 1000";
+            return Err(Error::value("tolerance", self.tolerance_px, problem));
+        }
+        match self.frames {
+            0 => Err(Error::value("frames", "0", "at least one frame is needed to time one")),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -185,7 +206,7 @@ fn contestant(
     let plan = Plan { submission: setting.submission, ..style.plan(scene, Show::Final)? };
     let plan_ms = milliseconds_since(start);
     let start = Instant::now();
-    renderer.draw(scene, &plan)?;
+    let drawing = renderer.draw(scene, &plan)?;
     let first_frame_ms = milliseconds_since(start);
     renderer.time_frames(scene, &plan, WARM_UP, 1)?;
     let ink = Ink::of_style(renderer, scene, style)?;
@@ -222,7 +243,7 @@ fn contestant(
         },
     };
     let error_picture = ink.map(|ink| error_picture(&ink, &subject.reference, how.tolerance_px));
-    Ok(Contestant { plan, measured: Measured { row, error_picture } })
+    Ok(Contestant { plan, measured: Measured { row, drawing, error_picture } })
 }
 
 /// The picture of a style that its shading alone makes.
@@ -234,28 +255,4 @@ fn quartiles(times: &[f64]) -> [f64; 2] {
     let mut sorted = times.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
     [1, 3].map(|quarter| sorted.get(sorted.len() * quarter / 4).copied().unwrap_or_default())
-}
-
-/// Agreed ink black, missed lines red, invented ink blue, ink that does not count grey.
-fn error_picture(ink: &Ink, reference: &Reference, tolerance_px: f64) -> Picture {
-    const AGREED: [u8; 4] = [0, 0, 0, 255];
-    const INVENTED: [u8; 4] = [30, 90, 230, 255];
-    const IGNORED: [u8; 4] = [190, 190, 190, 255];
-    const MISSED: [u8; 4] = [225, 25, 25, 255];
-    let verdicts = ink.verdicts(reference, tolerance_px);
-    let color = |verdict: &Option<Verdict>| match verdict {
-        None => [u8::MAX; 4],
-        Some(Verdict::Agreed) => AGREED,
-        Some(Verdict::Invented) => INVENTED,
-        Some(Verdict::Ignored) => IGNORED,
-    };
-    let mut pixels: Vec<u8> = verdicts.pixels.iter().flat_map(color).collect();
-    for place in verdicts.missed {
-        let (x, y) = (place.x.floor() as usize, place.y.floor() as usize);
-        if x < ink.size.width as usize && y < ink.size.height as usize {
-            let first = (y * ink.size.width as usize + x) * 4;
-            pixels[first..first + 4].copy_from_slice(&MISSED);
-        }
-    }
-    Picture { size: ink.size, pixels }
 }

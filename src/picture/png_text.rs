@@ -15,7 +15,7 @@ pub(super) fn encode(picture: &Picture, keyword: &str, text: &str) -> Result<Vec
     let mut encoder = Encoder::new(&mut bytes, width, height);
     let rgb: Vec<u8>;
     let (pixels, color) = if picture.is_opaque() {
-        rgb = picture.pixels.chunks_exact(4).flat_map(|pixel| &pixel[..3]).copied().collect();
+        rgb = picture.rgb();
         (&rgb, ColorType::Rgb)
     } else {
         (&picture.pixels, ColorType::Rgba)

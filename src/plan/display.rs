@@ -92,7 +92,9 @@ impl fmt::Display for Draw {
             match uniform.value {
                 Value::Float(x) => write!(out, ", {} = {x}", uniform.name)?,
                 Value::Int(x) => write!(out, ", {} = {x}", uniform.name)?,
-                Value::Vec2([x, y]) => write!(out, ", {} = ({x}, {y})", uniform.name)?,
+                Value::Vec2([x, y]) | Value::TexelSize([x, y]) | Value::PixelPlace([x, y]) => {
+                    write!(out, ", {} = ({x}, {y})", uniform.name)?
+                }
                 Value::Vec3([x, y, z]) => write!(out, ", {} = ({x}, {y}, {z})", uniform.name)?,
             }
         }

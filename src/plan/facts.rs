@@ -29,6 +29,9 @@ pub struct Facts {
     pub adds_nothing: Option<String>,
     /// How far from its own pixel it reads the textures that passes leave, at most, pixels.
     pub reach_px: Option<u32>,
+    /// Its vertex shader makes of a vertex's place in clip space something else than where it is drawn: clip space must then be the
+    /// whole picture's.
+    pub reads_clip_place: bool,
     /// What becomes of a pixel where all of these textures hold one value each as far as the draw reads.
     pub where_even: Option<WhereEven>,
     /// A program that draws the same with less work.
@@ -110,6 +113,7 @@ impl fmt::Display for Facts {
             self.constant_color.map(|constant| format!("all in {}", color(constant))),
             self.adds_nothing.as_ref().map(|reason| format!("adds nothing: {reason}")),
             self.reach_px.map(|reach| format!("reads no further than {reach} px")),
+            self.reads_clip_place.then(|| "reads its place in clip space".to_owned()),
             self.where_even.map(|what| match what {
                 WhereEven::Unchanged => "nothing where that is even".to_owned(),
                 WhereEven::Color(even) => format!("{} where that is even", color(even)),

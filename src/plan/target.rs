@@ -50,6 +50,15 @@ pub struct SettingValue {
     pub value: &'static str,
 }
 
+/// What asks for a copy of the depth buffer, each with what to choose instead where there is none.
+pub(crate) const DEPTH_COPIES: [[SettingValue; 2]; 2] = [
+    [
+        SettingValue { setting: "map-encoding", value: "depth-texture" },
+        SettingValue { setting: "map-encoding", value: "float" },
+    ],
+    [SettingValue { setting: "crease-by", value: "normals" }, SettingValue { setting: "crease-by", value: "planes" }],
+];
+
 /// What a channel of a texture that is drawn into holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {

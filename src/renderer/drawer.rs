@@ -3,9 +3,10 @@
 use crate::error::{Error, Result};
 use crate::gl::context::{Context, Current};
 use crate::gl::execute::Resources;
+use crate::limits::{DRAWN_AT_ONCE_PIXELS, DRAWN_PIXELS, TILE_SIDE_PX};
 use crate::picture::Picture;
-use crate::plan::{Output, Plan};
-use crate::scene::{Scene, Size};
+use crate::plan::{Output, Pass, Plan, Step, Tile, TileLimits};
+use crate::scene::{Rectangle, Scene, Size};
 use std::collections::HashMap;
 
 /// A context, its GL objects, and the memory that its pictures are read back into.
@@ -13,34 +14,73 @@ pub(super) struct Drawer {
     // Dropped with the context current: see `Drop`.
     pub(super) resources: Resources,
     pub(super) context: Context,
-    /// Of the context's surface: the picture's size times the plan's supersampling.
+    /// Of the context's surface: the picture's size times the plan's supersampling, or a tile's.
     pub(super) surface: Option<Size>,
     pixels: Vec<u8>,
+    /// Largest surface drawn at once, where that is to be less than the context's largest.
+    confined_to: Option<Size>,
 }
 
 impl Drawer {
     pub(super) fn new(context: Context) -> Self {
-        Self { resources: Resources::new(context.gl()), context, surface: None, pixels: Vec::new() }
+        let resources = Resources::new(context.gl());
+        Self { resources, context, surface: None, pixels: Vec::new(), confined_to: None }
     }
 
-    fn resize(&mut self, surface: Size, supersample: u32) -> Result<()> {
-        let limit = self.context.info().largest_picture;
-        if supersample > 1 && !self.context.draws(surface) {
-            let largest = Size { width: limit.width / supersample, height: limit.height / supersample };
-            let problem = format!(
-                "{} draws {limit} pixels at most, which leaves {largest} with this; ask for a smaller --size or less \
-                 of it",
-                self.context.info().renderer
-            );
-            return Err(Error::value("supersample", supersample, problem));
+    /// Draws what is larger than this in tiles that are not.
+    pub(super) fn confine(&mut self, largest: Option<Size>) {
+        self.confined_to = largest;
+    }
+
+    /// Whether it draws surfaces of this size in one piece.
+    pub(super) fn draws_at_once(&self, surface: Size) -> bool {
+        let is_within = |limit: Size| surface.width <= limit.width && surface.height <= limit.height;
+        self.context.draws(surface)
+            && surface.pixel_count() <= DRAWN_AT_ONCE_PIXELS
+            && self.confined_to.is_none_or(is_within)
+    }
+
+    /// What of a surface of this size is drawn at once, one after the other; `None` where it cannot be drawn.
+    pub(super) fn tiles(&self, plan: &Plan, surface: Size) -> Option<Vec<Tile>> {
+        match self.draws_at_once(surface) {
+            true => Some(vec![Tile::whole(surface)]),
+            false => plan.tiles(surface, self.limits()),
         }
+    }
+
+    fn limits(&self) -> TileLimits {
+        let info = self.context.info();
+        let least = |a: Size, b: Size| Size { width: a.width.min(b.width), height: a.height.min(b.height) };
+        let side = Size { width: TILE_SIDE_PX, height: TILE_SIDE_PX };
+        let surface = least(self.confined_to.unwrap_or(side), info.largest_picture);
+        TileLimits { surface, viewport: info.largest_viewport }
+    }
+
+    /// Why a surface of this size is not drawn.
+    fn refusal(&self, scene: &Scene, plan: &Plan) -> Error {
+        let info = self.context.info();
+        let limits = TileLimits { surface: info.largest_picture, ..self.limits() };
+        let limit = plan.largest_surface(limits).unwrap_or(info.largest_picture);
+        if plan.supersample == 1 {
+            return Error::PictureTooLarge {
+                width: scene.size.width,
+                height: scene.size.height,
+                limit_width: limit.width,
+                limit_height: limit.height,
+                renderer: info.renderer.clone(),
+            };
+        }
+        let largest = Size { width: limit.width / plan.supersample, height: limit.height / plan.supersample };
+        let problem = format!(
+            "{} draws {limit} pixels at most, which leaves {largest} with this; ask for a smaller --size or less of it",
+            info.renderer
+        );
+        Error::value("supersample", plan.supersample, problem)
+    }
+
+    fn resize(&mut self, surface: Size) -> Result<()> {
         self.context.resize(surface)?;
-        let bytes = surface.pixel_count() * 4;
-        self.pixels = Vec::new();
-        self.pixels
-            .try_reserve_exact(bytes)
-            .map_err(|_| Error::gl("reading the picture back", "there is not enough memory"))?;
-        self.pixels.resize(bytes, 0);
+        self.pixels = memory(surface.pixel_count() * 4)?;
         self.surface = Some(surface);
         Ok(())
     }
@@ -52,15 +92,21 @@ impl Drawer {
         plan: &Plan,
         work: impl FnOnce(&mut Frame<'_>) -> Result<T>,
     ) -> Result<T> {
-        let surface = scene.size.times(plan.supersample);
+        let whole = scene.size.times(plan.supersample);
+        if scene.size.pixel_count() > DRAWN_PIXELS {
+            let problem = format!("the largest picture has {DRAWN_PIXELS} pixels; ask for a smaller one");
+            return Err(Error::value("size", scene.size, problem));
+        }
+        let tiles = self.tiles(plan, whole).ok_or_else(|| self.refusal(scene, plan))?;
+        let longest = |side: fn(&Tile) -> u32| tiles.iter().map(side).max().unwrap_or(1);
+        let surface = Size { width: longest(|tile| tile.drawn.width), height: longest(|tile| tile.drawn.height) };
         if self.surface != Some(surface) {
-            self.resize(surface, plan.supersample)?;
+            self.resize(surface)?;
         }
         let current: Current<'_> = self.context.enter()?;
-        let result = self
-            .resources
-            .prepare(scene, plan)
-            .and_then(|()| work(&mut Frame { resources: &mut self.resources, pixels: &mut self.pixels, scene, plan }));
+        let result = self.resources.prepare(scene, plan).and_then(|()| {
+            work(&mut Frame { resources: &mut self.resources, pixels: &mut self.pixels, tiles, scene, plan })
+        });
         let explained = self.resources.explain("drawing", result);
         if explained.is_err() {
             // What was half made must not be taken for whole by the next picture.
@@ -99,16 +145,28 @@ impl Drop for Drawer {
     }
 }
 
+/// So many bytes of 0, or that there is no memory for them.
+fn memory(bytes: usize) -> Result<Vec<u8>> {
+    let mut memory = Vec::new();
+    memory.try_reserve_exact(bytes).map_err(|_| Error::gl("reading the picture back", "there is not enough memory"))?;
+    memory.resize(bytes, 0);
+    Ok(memory)
+}
+
 /// A picture in the making, its context current.
 pub(super) struct Frame<'a> {
     pub(super) resources: &'a mut Resources,
     pub(super) pixels: &'a mut Vec<u8>,
+    /// What is drawn at once, one after the other.
+    pub(super) tiles: Vec<Tile>,
     scene: &'a Scene,
     plan: &'a Plan,
 }
 
 impl Frame<'_> {
-    pub(super) fn all_steps(&mut self) -> Result<()> {
+    /// Carries out the plan, tile by tile.
+    pub(super) fn all_steps(&mut self, tile: Tile) -> Result<()> {
+        self.resources.begin_tile(self.plan, tile)?;
         for pass in &self.plan.passes {
             self.resources.begin(pass.target, pass.scissor)?;
             pass.steps.iter().try_for_each(|step| self.resources.step(self.scene, step))?;
@@ -116,19 +174,88 @@ impl Frame<'_> {
         Ok(())
     }
 
-    pub(super) fn read_back(&mut self) -> Result<()> {
-        let size = self.scene.size;
-        self.resources.begin(self.plan.picture_target(), None)?;
-        self.resources.read_framebuffer(size, &mut self.pixels[..size.pixel_count() * 4]);
-        self.resources.check("drawing")
+    /// Carries out one step of a tile and puts what it drew, or for a copy the copy, where it belongs.
+    pub(super) fn step(&mut self, pass: &Pass, step: &Step, tile: Tile, times: u32, canvas: &mut Canvas) -> Result<()> {
+        self.resources.begin(pass.target, pass.scissor)?;
+        self.resources.step(self.scene, step)?;
+        // Before reading: a copy that failed leaves a texture of another size.
+        self.resources.check(pass.name)?;
+        let (part, place) = shrunk(tile, times);
+        match step {
+            Step::CopyFramebuffer | Step::CopyDepth => {
+                let size = tile.size();
+                let copied = &mut self.pixels[..size.pixel_count() * 4];
+                self.resources.read_copy(step, size, copied);
+                canvas.put(place, &cut(copied, size, part));
+            }
+            Step::Clear { .. } | Step::ClearEach { .. } | Step::Draw(_) => {
+                self.resources.read_framebuffer(part, &mut self.pixels[..part.pixel_count() * 4]);
+                canvas.put(place, self.pixels);
+            }
+        }
+        self.resources.check(pass.name)
     }
 
-    pub(super) fn picture(&self, output: Output) -> Picture {
-        let picture = Picture::from_bottom_up(self.scene.size, &self.pixels[..self.scene.size.pixel_count() * 4]);
-        match output {
+    /// Reads back what the picture has of a tile.
+    pub(super) fn read_back(&mut self, tile: Tile) -> Result<Rectangle> {
+        self.resources.begin(self.plan.picture_target(), None)?;
+        let (part, place) = shrunk(tile, self.plan.supersample);
+        self.resources.read_framebuffer(part, &mut self.pixels[..part.pixel_count() * 4]);
+        self.resources.check("drawing").map(|()| place)
+    }
+
+    /// Draws all tiles.
+    pub(super) fn picture(&mut self, output: Output) -> Result<Picture> {
+        let mut canvas = Canvas::new(self.scene.size)?;
+        for tile in self.tiles.clone() {
+            self.all_steps(tile)?;
+            let place = self.read_back(tile)?;
+            canvas.put(place, self.pixels);
+        }
+        let picture = canvas.picture;
+        Ok(match output {
             Output::Rgba => picture,
             Output::Rgb => picture.opaque(),
             Output::AlphaAsGrey => picture.alpha_as_grey(),
+        })
+    }
+}
+
+/// Where in a tile the part of the picture lies that it holds, and where that lies in the picture.
+fn shrunk(tile: Tile, times: u32) -> (Rectangle, Rectangle) {
+    let by_times = |Rectangle { x, y, width, height }: Rectangle| {
+        let [x, y, width, height] = [x, y, width, height].map(|number| number / times);
+        Rectangle { x, y, width, height }
+    };
+    let Rectangle { x, y, .. } = tile.drawn;
+    let part = Rectangle { x: tile.kept.x - x, y: tile.kept.y - y, ..tile.kept };
+    (by_times(part), by_times(tile.kept))
+}
+
+/// A part of rows of pixels.
+fn cut(pixels: &[u8], size: Size, part: Rectangle) -> Vec<u8> {
+    let rows = pixels.chunks_exact(size.width as usize * 4).skip(part.y as usize).take(part.height as usize);
+    rows.flat_map(|row| &row[part.x as usize * 4..][..part.width as usize * 4]).copied().collect()
+}
+
+/// A picture that is put together from parts.
+pub(super) struct Canvas {
+    pub(super) picture: Picture,
+}
+
+impl Canvas {
+    pub(super) fn new(size: Size) -> Result<Self> {
+        Ok(Self { picture: Picture { size, pixels: memory(size.pixel_count() * 4)? } })
+    }
+
+    /// Puts GL's rows, bottom row first, where they belong.
+    pub(super) fn put(&mut self, place: Rectangle, pixels: &[u8]) {
+        let Size { width, height } = self.picture.size;
+        let (length, start) = (place.width as usize * 4, place.x as usize * 4);
+        for (row, source) in (place.y..place.y + place.height).zip(pixels.chunks_exact(length)) {
+            let from_top = (height - 1 - row) as usize;
+            let target = from_top * width as usize * 4 + start;
+            self.picture.pixels[target..target + length].copy_from_slice(source);
         }
     }
 }

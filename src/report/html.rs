@@ -230,19 +230,24 @@ fn pictures(info: &ReportInfo, models: &[&str]) -> String {
         return String::new();
     }
     let mut text =
-        "<section id=\"pictures\">\n<h2>Where the errors lie</h2>\n<p>Black is ink on a line, red a line without ink, blue ink without a line, grey ink that does not count (soft creases). Shown are each style's published settings and the best. Press a picture to see it in full size.</p>\n\
+        "<section id=\"pictures\">\n<h2>What is drawn and where its errors lie</h2>\n<p>Beside each drawing its lines: black is ink on a line, red a line without ink, blue ink without a line, grey ink that does not count (soft creases). Shown are each style's published settings and the best. Press a picture to see it in full size.</p>\n\
                     <div class=\"pictures\">\n"
             .to_owned();
     let names = model_names(models.iter().copied());
     for picture in &info.pictures {
         let model = picture.model.as_deref().and_then(|model| names.get(model));
         let caption = escaped(&model.into_iter().chain([&picture.caption]).cloned().collect::<Vec<_>>().join(", "));
+        let img = |what: &str, png: &Vec<u8>| {
+            let source = BASE64_STANDARD.encode(png);
+            format!("<img alt=\"{what} {caption}\" src=\"data:image/png;base64,{source}\"/>")
+        };
+        let drawing = picture.drawing.as_ref().map(|png| img("drawing:", png)).unwrap_or_default();
         let _ = writeln!(
             text,
-            "<figure data-model=\"{}\"><button type=\"button\" class=\"picture\" aria-pressed=\"false\">\
-             <img alt=\"{caption}\" src=\"data:image/png;base64,{}\"/></button><figcaption>{caption}</figcaption></figure>",
+            "<figure data-model=\"{}\"><button type=\"button\" class=\"picture\" aria-pressed=\"false\">{drawing}{}\
+             </button><figcaption>{caption}</figcaption></figure>",
             escaped(picture.model.as_deref().unwrap_or_default()),
-            BASE64_STANDARD.encode(&picture.png),
+            img("errors:", &picture.png),
         );
     }
     text.push_str("</div>\n</section>\n");

@@ -271,7 +271,7 @@ impl Charcoal {
             uniforms,
             textures,
             cull_back_faces: self.cull_back_faces,
-            facts: Facts::plain(),
+            facts: Facts { reads_clip_place: !self.improve.paper_coordinate, ..Facts::plain() },
             ..Draw::new(Geometry::Objects(Paint::Uniform([1.0; 4])), Some(program))
         }
     }

@@ -31,6 +31,8 @@ pub struct Ink {
     pub is_inked: bool,
     /// From which angle between planes there is a crease. Default 30 degrees; more draw fewer lines.
     pub crease_angle: CreaseAngle,
+    /// What of a surface turns at a crease. Default its planes.
+    pub crease_by: CreaseBy,
     /// Whether ink that touches no other and is at most twice as long as a line is wide is left out; `None` is as the quality
     /// has it: a look at the neighbours of all ink takes about half of the picture's time again with a software driver. Default none.
     pub removes_specks: Option<bool>,
@@ -51,6 +53,24 @@ pub struct Ink {
     /// How the map gets from pass to pass. Default by a copy of the framebuffer; either way it is the same picture.
     pub map_target: MapTarget,
 }
+
+/// What turns where there is a crease.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum CreaseBy {
+    /// The planes of the triangles: every fold of a model, also the small ones of scans.
+    #[default]
+    Planes,
+    /// The model's normals, where they are split: where none are in the file, along edges that the smoothing angle exceeds and that go
+    /// on from vertex to vertex.
+    Normals,
+}
+
+impl CreaseBy {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("planes", Self::Planes), ("normals", Self::Normals)];
+}
+
+tinta_geometry::choices!(CreaseBy);
 
 /// How much time a picture may take.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -84,6 +104,7 @@ impl Default for Ink {
             supersample: None,
             is_inked: true,
             crease_angle: CreaseAngle::of_drawings(),
+            crease_by: CreaseBy::Planes,
             removes_specks: None,
             least_gap_px: 1.5,
             gap_per_slope: 0.3,
@@ -121,6 +142,13 @@ impl Ink {
             .ours("chamfers and many-sided prisms keep their edges");
         let image_space = vec![width.labelled("line width"), MapTarget::setting(|ink: &mut Self| &mut ink.map_target)];
         let own = vec![
+            Setting::field(
+                "crease-by",
+                "WHAT",
+                "What has a crease: planes (of triangles, every fold of a scan too) or normals (where they are split: --smooth-angle)",
+                |ink: &mut Self| &mut ink.crease_by,
+            )
+            .ours("what was measured (ink.md)"),
             Setting::open_field(
                 "remove-specks",
                 ON_OFF,
@@ -225,10 +253,17 @@ impl Ink {
 
     /// Each pixel's plane.
     fn map_pass(&self, scene: &Scene, surface: Size, is_read: bool) -> Pass {
-        let program = Program { vertex: "improved/plane-map.vert", fragments: vec!["improved/plane-map.frag"] };
-        let depth = DepthRange::of_scene(scene);
+        let by_normals = self.crease_by == CreaseBy::Normals;
+        let (vertex, fragment) = match by_normals {
+            false => ("improved/plane-map.vert", "improved/plane-map.frag"),
+            true => ("improved/normal-map.vert", "improved/normal-map.frag"),
+        };
+        let depth = self.depth_range(scene);
+        let mut uniforms = vec![lens::footprint(scene, surface, depth)];
+        uniforms.extend((!by_normals).then(|| depth.of_distance(scene)));
+        let program = Program { vertex, fragments: vec![fragment] };
         let objects = Draw {
-            uniforms: vec![lens::footprint(scene, surface, depth), depth.of_distance(scene)],
+            uniforms,
             cull_back_faces: self.cull_back_faces,
             facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
@@ -239,7 +274,18 @@ impl Ink {
         if is_read && target == Target::Framebuffer {
             steps.push(Step::CopyFramebuffer);
         }
+        if is_read && by_normals {
+            steps.push(Step::CopyDepth);
+        }
         Pass { target, ..Pass::new("map", steps) }
+    }
+
+    /// Of what depths the map's are: those of the depth buffer, where it is the map.
+    fn depth_range(&self, scene: &Scene) -> DepthRange {
+        match self.crease_by {
+            CreaseBy::Planes => DepthRange::of_scene(scene),
+            CreaseBy::Normals => DepthRange::of_camera(scene),
+        }
     }
 
     /// The published tones; the background is cleared and needs no square.
@@ -277,20 +323,35 @@ impl Ink {
     fn ink(&self, scene: &Scene, surface: Size) -> Draw {
         let float = |name, value: f64| Uniform { name, value: Value::Float(value as f32) };
         let (scale, width) = (self.supersample().factor(), self.line_width.pixels(scene.size));
-        let gap = [self.least_gap_px * scale as f32, self.gap_per_slope];
+        let least_gap = match self.crease_by {
+            CreaseBy::Planes => self.least_gap_px,
+            CreaseBy::Normals => self.least_gap_px.max(LEAST_GAP_SHARE * width as f32),
+        };
+        let gap = [least_gap * scale as f32, self.gap_per_slope];
         let mut uniforms = vec![
             supersample::texture_unit(surface),
-            lens::footprint(scene, surface, DepthRange::of_scene(scene)),
+            lens::footprint(scene, surface, self.depth_range(scene)),
             Uniform { name: "gapThreshold", value: Value::Vec2(gap) },
             float("creaseCosine", self.crease_angle.cosine),
             reach(Some(width), scale, false),
         ];
-        uniforms.extend(lens::rays(scene, surface));
         let [before, behind] = taps(Some(width), scale, false);
-        let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/plane-ink.frag"] };
+        let mut textures = vec![("planeMap", map_texture(self.map_target.target()))];
+        let parts = match self.crease_by {
+            CreaseBy::Planes => {
+                uniforms.extend(lens::rays(scene, surface));
+                ["improved/ink-depth-map.frag", "improved/ink-turn-planes.frag"]
+            }
+            CreaseBy::Normals => {
+                textures.push(("depthMap", Texture::DepthMap));
+                ["improved/ink-depth-buffer.frag", "improved/ink-turn-normals.frag"]
+            }
+        };
+        let fragments = [&["improved/plane-ink.frag"], &parts[..]].concat();
+        let program = Program { vertex: "evangelista/border.vert", fragments };
         Draw {
             uniforms,
-            textures: vec![("planeMap", map_texture(self.map_target.target()))],
+            textures,
             depth: Depth::Ignore,
             facts: Facts {
                 reach_px: Some(before.max(behind) + 1),
@@ -330,6 +391,10 @@ impl Ink {
         (2 * self.line_width.pixels(scene.size) * self.supersample().factor()).min(LARGEST_SPECK)
     }
 }
+
+/// By normals a step of less than this share of a line's width is no line either: under a wide line, as print needs it, the facets of
+/// a round surface make such steps. It is the default step's share of the line of `print` at 1200 pixels.
+const LEAST_GAP_SHARE: f32 = 0.375;
 
 /// Largest speck, pixels of what is drawn: looking farther costs time, and what is larger is seldom one.
 const LARGEST_SPECK: u32 = 16;

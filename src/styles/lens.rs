@@ -71,7 +71,7 @@ pub(super) fn rays(scene: &Scene, surface: Size) -> [Uniform; 2] {
     let middle = [surface.width as f32 * 0.5, surface.height as f32 * 0.5];
     [
         Uniform { name: "pixelAngle", value: Value::Float(pixel_angle(scene, surface) as f32) },
-        Uniform { name: "middle", value: Value::Vec2(middle) },
+        Uniform { name: "middle", value: Value::PixelPlace(middle) },
     ]
 }
 

@@ -5,9 +5,6 @@ use crate::scene::Size;
 use crate::settings::Setting;
 
 /// How many times as wide and high as the picture it is drawn.
-///
-/// The largest picture shrinks by the same factor: a driver that draws 16384 x 16384 pixels at most makes pictures of up to
-/// 4096 x 4096 with [`Supersample::Four`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Supersample {
     /// As large as the picture, as published.
@@ -27,8 +24,7 @@ impl Supersample {
         [("1", Self::One), ("2", Self::Two), ("3", Self::Three), ("4", Self::Four)];
 
     /// What the setting does.
-    pub(super) const HELP: &'static str =
-        "Draw 1 to 4 times as wide and high, then shrink; lowers the largest size that tinta info shows";
+    pub(super) const HELP: &'static str = "Draw 1 to 4 times as wide and high, then shrink";
 
     /// The setting of a style that always has a factor.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
@@ -84,6 +80,5 @@ tinta_geometry::choices!(Supersample);
 
 /// How far apart the texels of a texture of this size are.
 pub(super) fn texture_unit(size: Size) -> Uniform {
-    let unit = [1.0 / size.width as f32, 1.0 / size.height as f32];
-    Uniform { name: "textureUnit", value: Value::Vec2(unit) }
+    Uniform { name: "textureUnit", value: Value::texel_size(size) }
 }

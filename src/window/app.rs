@@ -39,6 +39,9 @@ const TEXT_GREY: u8 = 215;
 /// A window less wide, in points, begins without the panel, and folds it when it becomes so.
 const NARROW: u32 = 800;
 
+/// How long a pointer that drags rests before what it drags is drawn in full.
+const STILL: Duration = Duration::from_millis(200);
+
 /// A thread has news.
 #[derive(Debug, Clone, Copy)]
 struct News;
@@ -101,10 +104,13 @@ pub(super) struct Shown {
     pub is_over: bool,
     /// Whether there is no room for the panel beside the panes.
     is_narrow: bool,
+    /// Whether a recording says what happens, and when the view moves.
+    is_played: bool,
 }
 
 impl Shown {
-    fn open(event_loop: &ActiveEventLoop, viewer: Viewer, size: Size, follows_window: bool) -> Result<Self> {
+    fn open(event_loop: &ActiveEventLoop, viewer: Viewer, size: Size, player: Option<&Player>) -> Result<Self> {
+        let follows_window = player.is_none_or(|player| !player.has_sizes());
         let title = viewer.state.title();
         let attributes = Window::default_attributes()
             .with_title(title.clone())
@@ -131,6 +137,7 @@ impl Shown {
             follows_window,
             is_over: false,
             is_narrow: size.width < NARROW,
+            is_played: player.is_some(),
         };
         if follows_window {
             // The first picture is drawn while egui still finds out how much room there is.
@@ -159,6 +166,10 @@ impl Shown {
         });
         let has_events = !events.is_empty();
         events.into_iter().for_each(|event| self.event(event));
+        let moving = self.moving();
+        if !self.is_played {
+            self.viewer.is_moving = moving.is_some();
+        }
         self.viewer.ask();
         let title = self.viewer.state.title();
         if title != self.title {
@@ -175,7 +186,16 @@ impl Shown {
         // A window without pixels shows nothing; its textures are kept up to date all the same.
         let picture = self.gl.paint(size, &shapes, is_wanted)?;
         let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |output| output.repaint_delay);
+        let delay = moving.map_or(delay, |left| left.min(delay));
         Ok((picture, if has_events { Duration::ZERO } else { delay }))
+    }
+
+    /// While the pointer drags, how long it is until it counts as still.
+    fn moving(&self) -> Option<Duration> {
+        let is_down = self.egui.egui_ctx().input(|input| input.pointer.any_down());
+        let since = self.egui.egui_ctx().input(|input| input.pointer.time_since_last_movement());
+        let left = STILL.saturating_sub(Duration::try_from_secs_f32(since).unwrap_or(STILL));
+        (is_down && !left.is_zero() && self.viewer.state.is_coarse_while_moving).then_some(left)
     }
 
     /// Pixels of the window to a point.
@@ -241,8 +261,7 @@ impl App {
 impl ApplicationHandler<News> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         let Some(viewer) = self.viewer.take() else { return };
-        let follows_window = self.player.as_ref().is_none_or(|player| !player.has_sizes());
-        match Shown::open(event_loop, viewer, self.size, follows_window) {
+        match Shown::open(event_loop, viewer, self.size, self.player.as_ref()) {
             Ok(shown) => {
                 shown.window.request_redraw();
                 self.shown = Some(shown);

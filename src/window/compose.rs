@@ -54,6 +54,10 @@ fn cut(left: &Picture, right: &Picture, column: u32) -> Picture {
 
 /// White where both are the same, darker in a channel the more it differs.
 pub(super) fn difference(left: &Picture, right: &Picture) -> Picture {
+    // While the size changes one may be there before the other.
+    if left.size != right.size {
+        return left.clone();
+    }
     let pairs = left.pixels.chunks_exact(4).zip(right.pixels.chunks_exact(4));
     let pixels = pairs.flat_map(|(a, b)| {
         let channel = |index: usize| u8::MAX - a[index].abs_diff(b[index]);

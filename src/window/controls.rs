@@ -3,20 +3,20 @@
 //! Values are the texts that the command line takes, so that a control, a recorded event and a command say the same thing in
 //! the same words. What there is to turn is declared beside the styles; nothing is listed here.
 
+use super::line_style::{self, LINE_SETTINGS, LineStyle};
 use crate::error::Result;
+use crate::mesh::LoadOptions;
 use crate::preset::{LOOKS, Look};
 use crate::scene::SceneSettings;
-use crate::settings::{HasSettings, Kind, Options, Setting, Table};
+use crate::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
 use crate::styles::Style;
 
 /// The settings of the scene that a window shows and sets: the others are the models' or the mouse's.
 pub const SCENE_SETTINGS: [&str; 8] =
     ["view", "fov", "parallel", "framing", "background", "color", "bare-color", "surface"];
 
-/// Whether a style is as its source has it.
-pub(super) fn is_faithful(style: &Style) -> bool {
-    *style == published(style)
-}
+/// How models are read, as far as a window sets it: the others are for whoever reads a stranger's files.
+const LOAD_SETTINGS: [&str; 6] = ["up-axis", "normals", "smooth-angle", "weld", "model-frame", "skin"];
 
 /// The same style with its source's settings.
 fn published(style: &Style) -> Style {
@@ -34,20 +34,40 @@ pub(super) fn of_scene(scene: &SceneSettings) -> Vec<Control<SceneSettings>> {
     all.into_iter().filter(|control| SCENE_SETTINGS.contains(&control.setting.name)).collect()
 }
 
-/// The looks that a window can show: those that draw no vectors.
-pub(super) fn looks() -> impl Iterator<Item = Look> {
-    LOOKS.into_iter().filter(|look| !look.draws_lines())
+/// The controls of how models are read.
+pub(super) fn of_load(load: &LoadOptions) -> Vec<Control<LoadOptions>> {
+    let all = of_table(LoadOptions::table(), load, &LoadOptions::default());
+    all.into_iter().filter(|control| LOAD_SETTINGS.contains(&control.setting.name)).collect()
 }
 
-/// What a look makes of a side's style and of the scene. What another look sets of the scene is as by default again.
+/// The controls of the exact lines.
+pub(super) fn of_lines(style: &LineStyle) -> Vec<Control<LineStyle>> {
+    of_table(LineStyle::table(), style, &LineStyle::default())
+}
+
+/// What draws a side.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Drawn {
+    /// A style.
+    Style(Box<Style>),
+    /// Exact lines by themselves.
+    Lines(Box<LineStyle>),
+}
+
+/// Whether options are of exact lines by themselves.
+pub(super) fn are_of_lines(options: &Options) -> bool {
+    options.get("style") == Some(&OptionValue::text(line_style::LINES))
+}
+
+/// What a look makes of what draws a side and of the scene. What another look sets of the scene is as by default again.
 ///
 /// # Errors
 ///
 /// As [`Look::preset`].
-pub(super) fn of_look(look: Look, style: &Style, scene: &SceneSettings) -> Result<(Style, SceneSettings)> {
+pub(super) fn of_look(look: Look, drawn: &Drawn, scene: &SceneSettings) -> Result<(Drawn, SceneSettings)> {
     let mut scene = scene.clone();
     let table = SceneSettings::table();
-    for other in looks() {
+    for other in LOOKS {
         for name in of_scene_in(&other.preset()?.options).keys() {
             if let Some(setting) = table.find(&scene, name) {
                 setting.set(&mut scene, &table.default_of(setting))?;
@@ -56,8 +76,13 @@ pub(super) fn of_look(look: Look, style: &Style, scene: &SceneSettings) -> Resul
     }
     let options = look.preset()?.options;
     apply_to_scene(&mut scene, &options)?;
-    let is_of_one_style = options.contains_key("style");
-    Ok((if is_of_one_style { Style::from_options(&options)? } else { published(style) }, scene))
+    let drawn = match drawn {
+        _ if are_of_lines(&options) => Drawn::Lines(Box::new(LineStyle::from_options(&options)?)),
+        _ if options.contains_key("style") => Drawn::Style(Box::new(Style::from_options(&options)?)),
+        Drawn::Style(style) => Drawn::Style(Box::new(published(style))),
+        Drawn::Lines(_) => Drawn::Lines(Box::default()),
+    };
+    Ok((drawn, scene))
 }
 
 /// The same for settings of any table.
@@ -127,24 +152,48 @@ pub(super) fn turn(style: &mut Style, option: &str, value: &str) -> std::result:
     set(setting, style, option, value)
 }
 
-/// Sets a control of the scene.
+/// Settings beside those of styles that a window shows and sets.
+pub(super) struct Group {
+    /// Whose they are, as a sentence about one that there is not says it.
+    what: &'static str,
+    names: &'static [&'static str],
+}
+
+/// Those of the scene, of exact lines, and of reading models.
+pub(super) const SCENE: Group = Group { what: "", names: &SCENE_SETTINGS };
+pub(super) const LINES: Group = Group { what: " of lines", names: &LINE_SETTINGS };
+pub(super) const LOAD: Group = Group { what: " of models", names: &LOAD_SETTINGS };
+
+/// Sets a control of a group.
 ///
 /// # Errors
 ///
 /// A sentence that begins with the option, for one that a window does not have and for values it cannot have.
-pub(super) fn turn_scene(scene: &mut SceneSettings, option: &str, value: &str) -> std::result::Result<(), String> {
-    set(find_of_scene(option)?, scene, option, value)
+pub(super) fn turn_in<T: HasSettings>(
+    group: &Group,
+    of: &mut T,
+    option: &str,
+    value: &str,
+) -> std::result::Result<(), String> {
+    set(find_in(group, option)?, of, option, value)
 }
 
 /// Sets it back to its default.
 ///
 /// # Errors
 ///
-/// Those of [`turn_scene`].
-pub(super) fn turn_scene_back(scene: &mut SceneSettings, option: &str) -> std::result::Result<(), String> {
-    let setting = find_of_scene(option)?;
-    let default = setting.value(&SceneSettings::default()).unwrap_or_default();
-    turned(setting.set(scene, &default))
+/// Those of [`turn_in`].
+pub(super) fn turn_back_in<T: HasSettings>(group: &Group, of: &mut T, option: &str) -> std::result::Result<(), String> {
+    let setting: &Setting<T> = find_in(group, option)?;
+    turned(setting.set(of, &T::table().default_of(setting)))
+}
+
+fn find_in<T: HasSettings>(group: &Group, option: &str) -> std::result::Result<&'static Setting<T>, String> {
+    let name = option.trim_start_matches("--");
+    let setting = T::table().settings.iter().find(|setting| setting.name == name);
+    setting.filter(|setting| group.names.contains(&setting.name)).ok_or_else(|| {
+        format!("{option}: the window has no such setting{}; it has {}", group.what, group.names.join(", "))
+    })
 }
 
 /// Sets what options say of the scene that a window can set.
@@ -160,13 +209,6 @@ pub(super) fn apply_to_scene(scene: &mut SceneSettings, options: &Options) -> Re
 pub(super) fn of_scene_in(options: &Options) -> Options {
     let is_one = |name: &str| SCENE_SETTINGS.contains(&name);
     options.iter().filter(|(name, _)| is_one(name)).map(|(name, value)| (name.clone(), value.clone())).collect()
-}
-
-fn find_of_scene(option: &str) -> std::result::Result<&'static Setting<SceneSettings>, String> {
-    let name = option.trim_start_matches("--");
-    let setting = SceneSettings::table().settings.iter().find(|setting| setting.name == name);
-    let setting = setting.filter(|setting| SCENE_SETTINGS.contains(&setting.name));
-    setting.ok_or_else(|| format!("{option}: the window has no such setting; it has {}", SCENE_SETTINGS.join(", ")))
 }
 
 fn set<T: Clone + 'static>(
@@ -210,6 +252,10 @@ mod tests {
     use super::*;
     use crate::styles::StyleName;
 
+    fn is_faithful(style: &Style) -> bool {
+        *style == published(style)
+    }
+
     fn styles() -> impl Iterator<Item = Style> {
         StyleName::ALL.into_iter().map(|(_, name)| Style::named(name))
     }
@@ -247,6 +293,24 @@ mod tests {
     }
 
     #[test]
+    fn every_dial_of_the_exact_lines_turns_and_goes_back() {
+        let controls = of_lines(&LineStyle::default());
+        assert_eq!(controls.len(), LINE_SETTINGS.len());
+        for control in controls {
+            for sample in control.setting.kind.samples(&control.value) {
+                let mut style = LineStyle::default();
+                turn_in(&LINES, &mut style, &control.option(), &sample).unwrap_or_else(|problem| panic!("{problem}"));
+                let is_set = control.setting.value(&style) != Some(control.default.clone());
+                assert_eq!(style != LineStyle::default(), is_set, "{} {sample}", control.option());
+                turn_back_in(&LINES, &mut style, &control.option()).unwrap();
+                assert_eq!(style, LineStyle::default(), "{} {sample}", control.option());
+            }
+        }
+        let problem = turn_in(&LINES, &mut LineStyle::default(), "--dpi", "300").unwrap_err();
+        assert!(problem.starts_with("--dpi: the window has no such setting of lines"), "{problem}");
+    }
+
+    #[test]
     fn a_control_is_found_by_words_of_its_name_and_its_help_and_by_no_others() {
         let found = |words: &str| {
             let scene = SceneSettings::default();
@@ -266,9 +330,9 @@ mod tests {
         let mut scene = SceneSettings::default();
         let control = of_scene(&scene).into_iter().find(|control| control.setting.name == "color").unwrap();
         assert_eq!((control.value.as_str(), &control.setting.kind), ("own", &Kind::Color));
-        turn_scene(&mut scene, "--color", &control.given()).unwrap();
+        turn_in(&SCENE, &mut scene, "--color", &control.given()).unwrap();
         assert_eq!(control.setting.value(&scene).as_deref(), Some(WHITE));
-        turn_scene_back(&mut scene, "--color").unwrap();
+        turn_back_in(&SCENE, &mut scene, "--color").unwrap();
         assert_eq!(scene, SceneSettings::default());
     }
 

@@ -3,13 +3,14 @@
 //! In: a [`Job`], all values. Out: the pictures that `tinta render` draws with the same settings, byte for byte, because
 //! it is the same renderer with the same plans.
 
+use super::coarse;
 use super::event::Side;
-use super::orbit::Orbit;
 use super::report::{Report, Reporter};
 use crate::camera::CameraSettings;
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
 use crate::measure::Ink;
+use crate::orbit::Orbit;
 use crate::picture::Picture;
 use crate::plan::prune::prune;
 use crate::renderer::{PassTime, Renderer, median, milliseconds_since};
@@ -32,6 +33,8 @@ pub struct Job {
     pub settings: SceneSettings,
     /// What of which style for each side that is seen.
     pub drawings: Vec<(Side, Style, Show)>,
+    /// Whether it may be coarser: the view is on its way to another.
+    pub is_coarse: bool,
 }
 
 /// A side's picture.
@@ -145,7 +148,13 @@ impl Drawer {
         let scene = job.scene()?;
         let draw = |(side, style, show): &(Side, Style, Show)| {
             let start = Instant::now();
-            let picture = self.draw_scene(&scene, style, *show)?;
+            let picture = match job.is_coarse {
+                true => {
+                    let picture = self.draw_scene(&scene, &coarse::style(style), *show)?;
+                    coarse::enlarged(&picture, job.settings.size)
+                }
+                false => self.draw_scene(&scene, style, *show)?,
+            };
             Ok(Drawing { side: *side, picture, frame_ms: milliseconds_since(start) })
         };
         job.drawings.iter().map(draw).collect()
@@ -207,7 +216,8 @@ impl Job {
     ///
     /// As [`Scene::new`].
     pub fn scene(&self) -> Result<Scene> {
-        self.scene.seen_with(&SceneSettings { camera: self.camera()?, ..self.settings.clone() })
+        let size = if self.is_coarse { coarse::size(self.settings.size) } else { self.settings.size };
+        self.scene.seen_with(&SceneSettings { camera: self.camera()?, size, ..self.settings.clone() })
     }
 
     /// Whether the same models are drawn as in another, in pictures of the same size.
@@ -220,12 +230,19 @@ impl Job {
         self.orbit == other.orbit && self.settings.camera == other.settings.camera
     }
 
+    /// Whether it is of the same scene as another, seen alike, whatever is drawn of it.
+    pub fn is_of_same_picture(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene) && self.orbit == other.orbit && self.settings == other.settings
+    }
+
     /// Whether it would draw the same as another.
     pub fn is_same(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene)
-            && self.orbit == other.orbit
-            && self.settings == other.settings
-            && self.drawings == other.drawings
+        self.is_of_same_picture(other) && self.drawings == other.drawings && self.is_coarse == other.is_coarse
+    }
+
+    /// Whether what it draws does for another: the same, or a finer picture than needs be.
+    pub fn does_for(&self, other: &Self) -> bool {
+        self.is_same(&Self { is_coarse: self.is_coarse && other.is_coarse, ..other.clone() })
     }
 }
 

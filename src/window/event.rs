@@ -48,6 +48,12 @@ pub enum ViewerEvent {
     Set(Side, String, String),
     /// The same back to the published value.
     Default(Side, String),
+    /// Exact lines over the picture of a side, or not.
+    Overlay(Side, bool),
+    /// A setting of the exact lines: option, value.
+    Lines(String, String),
+    /// The same back to its default.
+    LinesDefault(String),
     /// All of a side's settings back to the article's.
     Faithful(Side),
     /// The side that number keys and the panel are for.
@@ -68,6 +74,8 @@ pub enum ViewerEvent {
     Scene(String, String),
     /// The same back to its default.
     SceneDefault(String),
+    /// Coarser pictures while the view moves, or not.
+    Coarse(bool),
     /// The panel, shown or not.
     Panel,
     /// The key sheet.
@@ -80,6 +88,10 @@ pub enum ViewerEvent {
     Price,
     /// The drawing area's size, pixels.
     Resize([u32; 2]),
+    /// How models are read, and they read again: option, value.
+    Model(String, String),
+    /// The same back to its default.
+    ModelDefault(String),
     /// Models to show instead, by their paths.
     Open(Vec<String>),
     /// The picture as it is shown, into a file.

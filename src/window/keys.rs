@@ -1,6 +1,7 @@
 //! Keys: which event each makes, and the sheet that lists them.
 
 use super::event::{Side, ViewerEvent};
+use super::line_style::{LINES, LinesShown};
 use super::state::ViewerState;
 use crate::styles::StyleName;
 use egui::{Key, Modifiers};
@@ -18,10 +19,13 @@ const SHEET: &[(&str, &str)] = &[
     ("right drag, Shift drag", "move it"),
     ("wheel, pinch", "nearer, farther"),
     ("1 to 9", STYLES),
+    ("0", "lines: exact lines by themselves"),
+    ("E", "exact lines over the picture, or not"),
     ("S", "one style; two with a divider to drag; two and their difference"),
     ("O", "the other side: its style by number, its settings in the panel"),
     ("B", "buffers: map, normals, depth, borders, tones, edge classes"),
     ("Space", "panel with every setting"),
+    ("C", "coarser pictures while the model moves, or not"),
     ("M", "time of each pass, error against the exact lines"),
     ("R", "whole model, first view"),
     ("F, Shift F", "from the front, from the back"),
@@ -93,6 +97,8 @@ pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Opti
         Key::Num7 => style(6),
         Key::Num8 => style(7),
         Key::Num9 => style(8),
+        Key::Num0 => Some(ViewerEvent::Style(state.active, LINES.to_owned())),
+        Key::E => Some(ViewerEvent::Overlay(state.active, state.lines_shown(state.active) != LinesShown::Over)),
         Key::S => Some(ViewerEvent::NextLayout),
         Key::O => Some(ViewerEvent::Choose(match state.active {
             Side::Left if state.sides().len() > 1 => Side::Right,
@@ -100,6 +106,7 @@ pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Opti
         })),
         Key::B => Some(ViewerEvent::NextBuffer),
         Key::Space => Some(ViewerEvent::Panel),
+        Key::C => Some(ViewerEvent::Coarse(!state.is_coarse_while_moving)),
         Key::M => Some(ViewerEvent::Price),
         Key::R => Some(ViewerEvent::Reset),
         Key::F => view("front", "back"),

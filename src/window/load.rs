@@ -13,6 +13,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct LoadedModels {
     /// As the user named them.
     pub models: Vec<String>,
+    /// How they were read.
+    pub options: LoadOptions,
     /// Their files and what was read beside them.
     pub files: Vec<PathBuf>,
     /// They at their places.
@@ -32,16 +34,15 @@ pub struct Stage {
 
 /// Starts threads that read models; the last one asked counts.
 pub(super) struct Loader {
-    options: LoadOptions,
     reporter: Reporter,
     /// The number of the last load.
     last: Arc<AtomicU64>,
 }
 
 impl Loader {
-    /// Reads models with these options and tells this reporter.
-    pub(super) fn new(options: LoadOptions, reporter: Reporter) -> Self {
-        Self { options, reporter, last: Arc::default() }
+    /// Tells this reporter.
+    pub(super) fn new(reporter: Reporter) -> Self {
+        Self { reporter, last: Arc::default() }
     }
 
     /// Whether this load is the last one asked for.
@@ -54,9 +55,9 @@ impl Loader {
     /// # Errors
     ///
     /// When there is no thread to be had.
-    pub(super) fn start(&self, models: Vec<String>) -> std::io::Result<()> {
+    pub(super) fn start(&self, models: Vec<String>, options: LoadOptions) -> std::io::Result<()> {
         let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
-        let (options, reporter, last) = (self.options.clone(), self.reporter.clone(), self.last.clone());
+        let (reporter, last) = (self.reporter.clone(), self.last.clone());
         let work = move || {
             let stage = |stage: Stage| reporter.say(Report::Stage(number, stage));
             match scene_of(&models, &options, &stage) {
@@ -109,7 +110,7 @@ fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> 
     stage(Stage { text, share: (steps - 1.0) / steps });
     let scene = Scene::new(meshes, &SceneSettings::default())?;
     scene.make_arrays();
-    Ok(LoadedModels { models: models.to_vec(), files, scene: Arc::new(scene), remarks })
+    Ok(LoadedModels { models: models.to_vec(), options: options.clone(), files, scene: Arc::new(scene), remarks })
 }
 
 fn size_text(bytes: u64) -> String {

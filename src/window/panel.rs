@@ -3,10 +3,11 @@
 use super::controls::{self, Control};
 use super::event::{Layout, Side, ViewerEvent};
 use super::keys;
+use super::line_style::{LINES, LinesShown};
 use super::viewer::Viewer;
 use super::widget::{self, Change};
-use crate::preset::SHIPPED;
-use crate::styles::{Origin, Style, StyleName};
+use crate::preset::{LOOKS, SHIPPED};
+use crate::styles::{Origin, StyleName};
 use egui::{Color32, RichText, Ui};
 
 /// Colours of what is said of a style's settings.
@@ -15,6 +16,10 @@ pub(super) const CHANGED: Color32 = Color32::from_rgb(220, 160, 60);
 
 /// Colour of what stands in an empty field.
 pub(super) const HINT: Color32 = Color32::GRAY;
+
+/// What being coarser is.
+const COARSE: &str =
+    "while the model turns: half the width and height, without the faces that look away, three-pass in one pass";
 
 /// Shows the panel's content.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
@@ -40,18 +45,32 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
     }
     file(ui, "model", "cow.obj", |path| events.push(ViewerEvent::Open(vec![path])));
     let style = state.style(side);
-    choices(ui, "style", style.name(), StyleName::ALL.iter().map(|(name, _)| *name), |name| {
+    let lines = state.lines_shown(side);
+    let chosen = if lines == LinesShown::Alone { LINES } else { style.name() };
+    choices(ui, "style", chosen, StyleName::ALL.iter().map(|(name, _)| *name).chain([LINES]), |name| {
         events.push(ViewerEvent::Style(side, name.to_owned()));
     });
+    if lines != LinesShown::Alone {
+        let mut is_over = lines == LinesShown::Over;
+        if ui.checkbox(&mut is_over, "exact lines over it").changed() {
+            events.push(ViewerEvent::Overlay(side, is_over));
+        }
+    }
     let look = state.look().map_or("none", |look| look.name);
-    let looks = controls::looks().map(|look| (look.name, look.about));
+    let looks = LOOKS.into_iter().map(|look| (look.name, look.about));
     choices_with_help(ui, "look", look, looks, |name| events.push(ViewerEvent::Look(name.to_owned())));
-    let buffers = super::buffer::buffers(style.style_name()).into_iter().map(|buffer| buffer.name());
-    choices(ui, "shown", state.buffer.name(), buffers, |name| events.push(ViewerEvent::Buffer(name.to_owned())));
+    if lines != LinesShown::Alone {
+        let buffers = super::buffer::buffers(style.style_name()).into_iter().map(|buffer| buffer.name());
+        choices(ui, "shown", state.buffer.name(), buffers, |name| events.push(ViewerEvent::Buffer(name.to_owned())));
+    }
     choices(ui, "presets", "choose a paper's", SHIPPED.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::OpenPreset(name.to_owned()));
     });
     file(ui, "from a file", "preset.toml", |path| events.push(ViewerEvent::OpenPreset(path)));
+    let mut is_allowed = state.is_coarse_while_moving;
+    if ui.checkbox(&mut is_allowed, "coarser while moving").on_hover_text(COARSE).changed() {
+        events.push(ViewerEvent::Coarse(is_allowed));
+    }
     ui.horizontal(|ui| {
         ui.label("save");
         for (key, what, event) in keys::SAVES {
@@ -60,11 +79,28 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
             }
         }
     });
-    faithful(ui, style, side, events);
+    match lines {
+        LinesShown::Alone => changes(ui, None, &controls::of_lines(state.line_style()), side, events),
+        _ => {
+            let origin = Some(style.style_name().info().origin);
+            changes(ui, origin, &controls::of(style), side, events);
+        }
+    }
     ui.separator();
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         let words = search(ui);
-        grouped(ui, controls::of(style), &words, |ui, control| {
+        if lines != LinesShown::None {
+            grouped(ui, controls::of_lines(state.line_style()), &words, |ui, control| {
+                let option = control.option();
+                let change = ui.push_id(("lines", control.setting.name), |ui| widget::show(ui, control)).inner;
+                events.extend(change.map(|change| match change {
+                    Change::Set(value) => ViewerEvent::Lines(option, value),
+                    Change::Default => ViewerEvent::LinesDefault(option),
+                }));
+            });
+        }
+        let of_style = if lines == LinesShown::Alone { Vec::new() } else { controls::of(style) };
+        grouped(ui, of_style, &words, |ui, control| {
             let option = control.option();
             let change = ui.push_id((control.setting.name, side as usize), |ui| widget::show(ui, control)).inner;
             events.extend(change.map(|change| match change {
@@ -80,18 +116,27 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
                 Change::Default => ViewerEvent::SceneDefault(option),
             }));
         });
+        grouped(ui, controls::of_load(&state.load), &words, |ui, control| {
+            let option = control.option();
+            let change = ui.push_id(("models", control.setting.name), |ui| widget::show(ui, control)).inner;
+            events.extend(change.map(|change| match change {
+                Change::Set(value) => ViewerEvent::Model(option, value),
+                Change::Default => ViewerEvent::ModelDefault(option),
+            }));
+        });
         ui.separator();
         ui.label("the same by");
-        match viewer.command() {
-            Some(Ok(command)) => {
-                let text = RichText::new(&command).monospace().size(11.0);
-                ui.add(egui::Label::new(text).wrap().selectable(true));
-                if ui.small_button("copy").clicked() {
-                    ui.ctx().copy_text(command);
+        for command in viewer.commands() {
+            match command {
+                Ok(command) => {
+                    let text = RichText::new(&command).monospace().size(11.0);
+                    ui.add(egui::Label::new(text).wrap().selectable(true));
+                    if ui.small_button("copy").clicked() {
+                        ui.ctx().copy_text(command);
+                    }
                 }
+                Err(problem) => drop(ui.label(problem)),
             }
-            Some(Err(problem)) => drop(ui.label(problem)),
-            None => {}
         }
     });
 }
@@ -148,20 +193,27 @@ fn file(ui: &mut Ui, label: &str, example: &str, mut open: impl FnMut(String)) {
     });
 }
 
-/// Whether all settings are the article's, as a state that can be returned to.
-fn faithful(ui: &mut Ui, style: &Style, side: Side, events: &mut Vec<ViewerEvent>) {
+/// Whether all settings are the article's, where there is one, as a state that can be returned to.
+fn changes<T: Clone + 'static>(
+    ui: &mut Ui,
+    origin: Option<Origin>,
+    controls: &[Control<T>],
+    side: Side,
+    events: &mut Vec<ViewerEvent>,
+) {
+    let changed = controls.iter().filter(|control| !control.is_default()).count();
     ui.horizontal(|ui| {
-        if controls::is_faithful(style) {
-            let said = match style.style_name().info().origin {
-                Origin::Published => "● faithful",
-                Origin::Named | Origin::Own => "● default settings",
+        if changed == 0 {
+            let said = match origin {
+                Some(Origin::Published) => "● faithful",
+                Some(Origin::Named | Origin::Own) | None => "● default settings",
             };
             ui.colored_label(FAITHFUL, said)
                 .on_hover_text("every setting has its default: the text's value where it gives one");
         } else {
-            let changed = controls::of(style).iter().filter(|control| !control.is_default()).count();
             ui.colored_label(CHANGED, format!("○ {changed} changed"));
-            if ui.small_button("all as published").clicked() {
+            let back = if origin.is_some() { "all as published" } else { "all as by default" };
+            if ui.small_button(back).clicked() {
                 events.push(ViewerEvent::Faithful(side));
             }
         }

@@ -100,7 +100,8 @@ impl Player {
                 return Err(Self::refused(self.frame, problem));
             }
         }
-        if lines.iter().any(|line| line.drag) {
+        shown.viewer.is_moving = lines.iter().any(|line| line.drag);
+        if shown.viewer.is_moving {
             self.drag(shown)?;
             self.frame += 1;
             return Ok(self.is_over());
@@ -133,7 +134,8 @@ impl Player {
                 write_rgba_png(&picture, Path::new(name))?;
             }
         }
-        if let Some(problem) = shown.viewer.problem.clone().filter(|_| !self.is_free) {
+        let problem = shown.viewer.problem.as_deref().or(shown.viewer.lines.problem());
+        if let Some(problem) = problem.map(str::to_owned).filter(|_| !self.is_free) {
             return Err(Self::refused(self.frame, problem));
         }
         self.frame += 1;

@@ -2,8 +2,9 @@
 
 use super::draw::{Cost, Drawing};
 use super::event::Side;
+use super::exact::Found;
 use super::load::{LoadedModels, Stage};
-use crate::error::Error;
+use crate::error::{Error, Result};
 use crate::gl::ContextInfo;
 use crate::measure::LineError;
 use crate::scene::Scene;
@@ -52,6 +53,8 @@ pub enum Report {
     Prepared,
     /// The error of a side's lines against the exact ones.
     Measured(u64, Vec<(Side, LineError)>),
+    /// The exact lines of a view, or why there are none.
+    Lines(Box<Result<Found>>),
     /// A model's file has changed.
     ModelChanged,
     /// Shaders' files have changed: their texts by their paths below `glsl/`.

@@ -3,11 +3,14 @@
 use super::controls;
 use super::draw::{Drawer, Job};
 use super::event::{Save, Side};
+use super::exact;
+use super::line_style::{LINES, LinesShown};
+use super::paint::over;
 use super::state::ViewerState;
 use crate::animation::{AnimationTarget, AnimationWriter};
 use crate::error::Result;
 use crate::gl::{Backend, ContextInfo};
-use crate::lines::{LineSettings, SvgSettings, VisibleLines, svg};
+use crate::lines::{Progress, SvgSettings, VisibleLines, svg};
 use crate::mesh::LoadOptions;
 use crate::output::TextTarget;
 use crate::picture::{Picture, Target};
@@ -61,9 +64,9 @@ pub(super) fn command(
 fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save, side: Side) -> Result<Recipe> {
     let mut options = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
     options.extend(surroundings.load.to_options()?);
-    // The exact lines have no style.
-    if save != Save::Lines {
-        options.extend(style_options(state, job, side)?);
+    match save {
+        Save::Lines => options.extend(state.line_style().to_options()?),
+        _ => options.extend(style_options(state, job, side)?),
     }
     if save == Save::Turn {
         options.insert("turntable".to_owned(), OptionValue::text(TURN.0.to_string()));
@@ -72,7 +75,7 @@ fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Sav
     Ok(Recipe {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         command: "render".to_owned(),
-        style: if save == Save::Lines { "lines" } else { state.style(side).name() }.to_owned(),
+        style: if save == Save::Lines { LINES } else { state.style(side).name() }.to_owned(),
         size: [width, height],
         models: state.models.clone(),
         options,
@@ -99,6 +102,11 @@ fn whole_recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, sav
 
 /// The options of what is shown of a side.
 fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> {
+    if state.lines_shown(side) == LinesShown::Alone {
+        let mut options = state.line_style().to_options()?;
+        options.insert("style".to_owned(), OptionValue::text(LINES));
+        return Ok(options);
+    }
     let drawn = job.drawings.iter().find(|(drawn, ..)| *drawn == side);
     let (style, show) = drawn.map_or((state.style(side), Show::Final), |(_, style, show)| (style, *show));
     let mut options = style.to_options()?;
@@ -145,6 +153,13 @@ fn save_of(
         Save::Picture => {
             let Some(shown) = shown else { return Ok("there is no picture yet".to_owned()) };
             let target = Target::check(&name, false)?;
+            let has_lines = state.sides().iter().any(|side| state.lines_shown(*side) != LinesShown::None);
+            if has_lines {
+                target.write(shown)?;
+                let lines = self::command(state, job, surroundings, Save::Lines, side, "drawing.svg");
+                let lines = lines.unwrap_or_else(|error| error.to_string());
+                return Ok(format!("{name}; its lines as vectors: {lines}"));
+            }
             if state.sides().len() == 1 {
                 let recipe = whole_recipe(state, job, surroundings, save, side).ok();
                 target.write_with(shown, recipe.and_then(|recipe| recipe.note()).as_ref())?;
@@ -157,18 +172,25 @@ fn save_of(
         }
         Save::Lines => {
             let target = TextTarget::check(&name)?;
-            let lines = VisibleLines::of(&job.scene()?, &LineSettings::default())?;
+            let style = state.line_style();
+            let lines = VisibleLines::of(&job.scene()?, &style.wanted())?;
             let recipe = whole_recipe(state, job, surroundings, save, side)?;
+            // Byte for byte what the command writes.
             let settings = SvgSettings {
-                title: state.models.join(", "),
+                title: state.model_names().join(", "),
                 command: recipe.command_line("drawing.svg"),
                 recipe: recipe.json().unwrap_or_default(),
                 background: job.settings.background,
-                ..SvgSettings::default()
+                ..style.drawing.clone()
             };
             target.write(&svg(&lines, &settings)?)?;
         }
-        Save::Turn => turn(job, side, surroundings.backend, &name)?,
+        Save::Turn => {
+            turn(state, job, side, surroundings.backend, &name)?;
+            if state.lines_shown(side) != LinesShown::None {
+                return Ok(format!("{name}; no command draws exact lines as pixels"));
+            }
+        }
         Save::Preset => {
             // Not from where: a preset is for any model.
             let mut options = controls::of_scene_in(&job.settings.to_options()?);
@@ -186,15 +208,23 @@ fn save_of(
 }
 
 /// A turn around what a side shows, in a renderer of its own.
-fn turn(job: &Job, side: Side, backend: Backend, name: &str) -> Result<()> {
+fn turn(state: &ViewerState, job: &Job, side: Side, backend: Backend, name: &str) -> Result<()> {
     let target = AnimationTarget::check(name, false)?;
     let mut drawer = Drawer::new(backend)?;
     let scene = job.scene()?;
-    let Some((_, style, show)) = job.drawings.iter().find(|(drawn, ..)| *drawn == side) else { return Ok(()) };
+    let drawn = job.drawings.iter().find(|(drawn, ..)| *drawn == side);
+    let has_lines = state.lines_shown(side) != LinesShown::None;
     let mut writer = AnimationWriter::new(target, TURN.0, TURN.1)?;
     for camera in scene.turntable(&job.camera()?, TURN.0)? {
         let scene = Scene { camera, ..scene.clone() };
-        writer.add(drawer.draw_scene(&scene, style, *show)?)?;
+        let mut picture = match drawn {
+            Some((_, style, show)) => drawer.draw_scene(&scene, style, *show)?,
+            None => exact::ground(scene.size, &job.settings),
+        };
+        if has_lines {
+            picture = over(&exact::ink(&scene, state.line_style(), &Progress::default())?, &picture);
+        }
+        writer.add(picture)?;
     }
     writer.finish().map(drop)
 }
@@ -204,10 +234,12 @@ fn stem(state: &ViewerState, save: Save, side: Side) -> String {
     let first = state.models.first().map_or("tinta", String::as_str);
     let model = first.strip_prefix("builtin:").unwrap_or(first);
     let model = Path::new(model).file_stem().map_or("model".into(), |stem| stem.to_string_lossy());
-    let styles: Vec<&str> = match save {
-        Save::Picture => state.sides().iter().map(|side| state.style(*side).name()).collect(),
-        Save::Lines => vec!["lines"],
-        Save::Turn | Save::Preset => vec![state.style(side).name()],
+    let styles: Vec<String> = match save {
+        Save::Picture => state.sides().iter().map(|side| state.drawn_name(*side)).collect(),
+        Save::Lines => vec![LINES.to_owned()],
+        Save::Turn => vec![state.drawn_name(side)],
+        Save::Preset if state.lines_shown(side) == LinesShown::Alone => vec![LINES.to_owned()],
+        Save::Preset => vec![state.style(side).name().to_owned()],
     };
     format!("{model}-{}", styles.join("-"))
 }

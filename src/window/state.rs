@@ -1,13 +1,16 @@
 //! The viewer as a value: what is shown, from where, in which styles; and how events change it. No window here, no GL.
 
 use super::buffer::{Buffer, buffers};
-use super::controls;
+use super::controls::{self, Drawn};
 use super::event::{Effect, Layout, Save, Side, ViewerEvent};
-use super::orbit::Orbit;
+use super::line_style::{LINES, LineStyle, LinesShown};
 use crate::camera::CameraSettings;
 use crate::camera::View;
-use crate::preset::{Look, OptionValue, Preset};
+use crate::mesh::LoadOptions;
+use crate::orbit::Orbit;
+use crate::preset::{LOOKS, Look, OptionValue, Preset};
 use crate::scene::{SceneSettings, Size};
+use crate::settings::HasSettings;
 use crate::styles::{Style, StyleName};
 
 /// All that decides what the viewer shows.
@@ -15,12 +18,18 @@ use crate::styles::{Style, StyleName};
 pub struct ViewerState {
     /// The models, as the user named them.
     pub models: Vec<String>,
+    /// How they are read.
+    pub(super) load: LoadOptions,
     /// From where they are seen.
     pub orbit: Orbit,
     /// The styles of both sides by their names, with the settings each had last.
     pub(super) styles: [Vec<Style>; 2],
     /// Which of them is shown.
     pub(super) chosen: [StyleName; 2],
+    /// What of the exact lines is shown with it or instead of it.
+    pub(super) lines_shown: [LinesShown; 2],
+    /// How the exact lines of both sides look.
+    pub(super) line_style: LineStyle,
     /// The side that number keys and the panel are for.
     pub active: Side,
     /// What is seen of the two styles.
@@ -31,6 +40,8 @@ pub struct ViewerState {
     pub buffer: Buffer,
     /// The scene of both sides; its size is that of a pane, and from where it is seen says the orbit.
     pub(super) scene: SceneSettings,
+    /// Whether pictures may be coarser while the view moves.
+    pub is_coarse_while_moving: bool,
     /// Size of the drawing area, pixels.
     pub area: Size,
     /// Whether the panel is shown.
@@ -61,14 +72,18 @@ impl Default for ViewerState {
         let all = || StyleName::ALL.into_iter().map(|(_, name)| Style::named(name)).collect();
         Self {
             models: Vec::new(),
+            load: LoadOptions::default(),
             orbit: Orbit::default(),
             styles: [all(), all()],
             chosen: [StyleName::ThreePass, StyleName::Inking],
+            lines_shown: Default::default(),
+            line_style: LineStyle::default(),
             active: Side::Left,
             layout: Layout::Single,
             divider: 0.5,
             buffer: Buffer::default(),
             scene: SceneSettings::default(),
+            is_coarse_while_moving: false,
             area: SceneSettings::default().size,
             has_panel: false,
             has_hint: false,
@@ -111,6 +126,51 @@ impl ViewerState {
     /// The style a side shows.
     pub fn style(&self, side: Side) -> &Style {
         &self.styles[side as usize][self.chosen[side as usize] as usize]
+    }
+
+    /// What of the exact lines a side shows.
+    pub fn lines_shown(&self, side: Side) -> LinesShown {
+        self.lines_shown[side as usize]
+    }
+
+    /// How exact lines look.
+    pub fn line_style(&self) -> &LineStyle {
+        &self.line_style
+    }
+
+    /// Has exact lines look so.
+    pub fn put_line_style(&mut self, style: LineStyle) {
+        self.line_style = style;
+    }
+
+    /// What a side shows, by name: a style, lines, or a style and lines.
+    pub fn drawn_name(&self, side: Side) -> String {
+        match self.lines_shown(side) {
+            LinesShown::None => self.style(side).name().to_owned(),
+            LinesShown::Over => format!("{}+{LINES}", self.style(side).name()),
+            LinesShown::Alone => LINES.to_owned(),
+        }
+    }
+
+    /// What draws a side.
+    fn drawn(&self, side: Side) -> Drawn {
+        match self.lines_shown(side) {
+            LinesShown::Alone => Drawn::Lines(Box::new(self.line_style.clone())),
+            _ => Drawn::Style(Box::new(self.style(side).clone())),
+        }
+    }
+
+    fn put_drawn(&mut self, side: Side, drawn: Drawn) {
+        match drawn {
+            Drawn::Style(style) => {
+                self.put_style(side, *style);
+                self.lines_shown[side as usize] = LinesShown::None;
+            }
+            Drawn::Lines(style) => {
+                self.line_style = *style;
+                self.lines_shown[side as usize] = LinesShown::Alone;
+            }
+        }
     }
 
     /// Shows this style on a side.
@@ -181,23 +241,28 @@ impl ViewerState {
     /// Sets a setting of the scene.
     fn set_scene(&mut self, option: &str, value: &str) -> Result<(), String> {
         let mut scene = self.scene_settings();
-        controls::turn_scene(&mut scene, option, value)?;
+        controls::turn_in(&controls::SCENE, &mut scene, option, value)?;
         self.put_scene(scene);
         Ok(())
     }
 
-    /// The window's title: model and styles.
-    pub fn title(&self) -> String {
+    /// The models' files without their folders.
+    pub fn model_names(&self) -> Vec<String> {
         let name = |model: &String| {
             let path = std::path::Path::new(model);
             path.file_name().map_or_else(|| model.clone(), |name| name.to_string_lossy().into_owned())
         };
-        let models = match &self.models[..] {
+        self.models.iter().map(name).collect()
+    }
+
+    /// The window's title: model and styles.
+    pub fn title(&self) -> String {
+        let models = match &self.model_names()[..] {
             [] => "no model".to_owned(),
-            [one] => name(one),
-            [first, others @ ..] => format!("{} and {} more", name(first), others.len()),
+            [one] => one.clone(),
+            [first, others @ ..] => format!("{first} and {} more", others.len()),
         };
-        let styles: Vec<&str> = self.sides().iter().map(|side| self.style(*side).name()).collect();
+        let styles: Vec<String> = self.sides().iter().map(|side| self.drawn_name(*side)).collect();
         format!("{models} - {} - tinta", styles.join(" | "))
     }
 
@@ -222,14 +287,36 @@ impl ViewerState {
             ViewerEvent::Reset => self.orbit.look_from(View::DEFAULT),
             ViewerEvent::View(name) => self.orbit.look_from(name.parse()?),
             ViewerEvent::Projection => self.orbit.parallel = !self.orbit.parallel,
-            ViewerEvent::Style(side, name) => self.choose_style(side, name.parse()?),
-            ViewerEvent::Set(side, option, value) => {
-                controls::turn(self.style_mut(side), &option, &value)?;
+            ViewerEvent::Style(side, name) if name == LINES => self.lines_shown[side as usize] = LinesShown::Alone,
+            ViewerEvent::Style(side, name) => {
+                self.choose_style(side, name.parse().map_err(|problem| format!("{problem}, {LINES}"))?);
             }
-            ViewerEvent::Default(side, option) => {
-                controls::turn_back(self.style_mut(side), &option)?;
+            ViewerEvent::Set(side, option, value) => match self.lines_shown(side) {
+                LinesShown::Alone => controls::turn_in(&controls::LINES, &mut self.line_style, &option, &value)?,
+                _ => controls::turn(self.style_mut(side), &option, &value)?,
+            },
+            ViewerEvent::Default(side, option) => match self.lines_shown(side) {
+                LinesShown::Alone => controls::turn_back_in(&controls::LINES, &mut self.line_style, &option)?,
+                _ => controls::turn_back(self.style_mut(side), &option)?,
+            },
+            ViewerEvent::Faithful(side) => match self.lines_shown(side) {
+                LinesShown::Alone => self.line_style = LineStyle::default(),
+                _ => *self.style_mut(side) = Style::named(self.chosen[side as usize]),
+            },
+            ViewerEvent::Overlay(side, is_over) => {
+                let shown = &mut self.lines_shown[side as usize];
+                *shown = match (is_over, *shown) {
+                    (true, _) => LinesShown::Over,
+                    (false, LinesShown::Over) => LinesShown::None,
+                    (false, other) => other,
+                };
             }
-            ViewerEvent::Faithful(side) => *self.style_mut(side) = Style::named(self.chosen[side as usize]),
+            ViewerEvent::Lines(option, value) => {
+                controls::turn_in(&controls::LINES, &mut self.line_style, &option, &value)?;
+            }
+            ViewerEvent::LinesDefault(option) => {
+                controls::turn_back_in(&controls::LINES, &mut self.line_style, &option)?;
+            }
             ViewerEvent::Choose(side) => self.active = side,
             ViewerEvent::Layout(layout) => self.lay_out(layout),
             ViewerEvent::NextLayout => self.lay_out(match self.layout {
@@ -244,9 +331,18 @@ impl ViewerState {
             ViewerEvent::Scene(option, value) => self.set_scene(&option, &value)?,
             ViewerEvent::SceneDefault(option) => {
                 let mut scene = self.scene_settings();
-                controls::turn_scene_back(&mut scene, &option)?;
+                controls::turn_back_in(&controls::SCENE, &mut scene, &option)?;
                 self.put_scene(scene);
             }
+            ViewerEvent::Model(option, value) => {
+                controls::turn_in(&controls::LOAD, &mut self.load, &option, &value)?;
+                return Ok(self.read_again());
+            }
+            ViewerEvent::ModelDefault(option) => {
+                controls::turn_back_in(&controls::LOAD, &mut self.load, &option)?;
+                return Ok(self.read_again());
+            }
+            ViewerEvent::Coarse(is_allowed) => self.is_coarse_while_moving = is_allowed,
             ViewerEvent::Panel => self.has_panel = !self.has_panel,
             ViewerEvent::KeySheet => self.has_key_sheet = !self.has_key_sheet,
             ViewerEvent::Price => self.has_price = !self.has_price,
@@ -270,8 +366,15 @@ impl ViewerState {
         Ok(None)
     }
 
+    fn read_again(&self) -> Option<Effect> {
+        (!self.models.is_empty()).then(|| Effect::Open(self.models.clone()))
+    }
+
     fn choose_style(&mut self, side: Side, name: StyleName) {
         self.chosen[side as usize] = name;
+        if self.lines_shown(side) == LinesShown::Alone {
+            self.lines_shown[side as usize] = LinesShown::None;
+        }
         // The buffer stays where the new style has it, so that two styles' maps can be compared by a key.
         if !self.sides().iter().any(|side| buffers(self.style(*side).style_name()).contains(&self.buffer)) {
             self.buffer = Buffer::default();
@@ -293,40 +396,44 @@ impl ViewerState {
 
     /// Puts a look on the active side, and what it says of the scene on both.
     fn choose_look(&mut self, look: Look) -> Result<(), String> {
-        if look.draws_lines() {
-            return Err(format!(
-                "the look {} draws vectors, which the window does not show; tinta render --look {} writes them",
-                look.name, look.name
-            ));
-        }
-        let (style, scene) = controls::of_look(look, self.style(self.active), &self.scene_settings())
+        let (drawn, scene) = controls::of_look(look, &self.drawn(self.active), &self.scene_settings())
             .map_err(|error| error.to_string())?;
-        self.put_style(self.active, style);
+        self.put_drawn(self.active, drawn);
         self.put_scene(scene);
         Ok(())
     }
 
     /// The look that the active side has, if it has one.
     pub(super) fn look(&self) -> Option<Look> {
-        let (style, scene) = (self.style(self.active), self.scene_settings());
-        let has = |look: &Look| {
-            controls::of_look(*look, style, &scene).is_ok_and(|of_look| of_look == (style.clone(), scene.clone()))
-        };
-        controls::looks().find(has)
+        if self.lines_shown(self.active) == LinesShown::Over {
+            return None;
+        }
+        let shown = (self.drawn(self.active), self.scene_settings());
+        let has = |look: &Look| controls::of_look(*look, &shown.0, &shown.1).is_ok_and(|of_look| of_look == shown);
+        LOOKS.into_iter().find(has)
     }
 
     /// Puts a preset's style and settings on the active side, and what it says of the scene on both.
     fn open_preset(&mut self, name: &str) -> Result<(), String> {
         let mut preset = Preset::read(name).map_err(|error| error.to_string())?;
-        let shown = self.chosen[self.active as usize].name();
+        let shown = match self.lines_shown(self.active) {
+            LinesShown::Alone => LINES,
+            _ => self.chosen[self.active as usize].name(),
+        };
         preset.options.entry("style".to_owned()).or_insert_with(|| OptionValue::text(shown));
-        let style = preset.style().map_err(|error| error.to_string())?;
-        let mut scene = self.scene_settings();
-        controls::apply_to_scene(&mut scene, &preset.options).map_err(|error| {
+        let attributed = |error| {
             let all: Vec<_> = preset.options.keys().map(|key| (key.clone(), key.clone())).collect();
             preset.attributed(error, &all).to_string()
-        })?;
-        self.put_style(self.active, style);
+        };
+        let drawn = if controls::are_of_lines(&preset.options) {
+            preset.check_names().map_err(|error| error.to_string())?;
+            Drawn::Lines(Box::new(LineStyle::from_options(&preset.options).map_err(attributed)?))
+        } else {
+            Drawn::Style(Box::new(preset.style().map_err(|error| error.to_string())?))
+        };
+        let mut scene = self.scene_settings();
+        controls::apply_to_scene(&mut scene, &preset.options).map_err(attributed)?;
+        self.put_drawn(self.active, drawn);
         self.put_scene(scene);
         Ok(())
     }

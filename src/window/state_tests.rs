@@ -138,7 +138,8 @@ fn a_preset_draws_in_the_viewer_what_it_draws_elsewhere() {
         ("style = \"ink\"\ntones = \"many\"\n", "mine.toml: line 2: tones many: give a whole number"),
         ("filter = \"sharp\"\n", "mine.toml: line 1: filter sharp: choose one of laplacian4"),
         ("smooth = 2\nstyle = \"inking\"\n", "mine.toml: line 1: smooth 2: choose on or off"),
-        ("style = \"lines\"\n", "mine.toml: line 1: style lines: choose one of phong"),
+        ("style = \"lines\"\ntone = 2\n", "mine.toml: line 2: tone: there is no such option"),
+        ("style = \"lines\"\nhidden = \"red\"\n", "mine.toml: line 2: hidden red: choose one of none"),
     ] {
         let (style, said) = open(text);
         assert!(said.contains(words), "{text}: {said}");
@@ -175,12 +176,53 @@ fn of_scene(options: &Options) -> Options {
 }
 
 #[test]
-fn a_look_of_vectors_is_refused_in_a_sentence_and_offered_nowhere() {
-    let mut state = ViewerState::default();
-    state.update(ViewerEvent::Look("technical".to_owned()));
-    assert!(state.message.as_ref().is_some_and(|message| message.contains("tinta render --look technical")));
-    let names: Vec<&str> = controls::looks().map(|look| look.name).collect();
-    assert_eq!(names, ["print", "charcoal", "published"]);
+fn a_look_of_vectors_shows_exact_lines_and_the_next_takes_them_back() {
+    let look = |name: &str| ViewerEvent::Look(name.to_owned());
+    let technical = after([look("technical")]);
+    let options = Look::of_name("technical").unwrap().preset().unwrap().options;
+    assert_eq!(technical.lines_shown(Side::Left), LinesShown::Alone);
+    assert_eq!(*technical.line_style(), LineStyle::from_options(&options).unwrap());
+    assert_ne!(*technical.line_style(), LineStyle::default());
+    assert!(technical.scene_settings().camera.parallel);
+    assert_eq!(technical.look().map(|look| look.name), Some("technical"));
+    let print = after([look("technical"), look("print")]);
+    assert_eq!((print.lines_shown(Side::Left), print.scene_settings().camera.parallel), (LinesShown::None, false));
+    assert_eq!(print.style(Side::Left).name(), "ink");
+}
+
+#[test]
+fn exact_lines_are_a_style_and_lie_over_one() {
+    let style = |name: &str| ViewerEvent::Style(Side::Left, name.to_owned());
+    let shown = |events: Vec<ViewerEvent>| after(events).drawn_name(Side::Left);
+    assert_eq!(shown(vec![style("lines")]), "lines");
+    assert_eq!(shown(vec![style("lines"), style("phong")]), "phong");
+    assert_eq!(shown(vec![ViewerEvent::Overlay(Side::Left, true)]), "three-pass+lines");
+    assert_eq!(shown(vec![ViewerEvent::Overlay(Side::Left, true), style("ink")]), "ink+lines", "whatever the style");
+    assert_eq!(
+        shown(vec![ViewerEvent::Overlay(Side::Left, true), ViewerEvent::Overlay(Side::Left, false)]),
+        "three-pass"
+    );
+    assert_eq!(shown(vec![style("lines"), ViewerEvent::Overlay(Side::Left, false)]), "lines", "they are no overlay");
+    // Their settings are those of both sides, and of the side's style while they are it.
+    let dashed = after([style("lines"), set("--hidden", "dashed")]);
+    let over = after([ViewerEvent::Lines("--hidden".to_owned(), "dashed".to_owned())]);
+    assert_eq!(dashed.line_style(), over.line_style());
+    let back = after([style("lines"), set("--hidden", "dashed"), ViewerEvent::Faithful(Side::Left)]);
+    assert_eq!(*back.line_style(), LineStyle::default());
+    let mut state = after([style("lines")]);
+    state.update(set("--tones", "2"));
+    assert!(state.message.as_ref().is_some_and(|message| message.starts_with("--tones: ")), "{:?}", state.message);
+}
+
+#[test]
+fn a_preset_of_lines_shows_them_as_it_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml").to_str().unwrap().to_owned();
+    std::fs::write(&path, "style = \"lines\"\nhidden = \"ghost\"\nclass-colors = \"crease=red\"\n").unwrap();
+    let state = after([ViewerEvent::OpenPreset(path)]);
+    assert_eq!(state.drawn_name(Side::Left), "lines");
+    let options = state.line_style().to_options().unwrap();
+    assert_eq!(options.keys().collect::<Vec<_>>(), ["class-colors", "hidden"]);
 }
 
 #[test]

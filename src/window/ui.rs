@@ -4,6 +4,7 @@ use super::buffer::{Buffer, CLASS_COLORS};
 use super::compose::difference;
 use super::event::{Side, ViewerEvent};
 use super::keys;
+use super::line_style::LinesShown;
 use super::panel;
 use super::plot;
 use super::state::{Content, Pane, ViewerState};
@@ -138,8 +139,16 @@ fn status(ui: &mut Ui, viewer: &Viewer) {
             .sides()
             .iter()
             .map(|side| {
-                let ms = viewer.drawing(*side).map_or(String::new(), |drawing| format!(" {:.0} ms", drawing.frame_ms));
-                format!("{}{ms}", state.style(*side).name())
+                let drawing = viewer.drawing(*side).map(|drawing| drawing.frame_ms);
+                let lines = viewer.lines.found().map(|found| found.ms);
+                let ms = match state.lines_shown(*side) {
+                    LinesShown::None => vec![drawing],
+                    LinesShown::Over => vec![drawing, lines],
+                    LinesShown::Alone => vec![lines],
+                };
+                let ms: Vec<String> = ms.into_iter().flatten().map(|ms| format!("{ms:.0}")).collect();
+                let ms = if ms.is_empty() { String::new() } else { format!(" {} ms", ms.join("+")) };
+                format!("{}{ms}", state.drawn_name(*side))
             })
             .collect();
         let triangles = viewer.triangle_count().map_or(String::new(), |count| format!("{count} triangles   "));
@@ -247,7 +256,11 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
             ui.add(egui::ProgressBar::new(stage.share).show_percentage());
         });
     }
-    for (title, text) in [("this cannot be drawn", &viewer.problem), ("a shader was refused", &viewer.shader_log)] {
+    for (title, text) in [
+        ("this cannot be drawn", viewer.problem.as_deref()),
+        ("these lines cannot be drawn", viewer.lines.problem()),
+        ("a shader was refused", viewer.shader_log.as_deref()),
+    ] {
         if let Some(text) = text {
             window(title).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).max_width(520.0).show(context, |ui| {
                 ui.add(egui::Label::new(text).wrap());

@@ -157,3 +157,17 @@ fn a_frame_in_which_nothing_happens_makes_no_event_and_asks_for_no_other() {
     assert!(delay > Duration::from_secs(60), "{delay:?}");
     assert_eq!(frames.viewer.picture_number, number);
 }
+
+#[test]
+fn a_width_with_a_unit_and_colours_by_class_have_widgets_that_change_nothing_by_themselves() {
+    let mut frames = Frames::new();
+    let lines = |option: &str, value: &str| ViewerEvent::Lines(option.to_owned(), value.to_owned());
+    let style = ViewerEvent::Style(Side::Left, "lines".to_owned());
+    for event in [ViewerEvent::Panel, style, lines("--line-width", "0.5%"), lines("--class-colors", "crease=red")] {
+        frames.viewer.event(event);
+    }
+    frames.context.all_styles_mut(|style| style.animation_time = 0.0);
+    (0..3).for_each(|_| drop(frames.show(Vec::new())));
+    assert_eq!(frames.show(Vec::new()), [], "what is shown is what there is");
+    assert_eq!(frames.viewer.lines.problem(), None);
+}

@@ -8,7 +8,10 @@ use super::compose::composed;
 use super::cost::Costs;
 use super::draw::{Drawing, Job};
 use super::event::{Effect, Save, Side, ViewerEvent};
+use super::exact::{ExactLines, LineJob};
+use super::line_style::LinesShown;
 use super::load::{LoadedModels, Loader, Stage};
+use super::paint::over;
 use super::render_threads::{Ended, RenderThreads};
 use super::report::{Report, Reporter};
 use super::save::{Surroundings, save};
@@ -45,16 +48,25 @@ pub struct Viewer {
     pub state: ViewerState,
     /// What the shown styles cost.
     pub costs: Costs,
+    /// The exact lines of the view, where a side shows them.
+    pub lines: ExactLines,
     /// What loading is doing, while it does.
     pub stage: Option<Stage>,
     /// A shader that was refused, with the driver's log.
     pub shader_log: Option<String>,
     /// What is wrong with the models or the picture; stays until it is not.
     pub problem: Option<String>,
+    /// Whether the user is moving the view just now.
+    pub is_moving: bool,
     surroundings: Surroundings,
     scene: Option<Arc<Scene>>,
     drawings: Vec<Drawing>,
-    /// Counts drawings, so that a window knows when to show another.
+    /// Counts drawings.
+    drawings_number: u64,
+    /// The pictures of sides that show exact lines, and what they were made of.
+    inked: [Option<Picture>; 2],
+    inked_of: Option<InkedOf>,
+    /// Counts what is shown, so that a window knows when to show another.
     pub picture_number: u64,
     /// The job that the drawings are of.
     drawn: Option<Job>,
@@ -72,6 +84,9 @@ pub struct Viewer {
     /// The drawing threads' last words, where they have gone.
     gone: Option<Error>,
 }
+
+/// What pictures with exact lines are made of: the numbers of drawings and lines, and for each side what it shows of the lines.
+type InkedOf = (u64, u64, [LinesShown; 2]);
 
 impl std::fmt::Debug for Viewer {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -95,9 +110,9 @@ impl Viewer {
             let _ = render_threads.replace_shaders(watch::shaders_in(folder));
         }
         let watched = watch::start(options.shaders.clone(), reporter.clone()).map_err(no_thread)?;
-        let loader = Loader::new(options.load.clone(), reporter.clone());
+        let loader = Loader::new(reporter.clone());
         let surroundings = Surroundings {
-            load: options.load,
+            load: options.load.clone(),
             backend: options.backend,
             folder: options.folder,
             files: Vec::new(),
@@ -107,12 +122,17 @@ impl Viewer {
         let mut viewer = Self {
             state: options.state,
             costs: Costs::default(),
+            lines: ExactLines::default(),
             stage: None,
             shader_log: None,
             problem: None,
+            is_moving: false,
             surroundings,
             scene: None,
             drawings: Vec::new(),
+            drawings_number: 0,
+            inked: [None, None],
+            inked_of: None,
             picture_number: 0,
             drawn: None,
             drawn_number: 0,
@@ -126,6 +146,7 @@ impl Viewer {
             loads_going_on: 0,
             gone: None,
         };
+        viewer.state.load = options.load;
         viewer.open(viewer.state.models.clone());
         Ok(viewer)
     }
@@ -186,18 +207,30 @@ impl Viewer {
     /// Asks for the picture of the state, if it is not there, and for its cost when it is. To be called after events.
     pub fn ask(&mut self) {
         let Some(job) = self.job() else { return };
-        if self.is_pricing {
-            return;
+        let is_picture = self.shows(LinesShown::Alone);
+        self.lines.ask(self.line_job(&job), is_picture, &self.reporter);
+        self.ink();
+        if !self.is_pricing {
+            self.ask_for_drawings(job);
         }
+    }
+
+    fn ask_for_drawings(&mut self, job: Job) {
         let newest = self.render_threads.newest();
-        let is_asked = newest.or(self.drawn.as_ref()).is_some_and(|newest| newest.is_same(&job));
+        let is_asked = newest.or(self.drawn.as_ref()).is_some_and(|newest| newest.does_for(&job));
         let sent = if !is_asked {
             // Other models, and pictures of another size, come one by one.
             let is_moving = newest.zip(self.drawn.as_ref()).is_some_and(|(newest, drawn)| {
                 [newest, drawn].iter().all(|other| other.is_of_same_scene_and_size(&job))
             });
             self.render_threads.draw(job, is_moving)
-        } else if newest.is_none() && self.state.has_price && self.costs.sides.is_empty() && self.problem.is_none() {
+        } else if newest.is_none()
+            && self.state.has_price
+            && !job.drawings.is_empty()
+            && !job.is_coarse
+            && self.costs.sides.is_empty()
+            && self.problem.is_none()
+        {
             self.is_pricing = true;
             self.render_threads.measure_cost(job)
         } else {
@@ -206,10 +239,12 @@ impl Viewer {
         self.check(sent);
     }
 
-    /// Whether the picture of the state is there or being drawn.
+    /// Whether the picture of the state is there or being drawn, and lines that are a picture by themselves likewise.
     pub fn is_asked(&self) -> bool {
+        let Some(job) = self.job() else { return true };
         let newest = self.render_threads.newest().or(self.drawn.as_ref());
-        self.job().is_none_or(|job| newest.is_some_and(|newest| newest.is_same(&job)))
+        let has_lines = || self.line_job(&job).is_none_or(|lines| self.lines.is_begun(&lines));
+        newest.is_some_and(|newest| newest.does_for(&job)) && (!self.shows(LinesShown::Alone) || has_lines())
     }
 
     /// Whether a picture is being drawn.
@@ -219,15 +254,16 @@ impl Viewer {
 
     /// Whether nothing is being read, drawn or measured.
     pub fn is_at_rest(&self) -> bool {
-        self.loads_going_on == 0 && !self.is_drawing() && !self.is_pricing && !self.costs.is_measuring()
+        let is_working = self.is_drawing() || self.is_pricing || self.costs.is_measuring() || self.lines.is_finding();
+        self.loads_going_on == 0 && !is_working
     }
 
-    /// A side's picture.
+    /// A side's picture, with the exact lines where it shows them.
     pub fn picture(&self, side: Side) -> Option<&Picture> {
-        self.drawings.iter().find(|drawing| drawing.side == side).map(|drawing| &drawing.picture)
+        self.inked[side as usize].as_ref().or_else(|| self.drawing(side).map(|drawing| &drawing.picture))
     }
 
-    /// A side's picture with the time it took.
+    /// A side's picture by its style, with the time it took.
     pub fn drawing(&self, side: Side) -> Option<&Drawing> {
         self.drawings.iter().find(|drawing| drawing.side == side)
     }
@@ -251,28 +287,71 @@ impl Viewer {
     pub fn job(&self) -> Option<Job> {
         let drawing = |side: &Side| {
             let (style, show) = self.state.buffer.drawn(self.state.style(*side));
-            (*side, style, show)
+            (self.state.lines_shown(*side) != LinesShown::Alone).then_some((*side, style, show))
         };
         Some(Job {
             scene: self.scene.clone()?,
             orbit: self.state.orbit.clone(),
             settings: self.state.scene_settings(),
-            drawings: self.state.sides().iter().map(drawing).collect(),
+            drawings: self.state.sides().iter().filter_map(drawing).collect(),
+            is_coarse: self.is_moving && self.state.is_coarse_while_moving,
         })
     }
 
-    /// The command line that draws what is shown of the active side.
-    pub fn command(&self) -> Option<std::result::Result<String, String>> {
-        let job = self.job()?;
-        let command = super::save::command(
-            &self.state,
-            &job,
-            &self.surroundings,
-            Save::Picture,
-            self.state.active,
-            "drawing.png",
-        );
-        Some(command.map_err(|error| error.to_string()))
+    /// The exact lines that are wanted, where a side that is seen shows them.
+    fn line_job(&self, job: &Job) -> Option<LineJob> {
+        let is_wanted = self.shows(LinesShown::Over) || self.shows(LinesShown::Alone);
+        let view = Job { drawings: Vec::new(), is_coarse: false, ..job.clone() };
+        is_wanted.then(|| LineJob { view, style: self.state.line_style.clone() })
+    }
+
+    /// Whether a side that is seen shows this of the exact lines.
+    fn shows(&self, lines: LinesShown) -> bool {
+        self.state.sides().iter().any(|side| self.state.lines_shown(*side) == lines)
+    }
+
+    /// Lays the lines that were found over the pictures, where they are of the same view.
+    fn ink(&mut self) {
+        let lines = [Side::Left, Side::Right].map(|side| match self.state.lines_shown(side) {
+            LinesShown::Over if !self.has_ink_over(side) => LinesShown::None,
+            shown => shown,
+        });
+        let of = Some((self.drawings_number, self.lines.number, lines));
+        if of == self.inked_of {
+            return;
+        }
+        let found = self.lines.found();
+        self.inked = [Side::Left, Side::Right].map(|side| match lines[side as usize] {
+            LinesShown::None => None,
+            LinesShown::Over => found.zip(self.drawing(side)).map(|(found, under)| over(&found.ink, &under.picture)),
+            LinesShown::Alone => found.map(|found| found.alone()),
+        });
+        self.inked_of = of;
+        self.picture_number += 1;
+    }
+
+    /// Whether the lines that were found are those of a side's picture.
+    fn has_ink_over(&self, side: Side) -> bool {
+        let Some((found, drawn)) = self.lines.found().zip(self.drawn.as_ref()) else { return false };
+        let is_of_it = found.job.style == self.state.line_style && found.job.view.is_of_same_picture(drawn);
+        is_of_it && self.drawing(side).is_some()
+    }
+
+    /// The command lines that draw what is shown of the active side: its style's picture, its exact lines.
+    pub fn commands(&self) -> Vec<std::result::Result<String, String>> {
+        let Some(job) = self.job() else { return Vec::new() };
+        let command = |save: Save, output: &str| {
+            let (state, side) = (&self.state, self.state.active);
+            let command = super::save::command(state, &job, &self.surroundings, save, side, output);
+            command.map_err(|error| error.to_string())
+        };
+        let (picture, lines) = ((Save::Picture, "drawing.png"), (Save::Lines, "drawing.svg"));
+        let made_of = match self.state.lines_shown(self.state.active) {
+            LinesShown::None => vec![picture],
+            LinesShown::Over => vec![picture, lines],
+            LinesShown::Alone => vec![lines],
+        };
+        made_of.into_iter().map(|(save, output)| command(save, output)).collect()
     }
 
     fn check(&mut self, sent: std::result::Result<(), Ended>) {
@@ -284,7 +363,7 @@ impl Viewer {
     fn open(&mut self, models: Vec<String>) {
         self.loads_going_on += 1;
         self.stage = Some(Stage { text: "starting to read".to_owned(), share: 0.0 });
-        if let Err(error) = self.loader.start(models) {
+        if let Err(error) = self.loader.start(models, self.state.load.clone()) {
             self.loads_going_on -= 1;
             self.stage = None;
             self.problem =
@@ -293,8 +372,11 @@ impl Viewer {
     }
 
     fn save(&mut self, kind: Save) {
-        let Some(job) = self.job() else {
-            self.state.message = Some("there is nothing to save yet".to_owned());
+        // What is written is never coarse.
+        let job = self.job().map(|job| Job { is_coarse: false, ..job });
+        let is_shown = self.drawn.as_ref().is_some_and(|drawn| !drawn.is_coarse);
+        let Some(job) = job.filter(|_| is_shown) else {
+            self.state.message = Some("there is nothing to save yet; wait until the picture is there".to_owned());
             return;
         };
         let (state, shown, surroundings) = (self.state.clone(), self.shown(), self.surroundings.clone());
@@ -372,6 +454,7 @@ impl Viewer {
             // The picture is the same; only the next ones are faster.
             Report::Prepared => {}
             Report::Measured(number, errors) => self.costs.measured(number, errors),
+            Report::Lines(found) => self.lines.take(*found),
             Report::ModelChanged => self.open(self.state.models.clone()),
             Report::ShadersChanged(shaders) => {
                 let sent = self.render_threads.replace_shaders(shaders);
@@ -382,7 +465,7 @@ impl Viewer {
     }
 
     fn loaded(&mut self, number: u64, loaded: LoadedModels) {
-        let LoadedModels { models, files, scene, remarks } = loaded;
+        let LoadedModels { models, options, files, scene, remarks } = loaded;
         self.loads_going_on -= 1;
         if !self.loader.is_last(number) {
             return;
@@ -394,7 +477,7 @@ impl Viewer {
             self.state.update(ViewerEvent::Reset);
         }
         let _ = self.watched.send(files.clone());
-        self.surroundings.files = files;
+        (self.surroundings.files, self.surroundings.load) = (files, options);
         self.state.models = models;
         self.scene = Some(scene);
         self.costs.view_changed();
@@ -418,8 +501,12 @@ impl Viewer {
             false => self.costs.view_changed(),
         }
         self.drawn = Some(job);
+        // Of sides that show exact lines by themselves there is nothing new.
+        if !drawings.is_empty() || !self.drawings.is_empty() {
+            self.drawings_number += 1;
+            self.picture_number += 1;
+        }
         self.drawings = drawings;
-        self.picture_number += 1;
         self.problem = None;
     }
 }
@@ -428,6 +515,7 @@ impl Drop for Viewer {
     /// Waits for files that are being written.
     fn drop(&mut self) {
         self.costs.view_changed();
+        self.lines.cancel();
         for thread in self.saving_threads.drain(..) {
             // One that has panicked has said so.
             let _ = thread.join();

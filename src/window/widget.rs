@@ -2,7 +2,8 @@
 
 use super::controls::Control;
 use crate::scene::Color;
-use crate::settings::Kind;
+use crate::settings::{Kind, Value};
+use crate::styles::ClassColors;
 use egui::{RichText, Ui};
 
 /// What was done to a control: its new value, or back to the default.
@@ -41,7 +42,11 @@ pub(super) fn show<T: Clone + 'static>(ui: &mut Ui, control: &Control<T>) -> Opt
             change = Some(Change::Set(if is_open { open.to_owned() } else { control.given() }));
         }
     }
-    if let Kind::Numbers { .. } | Kind::Several(_) | Kind::File | Kind::Text { .. } = setting.kind
+    // Left open there is no number to show.
+    let has_value = setting.open != Some(value) || !matches!(setting.kind, Kind::Numbers { .. });
+    if has_value
+        && let Kind::Numbers { .. } | Kind::Several(_) | Kind::File | Kind::Text { .. } | Kind::Colors { .. } =
+            setting.kind
         && let Some(text) = widget(ui, &setting.kind, value)
     {
         change = Some(Change::Set(text));
@@ -49,12 +54,35 @@ pub(super) fn show<T: Clone + 'static>(ui: &mut Ui, control: &Control<T>) -> Opt
     change
 }
 
-fn picker(ui: &mut Ui, value: &str) -> Option<String> {
-    // Left open there is none to show.
-    let color: Color = value.parse().ok()?;
+fn picker(ui: &mut Ui, color: Color) -> Option<Color> {
     let mut bytes = color.0.map(|channel| (channel * 255.0).round() as u8);
     let has_changed = ui.color_edit_button_srgb(&mut bytes).changed();
-    has_changed.then(|| Color(bytes.map(|byte| f32::from(byte) / 255.0)).to_string())
+    has_changed.then(|| Color(bytes.map(|byte| f32::from(byte) / 255.0)))
+}
+
+/// A picker for each name, in two columns; one of which nothing is said shows black.
+fn pickers(ui: &mut Ui, names: &[&str], value: &str) -> Option<String> {
+    let mut colors: ClassColors = value.parse().ok()?;
+    let mut has_changed = false;
+    egui::Grid::new("colors").num_columns(4).show(ui, |ui| {
+        for row in names.chunks(2) {
+            for name in row {
+                let said = colors.named(name).ok().flatten();
+                let label = RichText::new(*name);
+                let picked = picker(ui, said.unwrap_or(Color([0.0; 3])));
+                ui.label(if said.is_some() { label.strong() } else { label });
+                has_changed |= picked.is_some_and(|color| colors.set_named(name, Some(color)).is_ok());
+            }
+            ui.end_row();
+        }
+    });
+    has_changed.then(|| Value::text(&colors))
+}
+
+/// Values to choose from, and a field for others.
+fn offered_or_typed(ui: &mut Ui, offered: &[&str], value: &str) -> Option<String> {
+    let [chosen, typed] = ui.horizontal(|ui| [choice(ui, offered, "choose"), typed(ui, value)]).inner;
+    chosen.or(typed)
 }
 
 /// Names to choose from.
@@ -73,6 +101,8 @@ fn choice(ui: &mut Ui, names: &[&str], value: &str) -> Option<String> {
 /// A widget for a value; its new value once it has been turned.
 fn widget(ui: &mut Ui, kind: &Kind, value: &str) -> Option<String> {
     match kind {
+        // A length may have a unit, which no slider has.
+        Kind::Numbers { .. } if value.split(',').any(|number| number.parse::<f64>().is_err()) => typed(ui, value),
         &Kind::Numbers { range: [low, high], decimals, .. } => {
             let mut numbers: Vec<f64> = value.split(',').filter_map(|number| number.parse().ok()).collect();
             let mut has_changed = false;
@@ -89,15 +119,17 @@ fn widget(ui: &mut Ui, kind: &Kind, value: &str) -> Option<String> {
             has_changed.then(|| numbers.iter().map(text).collect::<Vec<_>>().join(","))
         }
         Kind::Choice(names) | Kind::Recipe(names) => choice(ui, names, value),
-        Kind::Color => picker(ui, value),
+        // Left open there is none to show.
+        Kind::Color => picker(ui, value.parse().ok()?).map(|color| color.to_string()),
+        Kind::Colors { names, offered, .. } => {
+            let whole = offered_or_typed(ui, offered, value);
+            whole.or(pickers(ui, names, value))
+        }
         Kind::Switch | Kind::Flag => {
             let mut is_on = value == "on";
             ui.checkbox(&mut is_on, "").changed().then(|| if is_on { "on" } else { "off" }.to_owned())
         }
-        Kind::Text { offered, .. } if !offered.is_empty() => {
-            let [chosen, typed] = ui.horizontal(|ui| [choice(ui, offered, "choose"), typed(ui, value)]).inner;
-            chosen.or(typed)
-        }
+        Kind::Text { offered, .. } if !offered.is_empty() => offered_or_typed(ui, offered, value),
         Kind::Several(_) | Kind::File | Kind::Text { .. } => typed(ui, value),
     }
 }

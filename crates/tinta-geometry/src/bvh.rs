@@ -33,6 +33,11 @@ impl Box3 {
         })
     }
 
+    /// The lowest and the highest corner.
+    pub(crate) fn corners(&self) -> [DVec3; 2] {
+        [self.0.min, self.0.max].map(|corner| corner.as_dvec3())
+    }
+
     fn overlaps(&self, other: &Self) -> bool {
         self.0.intersect_aabb(&other.0)
     }
@@ -56,12 +61,34 @@ pub(crate) struct BoxTree {
     /// The boxes, leaf by leaf.
     boxes: Vec<Box3>,
     leaves: Vec<u32>,
-    /// Each node's family, if all things below it are of one, else [`NO_FAMILY`]; empty where there are no families.
-    families: Vec<u32>,
+    /// Each node's hub, if all things below it have the same one, else [`NO_FAMILY`]; empty where there are no hubs.
+    hubs: Vec<u32>,
+    /// Likewise the plane in which all things below it lie.
+    planes: Vec<u32>,
 }
 
 /// Of things that belong to no family.
 pub(crate) const NO_FAMILY: u32 = u32::MAX;
+
+/// Families whose things are not looked for; [`NO_FAMILY`] leaves out nothing.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LeftOut {
+    pub planes: [u32; 2],
+    pub hubs: [u32; 2],
+}
+
+impl Default for LeftOut {
+    fn default() -> Self {
+        Self { planes: [NO_FAMILY; 2], hubs: [NO_FAMILY; 2] }
+    }
+}
+
+impl LeftOut {
+    /// Of things in planes.
+    pub(crate) fn planes(planes: [u32; 2]) -> Self {
+        Self { planes, ..Self::default() }
+    }
+}
 
 /// Most things in a leaf.
 pub(crate) const LARGEST_LEAF: u32 = 8;
@@ -79,12 +106,28 @@ impl BoxTree {
         let order = std::mem::take(&mut nodes.primitive_indices);
         let leaves = (0..nodes.nodes.len() as u32).filter(|node| nodes.nodes[*node as usize].is_leaf()).collect();
         let boxes = order.iter().map(|index| boxes[*index as usize]).collect();
-        (Self { boxes, leaves, nodes, families: Vec::new() }, order)
+        (Self { boxes, leaves, nodes, hubs: Vec::new(), planes: Vec::new() }, order)
     }
 
-    /// Says of the thing at each place which family it is of: [`BoxTree::pairs`] then leaves out pairs of one family, and
-    /// takes no time over them.
-    pub(crate) fn set_families(&mut self, family_of: &[u32]) {
+    /// The things' boxes, by their places.
+    pub(crate) fn boxes(&self) -> &[Box3] {
+        &self.boxes
+    }
+
+    /// Says of the thing at each place which hub it is around: [`BoxTree::pairs`] then leaves out pairs of one hub, and takes no
+    /// time over them.
+    pub(crate) fn set_hubs(&mut self, hub_of: &[u32]) {
+        self.hubs = self.of_nodes(hub_of);
+    }
+
+    /// Says of the thing at each place in which plane it lies: [`BoxTree::pairs`] then leaves out pairs of one plane, and
+    /// [`BoxTree::any_but`] things of given planes.
+    pub(crate) fn set_planes(&mut self, plane_of: &[u32]) {
+        self.planes = self.of_nodes(plane_of);
+    }
+
+    /// Of each node the family that all things below it are of, or [`NO_FAMILY`].
+    fn of_nodes(&self, family_of: &[u32]) -> Vec<u32> {
         let nodes = &self.nodes.nodes;
         let mut families = vec![NO_FAMILY; nodes.len()];
         let common = |first: u32, second: u32| if first == second { first } else { NO_FAMILY };
@@ -108,12 +151,23 @@ impl BoxTree {
                 common(families[first], families[first + 1])
             };
         }
-        self.families = families;
+        families
     }
 
     /// Calls `visit` with each thing whose box overlaps `query` until it returns true; returns whether it did.
-    pub(crate) fn any(&self, query: &Box3, mut visit: impl FnMut(u32) -> bool) -> bool {
-        self.any_leaf(query, NO_FAMILY, |leaf| {
+    pub(crate) fn any(&self, query: &Box3, visit: impl FnMut(u32) -> bool) -> bool {
+        self.any_but(query, LeftOut::default(), visit)
+    }
+
+    /// As [`BoxTree::any`] without some families, as far as whole leaves are of them.
+    pub(crate) fn any_but(&self, query: &Box3, left_out: LeftOut, mut visit: impl FnMut(u32) -> bool) -> bool {
+        let is_none = |families: &[u32], node: u32, left_out: [u32; 2]| {
+            let family = family(families, node);
+            family == NO_FAMILY || !left_out.contains(&family)
+        };
+        let is_other =
+            |node: u32| is_none(&self.planes, node, left_out.planes) && is_none(&self.hubs, node, left_out.hubs);
+        self.any_leaf(query, is_other, |leaf| {
             range(leaf.first_index, leaf.prim_count)
                 .any(|place| query.overlaps(&self.boxes[place]) && visit(place as u32))
         })
@@ -125,13 +179,18 @@ impl BoxTree {
     }
 
     /// Calls `visit` with each pair of things whose boxes overlap, one of them in one of these groups, until it returns true;
-    /// over all groups each pair comes once. Returns whether it did. Pairs of one family are left out as far as whole leaves
-    /// are of it.
+    /// over all groups each pair comes once. Returns whether it did. Pairs of one hub or plane are left out as far as whole
+    /// leaves are of it.
     pub(crate) fn pairs(&self, groups: std::ops::Range<usize>, mut visit: impl FnMut(u32, u32) -> bool) -> bool {
         self.leaves[groups].iter().any(|index| {
             let node = &self.nodes.nodes[*index as usize];
             let own = range(node.first_index, node.prim_count);
-            self.any_leaf(&Box3(*node.aabb()), self.family(*index), |leaf| {
+            let (hub, plane) = (family(&self.hubs, *index), family(&self.planes, *index));
+            let is_other = |node: u32| {
+                (hub == NO_FAMILY || family(&self.hubs, node) != hub)
+                    && (plane == NO_FAMILY || family(&self.planes, node) != plane)
+            };
+            self.any_leaf(&Box3(*node.aabb()), is_other, |leaf| {
                 let other = range(leaf.first_index, leaf.prim_count);
                 if other.start < own.start {
                     return false;
@@ -146,17 +205,12 @@ impl BoxTree {
         })
     }
 
-    fn family(&self, node: u32) -> u32 {
-        self.families.get(node as usize).copied().unwrap_or(NO_FAMILY)
-    }
-
-    /// Calls `visit` with each leaf that overlaps and is not of this family, until it returns true.
-    fn any_leaf(&self, query: &Box3, family: u32, mut visit: impl FnMut(&Bvh2Node) -> bool) -> bool {
+    /// Calls `visit` with each leaf that overlaps and lies below no node to leave out, until it returns true.
+    fn any_leaf(&self, query: &Box3, is_other: impl Fn(u32) -> bool, mut visit: impl FnMut(&Bvh2Node) -> bool) -> bool {
         let nodes = &self.nodes.nodes;
         if nodes.is_empty() || !nodes[0].aabb().intersect_aabb(&query.0) {
             return false;
         }
-        let is_other = |node: u32| family == NO_FAMILY || self.family(node) != family;
         let mut open = Vec::with_capacity(64);
         open.extend(is_other(0).then_some(0));
         while let Some(index) = open.pop() {
@@ -173,6 +227,11 @@ impl BoxTree {
         }
         false
     }
+}
+
+/// A node's family; none where there are no families.
+fn family(families: &[u32], node: u32) -> u32 {
+    families.get(node as usize).copied().unwrap_or(NO_FAMILY)
 }
 
 /// Most things whose hierarchy is built at once. Building joins those that are nearest to one another; of a row in which each is

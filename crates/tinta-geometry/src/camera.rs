@@ -21,6 +21,7 @@
 //! ```
 
 mod framing;
+mod matrix;
 
 pub use framing::Framing;
 

@@ -31,6 +31,18 @@ pub fn meant_or(name: &str, names: &[&str], otherwise: &str) -> String {
     nearest(name, names).map_or_else(|| otherwise.to_owned(), |nearest| format!("did you mean {nearest}?"))
 }
 
+/// What to say of an option that whatever is called so has not, both as the user writes them: which was meant, if one was.
+///
+/// ```
+/// use tinta_geometry::choice::no_option;
+/// let sentence = "tinta render has no option --colour; did you mean --color?";
+/// assert_eq!(no_option("tinta render", "--colour", Some("--color")), sentence);
+/// ```
+pub fn no_option(owner: &str, given: &str, meant: Option<&str>) -> String {
+    let sentence = format!("{owner} has no option {given}");
+    meant.map_or(sentence.clone(), |meant| format!("{sentence}; did you mean {meant}?"))
+}
+
 /// The name that somebody meant who wrote `word`: the nearest by letters added, left out, exchanged or swapped with the next,
 /// one for every three letters at most; else the only one that begins so. Capitals count as small letters, underscores and
 /// blanks as hyphens. `None` where no name is near.

@@ -1,6 +1,9 @@
 //! Time measurement.
 
-use std::time::Instant;
+#[cfg(not(target_arch = "wasm32"))]
+pub use std::time::Instant;
+#[cfg(target_arch = "wasm32")]
+pub use web_time::Instant;
 
 /// Milliseconds by the clock since an instant.
 pub fn milliseconds_since(start: Instant) -> f64 {

@@ -120,6 +120,12 @@ pub enum Error {
     /// Nobody waits for the work any more.
     #[error("the drawing was cancelled; ask for it again")]
     Cancelled,
+    /// The work takes longer than it was given.
+    #[error("not done within {seconds} s; give it more time, or ask for less")]
+    OutOfTime {
+        /// The time it was given, seconds.
+        seconds: f64,
+    },
     /// No way to an OpenGL 2.1 context worked.
     #[error(
         "no OpenGL 2.1 context could be made (tried {}); install Mesa's software renderer, on Debian: apt-get install libegl1 libgl1-mesa-dri libosmesa6",
@@ -224,6 +230,7 @@ impl Error {
             Self::Text(_) => "text",
             Self::Busy { .. } => "busy",
             Self::Cancelled => "cancelled",
+            Self::OutOfTime { .. } => "out-of-time",
             Self::NoContext { .. } => "no-context",
             Self::NoWindow { .. } => "no-window",
             Self::PictureTooLarge { .. } => "picture-too-large",

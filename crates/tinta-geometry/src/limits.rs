@@ -24,6 +24,9 @@ pub const MATERIAL_FILE_BYTES: u64 = 64 << 20;
 /// Largest picture file, bytes: the largest picture without any compression, with 16 bits a channel, is little more.
 pub const PICTURE_FILE_BYTES: u64 = 640 << 20;
 
+/// Largest drawing to be judged, bytes: an SVG of a million paths.
+pub const DRAWING_BYTES: u64 = 640 << 20;
+
 /// Largest file of measured rows, bytes.
 pub const ROWS_BYTES: u64 = 1 << 30;
 
@@ -86,3 +89,12 @@ pub const DOUBLED_FACES: usize = 50_000;
 
 /// Most characters of a name out of a file that a message shows.
 pub const SHOWN_CHARACTERS: usize = 120;
+
+/// Most pixels of a picture that is drawn: 2 GiB of memory, A1 at 600 dots an inch nearly twice.
+pub const DRAWN_PIXELS: usize = 1 << 29;
+
+/// Most pixels drawn in one piece: with depth and copies such a surface takes some 3 GiB. What is larger is drawn in tiles.
+pub const DRAWN_AT_ONCE_PIXELS: usize = 1 << 27;
+
+/// Longest side of a tile, pixels: its surface, depth and copies then take 320 MiB at most.
+pub const TILE_SIDE_PX: u32 = 4096;

@@ -34,27 +34,38 @@ mod intersections;
 mod layers;
 mod length;
 mod mend;
+mod occluders;
 mod outline;
 mod page;
 #[cfg(feature = "pdf")]
 mod pdf;
 mod pen;
+mod planes;
+mod progress;
+mod pyramid;
+mod raster;
+mod search;
 mod simplify;
 mod space;
 mod specks;
+mod strokes;
 mod svg;
 mod visibility;
 
 pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
+pub use drawing::{DrawnLayer, GHOST_OPACITY, drawn_layers};
 pub use layers::{ClassColors, ClassWidths, Layer, OfLayers};
 pub use length::{Length, Millimetres, Units, line_width};
 pub use page::{PageSize, Paper, Sheet, Turn};
 #[cfg(feature = "pdf")]
 pub use pdf::{pdf, pdf_of_paths};
+pub use progress::Progress;
+pub use raster::{Raster, raster, raster_of_paths};
+pub use strokes::{Polyline, Strokes, strokes};
 pub use svg::{Hidden, SvgSettings, svg, svg_of_paths};
 
-use crate::clock::milliseconds_since;
+use crate::clock::{Instant, milliseconds_since};
 use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
@@ -64,12 +75,11 @@ use crate::threads::both;
 use faces::Faces;
 use features::{Edges, MendedEdges, Part};
 use glam::DVec2;
+use pyramid::Pyramid;
 use serde::Serialize;
 use space::Space;
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
-use std::time::Instant;
 use visibility::Lines;
 
 /// Which lines are wanted.
@@ -79,6 +89,9 @@ pub struct LineSettings {
     pub classes: ClassSet,
     /// From which angle between faces an edge is a crease. Default 30 degrees; more find fewer lines.
     pub crease_angle: CreaseAngle,
+    /// Whether hidden parts are found too. Default yes; without them [`VisibleLines::segments`] has what is seen alone, and no time
+    /// is spent on what lies behind.
+    pub finds_hidden: bool,
     /// Whether outlines are found, for [`LineSegment::is_outline`]; lines are cut where they begin and end. Default no: it takes
     /// time, and nobody else needs the cuts.
     pub finds_outline: bool,
@@ -96,6 +109,7 @@ impl Default for LineSettings {
                 Class::Intersection,
             ]),
             crease_angle: CreaseAngle::of_drawings(),
+            finds_hidden: true,
             finds_outline: false,
         }
     }
@@ -115,7 +129,8 @@ impl LineSettings {
         Self { crease_angle: CreaseAngle::default(), ..Self::default() }
     }
 
-    fn settings() -> Vec<Setting<Self>> {
+    /// The settings, for a table of something that has lines in it.
+    pub fn settings() -> Vec<Setting<Self>> {
         // There for who draws both: inking has the other rule too.
         let silhouette = Setting::of(
             "silhouette",
@@ -193,43 +208,6 @@ pub struct LineTimes {
     pub visibility_ms: f64,
 }
 
-/// How far the work is, for whoever watches from another thread, who may also ask for it to be given up.
-#[derive(Debug, Default)]
-pub struct Progress {
-    done: AtomicUsize,
-    total: AtomicUsize,
-    is_cancelled: AtomicBool,
-}
-
-impl Progress {
-    /// Lines decided and lines in all; 0 and 0 until it is known how many there are.
-    pub fn state(&self) -> (usize, usize) {
-        (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
-    }
-
-    /// Asks for the work to be given up: it then ends soon with [`Error::Cancelled`].
-    pub fn cancel(&self) {
-        self.is_cancelled.store(true, Ordering::Relaxed);
-    }
-
-    /// Whether the work is to be given up.
-    fn is_cancelled(&self) -> bool {
-        self.is_cancelled.load(Ordering::Relaxed)
-    }
-
-    fn go_on(&self) -> Result<()> {
-        if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }
-    }
-
-    fn begin(&self, total: usize) {
-        self.total.store(total, Ordering::Relaxed);
-    }
-
-    fn advance(&self, count: usize) {
-        self.done.fetch_add(count, Ordering::Relaxed);
-    }
-}
-
 impl VisibleLines {
     /// Finds the lines of a scene.
     ///
@@ -244,7 +222,7 @@ impl VisibleLines {
     ///
     /// # Errors
     ///
-    /// As there, and [`Error::Cancelled`] after [`Progress::cancel`].
+    /// As there, [`Error::Cancelled`] after [`Progress::cancel`], and [`Error::OutOfTime`] after [`Progress::within`].
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
         if settings.classes.is_empty() {
             return Err(Error::setting("classes", "name at least one class of lines"));
@@ -283,14 +261,16 @@ impl VisibleLines {
         progress.go_on()?;
 
         let clock = Instant::now();
-        let (intersections, piercings) = intersections::intersections(&space, &faces);
+        let pyramid = Pyramid::new(&space, &faces);
+        let hides = pyramid.as_ref().filter(|_| !settings.finds_hidden);
+        let (intersections, piercings) = intersections::intersections(&space, &faces, hides);
         if settings.classes.contains(Class::Intersection) {
             edges.intersection = intersections.len();
             lines.extend(features::intersection_features(&faces, &parts, &intersections));
         }
         lines.extend(features::near_plane_features(&space, &faces));
         progress.go_on()?;
-        let segments = Lines::new(&space, &faces, &lines, &piercings, settings.finds_outline).segments(progress);
+        let segments = Lines::new(&space, &faces, &lines, &piercings, pyramid.as_ref(), settings).segments(progress);
         progress.go_on()?;
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms };

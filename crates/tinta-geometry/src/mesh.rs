@@ -46,6 +46,8 @@ use std::sync::Arc;
 pub use defects::Defects;
 pub use format::is_model_name;
 pub use frame::ModelFrame;
+#[cfg(feature = "gltf")]
+pub use gltf::camera as gltf_camera;
 pub(crate) use hilbert::hilbert_code;
 pub use load::{
     LoadOptions, LoadStage, Loaded, Normals, UpAxis, load, load_watched, read_as, read_bytes, refuse_address,
@@ -150,13 +152,48 @@ impl Mesh {
         triangles: &[[u32; 3]],
         options: &LoadOptions,
     ) -> crate::Result<Self> {
+        Self::of_polygons(name, positions, triangles.as_flattened(), Vec::new(), options)
+    }
+
+    /// The same of polygons, which are cut into triangles as a file's are: all their corners one after the other, and how many
+    /// each of them has, at least 3; where no sizes are given, all are triangles.
+    ///
+    /// ```
+    /// # fn main() -> tinta_geometry::Result<()> {
+    /// use glam::DVec3;
+    /// use tinta_geometry::{LoadOptions, Mesh};
+    ///
+    /// let corners = vec![DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y];
+    /// let square = Mesh::of_polygons("a square", corners, &[0, 1, 2, 3], vec![4], &LoadOptions::default())?;
+    /// assert_eq!(square.triangles.len(), 2);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`Mesh::of_triangles`], and [`crate::Error::File`] for sizes that are not those of the corners.
+    pub fn of_polygons(
+        name: &str,
+        positions: Vec<DVec3>,
+        corners: &[u32],
+        sizes: Vec<u32>,
+        options: &LoadOptions,
+    ) -> crate::Result<Self> {
         load::check(options)?;
-        if triangles.as_flattened().iter().any(|index| *index as usize >= positions.len()) {
-            let problem = format!("a triangle uses a position that does not exist; there are {}", positions.len());
+        if corners.iter().any(|index| *index as usize >= positions.len()) {
+            let problem = format!("a face uses a position that does not exist; there are {}", positions.len());
             return Err(crate::Error::model(name, problem));
         }
-        let corners = triangles.as_flattened().iter().map(|index| soup::Corner::at(*index)).collect();
-        soup::Soup { positions, corners, ..soup::Soup::default() }.into_mesh(name, options)
+        let counted: u64 = sizes.iter().map(|size| u64::from(*size)).sum();
+        let is_even = if sizes.is_empty() { corners.len().is_multiple_of(3) } else { counted == corners.len() as u64 };
+        if !is_even || sizes.iter().any(|size| *size < 3) {
+            let problem = format!("its faces do not have {} corners together, and 3 or more each", corners.len());
+            return Err(crate::Error::model(name, problem));
+        }
+        let corners = corners.iter().map(|index| soup::Corner::at(*index)).collect();
+        let soup = soup::Soup { positions, corners, polygon_sizes: sizes, ..soup::Soup::default() };
+        soup.into_mesh(name, options)
     }
 
     /// Bytes of main memory the mesh takes, materials' names aside.

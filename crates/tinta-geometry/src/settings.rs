@@ -59,6 +59,30 @@ impl OptionValue {
     }
 }
 
+/// Settings that exclude each other: one, and those that cannot stand beside it.
+pub const EXCLUSIVE: [(&str, &[&str]); 5] = [
+    ("eye", &["view"]),
+    ("transparent", &["background"]),
+    ("width-mm", &["dpi"]),
+    ("page", &["width-mm", "dpi"]),
+    ("pen", &["class-widths", "line-width"]),
+];
+
+/// Refuses options that exclude each other.
+///
+/// # Errors
+///
+/// [`Error::Settings`] with the two.
+pub fn refuse_exclusive(options: &Options) -> Result<()> {
+    let is_given = |name: &str| options.get(name).is_some_and(|value| *value != OptionValue::Switch(false));
+    for (one, others) in EXCLUSIVE.iter().filter(|(one, _)| is_given(one)) {
+        if let Some(other) = others.iter().find(|other| is_given(other)) {
+            return Err(Error::settings(&[one, other], "they exclude each other; leave one of them out"));
+        }
+    }
+    Ok(())
+}
+
 /// What options that are on or off call their value.
 pub const ON_OFF: &str = "ON|OFF";
 
@@ -88,6 +112,15 @@ pub enum Kind {
     File,
     /// A colour: a CSS name, `#rrggbb` or `rgb(r,g,b)`.
     Color,
+    /// Colours for some of a few names: `NAME=COLOR`, with commas between.
+    Colors {
+        /// The names that a panel offers.
+        names: Vec<&'static str>,
+        /// Some whole values worth offering.
+        offered: &'static [&'static str],
+        /// One that is not the default.
+        example: &'static str,
+    },
     /// A text of its own grammar: colours by class, a size.
     Text {
         /// Some values worth offering.
@@ -107,7 +140,7 @@ impl Kind {
                 NUMBERS[*low as usize..=*high as usize].to_vec()
             }
             Self::Choice(names) | Self::Recipe(names) | Self::Several(names) => names.clone(),
-            Self::Text { offered, .. } => offered.to_vec(),
+            Self::Text { offered, .. } | Self::Colors { offered, .. } => offered.to_vec(),
             Self::Switch => vec!["on", "off"],
             Self::Numbers { .. } | Self::Flag | Self::File | Self::Color => Vec::new(),
         }
@@ -124,7 +157,7 @@ impl Kind {
                 [0.0, 0.4, 0.7, 1.0].map(|share| vec![number(share); *count].join(",")).to_vec()
             }
             Self::Switch | Self::Flag => vec![on_off(default != "on").to_owned()],
-            Self::Text { example, .. } => vec![(*example).to_owned()],
+            Self::Text { example, .. } | Self::Colors { example, .. } => vec![(*example).to_owned()],
             Self::Color => vec!["rgb(10.5 20 30)".to_owned()],
             Self::Choice(names) | Self::Recipe(names) | Self::Several(names) => {
                 names.iter().map(|name| (*name).to_owned()).collect()

@@ -42,7 +42,7 @@ impl FromStr for Size {
     type Err = ParseError;
 
     fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
-        let (width, height) = text.split_once(['x', 'X']).unwrap_or((text, text));
+        let (width, height) = text.split_once(['x', 'X', ',']).unwrap_or((text, text));
         match (width.parse(), height.parse()) {
             (Ok(width), Ok(height)) if width > 0 && height > 0 => Ok(Self { width, height }),
             _ => Err("a size is WIDTHxHEIGHT in pixels, each at least 1, or one number for both".to_owned().into()),
@@ -86,6 +86,15 @@ impl Rectangle {
             width: (self.x + self.width).max(other.x + other.width) - x,
             height: (self.y + self.height).max(other.y + other.height) - y,
         }
+    }
+
+    /// What this and another have in common; `None` for nothing.
+    #[must_use]
+    pub fn within(self, other: Self) -> Option<Self> {
+        let (x, y) = (self.x.max(other.x), self.y.max(other.y));
+        let width = (self.x + self.width).min(other.x + other.width).checked_sub(x)?;
+        let height = (self.y + self.height).min(other.y + other.height).checked_sub(y)?;
+        (width > 0 && height > 0).then_some(Self { x, y, width, height })
     }
 
     /// Number of pixels.

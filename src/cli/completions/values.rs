@@ -43,14 +43,15 @@ fn with_value(command: &str, arg: Arg) -> Arg {
 /// The names an option takes, or the usual ones where it takes others too.
 fn offered(command: &str, option: &str) -> Vec<&'static str> {
     match option {
-        "style" if command == "view" => names_of::<StyleName>(),
         "style" => with(names_of::<StyleName>(), &["lines"]),
+        "right" if command == "view" => with(names_of::<StyleName>(), &["lines"]),
         "left" | "right" | "styles" => names_of::<StyleName>(),
         "look" => tinta::preset::LOOKS.iter().map(|look| look.name).collect(),
         "backend" => names_of::<Backend>(),
         "submission" => names_of::<Submission>(),
         "show" => names_of::<Show>(),
         "keep" => names_of::<Rule>(),
+        "ink" => vec!["dark", "light", "alpha"],
         "suite" => vec!["papers", "solids", "all"],
         "only" if command == "stress" => GROUPS.to_vec(),
         #[cfg(feature = "measuring")]

@@ -1,4 +1,4 @@
-//! Pictures of where a row's errors lie, beside the page that shows them.
+//! Pictures of what a row's setting draws and where its errors lie, beside the page that shows them.
 
 use super::{Arguments, make_folder};
 use std::path::PathBuf;
@@ -14,12 +14,19 @@ pub(super) fn is_shown(row: &Row) -> bool {
     row.lines.is_some() && (row.is_faithful || row.style == "ink" || is_exact)
 }
 
-/// Where the picture of a row's errors lies.
-fn error_path(arguments: &Arguments, row: &Row) -> PathBuf {
+/// What the names of drawings end with, and of pictures of errors.
+const DRAWING: &str = "-drawing";
+const ERRORS: &str = "";
+
+/// What a drawing may take in the page, bytes: a hundred of them stay below five million in base 64.
+const MOST_BYTES: usize = 36_000;
+
+/// Where a picture of a row lies.
+fn path(arguments: &Arguments, row: &Row, end: &str) -> PathBuf {
     let model: String = row.model.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ',', '/', '\\'], "-");
     let options = shortened(options);
-    let name = format!("{}-{}x{}-{options}.png", model.trim_matches('-'), row.size[0], row.size[1]);
+    let name = format!("{}-{}x{}-{options}{end}.png", model.trim_matches('-'), row.size[0], row.size[1]);
     arguments.output.join("errors").join(name)
 }
 
@@ -36,18 +43,23 @@ fn shortened(name: String) -> String {
     format!("{}-{number:016x}", name.chars().take(MOST_LETTERS).collect::<String>())
 }
 
-/// Writes a picture of the error and hands it over for the page.
-pub(super) fn error_page(arguments: &Arguments, row: &Row, picture: &Picture) -> Result<ReportPicture> {
+/// Writes a drawing and the picture of its errors and hands them over for the page.
+pub(super) fn error_page(arguments: &Arguments, row: &Row, pictures: [&Picture; 2]) -> Result<ReportPicture> {
     make_folder(&arguments.output.join("errors"))?;
-    let path = error_path(arguments, row);
-    Target::File { path: path.clone(), format: PictureFormat::Png }.write(picture)?;
-    known_picture(arguments, row).ok_or_else(|| Error::output(path, "it cannot be read again; choose another folder"))
+    let paths = [DRAWING, ERRORS].map(|end| path(arguments, row, end));
+    for (path, picture) in paths.iter().zip(pictures) {
+        Target::File { path: path.clone(), format: PictureFormat::Png }.write(picture)?;
+    }
+    let [_, errors] = paths;
+    known_picture(arguments, row).ok_or_else(|| Error::output(errors, "it cannot be read again; choose another folder"))
 }
 
-/// The picture of a row's errors for the page, if it is there.
+/// The pictures of a row for the page, if that of its errors is there.
 pub(super) fn known_picture(arguments: &Arguments, row: &Row) -> Option<ReportPicture> {
-    let png = std::fs::read(error_path(arguments, row)).ok()?;
+    let png = std::fs::read(path(arguments, row, ERRORS)).ok()?;
+    let drawing = Picture::read_png(&path(arguments, row, DRAWING)).ok();
+    let drawing = drawing.and_then(|drawing| drawing.small_png(MOST_BYTES));
     let f1 = row.lines.as_ref().map(|lines| format!(", F1 {:.3}", lines.f1)).unwrap_or_default();
     let caption = format!("{}x{}: {}{f1}", row.size[0], row.size[1], row.options);
-    Some(ReportPicture { caption, model: Some(row.model.clone()), png })
+    Some(ReportPicture { caption, model: Some(row.model.clone()), drawing, png })
 }

@@ -1,17 +1,6 @@
 //! Warns about options that have no effect on the drawn styles.
 
-use tinta::settings::HasSettings;
-use tinta::{LineSettings, Style, StyleName, SvgSettings};
-
-/// Whether this option changes nothing in any of the styles, of which `lines` is one; options that are no style's are not
-/// meant.
-pub(crate) fn is_ignored(option: &str, styles: &[&str]) -> bool {
-    let has = |style: &&str| match style.parse::<StyleName>() {
-        Ok(name) => Style::table().find(&Style::named(name), option).is_some(),
-        Err(_) => LineSettings::table().has(option) || SvgSettings::table().has(option),
-    };
-    Style::table().has(option) && !styles.iter().any(has)
-}
+use tinta::styles::is_ignored;
 
 /// What to say about options given as words on a command line that none of the drawn styles has.
 pub(crate) fn remark(words: &[String], styles: &[&str]) -> Option<String> {

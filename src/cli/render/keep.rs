@@ -93,20 +93,7 @@ pub(super) fn files(
     if arguments.keep.no_recipe {
         return Vec::new();
     }
-    let mut paths: Vec<PathBuf> =
-        arguments.models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
-    paths.extend(beside.iter().cloned());
-    if let Some(style) = style {
-        if recipe::draws_with_textures(style, scene) {
-            let objects = scene.objects.iter().take(arguments.models.len());
-            paths.extend(
-                objects.flat_map(|object| &object.mesh.materials).filter_map(|material| material.texture.clone()),
-            );
-        }
-        paths.extend(recipe::files_of(style));
-    }
-    let mut seen = std::collections::HashSet::new();
-    paths.retain(|path| seen.insert(path.clone()));
+    let paths = recipe::files_read(&arguments.models, beside, scene, style);
     // One that has gone since it was read is left out: the picture is there, and says so by drawing otherwise.
     paths.iter().filter_map(|path| record(path)).collect()
 }

@@ -1,4 +1,4 @@
-//! `tinta render` into an SVG, PDF or JSON file: exact lines. No OpenGL is opened.
+//! `tinta render` of exact lines, into an SVG, PDF, JSON or picture's file. No OpenGL is opened.
 
 use super::super::model_cache::ModelCache;
 use super::super::models::load_with_files;
@@ -9,18 +9,32 @@ use std::path::Path;
 use std::str::FromStr;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
-use tinta::lines::{LineSettings, Progress as LineProgress, chain, pdf_of_paths, svg_of_paths};
+use tinta::lines::{
+    Hidden, LineSettings, Progress as LineProgress, Raster, chain, pdf_of_paths, raster_of_paths, svg_of_paths,
+};
+use tinta::picture::PictureFormat;
 use tinta::preset::Options;
 use tinta::record::{CameraRecord, LineCounts, LinesRecord, LinesStyle, ModelRecord, lines_json};
 use tinta::renderer::milliseconds_since;
 use tinta::settings::names_of;
-use tinta::{Error, Recipe, Result, Scene, Show, StyleName, SvgSettings, TextTarget, VisibleLines};
+use tinta::{Error, Picture, Recipe, Result, Scene, Show, StyleName, SvgSettings, Target, TextTarget, VisibleLines};
 
 /// What `--style` takes: a style that GL draws, or lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum StyleChoice {
+pub(in crate::cli) enum StyleChoice {
     Picture(StyleName),
     Lines,
+}
+
+impl StyleChoice {
+    /// As the user writes it.
+    #[cfg(feature = "window")]
+    pub(in crate::cli) fn name(self) -> &'static str {
+        match self {
+            Self::Picture(style) => style.name(),
+            Self::Lines => "lines",
+        }
+    }
 }
 
 impl FromStr for StyleChoice {
@@ -49,6 +63,8 @@ pub(super) enum Format {
     Svg,
     Pdf,
     Json,
+    /// Pixels, in the format of the file's name.
+    Picture,
 }
 
 impl Format {
@@ -80,9 +96,11 @@ pub(super) fn format(arguments: &Arguments) -> Result<Option<Format>> {
     match (arguments.style, format) {
         (None | Some(StyleChoice::Lines), Some(format)) => Ok(Some(format)),
         (Some(StyleChoice::Lines), None) if output == "-" => Ok(Some(Format::Svg)),
-        (Some(StyleChoice::Lines), None) => {
-            refuse("style lines writes .svg, .pdf or .json; name the file so, or leave out --style lines".to_owned())
-        }
+        (Some(StyleChoice::Lines), None) if PictureFormat::of(Path::new(output)).is_some() => Ok(Some(Format::Picture)),
+        (Some(StyleChoice::Lines), None) => refuse(
+            "style lines writes .svg, .pdf, .json or a still picture such as .png; name the file so, or leave out --style lines"
+                .to_owned(),
+        ),
         (Some(StyleChoice::Picture(name)), Some(_)) => refuse(format!(
             "style {} draws pixels; leave out --style to write lines, or name a picture such as drawing.png",
             name.name()
@@ -106,13 +124,15 @@ fn is_of_a_picture(extension: &str) -> bool {
 
 /// Finds the lines and writes them.
 pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, model_cache: &ModelCache) -> Result<()> {
-    let target = TextTarget::check(&arguments.output)?;
-    refuse_what_lines_have_not(arguments, format, &target)?;
+    check_output(arguments, format)?;
+    refuse_what_lines_have_not(arguments, format)?;
     let asked = svg_settings(arguments, None)?;
     asked.check()?;
     // A file of all pieces says of each; a drawing is cut only where that shows.
     let finds_outline = format == Format::Json || asked.tells_outline();
-    let settings = LineSettings { finds_outline, ..arguments.styles.line_settings()? };
+    // What is neither drawn nor counted is not looked for.
+    let finds_hidden = format == Format::Json || asked.hidden != Hidden::None || arguments.run.json;
+    let settings = LineSettings { finds_outline, finds_hidden, ..arguments.styles.line_settings()? };
     let start = Instant::now();
     let (meshes, files) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
@@ -125,7 +145,7 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
     }
 
     let recipe = match format {
-        Format::Svg | Format::Pdf => {
+        Format::Svg | Format::Pdf | Format::Picture => {
             let files = keep::files(arguments, &scene, &files, None);
             keep::recipe(arguments, options, scene.size, files, None)
         }
@@ -138,13 +158,18 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
     let is_chained = format != Format::Json || arguments.run.json;
     let paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
     let counts = LineCounts::new(&lines, &paths);
-    let bytes = match format {
-        Format::Svg => svg_of_paths(&lines, paths, &drawn)?.into_bytes(),
-        Format::Pdf => pdf_of_paths(&lines, paths, &drawn)?,
-        Format::Json => lines_json(&lines, &scene)?.into_bytes(),
-    };
+    let write = |bytes: Vec<u8>| TextTarget::check(&arguments.output)?.write_bytes(&bytes);
+    match format {
+        Format::Svg => write(svg_of_paths(&lines, paths, &drawn)?.into_bytes())?,
+        Format::Pdf => write(pdf_of_paths(&lines, paths, &drawn)?)?,
+        Format::Json => write(lines_json(&lines, &scene)?.into_bytes())?,
+        Format::Picture => {
+            let Raster { size, pixels } = raster_of_paths(&lines, paths, &drawn)?;
+            let target = Target::check(&arguments.output, arguments.scene.is_transparent())?;
+            target.write_with(&Picture { size, pixels }, recipe.as_ref().and_then(Recipe::note).as_ref())?;
+        }
+    }
     let lines_ms = milliseconds_since(start);
-    target.write_bytes(&bytes)?;
     if !arguments.run.json {
         return Ok(());
     }
@@ -165,6 +190,14 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
         times: lines.times,
         lines_ms,
     })
+}
+
+/// Writes nothing yet: checks that the file can be written.
+fn check_output(arguments: &Arguments, format: Format) -> Result<()> {
+    match format {
+        Format::Picture => Target::check(&arguments.output, arguments.scene.is_transparent()).map(drop),
+        Format::Svg | Format::Pdf | Format::Json => TextTarget::check(&arguments.output).map(drop),
+    }
 }
 
 /// How often the progress bar is looked after, and how long work takes before it gets one.
@@ -212,7 +245,7 @@ pub(super) fn svg_settings(arguments: &Arguments, recipe: Option<&Recipe>) -> Re
     })
 }
 
-fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &TextTarget) -> Result<()> {
+fn refuse_what_lines_have_not(arguments: &Arguments, format: Format) -> Result<()> {
     let run = &arguments.run;
     refuse_given(
         &[
@@ -230,7 +263,7 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &Te
         "style lines draws nothing but lines; leave it out",
     )?;
     refuse_given(
-        &[("-o -", *target == TextTarget::Stdout && run.json)],
+        &[("-o -", arguments.output == "-" && run.json)],
         "the drawing and --json cannot share standard output; name a file",
     )?;
     match format {
@@ -238,6 +271,14 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format, target: &Te
         Format::Pdf => {
             let is_given = arguments.lines.options.contains_key("provenance");
             refuse_given(&[("provenance", is_given)], "a .pdf file has no place for it; leave it out, or write a .svg")
+        }
+        Format::Picture => {
+            let is_given = |name: &str| arguments.lines.options.contains_key(name);
+            let names = ["provenance", "page", "width-mm", "dpi", "margin", "pen"];
+            refuse_given(
+                &names.map(|name| (name, is_given(name))),
+                "a picture has pixels and no paper; leave it out, or write a .svg",
+            )
         }
         Format::Json => {
             let problem = "a .json file holds all lines but no appearance; leave it out, or write a .svg";

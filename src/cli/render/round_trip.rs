@@ -1,8 +1,8 @@
 //! Settings to options and back: every option of the command line that makes a picture, for every style. What values an option
 //! takes is known from its table, so that a new setting is tried here too.
 
-use super::super::options::ignored::is_ignored;
 use super::{Arguments, lines};
+use crate::styles::is_ignored;
 use clap::{CommandFactory, Parser};
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! EGL on a device, without a window system, through glutin.
 
-use super::NotCurrent;
+use super::driver::NotCurrent;
 use crate::scene::Size;
 use glutin::api::egl::{config::Config, context::PossiblyCurrentContext, device, display::Display, surface::Surface};
 use glutin::config::{Api, AsRawConfig, ConfigSurfaceTypes, ConfigTemplateBuilder, GlConfig, RawConfig};

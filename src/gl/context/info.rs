@@ -1,22 +1,16 @@
-//! What a context says about itself, and the loading of its functions.
+//! What a context says about itself.
 
-use super::super::Gl;
-use super::super::faults::Faults;
-use super::super::immediate::Immediate;
-use super::super::legacy::{self, Legacy};
-use super::Platform;
-use crate::error::Error;
 use crate::scene::Size;
-use glow::HasContext;
 use serde::Serialize;
-use std::cell::{Cell, RefCell};
-use std::ffi::CStr;
+
+/// Fewest bits of the framebuffer's alpha: it holds the map's depth.
+const ALPHA_BITS: i32 = 8;
 
 /// Fewest bits of the depth buffer: with fewer, surfaces of a fitted scene show through each other.
 const DEPTH_BITS: i32 = 24;
 
-/// Sub-pixel bits that OpenGL 2.1 promises.
-const LEAST_SUBPIXEL_BITS: i32 = 4;
+/// Sub-pixel bits that OpenGL promises.
+pub(super) const LEAST_SUBPIXEL_BITS: i32 = 4;
 
 /// Whether this GL_RENDERER draws on the processor.
 pub fn is_software(renderer: &str) -> bool {
@@ -27,7 +21,7 @@ pub fn is_software(renderer: &str) -> bool {
 /// What a context says about itself.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ContextInfo {
-    /// `egl` or `osmesa`.
+    /// `egl` or `osmesa`, in a browser `webgl`.
     pub backend: &'static str,
     /// The library, and the device where there is a choice.
     pub device: String,
@@ -55,8 +49,10 @@ pub struct ContextInfo {
     pub largest_texture: u32,
     /// How many textures a fragment shader can read; OpenGL 2.1 promises 2.
     pub texture_units: u32,
-    /// Largest picture, pixels: the smallest of viewport, texture and surface limits.
+    /// Largest picture in one piece, pixels: the smallest of viewport, texture and surface limits. Larger ones are drawn in tiles.
     pub largest_picture: Size,
+    /// Largest viewport, pixels.
+    pub largest_viewport: Size,
     /// Whether passes can draw into textures (ARB_framebuffer_object).
     pub framebuffer_objects: bool,
     /// Into how many of them at once (ARB_draw_buffers).
@@ -70,6 +66,16 @@ pub struct ContextInfo {
 }
 
 impl ContextInfo {
+    /// Why its framebuffer cannot hold what the styles draw into it; `None` where it can.
+    pub(super) fn lacks_bits(&self) -> Option<String> {
+        (self.alpha_bits < ALPHA_BITS || self.depth_bits < DEPTH_BITS).then(|| {
+            format!(
+                "its framebuffer has {} alpha and {} depth bits, fewer than {ALPHA_BITS} and {DEPTH_BITS}",
+                self.alpha_bits, self.depth_bits
+            )
+        })
+    }
+
     /// Whether it draws on the processor: then work done here before drawing takes from drawing's own time.
     pub fn is_software(&self) -> bool {
         is_software(&self.renderer)
@@ -84,103 +90,4 @@ impl ContextInfo {
         };
         ranges.iter().all(|[narrowest, widest]| (*narrowest..=*widest).contains(&width_px))
     }
-}
-
-/// The two numbers a GL_VERSION begins with.
-fn version_numbers(version: &str) -> Option<(u32, u32)> {
-    let mut numbers = version.split(['.', ' ']).map(|number| number.parse().ok());
-    Some((numbers.next()??, numbers.next()??))
-}
-
-/// Loads GL for the current context and asks it about itself; an error is why it cannot serve.
-pub(super) fn load_functions(
-    platform: &Platform,
-    faults: Option<&Faults>,
-    backend: &'static str,
-    device: String,
-) -> std::result::Result<Gl, String> {
-    let load = |name: &CStr| {
-        let address = platform.proc_address(name);
-        faults.map_or(address, |faults| faults.load(name, address))
-    };
-    // SAFETY: the platform's context is current, and its loader returns GL functions of that context.
-    let mut legacy = unsafe { Legacy::load(load) }?;
-    // Before anything else is asked: glow takes for granted that a context knows its version.
-    // SAFETY: the context is current.
-    let version = unsafe { legacy.string(glow::VERSION) }.ok_or("it reports no version")?;
-    match version_numbers(&version) {
-        Some((major, minor)) if (major, minor) >= (2, 1) => {}
-        Some(_) => return Err(format!("it is OpenGL {version}, older than 2.1")),
-        None => return Err(format!("it reports the version {version:?}, which is not one of OpenGL")),
-    }
-    // SAFETY: as above.
-    let glow = unsafe { glow::Context::from_loader_function_cstr(load) };
-    let has = |name: &str| glow.supported_extensions().contains(name);
-    if has("GL_ARB_robustness") || has("GL_KHR_robustness") {
-        // SAFETY: as above; the context has the extension.
-        unsafe { legacy.load_robustness(load) };
-    }
-    let text = |name: u32| {
-        // SAFETY: the context is current; `name` is one of the string names of GL 2.1.
-        unsafe { legacy.string(name) }.unwrap_or_default()
-    };
-    let integer = |name: u32| {
-        // SAFETY: the context is current; `name` is a parameter of one integer.
-        unsafe { glow.get_parameter_i32(name) }
-    };
-    let range = |name: u32| {
-        let mut range = [0.0; 2];
-        // SAFETY: the context is current; `name` is a parameter of two numbers.
-        unsafe { glow.get_parameter_f32_slice(name, &mut range) };
-        range
-    };
-    let mut viewport = [0; 2];
-    // SAFETY: the context is current; the parameter has two integers.
-    unsafe { glow.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport) };
-    let texture = integer(glow::MAX_TEXTURE_SIZE);
-    let surface = platform.largest_surface();
-    let limit = |viewport: i32, surface: u32| (viewport.min(texture).max(0) as u32).min(surface);
-    let version = glow.version();
-    let version = (version.major, version.minor);
-    let timer_queries = version >= (3, 3) || has("GL_ARB_timer_query") || has("GL_EXT_timer_query");
-    let framebuffer_objects = version >= (3, 0) || has("GL_ARB_framebuffer_object");
-    let float_targets = framebuffer_objects && (version >= (3, 0) || has("GL_ARB_texture_float"));
-    let info = ContextInfo {
-        backend,
-        device,
-        vendor: text(glow::VENDOR),
-        renderer: text(glow::RENDERER),
-        version: text(glow::VERSION),
-        glsl_version: text(glow::SHADING_LANGUAGE_VERSION),
-        alpha_bits: integer(legacy::ALPHA_BITS),
-        depth_bits: integer(legacy::DEPTH_BITS),
-        aliased_line_width: range(legacy::ALIASED_LINE_WIDTH_RANGE),
-        smooth_line_width: range(legacy::SMOOTH_LINE_WIDTH_RANGE),
-        aliased_point_size: range(legacy::ALIASED_POINT_SIZE_RANGE),
-        smooth_point_size: range(legacy::SMOOTH_POINT_SIZE_RANGE),
-        largest_texture: texture.max(0) as u32,
-        texture_units: integer(glow::MAX_TEXTURE_IMAGE_UNITS).max(0) as u32,
-        largest_picture: Size { width: limit(viewport[0], surface.width), height: limit(viewport[1], surface.height) },
-        framebuffer_objects,
-        draw_buffers: integer(glow::MAX_DRAW_BUFFERS).max(0) as u32,
-        float_targets,
-        subpixel_bits: integer(glow::SUBPIXEL_BITS).max(LEAST_SUBPIXEL_BITS) as u32,
-        timer_queries,
-    };
-    // SAFETY: as above.
-    let immediate = unsafe { Immediate::load(load) };
-    let (live_objects, lost) = (Cell::new(0), Cell::new(None));
-    let gl = Gl { glow, legacy, immediate, info, live_objects, replaced_shaders: RefCell::default(), lost };
-    // A core profile answers the questions about alpha and lines with an error: it lacks what the articles use.
-    gl.check("asking the context about itself").map_err(|error| match error {
-        Error::ContextLost { what, .. } => format!("the context was lost at once ({what})"),
-        _ => "it is not a compatibility context".to_owned(),
-    })?;
-    if gl.info.alpha_bits < 8 || gl.info.depth_bits < DEPTH_BITS {
-        return Err(format!(
-            "its framebuffer has {} alpha and {} depth bits, fewer than 8 and {DEPTH_BITS}",
-            gl.info.alpha_bits, gl.info.depth_bits
-        ));
-    }
-    Ok(gl)
 }

@@ -1,6 +1,6 @@
 //! Mesa's off-screen library: a context that draws into our memory, with no device at all.
 
-use super::NotCurrent;
+use super::driver::NotCurrent;
 use crate::scene::Size;
 use libloading::{Library, Symbol};
 use std::cell::{Cell, RefCell};

@@ -19,6 +19,7 @@ fn polygons_are_not_smoothed_whatever_the_driver_was_told_before() {
         let gl = context.gl();
         let mut resources = Resources::new(gl);
         resources.prepare(&scene, &plan).unwrap();
+        resources.begin_tile(&plan, Tile::whole(scene.size)).unwrap();
         for pass in &plan.passes {
             resources.begin(pass.target, pass.scissor).unwrap();
             for step in &pass.steps {

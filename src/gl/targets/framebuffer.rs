@@ -1,7 +1,7 @@
 //! Framebuffer objects and renderbuffers with one owner each.
 
-use super::super::Gl;
 use super::super::objects::{Live, Texture, out_of_names};
+use super::super::{Gl, legacy};
 use crate::error::Result;
 use crate::scene::Size;
 use glow::HasContext;
@@ -28,10 +28,10 @@ pub(crate) fn clear_each(gl: &Gl, colors: &[[f32; 4]]) {
         // SAFETY: the context is current and has as many draw buffers as the bound framebuffer has colours, as
         // `Targets::prepare` has checked. Clearing obeys the masks, so both are opened.
         unsafe {
-            gl.glow.draw_buffers(&buffers);
+            gl.legacy.draw_buffers(&gl.glow, &buffers);
             gl.glow.depth_mask(true);
             gl.glow.clear_color(*red, *green, *blue, *alpha);
-            gl.glow.clear_depth_f64(1.0);
+            gl.glow.clear_depth(1.0);
             gl.glow.clear(glow::COLOR_BUFFER_BIT | depth);
         }
     }
@@ -42,7 +42,7 @@ pub(crate) fn clear_each(gl: &Gl, colors: &[[f32; 4]]) {
 fn draw_into_all(gl: &Gl, count: usize) {
     let buffers: Vec<u32> = (0..count as u32).map(|index| glow::COLOR_ATTACHMENT0 + index).collect();
     // SAFETY: the context is current and has as many draw buffers, as `Targets::prepare` has checked.
-    unsafe { gl.glow.draw_buffers(&buffers) }
+    unsafe { gl.legacy.draw_buffers(&gl.glow, &buffers) }
 }
 
 impl Framebuffer {
@@ -60,11 +60,13 @@ impl Framebuffer {
                 gl.glow.framebuffer_texture_2d(glow::FRAMEBUFFER, attachment, glow::TEXTURE_2D, texture, 0);
             }
             if let Some(depth) = depth {
-                let (attachment, kind) = (glow::DEPTH_ATTACHMENT, glow::RENDERBUFFER);
+                let (attachment, kind) = (legacy::DEPTH_BUFFER.1, glow::RENDERBUFFER);
                 gl.glow.framebuffer_renderbuffer(glow::FRAMEBUFFER, attachment, kind, Some(depth.id));
             }
         }
-        draw_into_all(gl, colors.len());
+        if colors.len() > 1 {
+            draw_into_all(gl, colors.len());
+        }
         bind(gl, None);
         Ok(framebuffer)
     }
@@ -105,7 +107,7 @@ impl Renderbuffer {
         // SAFETY: as above; the buffer is alive.
         unsafe {
             gl.glow.bind_renderbuffer(glow::RENDERBUFFER, Some(buffer.id));
-            gl.glow.renderbuffer_storage(glow::RENDERBUFFER, glow::DEPTH_COMPONENT24, width, height);
+            gl.glow.renderbuffer_storage(glow::RENDERBUFFER, legacy::DEPTH_BUFFER.0, width, height);
         }
         Ok(buffer)
     }

@@ -52,6 +52,7 @@ impl Layout {
         uniforms.extend([
             Uniform { name: "cetTexel", value: Value::Float(1.0 / self.cet.height as f32) },
             vec2("textureUnit", sides.map(|side| 1.0 / (side * self.samples as f32))),
+            Uniform { name: "corner", value: Value::PixelPlace([0.0; 2]) },
             vec2("noiseScale", across),
             vec2("noiseSize", [self.noise.width as f32, self.noise.height as f32]),
             vec2("strokeScale", sides.map(|side| side / shorter)),

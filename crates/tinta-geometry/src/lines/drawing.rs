@@ -2,7 +2,7 @@
 //!
 //! In: lines, the paths they were chained to, settings. Out: a [`Drawing`]; SVG and PDF write the same one.
 
-use super::chain::LinePath;
+use super::chain::{LinePath, chain};
 use super::layers::Layer;
 use super::page::Page;
 use super::pen::{dashes, in_pen_order};
@@ -14,7 +14,7 @@ use crate::scene::{Color, Size};
 use glam::DVec2;
 
 /// Opacity of hidden lines drawn as ghosts.
-pub(super) const GHOST_OPACITY: f32 = 0.3;
+pub const GHOST_OPACITY: f32 = 0.3;
 
 /// Width of a pen's line, pixels: to look at; the pen has its own.
 const PEN_WIDTH_PX: f64 = 0.5;
@@ -35,15 +35,35 @@ pub(super) struct Drawing<'a> {
 }
 
 /// The paths of a layer and how they look.
-pub(super) struct DrawnLayer {
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnLayer {
+    /// Which layer.
     pub layer: Layer,
+    /// Its lines' colour.
     pub color: Color,
+    /// Its lines' width, pixels.
     pub width_px: f64,
     /// Dash and gap, pixels.
     pub dash_px: Option<[f64; 2]>,
     /// Whether it is drawn with [`GHOST_OPACITY`], as a whole: where lines cross it does not add up.
     pub is_ghost: bool,
+    /// Its lines.
     pub paths: Vec<LinePath>,
+}
+
+/// The drawing that an SVG file of these lines is, as plain values: its layers from the lowest to the highest, without spurs and
+/// specks. For whoever draws them by other means.
+///
+/// # Errors
+///
+/// As [`super::svg()`].
+pub fn drawn_layers(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<DrawnLayer>> {
+    let lines = lines.without_specks(settings)?;
+    let mut layers = Drawing::new(&lines, chain(&lines.segments), settings)?.layers;
+    for path in layers.iter_mut().flat_map(|layer| &mut layer.paths) {
+        path.points_px = settings.points_of(path);
+    }
+    Ok(layers)
 }
 
 impl<'a> Drawing<'a> {

@@ -1,5 +1,6 @@
 //! All faces of a scene in the eye's space, and which of them hide a point.
 
+use super::planes;
 use super::space::Space;
 use crate::bvh::{Box3, BoxTree, NO_FAMILY};
 use crate::mesh::Mesh;
@@ -31,6 +32,8 @@ pub(super) struct Faces {
     /// For each place the position that it shares with very many faces, or [`NO_FAMILY`]; empty where there is none. The boxes
     /// of all these overlap, so that the tree leaves their pairs to whoever knows better.
     pub hubs: Vec<u32>,
+    /// For each number the plane that it shares with many faces, or [`NO_FAMILY`]; empty where there is none.
+    pub planes: Vec<u32>,
     /// Each object's first position and the distance below which its positions count as one, file units.
     welds: Vec<(u32, f64)>,
 }
@@ -113,10 +116,28 @@ impl Faces {
             if sorted.cut_by_near.is_empty() { Vec::new() } else { (0..numbers.len() as u32).filter(is_cut).collect() };
         let hubs = hubs(&triangles, positions.len(), &cut_by_near);
         if !hubs.is_empty() {
-            tree.set_families(&hubs);
+            tree.set_hubs(&hubs);
         }
         let Sorted { edge_on, edge_on_for_sure, .. } = sorted;
-        Self { positions, triangles, cut_by_near, edge_on, edge_on_for_sure, tree, hubs, numbers, welds }
+        let planes = Vec::new();
+        let mut faces =
+            Self { positions, triangles, cut_by_near, edge_on, edge_on_for_sure, tree, hubs, planes, numbers, welds };
+        faces.planes = planes::planes(space, &faces, first_number);
+        if !faces.planes.is_empty() {
+            let of_places: Vec<u32> = faces.numbers.iter().map(|number| faces.plane(*number)).collect();
+            faces.tree.set_planes(&of_places);
+        }
+        faces
+    }
+
+    /// The plane that the face with this number shares with many, or [`NO_FAMILY`].
+    pub(super) fn plane(&self, number: u32) -> u32 {
+        self.planes.get(number as usize).copied().unwrap_or(NO_FAMILY)
+    }
+
+    /// The smallest distance below which positions of an object count as one, file units.
+    pub(super) fn smallest_weld(&self) -> f64 {
+        self.welds.iter().map(|(_, weld)| *weld).fold(f64::INFINITY, f64::min)
     }
 
     /// The distance below which positions of the object with this one count as one, file units.
@@ -135,12 +156,18 @@ impl Faces {
     }
 
     /// Whether a line is seen at a point: on one side of it at least, no face hides what is beside it at its own depth.
-    pub(super) fn leave_open(&self, space: &Space, probe: &Probe) -> bool {
+    /// `any` calls what it is given with each face in a box until that returns true.
+    pub(super) fn leave_open(
+        &self,
+        space: &Space,
+        probe: &Probe,
+        any: impl FnOnce(&Box3, &mut dyn FnMut(u32) -> bool) -> bool,
+    ) -> bool {
         let tie_px = space.tie_px(-probe.view.z);
         let column = Box3::new((probe.px - tie_px).extend(f64::NEG_INFINITY), (probe.px + tie_px).extend(probe.key));
         let tie = tie_px / space.px_per_unit(-probe.view.z);
         let mut is_hidden = [false; 2];
-        !self.tree.any(&column, |face| {
+        !any(&column, &mut |face| {
             let hidden = self.hides(space, face, probe, tie);
             is_hidden = [is_hidden[0] || hidden[0], is_hidden[1] || hidden[1]];
             is_hidden == [true; 2]

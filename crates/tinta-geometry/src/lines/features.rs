@@ -5,6 +5,7 @@ use super::faces::{Faces, Own, near_crossing};
 use super::intersections::Intersection;
 use super::mend::Mended;
 use super::space::Space;
+use crate::bvh::NO_FAMILY;
 use crate::edges::{Class, ClassCounts, ClassSet, EdgeList, Incidence, MeshEdges, SilhouetteRule};
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::{Object, Scene};
@@ -24,6 +25,10 @@ pub(super) struct Feature {
     pub ends: [DVec3; 2],
     /// The distance below which its object's positions count as one, file units.
     pub weld: f64,
+    /// Planes of many faces in which the line lies.
+    pub planes: [u32; 2],
+    /// The one in which all faces at the line lie.
+    pub plane: u32,
     /// Vertices in the file.
     pub edge: Option<[u32; 2]>,
     pub angle_degrees: Option<f64>,
@@ -141,6 +146,8 @@ pub(super) fn edge_features(
                 own: Own::Edge(ends.map(|position| position + first_position)),
                 ends: ends.map(|position| faces.positions[(position + first_position) as usize]),
                 weld: faces.weld(first_position),
+                planes: planes_of(faces, list.faces(edge), number_of),
+                plane: plane_of(faces, list.faces(edge), number_of),
                 edge: Some(ends.map(|position| mesh.file_vertices[position as usize])),
                 angle_degrees: angle(mesh, list, edge),
             });
@@ -148,6 +155,18 @@ pub(super) fn edge_features(
         first_position += mesh.positions.len() as u32;
     }
     (features, counts)
+}
+
+/// The planes of the first two faces at an edge.
+fn planes_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> [u32; 2] {
+    let plane = |index: usize| at_edge.get(index).map_or(NO_FAMILY, |face| faces.plane(number_of(*face)));
+    [plane(0), plane(1)]
+}
+
+/// The plane in which all faces at an edge lie, if they lie in one of many faces.
+fn plane_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> u32 {
+    let planes = at_edge.iter().map(|face| faces.plane(number_of(*face)));
+    planes.reduce(|first, second| if first == second { first } else { NO_FAMILY }).unwrap_or(NO_FAMILY)
 }
 
 /// The lines where faces intersect, as features.
@@ -166,6 +185,8 @@ pub(super) fn intersection_features(faces: &Faces, parts: &[Part<'_>], intersect
             own: Own::Faces(intersection.faces),
             ends: intersection.ends,
             weld: faces.weld(faces.triangles[intersection.faces[0] as usize][0]),
+            planes: intersection.faces.map(|face| faces.plane(faces.numbers[face as usize])),
+            plane: NO_FAMILY,
             edge: None,
             angle_degrees: first.zip(second).map(|(first, second)| degrees_between(first, second)),
         }
@@ -185,6 +206,8 @@ pub(super) fn near_plane_features(space: &Space, faces: &Faces) -> Vec<Feature> 
             own: Own::Faces([*face; 2]),
             ends: [points.next()?, points.next()?],
             weld: 0.0,
+            planes: [NO_FAMILY; 2],
+            plane: NO_FAMILY,
             edge: None,
             angle_degrees: None,
         })

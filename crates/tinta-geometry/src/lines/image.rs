@@ -1,7 +1,7 @@
 //! Lines as they lie in the picture, and trees of them.
 
 use super::space::Space;
-use crate::bvh::{Box3, BoxTree};
+use crate::bvh::{Box3, BoxTree, LeftOut, NO_FAMILY};
 use crate::tolerances::TOUCH;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
@@ -15,9 +15,6 @@ pub(super) struct Image {
     /// How far it may be off by the rounding of the world's own numbers, pixels.
     pub noise_px: f64,
 }
-
-/// Keys of boxes whose depth does not matter: it is compared where lines cross.
-pub(super) const FLAT: [f64; 2] = [0.0; 2];
 
 impl Image {
     /// The image of what of a line is between the planes.
@@ -155,6 +152,8 @@ impl Image {
 pub(super) struct LineParts {
     boxes: Vec<Box3>,
     numbers: Vec<u32>,
+    planes: Vec<u32>,
+    hubs: Vec<u32>,
 }
 
 /// The same, to be asked what overlaps.
@@ -164,13 +163,31 @@ pub(super) struct LineTree {
 }
 
 impl LineParts {
+    /// Adds a part of a line.
     pub(super) fn add(&mut self, around: Box3, line: usize) {
         self.boxes.push(around);
         self.numbers.push(line as u32);
     }
 
+    /// Adds a part of a line that ends in a hub, all of whose faces lie in a plane.
+    pub(super) fn add_of_families(&mut self, around: Box3, line: usize, plane: u32, hub: u32) {
+        self.add(around, line);
+        self.planes.push(plane);
+        self.hubs.push(hub);
+    }
+
     pub(super) fn tree(self) -> LineTree {
-        let (tree, order) = BoxTree::new(&self.boxes);
+        let (mut tree, order) = BoxTree::new(&self.boxes);
+        let in_order = |families: &[u32]| {
+            let has_some = families.iter().any(|family| *family != NO_FAMILY);
+            has_some.then(|| order.iter().map(|index| families[*index as usize]).collect::<Vec<u32>>())
+        };
+        if let Some(planes) = in_order(&self.planes) {
+            tree.set_planes(&planes);
+        }
+        if let Some(hubs) = in_order(&self.hubs) {
+            tree.set_hubs(&hubs);
+        }
         LineTree { tree, numbers: order.iter().map(|index| self.numbers[*index as usize]).collect() }
     }
 }
@@ -179,5 +196,10 @@ impl LineTree {
     /// Calls `visit` with each line a part of which overlaps, perhaps several times, until it returns true.
     pub(super) fn any(&self, query: &Box3, mut visit: impl FnMut(usize) -> bool) -> bool {
         self.tree.any(query, |place| visit(self.numbers[place as usize] as usize))
+    }
+
+    /// The same without lines of some families, as far as whole leaves of them are.
+    pub(super) fn any_but(&self, query: &Box3, left_out: LeftOut, mut visit: impl FnMut(usize) -> bool) -> bool {
+        self.tree.any_but(query, left_out, |place| visit(self.numbers[place as usize] as usize))
     }
 }

@@ -6,6 +6,7 @@
 //! of the other lie on one another and do not intersect.
 
 use super::faces::Faces;
+use super::pyramid::Pyramid;
 use super::space::Space;
 use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY};
 use crate::threads::{cores, in_chunks};
@@ -31,19 +32,34 @@ pub(super) struct Piercing {
     pub point: DVec3,
 }
 
-/// All intersections of a scene's faces, by their faces' numbers, and where edges pierce faces.
-pub(super) fn intersections(space: &Space, faces: &Faces) -> (Vec<Intersection>, Vec<Piercing>) {
+/// All intersections of a scene's faces, by their faces' numbers, and where edges pierce faces; of what a pyramid hides none.
+pub(super) fn intersections(
+    space: &Space,
+    faces: &Faces,
+    pyramid: Option<&Pyramid>,
+) -> (Vec<Intersection>, Vec<Piercing>) {
+    let seen = pyramid.map(|pyramid| pyramid.seen(space, faces));
+    let is_seen = |place: u32| seen.as_ref().is_none_or(|seen| seen[place as usize]);
+    let image = |point: DVec3| space.project(point);
+    let is_open = |ends: [DVec3; 2]| {
+        let is_in_front = || ends.iter().all(|end| -end.z >= space.near);
+        !pyramid.is_some_and(|pyramid| is_in_front() && pyramid.hides_line(ends.map(image)))
+    };
     const GROUPS: usize = 512;
     let parts = in_chunks(faces.tree.group_count(), GROUPS, cores(), |groups| {
         let mut found = Vec::new();
         // Pairs come leaf by leaf, and the places in a leaf follow one another.
         let mut plates: [Option<Plate>; LARGEST_LEAF as usize] = Default::default();
         faces.tree.pairs(groups, |first, second| {
+            if !is_seen(first) || !is_seen(second) {
+                return false;
+            }
             let kept = &mut plates[(first % LARGEST_LEAF) as usize];
             if kept.as_ref().is_none_or(|plate| plate.place != first) {
                 *kept = Some(Plate::new(space, faces, first));
             }
-            found.extend(kept.as_ref().and_then(|first| first.meet(space, faces, second)));
+            let meeting = kept.as_ref().and_then(|first| first.meet(space, faces, second));
+            found.extend(meeting.filter(|meeting| is_open(meeting.ends)));
             false
         });
         found
@@ -60,8 +76,12 @@ pub(super) fn intersections(space: &Space, faces: &Faces) -> (Vec<Intersection>,
 /// What faces around one hub have in common but for it: from the hub on, until a side opposite to it passes through a face.
 fn around_hubs(space: &Space, faces: &Faces) -> Vec<Found> {
     let mut pairs = Vec::new();
+    let spines = spines(faces);
     for place in (0..faces.hubs.len() as u32).filter(|place| faces.hubs[*place as usize] != NO_FAMILY) {
         let hub = faces.hubs[place as usize];
+        if spines.contains(&hub) {
+            continue;
+        }
         let opposite = faces.triangles[place as usize].into_iter().filter(|position| *position != hub);
         let images = opposite.map(|position| {
             let (px, key) = space.project(faces.positions[position as usize]);
@@ -80,6 +100,15 @@ fn around_hubs(space: &Space, faces: &Faces) -> Vec<Found> {
     pairs.sort_unstable();
     pairs.dedup();
     pairs.into_iter().filter_map(|[first, second]| Plate::new(space, faces, first).meet(space, faces, second)).collect()
+}
+
+/// Hubs whose faces all have a second corner in common: an edge, and nothing else.
+fn spines(faces: &Faces) -> HashSet<u32> {
+    let mut common: HashMap<u32, Vec<u32>> = HashMap::new();
+    for (hub, corners) in faces.hubs.iter().zip(&faces.triangles).filter(|(hub, _)| **hub != NO_FAMILY) {
+        common.entry(*hub).or_insert_with(|| corners.to_vec()).retain(|corner| corners.contains(corner));
+    }
+    common.into_iter().filter(|(_, corners)| corners.len() > 1).map(|(hub, _)| hub).collect()
 }
 
 /// What two faces have in common.

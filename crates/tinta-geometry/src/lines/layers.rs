@@ -66,7 +66,8 @@ enum Name {
     HiddenClass(Class),
 }
 
-/// How the names of hidden classes begin.
+/// What all hidden lines are called, and how the names of hidden classes begin.
+const HIDDEN_LINES: &str = "hidden";
 const HIDDEN: &str = "hidden-";
 
 impl Name {
@@ -88,7 +89,7 @@ impl Name {
         match self {
             Self::Class(class) => class.name().to_owned(),
             Self::Outline => "outline".to_owned(),
-            Self::Hidden => "hidden".to_owned(),
+            Self::Hidden => HIDDEN_LINES.to_owned(),
             Self::HiddenClass(class) => format!("{HIDDEN}{}", class.name()),
         }
     }
@@ -100,7 +101,7 @@ impl FromStr for Name {
     fn from_str(text: &str) -> Result<Self, ParseError> {
         match text {
             "outline" => Ok(Self::Outline),
-            "hidden" => Ok(Self::Hidden),
+            HIDDEN_LINES => Ok(Self::Hidden),
             _ => match text.strip_prefix(HIDDEN) {
                 Some(class) => Ok(Self::HiddenClass(class.parse()?)),
                 None => Ok(Self::Class(
@@ -204,6 +205,39 @@ impl ClassColors {
         self.0.of(Layer::Visible(class)).unwrap_or(BLACK)
     }
 
+    /// What is said of a name: a class, `outline`, `hidden` or `hidden-` and a class.
+    ///
+    /// # Errors
+    ///
+    /// For a name that there is not, those there are.
+    pub fn named(&self, name: &str) -> Result<Option<Color>, ParseError> {
+        Ok(self.0.0[name.parse::<Name>()?.index()])
+    }
+
+    /// Says a colour of a name, or nothing any more.
+    ///
+    /// # Errors
+    ///
+    /// As [`ClassColors::named`].
+    pub fn set_named(&mut self, name: &str, color: Option<Color>) -> Result<(), ParseError> {
+        self.0.0[name.parse::<Name>()?.index()] = color;
+        Ok(())
+    }
+
+    /// What colours can be said of: every class, and these besides.
+    fn kind_of(more: &[&'static str]) -> Kind {
+        let names = Class::ALL.iter().map(|(name, _)| *name).chain(more.iter().copied()).collect();
+        let example = "silhouette=red,crease=rgb(1 2.5 3),normal=#010203";
+        Kind::Colors { names, offered: &["figure-6", "black"], example }
+    }
+
+    /// The setting of the colours of a drawing, which knows layers beside classes.
+    pub fn setting_of_drawing<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        let mut setting = Self::setting(field);
+        setting.kind = Self::kind_of(&["outline", HIDDEN_LINES]);
+        setting
+    }
+
     /// The setting of the colours.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let help = "Colours of the lines by class: CLASS=COLOR, separated by commas, or figure-6 (outer red, inner \
@@ -216,8 +250,7 @@ impl ClassColors {
 
 impl Value for ClassColors {
     fn kind() -> Kind {
-        let example = "silhouette=red,crease=rgb(1 2.5 3),normal=#010203";
-        Kind::Text { offered: &["figure-6", "black"], example }
+        Self::kind_of(&[])
     }
 
     /// `NAME=COLOR` of each name of which one is said.
@@ -314,6 +347,10 @@ mod tests {
             let text = format!("{name}=#010203");
             let colors: ClassColors = text.parse().unwrap();
             assert_eq!(Value::text(&colors), text);
+            assert_eq!(colors.named(name).unwrap(), Some(Color([1.0 / 255.0, 2.0 / 255.0, 3.0 / 255.0])), "{name}");
+            let mut without = colors;
+            without.set_named(name, None).unwrap();
+            assert_eq!(without, ClassColors::default());
             let beyond = (number >= CLASSES).then(|| name.clone());
             assert_eq!(colors.0.first_beyond_classes(), beyond);
         }

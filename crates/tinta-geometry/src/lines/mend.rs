@@ -53,10 +53,18 @@ fn repeated_faces(mesh: &Mesh, edges: &EdgeList) -> HashSet<u32> {
     let mut repeated = HashSet::new();
     for edge in 0..edges.len() as u32 {
         let faces = edges.faces(edge);
-        for (index, face) in faces.iter().enumerate() {
-            if faces[..index].iter().any(|earlier| earlier != face && sorted(*earlier) == sorted(*face)) {
-                repeated.insert(*face);
+        if let &[first, second] = faces {
+            if first != second && sorted(first) == sorted(second) {
+                repeated.insert(second);
             }
+            continue;
+        }
+        let mut by_corners: Vec<([u32; 3], usize)> =
+            faces.iter().enumerate().map(|(index, face)| (sorted(*face), index)).collect();
+        by_corners.sort_unstable();
+        for same in by_corners.chunk_by(|a, b| a.0 == b.0) {
+            let first = faces[same[0].1];
+            repeated.extend(same.iter().map(|(_, index)| faces[*index]).filter(|face| *face != first));
         }
     }
     repeated
@@ -88,6 +96,9 @@ fn with_faces(mesh: &Mesh, faces: Vec<(usize, [u32; 3])>) -> Mesh {
     }
 }
 
+/// Length of the parts in which rims are looked for, the mesh's radii.
+const LONGEST_PART: f64 = 0.1;
+
 /// The mesh with every face split where a vertex of an open rim lies on its own, and of each face the one it was part of;
 /// `None` if there is none.
 fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<(Mesh, Vec<u32>)> {
@@ -102,12 +113,19 @@ fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<(Mesh, Vec<u32>)>
     let radius = (high - low).length() * 0.5;
     let weld = WELD * 2.0 * radius;
     let scaled = |point: DVec3| (point - (low + high) * 0.5) / radius;
-    let boxes = rims.iter().map(|rim| {
+    let (mut boxes, mut rim_of) = (Vec::new(), Vec::new());
+    for rim in &rims {
         let [a, b] = ends(*rim).map(|end| scaled(position(end)));
         let margin = DVec3::splat(CONTACT * a.distance(b) + WELD);
-        Box3::new(a.min(b) - margin, a.max(b) + margin)
-    });
-    let (tree, order) = BoxTree::new(&boxes.collect::<Vec<Box3>>());
+        // In parts, so that a long one is not asked for everything in its box.
+        let count = (a.distance(b) / LONGEST_PART).ceil().max(1.0);
+        for part in 0..count as u32 {
+            let [from, to] = [part, part + 1].map(|place| a.lerp(b, f64::from(place) / count));
+            boxes.push(Box3::new(from.min(to) - margin, from.max(to) + margin));
+            rim_of.push(*rim);
+        }
+    }
+    let (tree, order) = BoxTree::new(&boxes);
     let mut vertices: Vec<u32> = rims.iter().flat_map(|rim| ends(*rim)).collect();
     vertices.sort_unstable();
     vertices.dedup();
@@ -116,7 +134,7 @@ fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<(Mesh, Vec<u32>)>
     for vertex in vertices {
         let point = position(vertex);
         tree.any(&Box3::around([scaled(point)]), |place| {
-            let rim = rims[order[place as usize] as usize];
+            let rim = rim_of[order[place as usize] as usize];
             let [a, b] = ends(rim);
             let (start, along) = (position(a), position(b) - position(a));
             let place = (point - start).dot(along) / along.length_squared();
@@ -141,6 +159,7 @@ fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<(Mesh, Vec<u32>)>
     let mut touched: HashSet<u32> = HashSet::new();
     for (rim, mut places) in junctions {
         places.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        places.dedup();
         on_sides.insert(ends(rim), places.into_iter().map(|(_, vertex)| vertex).collect());
         touched.extend(edges.faces(rim));
     }

@@ -6,10 +6,14 @@
 //! no surface ends have a face on either side.
 
 use super::faces::{Faces, Own, Probe};
-use super::image::{FLAT, Image};
+use super::image::Image;
+use super::search::Sought;
 use super::space::Space;
-use super::visibility::{Lines, PARTS_OF_PICTURE, Piece};
+use super::visibility::{Lines, Piece};
 use crate::bvh::Box3;
+
+/// Of boxes whose depth does not matter.
+const ANY_KEY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 impl Lines<'_> {
     /// The parts of a visible piece, told apart.
@@ -18,19 +22,23 @@ impl Lines<'_> {
             return vec![piece];
         }
         let touch_px = image.touch_px(self.space);
-        let mut cuts = Vec::new();
-        for part in image.parts([piece.from, piece.to], self.space.size.max_element() / PARTS_OF_PICTURE) {
-            self.rims.any(&image.part_box(part, touch_px, FLAT), |other_index| {
+        let add = |part, most, cuts: &mut Vec<f64>| {
+            let mut count = 0;
+            self.rims.any(&image.part_box(part, touch_px, ANY_KEY), |other_index| {
                 if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
                     cuts.extend(image.meetings(&other, touch_px.max(other.touch_px(self.space))));
                 }
-                false
-            });
-        }
+                count += 1;
+                count > most
+            })
+        };
+        let mut cuts = self.search(index, image, [piece.from, piece.to], Sought::Any, add);
         let mut parts: Vec<Piece> = Vec::new();
-        for place in self.places(image, [piece.from, piece.to], cuts).windows(2) {
+        let places = self.places(image, [piece.from, piece.to], std::mem::take(&mut cuts.places));
+        for place in places.windows(2) {
             let probe = self.probe(index, image, (place[0] + place[1]) * 0.5);
-            let is_outline = self.faces.cover(self.space, &probe, touch_px) != [true; 2];
+            let is_outline =
+                !cuts.hide(place[0], place[1]) && self.faces.cover(self.space, &probe, touch_px) != [true; 2];
             match parts.last_mut() {
                 Some(last) if last.is_outline == is_outline => last.to = place[1],
                 _ => parts.push(Piece { from: place[0], to: place[1], is_outline, ..piece }),

@@ -102,6 +102,23 @@ impl Space {
         }
     }
 
+    /// How much larger than a plane's a key must be, at one pixel, for the point to be so far from the plane: at depths no smaller
+    /// than `nearest`. The plane goes through a point and has a unit normal.
+    pub(super) fn key_beyond(&self, [point, normal]: [DVec3; 2], nearest: f64, distance: f64) -> f64 {
+        match self.lens {
+            Lens::Perspective { key_scale, .. } => distance * key_scale.abs() / (nearest * normal.dot(point).abs()),
+            Lens::Parallel { px_per_unit } => distance * px_per_unit / normal.z.abs(),
+        }
+    }
+
+    /// How much larger a key must be than one at this depth for the point to be so much farther away, or less.
+    pub(super) fn key_step(&self, depth: f64, distance: f64) -> f64 {
+        match self.lens {
+            Lens::Perspective { key_scale, .. } => distance * key_scale.abs() / (depth * depth),
+            Lens::Parallel { px_per_unit } => distance * px_per_unit,
+        }
+    }
+
     /// Two points of the line of sight through a pixel: the eye, or a point before the scene, and one on the near plane.
     pub(super) fn ray(&self, px: DVec2) -> [DVec3; 2] {
         let centred = px - self.size * 0.5;

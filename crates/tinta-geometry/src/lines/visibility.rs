@@ -5,11 +5,14 @@
 
 use super::faces::{Faces, Own, Probe};
 use super::features::Feature;
-use super::image::{FLAT, Image, LineParts, LineTree};
+use super::image::{Image, LineParts, LineTree};
 use super::intersections::Piercing;
+use super::occluders::Occluders;
+use super::pyramid::Pyramid;
+use super::search::{Cuts, Sought};
 use super::space::Space;
-use super::{LineSegment, Progress};
-use crate::bvh::Box3;
+use super::{LineSegment, LineSettings, Progress};
+use crate::bvh::{Box3, LeftOut, NO_FAMILY};
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::{CONTACT, SHORTEST_LINE};
 use glam::{DVec2, DVec3};
@@ -26,10 +29,15 @@ pub(super) struct Lines<'a> {
     piercings: HashMap<[u32; 2], Vec<DVec3>>,
     /// Where surfaces end: what any line may be crossed by.
     pub(super) rims: LineTree,
+    /// What single faces hide; `None` where none is large enough.
+    pub(super) pyramid: Option<&'a Pyramid>,
+    /// What hides others; `None` where the faces as they are do.
+    occluders: Option<Occluders>,
     /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
-    beside: LineTree,
-    shortest_px: f64,
+    pub(super) beside: LineTree,
+    pub(super) shortest_px: f64,
     finds_outline: bool,
+    pub(super) finds_hidden: bool,
 }
 
 /// A part of a line that is seen or hidden as a whole, by its places on the image.
@@ -51,21 +59,30 @@ impl<'a> Lines<'a> {
         faces: &'a Faces,
         features: &'a [Feature],
         piercings: &[Piercing],
-        finds_outline: bool,
+        pyramid: Option<&'a Pyramid>,
+        settings: &LineSettings,
     ) -> Self {
+        let &LineSettings { finds_outline, finds_hidden, .. } = settings;
         let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
         let side = space.size.max_element();
         let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
+        let hubs = hubs(features);
         for (index, (feature, image)) in features.iter().zip(&images).enumerate() {
             let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
                 continue;
             };
             let (touch_px, margin) = (image.touch_px(space), image.noise_px);
+            let ends = |part: [f64; 2]| part.map(|place| (image.at(place), image.key(place)));
             for part in image.parts(range, side / PARTS_OF_PICTURE) {
-                if feature.occludes {
-                    rims.add(image.part_box(part, margin, FLAT), index);
+                let is_hidden = || pyramid.is_some_and(|pyramid| pyramid.hides_line(ends(part)));
+                // What is hidden for sure changes nothing where anything is seen; but for the outline at any depth.
+                let is_rim = feature.occludes && (finds_outline || !is_hidden());
+                let is_beside = feature.class.is_some() && (finds_hidden || !is_hidden());
+                if is_rim {
+                    let around = image.part_box(part, margin, part.map(|place| image.key(place)));
+                    rims.add_of_families(around, index, feature.plane, hub_of(&hubs, feature.own));
                 }
-                if feature.class.is_some() {
+                if is_beside {
                     for directions in image.directions(touch_px) {
                         beside.add(image.part_box(part, margin, directions), index);
                     }
@@ -83,9 +100,12 @@ impl<'a> Lines<'a> {
             images,
             piercings: pierced,
             rims: rims.tree(),
+            pyramid,
+            occluders: Occluders::new(space, faces, pyramid),
             beside: beside.tree(),
             shortest_px: SHORTEST_LINE * side,
             finds_outline,
+            finds_hidden,
         }
     }
 
@@ -96,7 +116,7 @@ impl<'a> Lines<'a> {
         let parts = in_chunks(self.features.len(), LINES, cores(), |range| {
             let mut segments = Vec::new();
             progress.advance(range.len());
-            if progress.is_cancelled() {
+            if progress.is_over() {
                 return segments;
             }
             range.for_each(|index| self.add_segments(index, &mut segments));
@@ -112,17 +132,29 @@ impl<'a> Lines<'a> {
         if image.length() * (inside[1] - inside[0]) <= self.shortest_px {
             return;
         }
-        let mut cuts = Vec::new();
-        self.add_cuts(index, &image, inside, &mut cuts);
+        let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, part, most, cuts);
+        let mut cuts = self.search(index, &image, inside, Sought::Nearer, add);
+        self.add_piercings(index, &image, &mut cuts);
+        if self.finds_hidden {
+            for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
+                self.add_beside(index, &image, part, usize::MAX, &mut cuts.places);
+            }
+        }
         let mut pieces: Vec<Piece> = Vec::new();
-        for place in self.places(&image, inside, cuts).windows(2) {
+        let places = self.places(&image, inside, std::mem::take(&mut cuts.places));
+        for place in places.windows(2) {
             let [from, to] = [place[0], place[1]];
-            let Some(is_visible) = self.state(index, &image, (from + to) * 0.5) else { continue };
+            let is_hidden = cuts.hide(from, to);
+            if is_hidden && !self.finds_hidden {
+                continue;
+            }
+            let Some(is_visible) = self.state(index, &image, (from + to) * 0.5, is_hidden, &cuts) else { continue };
             match pieces.last_mut() {
                 Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
                 _ => pieces.push(Piece { from, to, is_visible, is_outline: false }),
             }
         }
+        pieces.retain(|piece| piece.is_visible || self.finds_hidden);
         let mut add = |piece: Piece| {
             segments.push(LineSegment {
                 class,
@@ -153,11 +185,25 @@ impl<'a> Lines<'a> {
         places
     }
 
-    /// Whether a line is seen at a place; `None` where it lies in space on another line that stands for both.
-    fn state(&self, index: usize, image: &Image, place: f64) -> Option<bool> {
+    /// Whether a line is seen at a place; `None` where it lies in space on another line that stands for both. Where faces hide it
+    /// for sure only the latter is asked.
+    fn state(&self, index: usize, image: &Image, place: f64, is_hidden: bool, cuts: &Cuts) -> Option<bool> {
         let probe = self.probe(index, image, place);
         let is_nearest = self.is_nearest(index, image, probe.px, -probe.view.z)?;
-        Some(is_nearest && self.faces.leave_open(self.space, &probe))
+        let leave_open = || {
+            let planes = self.features[index].planes;
+            self.faces.leave_open(self.space, &probe, |column, visit| self.any_occluder(column, planes, visit))
+        };
+        Some(is_nearest && !is_hidden && (cuts.leave_open(place) || leave_open()))
+    }
+
+    /// Calls `visit` with each face that may hide something and whose box overlaps, perhaps several times, until it returns true;
+    /// without those in these planes, as far as whole groups are.
+    pub(super) fn any_occluder(&self, query: &Box3, planes: [u32; 2], visit: impl FnMut(u32) -> bool) -> bool {
+        match &self.occluders {
+            Some(occluders) => occluders.any_but(query, LeftOut::planes(planes), visit),
+            None => self.faces.tree.any_but(query, LeftOut::planes(planes), visit),
+        }
     }
 
     /// A place of a line as the faces are asked about it.
@@ -181,21 +227,27 @@ impl<'a> Lines<'a> {
     /// lies in space on another of an earlier class, or of the same and a lower number.
     fn is_nearest(&self, index: usize, image: &Image, px: DVec2, depth: f64) -> Option<bool> {
         let touch_px = image.touch_px(self.space);
-        let [low, high] = image.directions(touch_px)[0];
-        let here = Box3::new((px - touch_px).extend(low), (px + touch_px).extend(high));
-        let place = image.place_of(px);
+        let here = self.beside_box(image, px, touch_px);
+        let (place, own_key) = (image.place_of(px), image.key(image.place_of(px)));
         let mut others: Vec<(f64, usize)> = Vec::new();
-        self.beside.any(&here, |other_index| {
+        let is_behind = self.beside.any(&here, |other_index| {
             let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
             let lies_on_it = image
                 .overlap(&other, touch_px.max(other.touch_px(self.space)))
                 .is_some_and(|range| (range[0]..=range[1]).contains(&place));
             if lies_on_it {
                 let key = other.key(other.place_of(px).clamp(0.0, 1.0));
+                // Where only what is seen counts, nothing else does.
+                if !self.finds_hidden && own_key - key > self.clearly_behind(index, &other) {
+                    return true;
+                }
                 others.push((self.space.depth_of_key(key), other_index));
             }
             false
         });
+        if is_behind {
+            return Some(false);
+        }
         if others.is_empty() {
             return Some(true);
         }
@@ -217,6 +269,12 @@ impl<'a> Lines<'a> {
         }
     }
 
+    /// Where to look for lines that lie on one at a pixel.
+    pub(super) fn beside_box(&self, image: &Image, px: DVec2, touch_px: f64) -> Box3 {
+        let [low, high] = image.directions(touch_px)[0];
+        Box3::new((px - touch_px).extend(low), (px + touch_px).extend(high))
+    }
+
     /// The distance below which two lines touch, file units.
     fn contact(&self, first: usize, second: usize) -> f64 {
         let [first, second] = [first, second].map(|index| &self.features[index]);
@@ -224,42 +282,59 @@ impl<'a> Lines<'a> {
         CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise
     }
 
-    /// Adds the places along a line where what is seen of it may change.
-    fn add_cuts(&self, index: usize, image: &Image, inside: [f64; 2], cuts: &mut Vec<f64>) {
+    /// Adds the places along a part of a line where what is seen of it may change; whether there are too many to look at all.
+    fn add_cuts(&self, index: usize, image: &Image, part: [f64; 2], most: usize, cuts: &mut Vec<f64>) -> bool {
         let feature = &self.features[index];
         let touch_px = image.touch_px(self.space);
-        for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
-            let others = [
-                (&self.rims, FLAT, true),
-                // Lines that lie on this one have its direction.
-                (&self.beside, image.directions(touch_px)[0], false),
-            ];
-            for (tree, third, occludes) in others {
-                tree.any(&image.part_box(part, touch_px, third), |other_index| {
-                    if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
-                        let touch_px = touch_px.max(other.touch_px(self.space));
-                        let meets = feature.own.meets(self.features[other_index].own);
-                        self.add_crossings(image, &other, touch_px, occludes && !meets, cuts);
-                    }
-                    false
-                });
+        let keys = part.map(|place| image.key(place));
+        let farthest = keys[0].max(keys[1]);
+        let nearer = [f64::NEG_INFINITY, farthest + farthest.abs() * (2.0 * CONTACT)];
+        let start = cuts.len();
+        // Lines from one position cross nowhere else.
+        let hubs = if let Own::Edge(ends) = feature.own { ends } else { [NO_FAMILY; 2] };
+        let left_out = LeftOut { planes: feature.planes, hubs };
+        let are_too_many = self.rims.any_but(&image.part_box(part, touch_px, nearer), left_out, |other_index| {
+            if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
+                let touch_px = touch_px.max(other.touch_px(self.space));
+                let occludes = !feature.own.meets(self.features[other_index].own);
+                self.add_crossings(image, &other, touch_px, occludes, cuts);
             }
-            if let Own::Faces(own) = feature.own {
-                let keys = part.map(|place| image.key(place));
-                self.faces.tree.any(&image.part_box(part, touch_px, keys), |face| {
-                    if !own.contains(&face) {
-                        cuts.extend(
-                            self.piercing(feature.ends, face).map(|point| image.place_of(self.space.project(point).0)),
-                        );
-                    }
-                    false
-                });
-            }
+            cuts.len() - start > most
+        });
+        if are_too_many || (!self.finds_hidden && self.add_beside(index, image, part, most, cuts)) {
+            return true;
         }
-        if let Own::Edge([a, b]) = feature.own
-            && let Some(points) = self.piercings.get(&[a.min(b), a.max(b)])
-        {
-            cuts.extend(points.iter().map(|point| image.place_of(self.space.project(*point).0)));
+        let Own::Faces(own) = feature.own else { return false };
+        self.any_occluder(&image.part_box(part, touch_px, keys), feature.planes, |face| {
+            if own.contains(&face) {
+                return false;
+            }
+            cuts.extend(self.piercing(feature.ends, face).map(|point| image.place_of(self.space.project(point).0)));
+            cuts.len() - start > most
+        })
+    }
+
+    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many.
+    fn add_beside(&self, index: usize, image: &Image, part: [f64; 2], most: usize, cuts: &mut Vec<f64>) -> bool {
+        let touch_px = image.touch_px(self.space);
+        let mut count = 0;
+        // Lines that lie on this one have its direction.
+        self.beside.any(&image.part_box(part, touch_px, image.directions(touch_px)[0]), |other_index| {
+            if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
+                self.add_crossings(image, &other, touch_px.max(other.touch_px(self.space)), false, cuts);
+                count += 1;
+            }
+            count > most
+        })
+    }
+
+    /// Adds the places where an edge passes through faces.
+    fn add_piercings(&self, index: usize, image: &Image, cuts: &mut Cuts) {
+        let Own::Edge([a, b]) = self.features[index].own else { return };
+        if let Some(points) = self.piercings.get(&[a.min(b), a.max(b)]) {
+            let places = points.iter().map(|point| image.place_of(self.space.project(*point).0));
+            let places: Vec<f64> = places.filter(|place| !cuts.hides(*place)).collect();
+            cuts.places.extend(places);
         }
     }
 
@@ -305,6 +380,28 @@ impl<'a> Lines<'a> {
         let is_left = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) >= scale;
         (is_left(a, b) && is_left(b, c) && is_left(c, a)).then_some(point)
     }
+}
+
+/// Rims that end in one position from which on they are told apart from others: below, comparing all costs less.
+const HUB: u32 = 64;
+
+/// How many rims end in each position, as far as these are more than [`HUB`].
+fn hubs(features: &[Feature]) -> HashMap<u32, u32> {
+    let mut counts: HashMap<u32, u32> = HashMap::new();
+    for feature in features.iter().filter(|feature| feature.occludes) {
+        if let Own::Edge(ends) = feature.own {
+            ends.into_iter().for_each(|end| *counts.entry(end).or_default() += 1);
+        }
+    }
+    counts.retain(|_, count| *count > HUB);
+    counts
+}
+
+/// The hub in which an edge ends, if it does in one; of two that with more rims.
+fn hub_of(hubs: &HashMap<u32, u32>, own: Own) -> u32 {
+    let Own::Edge(ends) = own else { return NO_FAMILY };
+    let known = ends.into_iter().filter_map(|end| Some((*hubs.get(&end)?, end)));
+    known.max().map_or(NO_FAMILY, |(_, end)| end)
 }
 
 impl Own {

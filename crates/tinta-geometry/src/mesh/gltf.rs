@@ -6,6 +6,7 @@
 
 mod accessors;
 mod buffers;
+mod cameras;
 mod container;
 mod materials;
 mod nodes;
@@ -20,6 +21,7 @@ use crate::error::{Error, Result};
 use crate::files::shown;
 use accessors::Accessors;
 use buffers::Buffers;
+pub use cameras::camera;
 use gltf_json::Root;
 use materials::Materials;
 use nodes::Nodes;

@@ -85,7 +85,7 @@ impl LoadOptions {
             Setting::field(
                 "normals",
                 "WHERE",
-                "Normals: file (computed where it has none), smooth, flat, dachsbacher (his text's: one a vertex, never split)",
+                "Normals: file (computed where it has none), smooth, lasting (as file, split along long creases only), flat, dachsbacher (his text's: one a vertex, never split)",
                 |load: &mut Self| &mut load.normals,
             ),
             Setting::field(
@@ -142,6 +142,9 @@ pub enum Normals {
     File,
     /// Computed: smooth up to the smoothing angle.
     Smooth,
+    /// From the file; where it has none smooth, and split only along creases that reach through a share of the model: the single sharp
+    /// edges of scans and of models of few triangles are smoothed.
+    Lasting,
     /// Computed: each face its own.
     Flat,
     /// Computed by the listing of C. Dachsbacher's article: one normal a vertex, to which each triangle there adds its unit
@@ -151,8 +154,13 @@ pub enum Normals {
 
 impl Normals {
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 4] =
-        [("file", Self::File), ("smooth", Self::Smooth), ("flat", Self::Flat), ("dachsbacher", Self::Dachsbacher)];
+    pub const ALL: [(&'static str, Self); 5] = [
+        ("file", Self::File),
+        ("smooth", Self::Smooth),
+        ("lasting", Self::Lasting),
+        ("flat", Self::Flat),
+        ("dachsbacher", Self::Dachsbacher),
+    ];
 }
 
 crate::choices!(Normals);

@@ -5,23 +5,36 @@
 //! In: welded triangles and a smoothing angle. Out: one unit normal per group of faces around a vertex, and each
 //! corner's index. A group is what can be reached around the vertex over shared edges whose faces differ by no more
 //! than the angle. Faces weigh in with the sine of their angle at the vertex over the lengths of the sides there (Max 1999:
-//! exact on a sphere), which needs no arc cosine and, on a square, does not depend on how it is cut.
+//! exact on a sphere), which needs no arc cosine and, on a square, does not depend on how it is cut. Where only creases that last
+//! are to be split (`lasting.rs`), all other vertices are smooth throughout, and flat faces weigh in with their areas.
+
+mod lasting;
 
 use super::NONE;
 use crate::threads::{in_parallel, threads_for};
 use crate::tolerances::CANCELLED_NORMALS;
 use glam::{DVec3, Vec3};
+use lasting::Lasting;
 use std::ops::Range;
+
+/// Where normals are split.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Splitting {
+    /// The cosine of the largest angle between neighbouring faces that still share a normal; above 1 none do.
+    pub cos_smooth: f64,
+    /// The same beside a crease that ends at a vertex, where only creases that last are split: what is nearly a crease there carries it
+    /// on. `None` where all creases are split.
+    pub cos_beside: Option<f64>,
+}
 
 /// Computes a normal for every corner whose entry in `triangle_normals` is [`NONE`] and appends it to `normals`.
 ///
-/// `face_normals` holds each triangle's unit normal; `cos_smooth` is the cosine of the largest angle between neighbouring
-/// faces that still share a normal; above 1 none do.
+/// `face_normals` holds each triangle's unit normal.
 pub(super) fn fill_missing(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
     face_normals: &[DVec3],
-    cos_smooth: f64,
+    Splitting { cos_smooth, cos_beside }: Splitting,
     normals: &mut Vec<Vec3>,
     triangle_normals: &mut [[u32; 3]],
 ) {
@@ -29,6 +42,16 @@ pub(super) fn fill_missing(
         return;
     }
     let incidence = Incidence::new(positions.len(), triangles);
+    let lasting = cos_beside.map(|_| Lasting::find(positions, triangles, face_normals, &incidence, cos_smooth));
+    let is_smooth = |vertex: usize| lasting.as_ref().is_some_and(|lasting| !lasting.vertices[vertex]);
+    let weighted = |corner: u32| match &lasting {
+        None => weighted_normal(positions, triangles, corner),
+        // By the angle too: a face counts the same into how many triangles it is cut.
+        Some(lasting) => {
+            let face = corner as usize / 3;
+            face_normals[face] * (lasting.areas[face] * angle_at(positions, triangles, corner))
+        }
+    };
     let cos_half = ((1.0 + cos_smooth) * 0.5).max(0.0).sqrt();
     let is_missing = |corner: u32| triangle_normals[corner as usize / 3][corner as usize % 3] == NONE;
     let found = in_parallel(positions.len(), threads_for(triangles.len()), |vertices| {
@@ -46,8 +69,8 @@ pub(super) fn fill_missing(
             // Most fans are smooth throughout; then any two faces are within the angle and no edge needs to be looked at.
             // Fans that only touch in the vertex are joined too when they agree so well; that does no harm.
             let mean = corners.iter().map(face_normal).sum::<DVec3>().normalize_or_zero();
-            if corners.iter().all(|corner| face_normal(corner).dot(mean) >= cos_half) {
-                let sum = corners.iter().map(|corner| weighted_normal(positions, triangles, *corner)).sum();
+            if is_smooth(vertex) || corners.iter().all(|corner| face_normal(corner).dot(mean) >= cos_half) {
+                let sum = corners.iter().map(|corner| weighted(*corner)).sum();
                 if let Some(normal) = smooth(sum) {
                     found.normals.push(normal.as_vec3());
                     let index = found.normals.len() as u32 - 1;
@@ -57,8 +80,13 @@ pub(super) fn fill_missing(
                 fan.join_all(corners.len());
             } else {
                 fan.group(triangles, face_normals, corners, cos_smooth);
+                if let Some(cos_beside) = cos_beside
+                    && fan.strays(face_normals, corners, [cos_smooth, cos_half], weighted)
+                {
+                    fan.group(triangles, face_normals, corners, cos_beside);
+                }
             }
-            fan.write(positions, triangles, face_normals, corners, is_missing, &mut found);
+            fan.write(face_normals, corners, weighted, is_missing, &mut found);
         }
         found
     });
@@ -106,6 +134,14 @@ fn weighted_normal(positions: &[DVec3], triangles: &[[u32; 3]], corner: u32) -> 
     let [at, next, previous] = [0, 1, 2].map(|step| positions[triangle[(corner as usize % 3 + step) % 3] as usize]);
     let (to_next, to_previous) = (next - at, previous - at);
     to_next.cross(to_previous) / (to_next.length_squared() * to_previous.length_squared())
+}
+
+/// A face's angle at one of its corners, radians.
+fn angle_at(positions: &[DVec3], triangles: &[[u32; 3]], corner: u32) -> f64 {
+    let triangle = triangles[corner as usize / 3];
+    let [at, next, previous] = [0, 1, 2].map(|step| positions[triangle[(corner as usize % 3 + step) % 3] as usize]);
+    let (to_next, to_previous) = (next - at, previous - at);
+    to_next.cross(to_previous).length().atan2(to_next.dot(to_previous))
 }
 
 /// The direction of a sum of normals, if it has one.
@@ -188,6 +224,37 @@ impl Fan {
         }
     }
 
+    /// Each group's sum of normals.
+    fn sum(&mut self, corners: &[u32], weighted: impl Fn(u32) -> DVec3) {
+        self.sums.clear();
+        self.sums.resize(corners.len(), DVec3::ZERO);
+        for (face, &corner) in corners.iter().enumerate() {
+            let root = self.root(face as u32) as usize;
+            self.sums[root] += weighted(corner);
+        }
+    }
+
+    /// Whether a face beside a crease is farther from its group's normal than half the angle: then the crease would fade.
+    fn strays(
+        &mut self,
+        face_normals: &[DVec3],
+        corners: &[u32],
+        [cos_smooth, cos_half]: [f64; 2],
+        weighted: impl Fn(u32) -> DVec3,
+    ) -> bool {
+        self.sum(corners, weighted);
+        let face_normal = |face: u32| face_normals[corners[face as usize] as usize / 3];
+        (1..self.spokes.len()).any(|spoke| {
+            let ((far, face), (other_far, other)) = (self.spokes[spoke - 1], self.spokes[spoke]);
+            far == other_far
+                && face_normal(face).dot(face_normal(other)) < cos_smooth
+                && [face, other].iter().any(|face| {
+                    let root = self.root(*face) as usize;
+                    smooth(self.sums[root]).is_none_or(|normal| normal.dot(face_normal(*face)) < cos_half)
+                })
+        })
+    }
+
     fn root(&mut self, mut face: u32) -> u32 {
         while self.parents[face as usize] != face {
             // Halves the way for the next who asks, so that long chains stay cheap.
@@ -199,21 +266,15 @@ impl Fan {
 
     fn write(
         &mut self,
-        positions: &[DVec3],
-        triangles: &[[u32; 3]],
         face_normals: &[DVec3],
         corners: &[u32],
+        weighted: impl Fn(u32) -> DVec3,
         is_missing: impl Fn(u32) -> bool,
         found: &mut Found,
     ) {
-        self.sums.clear();
-        self.sums.resize(corners.len(), DVec3::ZERO);
+        self.sum(corners, weighted);
         self.indices.clear();
         self.indices.resize(corners.len(), NONE);
-        for (face, &corner) in corners.iter().enumerate() {
-            let root = self.root(face as u32) as usize;
-            self.sums[root] += weighted_normal(positions, triangles, corner);
-        }
         for (face, &corner) in corners.iter().enumerate() {
             if !is_missing(corner) {
                 found.indices.push(NONE);
@@ -232,151 +293,4 @@ impl Fan {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::triangle_normal;
-
-    fn computed(positions: &[DVec3], triangles: &[[u32; 3]], angle: f64) -> (Vec<Vec3>, Vec<[u32; 3]>) {
-        let (mut normals, mut indices) = (Vec::new(), vec![[NONE; 3]; triangles.len()]);
-        let corners = |triangle: &[u32; 3]| triangle.map(|index| positions[index as usize]);
-        let face_normals: Vec<DVec3> = triangles.iter().map(|t| triangle_normal(corners(t)).unwrap()).collect();
-        fill_missing(positions, triangles, &face_normals, angle.to_radians().cos(), &mut normals, &mut indices);
-        (normals, indices)
-    }
-
-    fn cube() -> (Vec<DVec3>, Vec<[u32; 3]>) {
-        let positions = (0..8).map(|i| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64)).collect();
-        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let triangles = quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect();
-        (positions, triangles)
-    }
-
-    #[test]
-    fn a_cube_gets_flat_faces_below_its_right_angle() {
-        let (positions, triangles) = cube();
-        let (normals, indices) = computed(&positions, &triangles, 60.0);
-        for (triangle, corners) in triangles.iter().zip(&indices) {
-            let [a, b, c] = triangle.map(|i| positions[i as usize]);
-            let face = (b - a).cross(c - a).normalize().as_vec3();
-            for corner in corners {
-                assert!(normals[*corner as usize].distance(face) < 1e-6);
-            }
-        }
-        assert_eq!(normals.len(), 24, "three faces at each of eight corners");
-    }
-
-    #[test]
-    fn a_cube_gets_its_diagonals_above_its_right_angle_whatever_way_its_squares_are_cut() {
-        let (positions, triangles) = cube();
-        let (normals, indices) = computed(&positions, &triangles, 91.0);
-        assert_eq!(normals.len(), 8);
-        for (vertex, normal) in triangles.as_flattened().iter().zip(indices.as_flattened()) {
-            let diagonal = (positions[*vertex as usize] - DVec3::splat(0.5)).normalize().as_vec3();
-            assert!(normals[*normal as usize].distance(diagonal) < 1e-6);
-        }
-    }
-
-    #[test]
-    fn a_sheet_drawn_from_both_sides_keeps_both_normals() {
-        let positions = [DVec3::ZERO, DVec3::X, DVec3::Y];
-        let (normals, indices) = computed(&positions, &[[0, 1, 2], [0, 2, 1]], 180.0);
-        assert_eq!(normals[indices[0][0] as usize], Vec3::Z);
-        assert_eq!(normals[indices[1][0] as usize], Vec3::NEG_Z);
-    }
-
-    /// The article's normals.
-    fn of_the_article(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
-        let corners = |triangle: &[u32; 3]| triangle.map(|index| positions[index as usize]);
-        let face_normals: Vec<DVec3> = triangles.iter().map(|t| triangle_normal(corners(t)).unwrap()).collect();
-        one_a_position(positions.len(), triangles, &face_normals)
-    }
-
-    #[test]
-    fn by_the_article_a_cubes_corner_leans_to_the_squares_whose_diagonal_ends_there() {
-        let (positions, triangles) = cube();
-        let normals = of_the_article(&positions, &triangles);
-        assert_eq!(normals.len(), 8, "one normal a corner");
-        // Outward along x, y and z; a square with a diagonal at the corner has two triangles there.
-        let expected = |corner: usize, counts: [f64; 3]| {
-            let outward = (positions[corner] - DVec3::splat(0.5)).signum();
-            (outward * DVec3::from_array(counts)).normalize().as_vec3()
-        };
-        // The cube's squares are cut from 0 and from 7 three times each, and once to each of the others.
-        let corners = [
-            (0, [2.0, 2.0, 2.0]),
-            (7, [2.0, 2.0, 2.0]),
-            (3, [1.0, 1.0, 2.0]),
-            (4, [1.0, 1.0, 2.0]),
-            (5, [1.0, 2.0, 1.0]),
-            (2, [1.0, 2.0, 1.0]),
-            (6, [2.0, 1.0, 1.0]),
-            (1, [2.0, 1.0, 1.0]),
-        ];
-        for (corner, counts) in corners {
-            assert!(normals[corner].distance(expected(corner, counts)) < 1e-6, "{corner}: {}", normals[corner]);
-        }
-        assert!(normals[7].distance(Vec3::splat(3f32.sqrt().recip())) < 1e-6, "the diagonal");
-        assert!(normals[3].distance(Vec3::new(1.0, 1.0, -2.0) / 6f32.sqrt()) < 1e-6, "not the diagonal");
-    }
-
-    #[test]
-    fn by_the_article_a_cones_apex_points_along_its_axis_and_its_rim_along_its_slope() {
-        let (sides, height) = (12u32, 2.0);
-        let rim = |side: u32| {
-            let turn = f64::from(side) / f64::from(sides) * std::f64::consts::TAU;
-            DVec3::new(turn.cos(), 0.0, turn.sin())
-        };
-        let positions: Vec<DVec3> = std::iter::once(DVec3::Y * height).chain((0..sides).map(rim)).collect();
-        let triangles: Vec<[u32; 3]> = (0..sides).map(|side| [0, 1 + (side + 1) % sides, 1 + side]).collect();
-        let normals = of_the_article(&positions, &triangles);
-        assert!(normals[0].distance(Vec3::Y) < 1e-6);
-        // Each side's normal is (height, inradius) across and up; two of them, half a side to the left and right, add up.
-        let half = std::f64::consts::PI / f64::from(sides);
-        let (across, up) = (height * half.cos(), half.cos());
-        let expected = DVec3::new(across, up, 0.0).normalize().as_vec3();
-        assert!(normals[1].distance(expected) < 1e-6, "{} instead of {expected}", normals[1]);
-    }
-
-    #[test]
-    fn the_article_counts_triangles_where_the_default_weighs_them() {
-        // A square on the floor, cut at the origin, and one triangle of a wall.
-        let positions = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y, DVec3::Z];
-        let triangles = [[0, 1, 2], [0, 2, 3], [0, 3, 4]];
-        let counted = of_the_article(&positions, &triangles)[0];
-        assert!(counted.distance(Vec3::new(1.0, 0.0, 2.0) / 5f32.sqrt()) < 1e-6, "{counted}");
-        let (weighed, indices) = computed(&positions, &triangles, 180.0);
-        let weighed = weighed[indices[0][0] as usize];
-        assert!(weighed.distance(Vec3::new(1.0, 0.0, 1.0) / 2f32.sqrt()) < 1e-6, "{weighed}");
-    }
-
-    #[test]
-    fn where_the_articles_sum_is_nothing_the_first_triangle_counts() {
-        let sheet = [DVec3::ZERO, DVec3::X, DVec3::Y];
-        assert_eq!(of_the_article(&sheet, &[[0, 1, 2], [0, 2, 1]]), [Vec3::Z; 3]);
-        assert_eq!(of_the_article(&sheet, &[[0, 2, 1], [0, 1, 2]]), [Vec3::NEG_Z; 3]);
-        // Three wings around the z axis, turned alike: their sum is 0 but for rounding.
-        let wing = |turn: f64| DVec3::new(turn.to_radians().cos(), turn.to_radians().sin(), 0.0);
-        let positions = [DVec3::ZERO, DVec3::Z, wing(0.0), wing(120.0), wing(240.0)];
-        let normals = of_the_article(&positions, &[[0, 2, 1], [0, 3, 1], [0, 4, 1]]);
-        assert_eq!(normals[..3], [Vec3::NEG_Y; 3], "the axis has the first wing's normal");
-    }
-
-    #[test]
-    fn a_fan_of_a_hundred_thousand_triangles_is_done_in_the_time_of_a_sort() {
-        let count = 100_000;
-        let rim = |i: u32| {
-            let turn = f64::from(i) / f64::from(count) * std::f64::consts::TAU;
-            DVec3::new(turn.cos(), 0.0, turn.sin())
-        };
-        let positions: Vec<DVec3> = std::iter::once(DVec3::Y * 2.0).chain((0..count).map(rim)).collect();
-        let triangles: Vec<[u32; 3]> = (0..count).map(|i| [0, 1 + (i + 1) % count, 1 + i]).collect();
-        let backwards: Vec<[u32; 3]> = triangles.iter().rev().copied().collect();
-        for triangles in [triangles, backwards] {
-            // Neighbours differ by little here, but the whole fan by more than the angle, so edges are looked at.
-            let (normals, indices) = computed(&positions, &triangles, 100.0);
-            let tip = indices.iter().zip(&triangles).map(|(normals, corners)| (corners[0], normals[0]));
-            assert!(tip.clone().all(|(corner, normal)| corner == 0 && normal == indices[0][0]), "one group at the tip");
-            assert!(normals[indices[0][0] as usize].distance(Vec3::Y) < 1e-3);
-        }
-    }
-}
+mod tests;

@@ -3,6 +3,7 @@
 //! The one place where all formats are treated alike: bad faces are dropped and counted, vertices welded, polygons
 //! cut into triangles, missing normals computed, unused vertices left out.
 
+use super::normals::Splitting;
 use super::pieces::Pieces;
 use super::{Defects, LoadOptions, Material, Mesh, NONE, Normals, normals, weld};
 use crate::error::{Error, Result};
@@ -201,14 +202,24 @@ fn compact(all: &[DVec3], triangles: &mut [[u32; 3]]) -> (Vec<DVec3>, Vec<u32>) 
     (positions, file_vertices)
 }
 
+/// From which share of the smoothing angle an edge carries a crease on that ends at it: chamfers of 30 degrees beside one of 45.
+const NEARLY: f64 = 2.0 / 3.0;
+
+/// The least cosine between a face's own normal and what a file has for it, of few digits or of a polygon that is not flat: 5 degrees.
+const OWN: f64 = 0.996;
+
 impl Mesh {
     /// Takes over the file's normals as far as asked for and usable, and computes the rest.
     fn take_normals(&mut self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) {
-        let cos_smooth = options.smooth_angle_degrees.to_radians().cos();
-        let (file_normals, cos_smooth): (&[Vec3], f64) = match options.normals {
-            Normals::File => (file_normals, cos_smooth),
-            Normals::Smooth => (&[], cos_smooth),
-            Normals::Flat => (&[], 2.0),
+        let angle = options.smooth_angle_degrees.to_radians();
+        let all = Splitting { cos_smooth: angle.cos(), cos_beside: None };
+        let lasting = Splitting { cos_beside: Some((angle * NEARLY).cos()), ..all };
+        let (file_normals, splitting): (&[Vec3], Splitting) = match options.normals {
+            Normals::File => (file_normals, all),
+            Normals::Smooth => (&[], all),
+            Normals::Lasting if self.repeats_faces(file_normals, face_normals, options) => (&[], lasting),
+            Normals::Lasting => (file_normals, lasting),
+            Normals::Flat => (&[], Splitting { cos_smooth: 2.0, ..all }),
             Normals::Dachsbacher => {
                 self.normals = normals::one_a_position(self.positions.len(), &self.triangles, face_normals);
                 self.triangle_normals.clone_from(&self.triangles);
@@ -229,7 +240,24 @@ impl Mesh {
             }
         }
         let (normals, triangle_normals) = (&mut self.normals, &mut self.triangle_normals);
-        normals::fill_missing(&self.positions, &self.triangles, face_normals, cos_smooth, normals, triangle_normals);
+        normals::fill_missing(&self.positions, &self.triangles, face_normals, splitting, normals, triangle_normals);
+    }
+}
+
+impl Mesh {
+    /// Whether a file's normals are the faces' own, nearly everywhere: then it says nothing of what is smooth.
+    fn repeats_faces(&self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) -> bool {
+        let corners =
+            self.triangle_normals.iter().zip(face_normals).flat_map(|(corners, face)| corners.map(|it| (it, face)));
+        let (mut own, mut given) = (0usize, 0usize);
+        for (corner, face) in corners {
+            let Some(normal) = file_normals.get(corner as usize).and_then(|normal| normal.try_normalize()) else {
+                continue;
+            };
+            given += 1;
+            own += usize::from(options.up_axis.to_y_up(normal.as_dvec3()).dot(*face) > OWN);
+        }
+        own * 100 > given * 95
     }
 }
 
@@ -361,5 +389,28 @@ mod tests {
         let mesh = soup.into_mesh("test", &options).unwrap();
         assert_eq!(mesh.normals, [Vec3::Y]);
         assert_eq!(mesh.positions[3], DVec3::NEG_Z, "the model's back, +y, is away from the front view");
+    }
+
+    #[test]
+    fn normals_that_only_repeat_the_faces_are_computed_where_creases_are_to_last() {
+        // Two triangles that meet at 20 degrees, each with its own normal in the file; then with one that leans.
+        let tilt = 20f64.to_radians();
+        let normals = [DVec3::Z, DVec3::new(tilt.sin(), 0.0, tilt.cos())].map(|normal| normal.as_vec3());
+        let shared = |normals: [Vec3; 2]| {
+            let mut soup = Soup {
+                positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(-tilt.cos(), 0.0, tilt.sin())],
+                normals: normals.to_vec(),
+                ..Soup::default()
+            };
+            for (normal, face) in [[0, 1, 2], [0, 2, 3]].into_iter().enumerate() {
+                let corner = |position| Corner { normal: normal as u32, ..Corner::at(position) };
+                soup.corners.extend(face.map(corner));
+            }
+            let options = LoadOptions { normals: Normals::Lasting, ..LoadOptions::default() };
+            let mesh = soup.into_mesh("test", &options).unwrap();
+            mesh.triangle_normals[0][0] == mesh.triangle_normals[1][0]
+        };
+        assert!(shared(normals), "computed, smooth at 20 degrees");
+        assert!(!shared([Vec3::Z, Vec3::new(0.5, 0.0, 1.0)]), "the file's own");
     }
 }

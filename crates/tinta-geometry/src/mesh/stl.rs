@@ -15,7 +15,7 @@ const FACET_BYTES: usize = 50;
 
 /// Whether a file's length is what its facet count says: the one sure sign of binary STL, which may begin with `solid`.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
-    facet_count(bytes).is_some_and(|count| bytes.len() == HEADER_BYTES + count * FACET_BYTES)
+    whole_length(bytes) == Some(bytes.len() as u64)
 }
 
 /// Whether the beginning of a file reads like text STL.
@@ -28,6 +28,11 @@ fn facet_count(bytes: &[u8]) -> Option<usize> {
     Some(u32::from_le_bytes([field[0], field[1], field[2], field[3]]) as usize)
 }
 
+/// How long a binary file of so many facets is; more than some machines' memory can be.
+fn whole_length(bytes: &[u8]) -> Option<u64> {
+    Some(HEADER_BYTES as u64 + facet_count(bytes)? as u64 * FACET_BYTES as u64)
+}
+
 /// Reads an STL file's bytes. `path` is for messages.
 pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
     let damaged = |error: std::io::Error| {
@@ -35,7 +40,7 @@ pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
     };
     let mut non_finite = Vec::new();
     // Some programs leave a few bytes behind the last facet.
-    let holds_all = facet_count(bytes).is_some_and(|count| bytes.len() >= HEADER_BYTES + count * FACET_BYTES);
+    let holds_all = whole_length(bytes).is_some_and(|length| bytes.len() as u64 >= length);
     let text = is_text(&bytes[..bytes.len().min(4096)]);
     if is_binary(bytes) || (holds_all && !text) {
         return Ok(binary(bytes));

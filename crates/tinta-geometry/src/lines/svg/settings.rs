@@ -83,8 +83,8 @@ const WIDTH: Length = Length::Px(2.0);
 const WIDTH_ON_PAPER: Length = Length::Mm(0.5);
 
 impl SvgSettings {
-    /// The settings; title, recipe and background come from elsewhere.
-    fn settings() -> Vec<Setting<Self>> {
+    /// The settings, also for a table of something that has a drawing in it; title, recipe and background come from elsewhere.
+    pub fn settings() -> Vec<Setting<Self>> {
         let number = |low: f64, high: f64| Kind::Numbers { count: 1, range: [low, high], decimals: 1 };
         let width = Setting::of(
             "width-mm",
@@ -123,7 +123,7 @@ impl SvgSettings {
         let (name, value_name, help) = LINE_WIDTH;
         let (low, high, decimals) = LINE_WIDTH_RANGE;
         let settings = vec![
-            ClassColors::setting(|svg: &mut Self| &mut svg.class_colors),
+            ClassColors::setting_of_drawing(|svg: &mut Self| &mut svg.class_colors),
             Setting::open_field(name, value_name, AUTO, help, |svg: &mut Self| &mut svg.line_width)
                 .range(low, high, decimals)
                 .said(LINE_WIDTH_SAID),

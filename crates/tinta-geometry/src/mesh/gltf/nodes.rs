@@ -13,7 +13,7 @@ pub(super) struct Nodes {
     /// For each node of the file where it lies: scene from node.
     pub scene_from_node: Vec<DMat4>,
     /// The nodes of the scene, each once.
-    shown: Vec<usize>,
+    pub shown: Vec<usize>,
 }
 
 impl Nodes {

@@ -2,6 +2,15 @@
 //!
 //! In: degrees, shares of the picture's height and a zoom. Out: [`CameraSettings`], the same that `tinta render` is given by
 //! `--view`, or once the view was moved or zoomed by `--eye`, `--target`, `--up` and `--height`.
+//!
+//! ```
+//! use tinta::orbit::Orbit;
+//!
+//! let mut orbit = Orbit::default();
+//! orbit.turn(0.25, 0.0);
+//! assert_eq!(orbit.view.azimuth_degrees, -15.0);
+//! assert!(orbit.is_fitted(), "nothing was moved or zoomed");
+//! ```
 
 use crate::camera::{Camera, CameraSettings, Projection, View};
 use crate::error::Result;
@@ -71,7 +80,7 @@ impl Orbit {
     }
 
     /// As fitted to any scene, not moved, not zoomed; what an orbit does not say is as in `other`.
-    pub(super) fn fitted(&self, other: &CameraSettings) -> CameraSettings {
+    pub(crate) fn fitted(&self, other: &CameraSettings) -> CameraSettings {
         let Self { view, parallel, fov_y_degrees, .. } = *self;
         CameraSettings { view, parallel, fov_y_degrees, ..other.clone() }
     }

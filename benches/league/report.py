@@ -1,0 +1,215 @@
+"""Judges what run.py drew and writes the tables, the plot and a sheet of pictures.
+
+    python benches/league/report.py league
+    python benches/league/report.py league --document docs/league.md
+
+Writes OUT/table.md and OUT/plot.svg, with --document also into that file, between the comments "league: begin" and "league: end";
+OUT/sheet.png (agreed ink black, missed lines red, invented ink blue); and OUT/page, the page of `tinta measure --merge`.
+"""
+
+import argparse
+import json
+import math
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+from document import put  # noqa: E402
+from plot import plot  # noqa: E402
+from programs import PROGRAMS  # noqa: E402
+
+CLASSES = ["silhouette", "crease", "boundary", "non-manifold", "intersection"]
+SHEET_VIEW = "30,15"
+THUMBNAIL_PX = 192
+
+
+def records(text):
+    """The JSON objects that stand one after the other."""
+    decoder, at = json.JSONDecoder(), 0
+    while at < len(text.rstrip()):
+        record, at = decoder.raw_decode(text, at)
+        yield record
+        at += len(text[at:]) - len(text[at:].lstrip())
+
+
+def drawn(runs):
+    """For each case and program its drawing, version and the medians of its rounds."""
+    found = {}
+    for run in runs:
+        if not run["failure"]:
+            found.setdefault((run["case"], run["program"]), []).append(run)
+    for own in found.values():
+        inside = [run["drawing_seconds"] for run in own if run["drawing_seconds"] is not None]
+        yield {
+            **own[0],
+            "seconds": statistics.median(run["seconds"] for run in own),
+            "peak_mib": statistics.median(run["peak_mib"] for run in own),
+            "drawing_seconds": statistics.median(inside) if inside else None,
+            "rounds": len(own),
+        }
+
+
+def judge(tinta, folder, case, drawings, again):
+    """tinta's records for all drawings of one model and view, in their order."""
+    answer = folder / "judged" / f"{case}.json"
+    if again or not answer.exists() or answer.stat().st_mtime < (folder / "runs.jsonl").stat().st_mtime:
+        rows = folder / "judged" / case
+        shutil.rmtree(rows, ignore_errors=True)
+        rows.mkdir(parents=True)
+        mesh = rows / f"{case}.obj"
+        mesh.symlink_to(folder / "models" / f"{drawings[0]['model']}.obj")
+        words = [tinta, "judge", *[str(folder / drawing["drawing"]) for drawing in drawings]]
+        words += ["--model", str(mesh), "--camera", str(folder / "cameras" / f"{case}.txt"), "--crease-angle", "30", "--json", "-o", str(rows)]
+        words += ["--names", ",".join(drawing["program"].replace(",", "") for drawing in drawings)]
+        words += ["--seconds", ",".join(f"{drawing['seconds']:.4f}" for drawing in drawings)]
+        result = subprocess.run(words, capture_output=True, text=True)
+        if result.returncode != 0:
+            raise SystemExit(f"{case}: {result.stderr.strip()}")
+        answer.write_text(result.stdout)
+    return list(records(answer.read_text()))
+
+
+def mean(values):
+    values = [value for value in values if value is not None]
+    return statistics.fmean(values) if values else None
+
+
+def share(value):
+    return "" if value is None else f"{100 * value:.1f} %"
+
+
+def summary(name, rows):
+    """One program's numbers over all cases that it drew."""
+    lines = [row["judged"]["lines"] for row in rows]
+    worst = min(rows, key=lambda row: row["judged"]["lines"]["f1"])
+    hidden = sum(row["judged"]["hidden"]["length_px"] for row in rows)
+    inside = [row["drawing_seconds"] for row in rows]
+    return {
+        "name": name,
+        "version": rows[0]["version"],
+        "cases": len(rows),
+        "f1": mean(line["f1"] for line in lines),
+        "worst": f"{worst['judged']['lines']['f1']:.3f} {worst['case']}",
+        "recall": mean(line["recall"] for line in lines),
+        "precision": mean(line["precision"] for line in lines),
+        "one": mean(row["judged"]["one_to_one"][0]["f1"] for row in rows),
+        "hidden": sum(row["judged"]["hidden"]["drawn_px"] for row in rows) / hidden if hidden else None,
+        "seconds": math.exp(mean(math.log(row["seconds"]) for row in rows)),
+        "inside": None if None in inside else math.exp(mean(math.log(value) for value in inside)),
+        "peak": max(row["peak_mib"] for row in rows),
+        "classes": {kind: mean(line["recall_of_class"].get(kind) for line in lines) for kind in CLASSES},
+    }
+
+
+def beaten(summaries):
+    """Which programs have less error than which of tinta's styles, and in how much of their time; the fastest comes first."""
+    ours = [row for row in summaries if row["name"].startswith("tinta")]
+    pairs = [(peer, own) for peer in summaries if peer not in ours for own in ours if peer["f1"] > own["f1"]]
+    pairs.sort(key=lambda pair: pair[0]["seconds"] / pair[1]["seconds"])
+    if any(peer["seconds"] <= own["seconds"] for peer, own in pairs):
+        text = ["With less error than one of tinta's styles in the same time or less: see the first lines with a factor up to 1.", ""]
+    else:
+        text = ["No other program has less error than one of tinta's styles in the same time or less. With less error in more time:", ""]
+    for peer in dict.fromkeys(peer["name"] for peer, _ in pairs):
+        beats = [(found, own) for found, own in pairs if found["name"] == peer]
+        words = [f"{own['name']} ({own['f1']:.3f}; {found['seconds'] / own['seconds']:.1f} x its seconds)" for found, own in beats]
+        text.append(f"- {peer}, F1 {beats[0][0]['f1']:.3f}, than " + ", ".join(words))
+    return [*text, ""]
+
+
+def tables(about_run, summaries, cases, failures, missing):
+    """The report's Markdown."""
+    about = {program.name: program for program in PROGRAMS}
+    text = [f"{about_run['date']}, {about_run['system']}, {about_run['cores']} cores, {about_run['tinta']}; {about_run['rounds']} rounds.", ""]
+    text += beaten(summaries)
+    text += ["| program | F1 | worst | found | of the ink right | one to one, 1 px | hidden drawn | s | of that, drawing | MiB | drawn |"]
+    text.append("|" + "---|" * 11)
+    for row in summaries:
+        inside = "" if row["inside"] is None else f"{row['inside']:.2f}"
+        text.append(
+            f"| {row['name']} | {row['f1']:.3f} | {row['worst']} | {share(row['recall'])} | {share(row['precision'])} | {row['one']:.3f} | "
+            f"{share(row['hidden'])} | {row['seconds']:.2f} | {inside} | {row['peak']:.0f} | {row['cases']} of {cases} |"
+        )
+    text += ["", "| program | " + " | ".join(CLASSES) + " |", "|" + "---|" * (len(CLASSES) + 1)]
+    for row in summaries:
+        text.append(f"| {row['name']} | " + " | ".join(share(row["classes"][kind]) for kind in CLASSES) + " |")
+    text += ["", "| program | version | can draw | settings |", "|---|---|---|---|"]
+    for row in summaries:
+        program = about[row["name"]]
+        text.append(f"| {row['name']} | {row['version']} | {program.draws} | {program.settings} |")
+    text += ["", "Not drawn:", ""] + [f"- {name}: {reason}" for name, reason in sorted({**missing, **failures}.items())]
+    return "\n".join(text) + "\n"
+
+
+def sheet(folder, rows, names):
+    """One row of error pictures for each program, one column for each model, in one view."""
+    from PIL import Image, ImageDraw
+
+    models = list(dict.fromkeys(row["model"] for row in rows))
+    picture = Image.new("RGB", (THUMBNAIL_PX * len(models), (THUMBNAIL_PX + 14) * len(names)), "white")
+    draw = ImageDraw.Draw(picture)
+    for row in rows:
+        if row["view"] != SHEET_VIEW:
+            continue
+        errors = folder / "judged" / row["case"] / "errors"
+        # As `tinta judge` names its files: a hyphen for each run of other characters.
+        ending = "512x512-" + re.sub("[^A-Za-z0-9]+", "-", row["program"].replace(",", ""))
+        found = [path for path in errors.iterdir() if path.stem.endswith(ending)]
+        x, y = models.index(row["model"]) * THUMBNAIL_PX, names.index(row["program"]) * (THUMBNAIL_PX + 14)
+        if found:
+            small = Image.open(found[0]).convert("RGB").resize((THUMBNAIL_PX, THUMBNAIL_PX), Image.Resampling.LANCZOS)
+            picture.paste(small, (x, y + 14))
+    for number, name in enumerate(names):
+        draw.text((4, number * (THUMBNAIL_PX + 14) + 1), name, fill="black")
+    picture.save(folder / "sheet.png", optimize=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path, help="folder that run.py wrote")
+    parser.add_argument("--tinta", default=str(HERE.parents[1] / "target/release/tinta"), help="tinta's program")
+    parser.add_argument("--document", type=Path, help="document whose results are replaced")
+    parser.add_argument("--again", action="store_true", help="judge again although nothing was drawn since")
+    asked = parser.parse_args()
+    folder = asked.folder.resolve()
+    (folder / "judged").mkdir(exist_ok=True)
+    runs = [json.loads(line) for line in (folder / "runs.jsonl").read_text().splitlines()]
+    rows = list(drawn(runs))
+    by_case = {}
+    for row in rows:
+        by_case.setdefault(row["case"], []).append(row)
+    for case, own in by_case.items():
+        for row, record in zip(own, judge(asked.tinta, folder, case, own, asked.again), strict=True):
+            row["judged"] = record
+        print(case, flush=True)
+    by_program = {}
+    for row in rows:
+        by_program.setdefault(row["program"], []).append(row)
+    summaries = sorted((summary(name, own) for name, own in by_program.items()), key=lambda row: -row["f1"])
+    failures = {f"{run['program']}, {run['model']}": run["failure"] for run in runs if run["failure"]}
+    missing = json.loads((folder / "missing.json").read_text())
+    cases = len({run["case"] for run in runs})
+    about_run = {**json.loads((folder / "about.json").read_text()), "rounds": max(row["rounds"] for row in rows)}
+    text = tables(about_run, summaries, cases, failures, missing)
+    (folder / "table.md").write_text(text)
+    picture = plot([(row["name"], row["seconds"], 1 - row["f1"]) for row in summaries], f"Error against time, {cases} pictures each")
+    (folder / "plot.svg").write_text(picture)
+    if asked.document:
+        (asked.document.parent / "pictures/league.svg").write_text(picture)
+        put(asked.document, f"![error against time](pictures/league.svg)\n\n{text}")
+    sheet(folder, rows, [row["name"] for row in summaries])
+    page = folder / "page"
+    shutil.rmtree(page, ignore_errors=True)
+    merged = [str(folder / "judged" / case / "results.jsonl") for case in by_case]
+    subprocess.run([asked.tinta, "measure", "--merge", *merged, "-o", str(page)], check=True)
+    print(text)
+
+
+if __name__ == "__main__":
+    main()

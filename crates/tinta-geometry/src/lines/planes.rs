@@ -1,0 +1,59 @@
+//! Faces of one plane as groups: what lies in a plane hides nothing in it and passes through nothing in it, however much of it
+//! there is, and nobody needs to look at each pair.
+
+use super::faces::Faces;
+use super::space::Space;
+use crate::bvh::NO_FAMILY;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Faces of one plane from which on they are a group.
+const LEAST: u32 = 16;
+
+/// For each number of a face its plane, or [`NO_FAMILY`] where few others lie in it; nothing if there is no such plane.
+///
+/// Two faces of a group are nearer to one another's plane than `--weld`, so that they touch by the rule for contact. Faces smaller
+/// than a pixel are left out: time is lost over large ones.
+pub(super) fn planes(space: &Space, faces: &Faces, count: usize) -> Vec<u32> {
+    let boxes = faces.tree.boxes();
+    let is_large = |place: &u32| {
+        let [low, high] = boxes[*place as usize].corners();
+        (high - low).truncate().max_element() >= space.size.max_element() / 512.0
+    };
+    let large: Vec<u32> = (0..boxes.len() as u32).filter(is_large).collect();
+    if large.len() < LEAST as usize {
+        return Vec::new();
+    }
+    let corners = large.iter().flat_map(|place| faces.corners(*place));
+    let (low, high) =
+        corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), corner| (low.min(corner), high.max(corner)));
+    let (centre, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
+    let step = faces.smallest_weld() * 0.1;
+    if step <= 0.0 || radius <= 0.0 {
+        return Vec::new();
+    }
+    let plane = |place: u32| {
+        let [a, b, c] = faces.corners(place);
+        let normal = (b - a).cross(c - a).try_normalize()?;
+        let normal = if normal[normal.abs().max_position()] < 0.0 { -normal } else { normal };
+        let steps = |value: f64| (value / step).round() as i64;
+        Some([normal.x * radius, normal.y * radius, normal.z * radius, normal.dot(a - centre)].map(steps))
+    };
+    let keys: Vec<Option<[i64; 4]>> = large.iter().map(|place| plane(*place)).collect();
+    let mut counts: HashMap<[i64; 4], (u32, u32)> = HashMap::new();
+    for key in keys.iter().flatten() {
+        let number = counts.len() as u32;
+        counts.entry(*key).or_insert((number, 0)).1 += 1;
+    }
+    if counts.values().all(|(_, count)| *count < LEAST) {
+        return Vec::new();
+    }
+    let mut planes = vec![NO_FAMILY; count];
+    for (place, key) in large.iter().zip(keys) {
+        let group = key.and_then(|key| counts.get(&key)).filter(|(_, count)| *count >= LEAST);
+        if let Some((number, _)) = group {
+            planes[faces.numbers[*place as usize] as usize] = *number;
+        }
+    }
+    planes
+}

@@ -1,0 +1,266 @@
+//! What single faces hide of the picture for sure: a hierarchical depth buffer (Greene, Kass and Miller 1993) in f64.
+//!
+//! The picture is cut into cells, four of which make one of the next level. Each cell has a key beyond which everything in it is
+//! hidden: that of the nearest face that covers all of it, where it is farthest away, and as much more as what touches a face
+//! may be behind it. Faces come nearest first, and go down only to cells that they may still hide something of; so of many faces
+//! behind one another most are done in a few steps. It decides nothing that is not clear: what it does not hide is looked at by
+//! the exact rules.
+
+use super::faces::Faces;
+use super::space::Space;
+use crate::bvh::Box3;
+use crate::threads::{cores, filled};
+use crate::tolerances::{CONTACT, TOUCH};
+use glam::DVec2;
+
+/// Cells along the picture's larger side, as a power of 2.
+const LEVELS: usize = 8;
+
+/// The cells of the picture, each with the key beyond which all is hidden.
+pub(super) struct Pyramid {
+    /// Level by level, from the finest to the one cell around all, row by row.
+    levels: Vec<Vec<f64>>,
+    cell_px: f64,
+    size: DVec2,
+}
+
+/// A face as it lies in the picture.
+struct Plate {
+    low: DVec2,
+    high: DVec2,
+    /// Of each side the direction inwards and where it is 0, pixels.
+    sides: [(DVec2, f64); 3],
+    /// The key at the picture's corner and how it grows.
+    key: f64,
+    growth: DVec2,
+    nearest_key: f64,
+    /// How much larger a key must be to be behind the face for sure.
+    beyond: f64,
+    /// How far from a side a point must be to be inside for sure, pixels.
+    margin: f64,
+}
+
+impl Plate {
+    /// `None` of what cannot hide anything for sure.
+    fn new(space: &Space, faces: &Faces, place: u32) -> Option<Self> {
+        if faces.cut_by_near.binary_search(&place).is_ok() {
+            return None;
+        }
+        let corners = faces.corners(place);
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a);
+        let images = corners.map(|corner| space.project(corner));
+        let [(pa, ka), (pb, kb), (pc, kc)] = images;
+        let (u, v) = (pb - pa, pc - pa);
+        let area = u.perp_dot(v);
+        let growth = DVec2::new((kb - ka) * v.y - (kc - ka) * u.y, (kc - ka) * u.x - (kb - ka) * v.x) / area;
+        let depths = corners.map(|corner| -corner.z);
+        let nearest = depths[0].min(depths[1]).min(depths[2]);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let touching = CONTACT * longest + faces.weld(faces.triangles[place as usize][0]) + 4.0 * space.noise;
+        let beyond = space.key_beyond([a, normal.normalize_or_zero()], nearest, 2.0 * touching);
+        let reach = [pa, pb, pc].map(|px| px.abs().max_element()).into_iter().fold(0.0, f64::max);
+        let margin =
+            2.0 * (TOUCH * space.size.max_element() + space.noise * space.px_per_unit(nearest)) + reach * 1e-12;
+        let points = [pa, pb, pc];
+        let sides = [0, 1, 2].map(|side| {
+            let (from, to) = (points[side], points[(side + 1) % 3]);
+            let inwards = (to - from).perp().normalize_or_zero() * area.signum();
+            (inwards, inwards.dot(from))
+        });
+        let plate = Self {
+            low: pa.min(pb).min(pc),
+            high: pa.max(pb).max(pc),
+            sides,
+            key: ka - growth.dot(pa),
+            growth,
+            nearest_key: ka.min(kb).min(kc),
+            beyond,
+            margin,
+        };
+        (growth.is_finite() && beyond.is_finite() && reach.is_finite()).then_some(plate)
+    }
+
+    /// Whether all of a rectangle, given by its middle and half its size, is inside.
+    fn covers(&self, middle: DVec2, half: DVec2) -> bool {
+        self.sides.iter().all(|(inwards, start)| inwards.dot(middle) - start - inwards.abs().dot(half) >= self.margin)
+    }
+
+    /// Whether any of a rectangle may be inside.
+    fn overlaps(&self, middle: DVec2, half: DVec2) -> bool {
+        let wide = half + self.margin;
+        (middle - wide).cmple(self.high).all()
+            && (middle + wide).cmpge(self.low).all()
+            && self.sides.iter().all(|(inwards, start)| inwards.dot(middle) - start + inwards.abs().dot(wide) >= 0.0)
+    }
+
+    /// The smallest and the largest key in a rectangle.
+    fn keys(&self, middle: DVec2, half: DVec2) -> [f64; 2] {
+        let (key, spread) = (self.key + self.growth.dot(middle), self.growth.abs().dot(half));
+        [(key - spread).max(self.nearest_key), key + spread]
+    }
+}
+
+impl Pyramid {
+    /// What the faces hide; `None` if none covers a cell.
+    pub(super) fn new(space: &Space, faces: &Faces) -> Option<Self> {
+        let cell_px = space.size.max_element() / f64::from(1u32 << LEVELS);
+        let is_large = |around: &Box3| {
+            let [low, high] = around.corners();
+            (high - low).truncate().min_element() >= cell_px
+        };
+        let boxes = faces.tree.boxes();
+        let large: Vec<u32> = (0..boxes.len() as u32).filter(|place| is_large(&boxes[*place as usize])).collect();
+        let mut plates: Vec<Plate> = large.iter().filter_map(|place| Plate::new(space, faces, *place)).collect();
+        if plates.is_empty() {
+            return None;
+        }
+        plates.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
+        let levels = (0..=LEVELS).map(|level| vec![f64::INFINITY; 1 << (2 * (LEVELS - level))]).collect();
+        let mut pyramid = Self { levels, cell_px, size: space.size };
+        pyramid.leave_out_what_lies_beside_the_picture();
+        plates.iter().for_each(|plate| {
+            pyramid.add(plate, LEVELS, 0, 0, f64::INFINITY);
+        });
+        pyramid.settle();
+        let is_of_use = pyramid.levels[0].iter().any(|key| key.is_finite());
+        is_of_use.then_some(pyramid)
+    }
+
+    fn leave_out_what_lies_beside_the_picture(&mut self) {
+        for level in 0..=LEVELS {
+            let width = 1usize << (LEVELS - level);
+            for index in 0..width * width {
+                if self.rectangle(level, index % width, index / width).1.min_element() <= 0.0 {
+                    self.levels[level][index] = f64::NEG_INFINITY;
+                }
+            }
+        }
+    }
+
+    /// The middle of a cell and half its size, as far as it is in the picture.
+    fn rectangle(&self, level: usize, column: usize, row: usize) -> (DVec2, DVec2) {
+        let cell = self.cell_px * (1u32 << level) as f64;
+        let low = DVec2::new(column as f64, row as f64) * cell;
+        let high = (low + cell).min(self.size);
+        ((low + high) * 0.5, (high - low) * 0.5)
+    }
+
+    fn index(level: usize, column: usize, row: usize) -> usize {
+        (row << (LEVELS - level)) + column
+    }
+
+    /// Lets a face hide what it covers of a cell; returns the cell's key.
+    fn add(&mut self, plate: &Plate, level: usize, column: usize, row: usize, above: f64) -> f64 {
+        let (middle, half) = self.rectangle(level, column, row);
+        // A cell beside the picture.
+        if half.min_element() <= 0.0 {
+            return f64::NEG_INFINITY;
+        }
+        let index = Self::index(level, column, row);
+        let own = self.levels[level][index].min(above);
+        if !plate.overlaps(middle, half) {
+            return own;
+        }
+        let [nearest, farthest] = plate.keys(middle, half);
+        if nearest >= own {
+            return own;
+        }
+        let mut key = own;
+        if plate.covers(middle, half) {
+            key = key.min(farthest + plate.beyond);
+        } else if level > 0 {
+            let mut of_children = f64::NEG_INFINITY;
+            for (right, down) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                of_children = of_children.max(self.add(plate, level - 1, column * 2 + right, row * 2 + down, own));
+            }
+            key = key.min(of_children);
+        }
+        self.levels[level][index] = key;
+        key
+    }
+
+    /// Gives every cell what hides the larger ones around it.
+    fn settle(&mut self) {
+        for level in (0..LEVELS).rev() {
+            let (finer, coarser) = self.levels.split_at_mut(level + 1);
+            let width = 1usize << (LEVELS - level);
+            for (index, key) in finer[level].iter_mut().enumerate() {
+                let (column, row) = (index % width, index / width);
+                *key = key.min(coarser[0][Self::index(level + 1, column / 2, row / 2)]);
+            }
+        }
+    }
+
+    /// The largest key beyond which all between two pixels is hidden.
+    fn key_between(&self, low: DVec2, high: DVec2) -> f64 {
+        let low = low.clamp(DVec2::ZERO, self.size);
+        let high = high.clamp(DVec2::ZERO, self.size);
+        let cells = ((high - low).max_element() / self.cell_px).max(1.0);
+        let level = (cells.log2().ceil() as usize).min(LEVELS);
+        let cell = self.cell_px * (1u32 << level) as f64;
+        let last = (1usize << (LEVELS - level)) - 1;
+        let at = |px: f64| ((px / cell) as usize).min(last);
+        let mut key = f64::NEG_INFINITY;
+        for row in at(low.y)..=at(high.y) {
+            for column in at(low.x)..=at(high.x) {
+                key = key.max(self.levels[level][Self::index(level, column, row)]);
+            }
+        }
+        key
+    }
+
+    /// Whether all between two pixels that has at least this key is hidden.
+    pub(super) fn hides(&self, low: DVec2, high: DVec2, nearest_key: f64) -> bool {
+        nearest_key > self.key_between(low, high)
+    }
+
+    /// Whether all between two pixels is covered by a face, at whatever depth.
+    pub(super) fn covers(&self, low: DVec2, high: DVec2) -> bool {
+        self.key_between(low, high) < f64::INFINITY
+    }
+
+    /// Whether a straight line between two pixels with these keys is hidden all along.
+    pub(super) fn hides_line(&self, [from, to]: [(DVec2, f64); 2]) -> bool {
+        let mut open = vec![[from, to]];
+        while let Some([from, to]) = open.pop() {
+            let (low, high) = (from.0.min(to.0), from.0.max(to.0));
+            if self.hides(low, high, from.1.min(to.1)) {
+                continue;
+            }
+            if (high - low).max_element() <= self.cell_px {
+                return false;
+            }
+            let middle = ((from.0 + to.0) * 0.5, (from.1 + to.1) * 0.5);
+            open.extend([[from, middle], [middle, to]]);
+        }
+        true
+    }
+
+    /// For each face whether anything of it may be seen.
+    pub(super) fn seen(&self, space: &Space, faces: &Faces) -> Vec<bool> {
+        let boxes = faces.tree.boxes();
+        filled(boxes.len(), cores(), false, |place| {
+            let [low, high] = boxes[place].corners();
+            if !self.hides(low.truncate(), high.truncate(), low.z) {
+                let is_small = (high - low).truncate().max_element() <= 2.0 * self.cell_px;
+                let plate = || Plate::new(space, faces, place as u32);
+                return is_small || plate().is_none_or(|plate| self.sees(&plate, LEVELS, 0, 0));
+            }
+            false
+        })
+    }
+
+    fn sees(&self, plate: &Plate, level: usize, column: usize, row: usize) -> bool {
+        let (middle, half) = self.rectangle(level, column, row);
+        if half.min_element() <= 0.0 || !plate.overlaps(middle, half) {
+            return false;
+        }
+        if plate.keys(middle, half)[0] > self.levels[level][Self::index(level, column, row)] {
+            return false;
+        }
+        let children = [(0, 0), (1, 0), (0, 1), (1, 1)];
+        level == 0
+            || children.iter().any(|(right, down)| self.sees(plate, level - 1, column * 2 + right, row * 2 + down))
+    }
+}

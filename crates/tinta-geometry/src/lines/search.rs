@@ -1,0 +1,339 @@
+//! Where a line is cut, without looking at what is behind something.
+//!
+//! Where much lies in front of a line, most of it is hidden, and what crosses it there does not matter. So a part of a line that
+//! is crossed by more than a few things is swept first: of every face in front of it the places are found at which it hides the
+//! line *for sure*, inside the face and behind its plane by more than any tolerance, and those at which it *may*, by as much less.
+//! What is hidden for sure is done with. Cuts are found in the rest, and there only pieces that something may hide need a ray.
+//! Which of both is decided by plain linear equations; all that is not sure is left to the exact rules, which would say the same.
+//! Before that the [pyramid](super::pyramid) says what single faces hide of whole parts.
+
+use super::faces::{Faces, Own};
+use super::image::Image;
+use super::space::Space;
+use super::visibility::{Lines, PARTS_OF_PICTURE};
+use crate::bvh::Box3;
+use crate::tolerances::CONTACT;
+use glam::{DVec2, DVec3};
+
+/// Where a line is cut, and where it needs no look.
+#[derive(Default)]
+pub(super) struct Cuts {
+    pub places: Vec<f64>,
+    /// Ascending parts that are hidden for sure.
+    hidden: Vec<[f64; 2]>,
+    /// Ascending parts that were swept, and those in them in which something may hide the line.
+    swept: Vec<[f64; 2]>,
+    maybe: Vec<[f64; 2]>,
+}
+
+impl Cuts {
+    /// Whether any of what is between two places is hidden for sure: between two cuts all is then.
+    pub(super) fn hide(&self, from: f64, to: f64) -> bool {
+        overlap(&self.hidden, from, to)
+    }
+
+    /// Whether a place is hidden for sure.
+    pub(super) fn hides(&self, place: f64) -> bool {
+        overlap(&self.hidden, place, place)
+    }
+
+    /// Whether a place is seen for sure, as far as faces are concerned.
+    pub(super) fn leave_open(&self, place: f64) -> bool {
+        overlap(&self.swept, place, place) && !overlap(&self.maybe, place, place)
+    }
+}
+
+/// Whether any of ascending ranges apart from one another reaches between two places.
+fn overlap(ranges: &[[f64; 2]], from: f64, to: f64) -> bool {
+    let next = ranges.partition_point(|range| range[1] <= from);
+    ranges.get(next).is_some_and(|range| range[0] < to || (from == to && range[0] <= to))
+}
+
+/// Ranges in any order as ascending ones apart from one another.
+fn united(mut ranges: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    ranges.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut united: Vec<[f64; 2]> = Vec::with_capacity(ranges.len());
+    for range in ranges {
+        match united.last_mut() {
+            Some(last) if range[0] <= last[1] => last[1] = last[1].max(range[1]),
+            _ => united.push(range),
+        }
+    }
+    united
+}
+
+/// Cuts in a part of a line from which on it is swept.
+const MOST: usize = 24;
+
+/// How often one face is sought that hides much of what is left of a part, and how many are asked each time.
+const PROBES: usize = 4;
+const ASKED: usize = 48;
+
+/// What a search looks for.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Sought {
+    /// What is nearer to the eye.
+    Nearer,
+    /// What is there at any depth.
+    Any,
+}
+
+/// A part of a line of which it is asked what hides it.
+struct Stretch {
+    part: [f64; 2],
+    px: [DVec2; 2],
+    /// In the eye's space.
+    view: [DVec3; 2],
+    own: Own,
+    line_length: f64,
+    weld: f64,
+    touch_px: f64,
+    /// What rounding may move a point by, pixels.
+    noise_px: f64,
+    sought: Sought,
+}
+
+impl Lines<'_> {
+    /// The cuts of what of a line is between two places; `add` adds those of a part, or returns true where there are more than a
+    /// given number.
+    pub(super) fn search(
+        &self,
+        index: usize,
+        image: &Image,
+        inside: [f64; 2],
+        sought: Sought,
+        mut add: impl FnMut([f64; 2], usize, &mut Vec<f64>) -> bool,
+    ) -> Cuts {
+        let mut found = Cuts::default();
+        let longest = self.space.size.max_element() / PARTS_OF_PICTURE;
+        for part in image.parts(inside, longest) {
+            if self.pyramid_hides(image, part, sought) {
+                found.hidden.push(part);
+                continue;
+            }
+            let before = found.places.len();
+            if !add(part, MOST, &mut found.places) {
+                continue;
+            }
+            found.places.truncate(before);
+            self.sweep(index, image, part, sought, &mut found);
+            for gap in gaps(part, &found.hidden) {
+                if (gap[1] - gap[0]) * image.length() > self.shortest_px {
+                    add(gap, usize::MAX, &mut found.places);
+                }
+            }
+        }
+        found.hidden = united(found.hidden);
+        found.maybe = united(found.maybe);
+        found
+    }
+
+    fn pyramid_hides(&self, image: &Image, part: [f64; 2], sought: Sought) -> bool {
+        let Some(pyramid) = self.pyramid else { return false };
+        let [first, second] = part.map(|place| image.at(place));
+        let (low, high) = (first.min(second), first.max(second));
+        match sought {
+            Sought::Nearer => pyramid.hides(low, high, image.key(part[0]).min(image.key(part[1]))),
+            Sought::Any => pyramid.covers(low, high),
+        }
+    }
+
+    /// Finds what of a part faces hide for sure, and what they may hide.
+    fn sweep(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought, found: &mut Cuts) {
+        let feature = &self.features[index];
+        let length = image.length();
+        // What the pyramid hides of it, in pieces of about its cells.
+        let mut hidden: Vec<[f64; 2]> = Vec::new();
+        if self.pyramid.is_some() {
+            let pieces = image.parts(part, self.space.size.max_element() / (PARTS_OF_PICTURE * 8.0));
+            hidden.extend(pieces.filter(|piece| self.pyramid_hides(image, *piece, sought)));
+        }
+        let touch_px = image.touch_px(self.space);
+        let farthest = |part: [f64; 2]| match sought {
+            Sought::Nearer => image.key(part[0]).max(image.key(part[1])),
+            Sought::Any => f64::INFINITY,
+        };
+        let stretch = |part: [f64; 2]| Stretch {
+            part,
+            px: part.map(|place| image.at(place)),
+            view: part.map(|place| self.space.point(image.at(place), image.key(place))),
+            own: feature.own,
+            line_length: feature.ends[0].distance(feature.ends[1]),
+            weld: feature.weld,
+            touch_px,
+            noise_px: image.noise_px,
+            sought,
+        };
+        // Often one face or two hide nearly all.
+        for _ in 0..PROBES {
+            let open = gaps(part, &hidden);
+            let Some(gap) = open.into_iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0]))) else { break };
+            let middle = (gap[0] + gap[1]) * 0.5;
+            let px = image.at(middle);
+            let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(farthest([middle; 2])));
+            let stretch = stretch(gap);
+            let (mut asked, mut best) = (0, [middle; 2]);
+            self.any_occluder(&column, feature.planes, |face| {
+                asked += 1;
+                let sure = self.faces.hidden_ranges(self.space, face, &stretch)[0];
+                if let Some(sure) = sure.filter(|sure| sure[1] - sure[0] > best[1] - best[0]) {
+                    best = sure;
+                }
+                asked >= ASKED || (best[1] - best[0]) * 2.0 > gap[1] - gap[0]
+            });
+            if (best[1] - best[0]) * 4.0 < gap[1] - gap[0] {
+                break;
+            }
+            hidden.push(best);
+            hidden = united(hidden);
+        }
+        let mut maybe = Vec::new();
+        for gap in gaps(part, &hidden.clone()) {
+            let stretch = stretch(gap);
+            let farthest = farthest(gap);
+            self.any_occluder(&image.part_box(gap, touch_px, [f64::NEG_INFINITY, farthest]), feature.planes, |face| {
+                let [sure, may] = self.faces.hidden_ranges(self.space, face, &stretch);
+                hidden.extend(sure);
+                maybe.extend(may);
+                false
+            });
+        }
+        if sought == Sought::Nearer && !self.finds_hidden {
+            for gap in gaps(part, &united(hidden.clone())) {
+                if (gap[1] - gap[0]) * length > self.shortest_px {
+                    self.behind_lines(index, image, gap, &mut hidden);
+                }
+            }
+        }
+        found.hidden.extend(united(hidden));
+        found.maybe.extend(united(maybe));
+        found.swept.push(part);
+    }
+
+    /// Adds what of a part lies in the picture on another line that is nearer for sure.
+    fn behind_lines(&self, index: usize, image: &Image, part: [f64; 2], hidden: &mut Vec<[f64; 2]>) {
+        let touch_px = image.touch_px(self.space);
+        self.beside.any(&image.part_box(part, touch_px, image.directions(touch_px)[0]), |other_index| {
+            let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
+            if let Some(range) = image.overlap(&other, touch_px.max(other.touch_px(self.space))) {
+                let range = [range[0].max(part[0]), range[1].min(part[1])];
+                let least = self.clearly_behind(index, &other);
+                let behind = |place: f64| image.key(place) - other.key(other.place_of(image.at(place))) - least;
+                if range[0] < range[1] {
+                    hidden.extend(above_zero(range, range.map(behind)));
+                }
+            }
+            false
+        });
+    }
+
+    /// By how much a line's key must be larger than another's for it not to touch it, nor anything that is nearer still.
+    pub(super) fn clearly_behind(&self, index: usize, other: &Image) -> f64 {
+        let feature = &self.features[index];
+        let length = feature.ends[0].distance(feature.ends[1]);
+        let depths = other.keys.map(|key| self.space.depth_of_key(key));
+        let touching = CONTACT * length + feature.weld + 4.0 * self.space.noise;
+        self.space.key_step(depths[0].min(depths[1]), 2.0 * touching)
+    }
+}
+
+/// What ascending ranges, and others before, leave of a part.
+fn gaps(part: [f64; 2], ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut gaps = Vec::new();
+    let mut from = part[0];
+    for range in ranges.iter().filter(|range| range[1] > part[0] && range[0] < part[1]) {
+        if range[0] > from {
+            gaps.push([from, range[0]]);
+        }
+        from = from.max(range[1]);
+    }
+    if from < part[1] {
+        gaps.push([from, part[1]]);
+    }
+    gaps
+}
+
+/// The part of a range in which what is linear along it, and has these values at its ends, is not negative.
+fn above_zero([from, to]: [f64; 2], [start, end]: [f64; 2]) -> Option<[f64; 2]> {
+    match (start >= 0.0, end >= 0.0) {
+        (true, true) => Some([from, to]),
+        (true, false) => Some([from, from + (to - from) * (start / (start - end))]),
+        (false, true) => Some([from + (to - from) * (start / (start - end)), to]),
+        (false, false) => None,
+    }
+}
+
+impl Faces {
+    /// What of a part of a line a face hides for sure, on both sides, and what it may hide.
+    fn hidden_ranges(&self, space: &Space, face: u32, stretch: &Stretch) -> [Option<[f64; 2]>; 2] {
+        const NOTHING: [Option<[f64; 2]>; 2] = [None; 2];
+        let numbers = self.triangles[face as usize];
+        let own_ends = match stretch.own {
+            Own::Faces(own) if own.contains(&face) => return NOTHING,
+            Own::Faces(_) => [u32::MAX; 2],
+            Own::Edge(ends) => ends,
+        };
+        let is_own = numbers.map(|number| own_ends.contains(&number));
+        if is_own.iter().filter(|is_own| **is_own).count() == 2 {
+            return NOTHING;
+        }
+        if !self.cut_by_near.is_empty() && self.cut_by_near.binary_search(&face).is_ok() {
+            return [None, Some(stretch.part)];
+        }
+        let [a, b, c] = self.corners(face);
+        let images = [a, b, c].map(|corner| space.project(corner).0);
+        let area = (images[1] - images[0]).perp_dot(images[2] - images[0]);
+        let reach = images.iter().map(|px| px.abs().max_element()).fold(0.0, f64::max) * 1e-12;
+        let [mut sure, mut may] = [Some(stretch.part); 2];
+        for side in 0..3 {
+            let next = (side + 1) % 3;
+            let (from, along) = (images[side], images[next] - images[side]);
+            let length = along.length();
+            if length <= 2.0 * stretch.touch_px {
+                // No direction to speak of.
+                sure = None;
+                continue;
+            }
+            let sign = area.signum() / length;
+            // A side that begins where the line ends runs beside it as near as one likes.
+            let is_beside = stretch.sought == Sought::Nearer && (is_own[side] || is_own[next]);
+            let margin = if is_beside { 8.0 * stretch.noise_px } else { 2.0 * stretch.touch_px } + reach;
+            let inside = stretch.px.map(|px| along.perp_dot(px - from) * sign);
+            sure = clipped(sure, stretch.part, inside.map(|inside| inside - margin));
+            may = clipped(may, stretch.part, inside.map(|inside| inside + 2.0 * stretch.touch_px + reach));
+            if may.is_none() {
+                return NOTHING;
+            }
+        }
+        if stretch.sought == Sought::Any {
+            return [sure, may];
+        }
+        let normal = (b - a).cross(c - a);
+        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
+        let touching = CONTACT * longest.min(stretch.line_length) + self.weld(numbers[0]).min(stretch.weld);
+        let contact = (touching + 4.0 * space.noise) * normal.length();
+        let away = -normal.dot(space.to_eye(a)).signum();
+        let behind = stretch.view.map(|view| normal.dot(view - a) * away);
+        // Places along the line as places along its image.
+        let depths = stretch.view.map(|view| if space.is_perspective() { -view.z } else { 1.0 });
+        let place = |share: f64| {
+            let far = share * depths[1];
+            stretch.part[0] + (stretch.part[1] - stretch.part[0]) * (far / ((1.0 - share) * depths[0] + far))
+        };
+        let clip = |range: Option<[f64; 2]>, margin: f64| {
+            let behind = above_zero([0.0, 1.0], behind.map(|behind| behind - margin))?.map(place);
+            common(range?, behind)
+        };
+        [clip(sure, 2.0 * contact), clip(may, 0.5 * contact)]
+    }
+}
+
+/// What a range has in common with that part of a whole in which what is linear along it is not negative.
+fn clipped(range: Option<[f64; 2]>, whole: [f64; 2], at_ends: [f64; 2]) -> Option<[f64; 2]> {
+    common(range?, above_zero(whole, at_ends)?)
+}
+
+fn common(first: [f64; 2], second: [f64; 2]) -> Option<[f64; 2]> {
+    let common = [first[0].max(second[0]), first[1].min(second[1])];
+    (common[0] < common[1]).then_some(common)
+}

@@ -1,0 +1,40 @@
+//! The first camera that a glTF file's scene shows.
+
+use super::container;
+use super::nodes::Nodes;
+use crate::camera::CameraSettings;
+use glam::DVec3;
+
+/// The camera of a glTF or GLB file's bytes, in the file's coordinates; `None` if its scene shows none.
+///
+/// # Errors
+///
+/// A sentence without the file's name for what is no such file.
+pub fn camera(file: &[u8]) -> std::result::Result<Option<CameraSettings>, String> {
+    let (json, _) = container::open(file)?;
+    let root = container::parse(json)?;
+    let nodes = Nodes::of(&root)?;
+    let Some((node, camera)) = nodes.shown.iter().find_map(|node| Some((*node, root.nodes[*node].camera?))) else {
+        return Ok(None);
+    };
+    let camera =
+        root.cameras.get(camera.value()).ok_or("its node names a camera that does not exist; export it again")?;
+    let place = nodes.scene_from_node[node];
+    let (eye, backward) = (place.transform_point3(DVec3::ZERO), place.transform_vector3(DVec3::Z).normalize());
+    let distance = if eye.dot(backward) > 0.0 { eye.dot(backward) } else { eye.length().max(1.0) };
+    let settings = CameraSettings {
+        eye: Some(eye),
+        target: Some(eye - backward * distance),
+        up: Some(place.transform_vector3(DVec3::Y)),
+        ..CameraSettings::default()
+    };
+    match (&camera.perspective, &camera.orthographic) {
+        (Some(perspective), _) => {
+            Ok(Some(CameraSettings { fov_y_degrees: f64::from(perspective.yfov).to_degrees(), ..settings }))
+        }
+        (None, Some(orthographic)) => {
+            Ok(Some(CameraSettings { parallel: true, height: Some(2.0 * f64::from(orthographic.ymag)), ..settings }))
+        }
+        (None, None) => Err("its camera is neither perspective nor orthographic; export it again".to_owned()),
+    }
+}

@@ -1,0 +1,158 @@
+//! Styles judged: error against run time, and two styles' lines laid over each other.
+
+use crate::errors::{raised, wrong};
+use crate::mesh::{Mesh, scene};
+use crate::picture::{named, words};
+use crate::request::{Basis, Request};
+use crate::settings::options;
+use crate::studio::drawn;
+use crate::work::done;
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_json::Value;
+use tinta::compare::{Agreement, InkMask};
+use tinta::measure::{MeasureSettings, Setting, Subject};
+use tinta::plan::Submission;
+use tinta::settings::{HasSettings, OptionValue, Options};
+use tinta::{Backend, Error, Result, Scene, SceneSettings, Show, Style, StyleName};
+
+/// Measures settings on meshes together: a row each. Every item of `asked` is a style with its settings.
+#[pyfunction]
+#[pyo3(signature = (meshes, asked, given, frames, tolerance, backend=None))]
+pub(crate) fn measure<'py>(
+    py: Python<'py>,
+    meshes: Vec<Py<Mesh>>,
+    asked: Vec<Bound<'py, PyDict>>,
+    given: &Bound<'py, PyDict>,
+    frames: usize,
+    tolerance: f64,
+    backend: Option<&str>,
+) -> PyResult<Vec<Bound<'py, PyDict>>> {
+    let backend: Backend = named("backend", backend)?;
+    let how = MeasureSettings { tolerance_px: tolerance, frames, ..MeasureSettings::default() };
+    how.check().map_err(raised)?;
+    let settings: Vec<Setting> = match asked.is_empty() {
+        true => {
+            StyleName::lines_first().into_iter().map(|name| of_style(Style::named(name))).collect::<PyResult<_>>()?
+        }
+        false => asked.iter().map(setting).collect::<PyResult<_>>()?,
+    };
+    let request =
+        Request::new("measure", &meshes, given, &Basis { style: Some("three-pass"), look: None, preset: None })?;
+    let subject = done(
+        py,
+        || (),
+        move || {
+            let scene = scene(&meshes, &SceneSettings::from_options(&request.options)?)?;
+            scene.make_arrays();
+            Subject::new(&request.title, scene, 0.0)
+        },
+    )?;
+    let rows = drawn(py, backend, move |renderer| {
+        let (measured, left_out) = tinta::measure::measure(renderer, &subject, &settings, &how, |_| ())?;
+        match left_out.is_empty() {
+            true => Ok(measured),
+            false => Err(Error::setting("settings", left_out.join("; "))),
+        }
+    })?;
+    rows.iter().map(|measured| dictionary(py, tinta::report::record(&measured.row))).collect()
+}
+
+/// A style with its settings, of a dictionary with its name under `style`.
+fn setting(asked: &Bound<'_, PyDict>) -> PyResult<Setting> {
+    let others = asked.copy()?;
+    let name: Option<String> = others.get_item("style")?.map(|name| name.extract()).transpose()?;
+    if name.is_some() {
+        others.del_item("style")?;
+    }
+    let mut options = options("compare", &others)?;
+    options.extend(name.map(|name| ("style".to_owned(), OptionValue::text(name))));
+    of_style(Style::from_options(&options).map_err(raised)?)
+}
+
+fn of_style(style: Style) -> PyResult<Setting> {
+    let is_faithful = style == Style::named(style.name().parse().unwrap_or(StyleName::ThreePass));
+    let mut changed: Options = style.to_options().map_err(raised)?;
+    changed.remove("style");
+    let options = format!("style {} {}", style.name(), words(&changed)).trim_end().to_owned();
+    Ok(Setting { style, submission: Submission::default(), options, is_faithful })
+}
+
+fn dictionary<'py>(py: Python<'py>, row: impl IntoIterator<Item = (String, Value)>) -> PyResult<Bound<'py, PyDict>> {
+    let of_row = PyDict::new(py);
+    for (name, value) in row {
+        of_row.set_item(name, plain(py, value)?)?;
+    }
+    Ok(of_row)
+}
+
+/// A number, a text, or nothing.
+fn plain(py: Python<'_>, value: Value) -> PyResult<Bound<'_, PyAny>> {
+    match value {
+        Value::Number(number) if number.is_u64() => number.as_u64().into_bound_py_any(py),
+        Value::Number(number) => number.as_f64().into_bound_py_any(py),
+        Value::String(text) => text.into_bound_py_any(py),
+        Value::Bool(is_so) => is_so.into_bound_py_any(py),
+        _ => Ok(py.None().into_bound(py)),
+    }
+}
+
+/// Draws meshes together in two styles, and says which lines both drew: the numbers, and the pictures of left, right and lines.
+#[pyfunction]
+#[pyo3(signature = (meshes, given, left, right, tolerance, backend=None))]
+pub(crate) fn compare<'py>(
+    py: Python<'py>,
+    meshes: Vec<Py<Mesh>>,
+    given: &Bound<'py, PyDict>,
+    left: &str,
+    right: &str,
+    tolerance: u32,
+    backend: Option<&str>,
+) -> PyResult<(Bound<'py, PyDict>, Vec<Bound<'py, PyAny>>)> {
+    let backend: Backend = named("backend", backend)?;
+    if tolerance > 64 {
+        return Err(wrong("tolerance", format!("{tolerance} is more than 64 pixels")));
+    }
+    let request = Request::new("compare", &meshes, given, &Basis { style: Some(left), look: None, preset: None })?;
+    let style = |argument: &str, name: &str| -> PyResult<Style> {
+        let mut options = request.options.clone();
+        options.insert("style".to_owned(), OptionValue::text(name));
+        let style = Style::from_options(&options).map_err(raised)?;
+        if !style.name().parse::<StyleName>().is_ok_and(StyleName::has_lines) {
+            let with_lines = StyleName::list_with_lines();
+            return Err(wrong(argument, format!("style {name} has no lines to compare; choose one of {with_lines}")));
+        }
+        Ok(style)
+    };
+    let styles = [style("left", left)?, style("right", right)?];
+    let asked = request.options.clone();
+    let scene: Scene = done(
+        py,
+        || (),
+        move || {
+            let scene = scene(&meshes, &SceneSettings::from_options(&asked)?)?;
+            scene.make_arrays();
+            Ok(scene)
+        },
+    )?;
+    let (pictures, numbers) = drawn(py, backend, move |renderer| {
+        let mut draw =
+            |style: &Style, show| -> Result<tinta::Picture> { renderer.draw(&scene, &style.plan(&scene, show)?) };
+        let [left, right] = &styles;
+        let inks = [draw(left, Show::Borders)?, draw(right, Show::Borders)?].map(|ink| InkMask::of(&ink));
+        let agreement = Agreement::of(&inks[0], &inks[1], tolerance)
+            .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; choose another"))?;
+        let pictures = [draw(left, Show::Final)?, draw(right, Show::Final)?, agreement.picture(scene.size)];
+        Ok((pictures, agreement.numbers))
+    })?;
+    let numbers = match serde_json::to_value(numbers) {
+        Ok(Value::Object(numbers)) => dictionary(py, numbers)?,
+        _ => PyDict::new(py),
+    };
+    let of_pixels = |picture: tinta::Picture| {
+        let shape = [picture.size.height as usize, picture.size.width as usize, 4];
+        crate::arrays::shaped(py, picture.pixels, &shape)
+    };
+    Ok((numbers, pictures.into_iter().map(of_pixels).collect::<PyResult<_>>()?))
+}

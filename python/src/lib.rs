@@ -1,0 +1,45 @@
+//! The Python package `tinta_npr`: a door to the library, as the command line is one.
+//!
+//! In: meshes as arrays, or paths of files, and settings by their names. Out: arrays of lines, SVG, pictures. Everything that
+//! Python says better is said there, in `python/tinta_npr`: what a mesh of another package is, cameras, notebooks. Here are the
+//! loops over the tables of settings (`settings.rs`), arrays (`mesh.rs`, `arrays.rs`), and the threads that work while Python's
+//! others go on (`work.rs`, `studio.rs`).
+//!
+//! All `unsafe` code is what pyo3's macros make of `#[pyclass]` and `#[pyfunction]`.
+
+mod arrays;
+mod edges;
+mod errors;
+mod judging;
+mod lines;
+mod mesh;
+mod picture;
+mod request;
+mod settings;
+mod studio;
+mod work;
+
+/// What Python imports as `tinta_npr._native`.
+#[pyo3::pymodule]
+mod _native {
+    #[pymodule_export]
+    use super::edges::{edges, silhouette};
+    #[pymodule_export]
+    use super::judging::{compare, measure};
+    #[pymodule_export]
+    use super::lines::{Lines, lines};
+    #[pymodule_export]
+    use super::mesh::Mesh;
+    #[pymodule_export]
+    use super::picture::{Picture, png, render, save, write};
+    #[pymodule_export]
+    use super::request::reading;
+    #[pymodule_export]
+    use super::settings::{camera_names, check, documentation, names, settings};
+    #[pymodule_export]
+    use super::studio::close;
+
+    /// The version of the package.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

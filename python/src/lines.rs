@@ -1,0 +1,220 @@
+//! Exact lines: arrays of pieces, layers of paths, SVG, PDF and JSON.
+
+use crate::arrays::{pairs, points, shaped};
+use crate::errors::raised;
+use crate::mesh::{Mesh, scene};
+use crate::request::{Basis, Request, warn};
+use crate::settings::options;
+use crate::work::done;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::sync::Arc;
+use tinta::lines::{GHOST_OPACITY, LineSegment, LineSettings, Progress, drawn_layers, pdf, svg};
+use tinta::record::lines_json;
+use tinta::settings::HasSettings;
+use tinta::{Error, Recipe, Scene, SceneSettings, SvgSettings, VisibleLines};
+
+/// The lines of a scene, as they were found.
+#[pyclass(frozen, module = "tinta_npr._native")]
+pub(crate) struct Lines {
+    lines: Arc<VisibleLines>,
+    scene: Arc<Scene>,
+    request: Request,
+}
+
+/// Finds the lines of meshes together.
+#[pyfunction]
+#[pyo3(signature = (meshes, given, look=None, preset=None))]
+pub(crate) fn lines(
+    py: Python<'_>,
+    meshes: Vec<Py<Mesh>>,
+    given: &Bound<'_, PyDict>,
+    look: Option<&str>,
+    preset: Option<&str>,
+) -> PyResult<Lines> {
+    let request = Request::new("lines", &meshes, given, &Basis { style: None, look, preset })?;
+    let progress = Arc::new(Progress::default());
+    let (watched, asked) = (progress.clone(), request.options.clone());
+    let (lines, scene) = done(
+        py,
+        || progress.cancel(),
+        move || {
+            let svg = SvgSettings::from_options(&asked)?;
+            svg.check()?;
+            let settings = LineSettings { finds_outline: svg.tells_outline(), ..LineSettings::from_options(&asked)? };
+            let scene = scene(&meshes, &SceneSettings::from_options(&asked)?)?;
+            let lines = VisibleLines::with_progress(&scene, &settings, &watched)?;
+            Ok((lines, scene))
+        },
+    )?;
+    if !lines.segments.iter().any(|segment| segment.is_visible) {
+        let nothing = "no line of these classes is visible in this picture; see classes, eye and target";
+        warn(py, &[nothing.to_owned()], 2)?;
+    }
+    Ok(Lines { lines: Arc::new(lines), scene: Arc::new(scene), request })
+}
+
+impl Lines {
+    /// The request with other settings of the drawing.
+    fn asked(&self, given: &Bound<'_, PyDict>) -> PyResult<Request> {
+        let mut request = self.request.clone();
+        request.options.extend(options("Lines.svg", given)?);
+        tinta::settings::refuse_exclusive(&request.options).map_err(raised)?;
+        Ok(request)
+    }
+
+    /// Does something with the lines and the settings of a drawing of them, which `file` is called.
+    fn drawn<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        given: &Bound<'_, PyDict>,
+        file: Option<(&'static str, Option<String>)>,
+        work: impl FnOnce(&VisibleLines, &SvgSettings) -> tinta::Result<T> + Send + 'static,
+    ) -> PyResult<T> {
+        let request = self.asked(given)?;
+        let (lines, scene) = (self.lines.clone(), self.scene.clone());
+        done(
+            py,
+            || (),
+            move || {
+                let asked = SvgSettings::from_options(&request.options)?;
+                if asked.tells_outline() && !lines.segments.iter().any(|segment| segment.is_outline) {
+                    let problem = "outlines are found where lines() is asked for their width or colour; say so there";
+                    return Err(Error::setting("class-widths", problem));
+                }
+                let recipe = file.as_ref().and_then(|_| request.recipe("lines", &scene, None, None));
+                let (name, title) = file.unwrap_or_default();
+                let settings = SvgSettings {
+                    title: title.unwrap_or(request.title),
+                    command: recipe.as_ref().map(|recipe| recipe.command_line(name)).unwrap_or_default(),
+                    recipe: recipe.as_ref().and_then(Recipe::json).unwrap_or_default(),
+                    background: scene.background,
+                    ..asked
+                };
+                work(&lines, &settings)
+            },
+        )
+    }
+}
+
+#[pymethods]
+impl Lines {
+    /// The picture's width and height, pixels.
+    #[getter]
+    fn size(&self) -> (u32, u32) {
+        (self.lines.size.width, self.lines.size.height)
+    }
+
+    /// Every column of the pieces as an array, under its name.
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let of = &self.lines.segments;
+        let arrays = PyDict::new(py);
+        let numbers: Vec<f64> = of.iter().flat_map(|piece| piece.ends_px).flat_map(|end| end.to_array()).collect();
+        arrays.set_item("segments", shaped(py, numbers, &[of.len(), 2, 2])?)?;
+        let edges: Vec<[i64; 2]> =
+            of.iter().map(|piece| piece.edge.map_or([-1; 2], |edge| edge.map(i64::from))).collect();
+        arrays.set_item("edge", pairs(py, &edges)?)?;
+        column(&arrays, "code", of, |piece| piece.class as u8)?;
+        column(&arrays, "visible", of, |piece| piece.is_visible)?;
+        column(&arrays, "outline", of, |piece| piece.is_outline)?;
+        column(&arrays, "angle", of, |piece| piece.angle_degrees.unwrap_or(f64::NAN))?;
+        column(&arrays, "object", of, |piece| piece.object)?;
+        Ok(arrays)
+    }
+
+    /// How many edges there are of each class.
+    fn counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (counts, mut edges) = (PyDict::new(py), self.lines.edges);
+        for (name, class) in tinta::edges::Class::ALL {
+            counts.set_item(name, *edges.of(class))?;
+        }
+        Ok(counts)
+    }
+
+    /// The SVG file's text.
+    #[pyo3(signature = (given, title=None))]
+    fn svg(&self, py: Python<'_>, given: &Bound<'_, PyDict>, title: Option<String>) -> PyResult<String> {
+        self.drawn(py, given, Some(("drawing.svg", title)), svg)
+    }
+
+    /// The PDF file's bytes.
+    #[pyo3(signature = (given, title=None))]
+    fn pdf<'py>(
+        &self,
+        py: Python<'py>,
+        given: &Bound<'py, PyDict>,
+        title: Option<String>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        Ok(PyBytes::new(py, &self.drawn(py, given, Some(("drawing.pdf", title)), pdf)?))
+    }
+
+    /// The JSON file's text: all pieces and the camera.
+    fn json(&self, py: Python<'_>) -> PyResult<String> {
+        let (lines, scene, asked) = (self.lines.clone(), self.scene.clone(), self.request.options.clone());
+        done(
+            py,
+            || (),
+            move || {
+                let settings = SvgSettings::from_options(&asked)?;
+                match settings.min_length {
+                    None => lines_json(&lines, &scene),
+                    Some(_) => lines_json(&lines.without_specks(&settings)?, &scene),
+                }
+            },
+        )
+    }
+
+    /// The drawing as plain values: its layers from the lowest to the highest.
+    fn layers<'py>(&self, py: Python<'py>, given: &Bound<'py, PyDict>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let layers = self.drawn(py, given, None, drawn_layers)?;
+        let described = |drawn: tinta::lines::DrawnLayer| -> PyResult<Bound<'py, PyDict>> {
+            let layer = PyDict::new(py);
+            let [visibility, name] = drawn.layer.words();
+            layer.set_item("name", name)?;
+            layer.set_item("visible", visibility == "visible")?;
+            layer.set_item("color", drawn.color.0)?;
+            layer.set_item("width", drawn.width_px)?;
+            layer.set_item("dash", drawn.dash_px)?;
+            layer.set_item("opacity", if drawn.is_ghost { GHOST_OPACITY } else { 1.0 })?;
+            let mut paths = Vec::new();
+            for path in drawn.paths {
+                let mut all = path.points_px;
+                if path.is_closed {
+                    all.extend(all.first().copied());
+                }
+                paths.push(points(py, &all)?);
+            }
+            layer.set_item("paths", paths)?;
+            Ok(layer)
+        };
+        layers.into_iter().map(described).collect()
+    }
+
+    /// The camera: eye, target, up, and either fov in degrees or height in the mesh's units.
+    fn camera<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        use tinta::camera::Projection;
+        let (camera, of) = (PyDict::new(py), &self.scene.camera);
+        for (name, vector) in [("eye", of.eye), ("target", of.target), ("up", of.up)] {
+            camera.set_item(name, vector.to_array())?;
+        }
+        match of.projection {
+            Projection::Perspective { fov_y_degrees } => camera.set_item("fov", fov_y_degrees)?,
+            Projection::Parallel { height } => {
+                camera.set_item("parallel", true)?;
+                camera.set_item("height", height)?;
+            }
+        }
+        Ok(camera)
+    }
+}
+
+fn column<T: numpy::Element>(
+    arrays: &Bound<'_, PyDict>,
+    name: &str,
+    of: &[LineSegment],
+    value: impl Fn(&LineSegment) -> T,
+) -> PyResult<()> {
+    let values: Vec<T> = of.iter().map(value).collect();
+    let count = values.len();
+    arrays.set_item(name, shaped(arrays.py(), values, &[count])?)
+}

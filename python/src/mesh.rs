@@ -1,0 +1,203 @@
+//! Meshes: arrays or files, read once and drawn often.
+
+use crate::arrays::shaped;
+use crate::errors::{in_python, raised, wrong};
+use crate::request::warn;
+use crate::settings::options;
+use crate::work::done;
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
+use tinta::glam::DVec3;
+use tinta::settings::{HasSettings, Options};
+use tinta::{LoadOptions, Result, Scene, SceneSettings, load};
+
+/// A mesh, read and checked, with what was found out about it when it was drawn.
+#[pyclass(frozen, module = "tinta_npr._native")]
+pub(crate) struct Mesh {
+    pub mesh: Arc<tinta::Mesh>,
+    /// Its file's path as it was given.
+    pub path: Option<String>,
+    /// The settings it was read with.
+    pub options: Options,
+    /// The files that were read besides.
+    pub files: Vec<PathBuf>,
+    remarks: Vec<String>,
+    /// How it was seen first: its arrays and edges are shared by all later views.
+    scene: OnceLock<Scene>,
+}
+
+/// Faces as their corners one after the other.
+struct Corners {
+    indices: Vec<i64>,
+    /// How many each face has; empty for triangles.
+    sizes: Vec<i64>,
+}
+
+impl Corners {
+    /// The face that a corner is of.
+    fn row(&self, corner: usize) -> usize {
+        let mut end = 0;
+        let is_behind = |size: &i64| {
+            end += usize::try_from(*size).unwrap_or(0);
+            end > corner
+        };
+        if self.sizes.is_empty() { corner / 3 } else { self.sizes.iter().position(is_behind).unwrap_or(0) }
+    }
+
+    /// The corners and sizes as the library takes them, or what is wrong and where.
+    fn checked(self, vertices: usize) -> std::result::Result<(Vec<u32>, Vec<u32>), String> {
+        if let Some(row) = self.sizes.iter().position(|size| *size < 3) {
+            return Err(format!("row {row} has {} corners; a face has 3 or more", self.sizes[row]));
+        }
+        let is_there = |index: i64| usize::try_from(index).is_ok_and(|index| index < vertices);
+        if let Some(corner) = self.indices.iter().position(|index| !is_there(*index)) {
+            let (row, index) = (self.row(corner), self.indices[corner]);
+            return Err(format!("row {row} names vertex {index}, but vertices are numbered 0 to {}", vertices - 1));
+        }
+        let counted: i64 = self.sizes.iter().sum();
+        if !self.sizes.is_empty() && counted != self.indices.len() as i64 {
+            return Err(format!("their sizes name {counted} corners, but there are {}", self.indices.len()));
+        }
+        let whole = |numbers: Vec<i64>| numbers.into_iter().map(|number| number as u32).collect();
+        Ok((whole(self.indices), whole(self.sizes)))
+    }
+}
+
+/// Vertices as points, or what is wrong with which.
+fn checked_vertices(numbers: &[f64]) -> std::result::Result<Vec<DVec3>, String> {
+    let (rows, _) = numbers.as_chunks::<3>();
+    match rows.iter().position(|row| !row.iter().all(|number| number.is_finite())) {
+        Some(row) => Err(format!("row {row} is not finite: {:?}", rows[row])),
+        None => Ok(rows.iter().map(|row| DVec3::from_array(*row)).collect()),
+    }
+}
+
+#[pymethods]
+impl Mesh {
+    /// Of arrays that are one piece of memory each; `sizes` are the faces' corners, none for triangles. All are copied before
+    /// anything else can run, and the copies are checked.
+    #[staticmethod]
+    fn of_arrays(
+        py: Python<'_>,
+        vertices: PyReadonlyArray2<'_, f64>,
+        corners: PyReadonlyArray1<'_, i64>,
+        sizes: Option<PyReadonlyArray1<'_, i64>>,
+        name: String,
+        given: &Bound<'_, PyDict>,
+    ) -> PyResult<Self> {
+        let options = options("mesh", given)?;
+        let numbers = vertices.as_array().iter().copied().collect::<Vec<f64>>();
+        let indices = corners.as_array().to_vec();
+        let sizes = sizes.map(|sizes| sizes.as_array().to_vec()).unwrap_or_default();
+        drop(vertices);
+        if numbers.is_empty() {
+            return Err(wrong("vertices", "there are none"));
+        }
+        if indices.is_empty() {
+            return Err(wrong("faces", "there are none"));
+        }
+        let of_mesh = options.clone();
+        let made = done(
+            py,
+            || (),
+            move || {
+                let positions = match checked_vertices(&numbers) {
+                    Ok(positions) => positions,
+                    Err(problem) => return Ok(Err(("vertices", problem))),
+                };
+                match (Corners { indices, sizes }).checked(positions.len()) {
+                    Ok((corners, sizes)) => {
+                        let load = LoadOptions::from_options(&of_mesh)?;
+                        tinta::Mesh::of_polygons(&name, positions, &corners, sizes, &load).map(Ok)
+                    }
+                    Err(problem) => Ok(Err(("faces", problem))),
+                }
+            },
+        )?;
+        let mesh = made.map_err(|(argument, problem)| wrong(argument, problem))?;
+        let remarks =
+            if mesh.defects.is_empty() { Vec::new() } else { vec![format!("{}: {}", mesh.name, mesh.defects)] };
+        Ok(Self::new(mesh, None, options, Vec::new(), remarks))
+    }
+
+    /// Of a file.
+    #[staticmethod]
+    fn of_file(py: Python<'_>, path: String, given: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let options = options("mesh", given)?;
+        let (of_mesh, file) = (options.clone(), path.clone());
+        let loaded = done(py, || (), move || load(&file, &LoadOptions::from_options(&of_mesh)?))?;
+        // Of the file and of the two functions between it and who asks.
+        warn(py, &loaded.remarks, 4)?;
+        Ok(Self::new(loaded.mesh, Some(path), options, loaded.files, loaded.remarks))
+    }
+
+    /// Whether it was read with these settings, those that are not given as by default.
+    fn was_read_with(&self, given: &Bound<'_, PyDict>) -> PyResult<bool> {
+        let read = |options: &Options| LoadOptions::from_options(options).map_err(raised);
+        let mut all = self.options.clone();
+        all.extend(options("mesh", given)?);
+        Ok(read(&all)? == read(&self.options)?)
+    }
+
+    /// How it is named: its file's path, or as it was said.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.mesh.name
+    }
+
+    /// What was noticed while it was read, a sentence each.
+    #[getter]
+    fn remarks(&self) -> Vec<String> {
+        self.remarks.iter().map(|remark| in_python(remark)).collect()
+    }
+
+    /// The vertices that faces use, equal ones once: (N, 3) float64.
+    #[getter]
+    fn vertices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let numbers: Vec<f64> = self.mesh.positions.iter().flat_map(|point| point.to_array()).collect();
+        shaped(py, numbers, &[self.mesh.positions.len(), 3])
+    }
+
+    /// The triangles, counter-clockwise seen from outside: (M, 3) uint32, numbers of `vertices`.
+    #[getter]
+    fn faces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        shaped(py, self.mesh.triangles.as_flattened().to_vec(), &[self.mesh.triangles.len(), 3])
+    }
+
+    fn __repr__(&self) -> String {
+        let (vertices, faces) = (self.mesh.positions.len(), self.mesh.triangles.len());
+        format!("<tinta_npr.Mesh {:?}: {vertices} vertices, {faces} triangles>", self.mesh.name)
+    }
+}
+
+impl Mesh {
+    fn new(
+        mesh: tinta::Mesh,
+        path: Option<String>,
+        options: Options,
+        files: Vec<PathBuf>,
+        remarks: Vec<String>,
+    ) -> Self {
+        Self { mesh: Arc::new(mesh), path, options, files, remarks, scene: OnceLock::new() }
+    }
+}
+
+/// Meshes together as settings show them; a single one keeps what is found out about it for the next time.
+pub(crate) fn scene(meshes: &[Py<Mesh>], settings: &SceneSettings) -> Result<Scene> {
+    let all = || meshes.iter().map(|mesh| mesh.get().mesh.clone());
+    match meshes {
+        [only] if settings.copies == 1 => match only.get().scene.get() {
+            Some(scene) => scene.seen_with(settings),
+            None => {
+                let scene = Scene::new(all(), settings)?;
+                // Another thread may have been here first: then both keep what they find.
+                drop(only.get().scene.set(scene.clone()));
+                Ok(scene)
+            }
+        },
+        _ => Scene::new(all(), settings),
+    }
+}

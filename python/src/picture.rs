@@ -1,0 +1,143 @@
+//! Pictures: styles drawn by OpenGL, and PNG files of them.
+
+use crate::arrays::shaped;
+use crate::errors::{in_python, raised, wrong};
+use crate::mesh::{Mesh, scene};
+use crate::request::{Basis, Request, warn};
+use crate::studio::drawn;
+use crate::work::done;
+use numpy::PyReadonlyArray3;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::path::PathBuf;
+use std::str::FromStr;
+use tinta::picture::Note;
+use tinta::plan::prune::prune;
+use tinta::recipe::KEYWORD;
+use tinta::settings::{HasSettings, OptionValue, Options};
+use tinta::styles::is_ignored;
+use tinta::{Backend, Error, ParseError, Recipe, SceneSettings, Show, Size, Style, Target, TextTarget};
+
+/// A picture as it was drawn: its pixels, handed over once, and the recipe that its PNG file carries.
+#[pyclass(frozen, module = "tinta_npr._native")]
+pub(crate) struct Picture {
+    #[pyo3(get)]
+    pixels: Py<PyAny>,
+    #[pyo3(get)]
+    recipe: Option<String>,
+}
+
+/// Draws meshes together.
+#[pyfunction]
+#[pyo3(signature = (meshes, given, style=None, look=None, preset=None, show=None, backend=None))]
+#[expect(clippy::too_many_arguments, reason = "they are Python's, each with a name")]
+pub(crate) fn render(
+    py: Python<'_>,
+    meshes: Vec<Py<Mesh>>,
+    given: &Bound<'_, PyDict>,
+    style: Option<&str>,
+    look: Option<&str>,
+    preset: Option<&str>,
+    show: Option<&str>,
+    backend: Option<&str>,
+) -> PyResult<Picture> {
+    let mut request = Request::new("render", &meshes, given, &Basis { style, look, preset })?;
+    for (name, value) in [("show", show), ("backend", backend)] {
+        request.options.extend(value.map(|value| (name.to_owned(), OptionValue::text(value))));
+    }
+    let style = Style::from_options(&request.options).map_err(raised)?;
+    let shown: Show = named("show", show)?;
+    let backend: Backend = named("backend", backend)?;
+    warn(py, &ignored(given, style.name())?, 2)?;
+    let asked = request.options.clone();
+    let scene = done(
+        py,
+        || (),
+        move || {
+            let scene = scene(&meshes, &SceneSettings::from_options(&asked)?)?;
+            scene.make_arrays();
+            Ok(scene)
+        },
+    )?;
+    let (picture, recipe, remarks) = drawn(py, backend, move |renderer| {
+        let plan = style.plan(&scene, shown)?;
+        renderer.choose_context(&scene, &plan)?;
+        let pruned = prune(&plan, &scene, &renderer.pruning(1)).plan;
+        let remarks = [style.remarks(&scene), renderer.remarks(&pruned)].concat();
+        let picture = renderer.draw(&scene, &pruned)?;
+        let recipe = request.recipe(style.name(), &scene, Some(&style), Some(renderer.context()));
+        Ok((picture, recipe.as_ref().and_then(Recipe::json), remarks))
+    })?;
+    warn(py, &remarks, 2)?;
+    let shape = [picture.size.height as usize, picture.size.width as usize, 4];
+    Ok(Picture { pixels: shaped(py, picture.pixels, &shape)?.unbind(), recipe })
+}
+
+/// The value of a name, or the default of none.
+pub(crate) fn named<T: FromStr<Err = ParseError> + Default>(argument: &str, name: Option<&str>) -> PyResult<T> {
+    let Some(name) = name else { return Ok(T::default()) };
+    name.parse().map_err(|ParseError(problem)| raised(Error::value(argument, name, problem)))
+}
+
+/// What to say of settings that this style does not have.
+fn ignored(given: &Bound<'_, PyDict>, style: &str) -> PyResult<Vec<String>> {
+    let mut remarks = Vec::new();
+    for key in given.keys() {
+        let key: String = key.extract()?;
+        if is_ignored(&key.replace('_', "-"), &[style]) {
+            remarks.push(format!("{key} has no effect on style {style}; help(tinta_npr.render) says which it is for"));
+        }
+    }
+    Ok(remarks)
+}
+
+/// The PNG file of pixels, (H, W, 4) uint8, with a recipe in it.
+#[pyfunction]
+#[pyo3(signature = (pixels, recipe=None))]
+pub(crate) fn png<'py>(
+    py: Python<'py>,
+    pixels: PyReadonlyArray3<'py, u8>,
+    recipe: Option<String>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let picture = picture_of(&pixels)?;
+    let note = recipe.map(|text| Note { keyword: KEYWORD, text });
+    Ok(PyBytes::new(py, &done(py, || (), move || picture.png_bytes(note.as_ref()))?))
+}
+
+/// Writes the file of pixels that its name's ending says.
+#[pyfunction]
+#[pyo3(signature = (pixels, path, recipe=None))]
+pub(crate) fn save(
+    py: Python<'_>,
+    pixels: PyReadonlyArray3<'_, u8>,
+    path: PathBuf,
+    recipe: Option<String>,
+) -> PyResult<()> {
+    let picture = picture_of(&pixels)?;
+    let is_transparent = picture.pixels.chunks_exact(4).any(|pixel| pixel[3] != u8::MAX);
+    let note = recipe.map(|text| Note { keyword: KEYWORD, text });
+    done(py, || (), move || Target::of_file(&path, is_transparent)?.write_with(&picture, note.as_ref()))
+}
+
+/// Writes a file whole, or leaves what was there as it was.
+#[pyfunction]
+pub(crate) fn write(py: Python<'_>, path: String, content: Vec<u8>) -> PyResult<()> {
+    done(py, || (), move || TextTarget::check(&path)?.write_bytes(&content))
+}
+
+/// A copy of pixels.
+pub(crate) fn picture_of(pixels: &PyReadonlyArray3<'_, u8>) -> PyResult<tinta::Picture> {
+    let array = pixels.as_array();
+    let (height, width, channels) = array.dim();
+    let side = |length: usize| u32::try_from(length).ok().filter(|length| *length > 0);
+    let (Some(width), Some(height), 4) = (side(width), side(height), channels) else {
+        return Err(wrong("pixels", format!("their shape is ({height}, {width}, {channels}); give (H, W, 4)")));
+    };
+    Ok(tinta::Picture { size: Size { width, height }, pixels: array.iter().copied().collect() })
+}
+
+/// Settings as the command line says them.
+pub(crate) fn words(options: &Options) -> String {
+    let words = options.iter().flat_map(|(name, value)| tinta::recipe::option_words(name, value));
+    in_python(&words.map(|word| tinta::shell::quoted(&word)).collect::<Vec<_>>().join(" "))
+}

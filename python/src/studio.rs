@@ -1,0 +1,107 @@
+//! The thread that draws: OpenGL's contexts belong to the thread that opened them, and Python's threads come and go. One thread
+//! keeps the contexts, their programs and what they hold of meshes, and draws for all others, one picture after another.
+
+use crate::errors::raised;
+use crate::work::wait;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Sender, channel, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use tinta::{Backend, Error, Renderer, Result};
+
+/// The contexts that are open.
+type Renderers = Vec<(Backend, Renderer)>;
+
+/// Something to be done with them.
+type Job = Box<dyn FnOnce(&mut Renderers) + Send>;
+
+struct Studio {
+    /// A process that was forked from this one has the value and not the thread.
+    process: u32,
+    jobs: Sender<Job>,
+    thread: JoinHandle<()>,
+}
+
+static STUDIO: Mutex<Option<Studio>> = Mutex::new(None);
+
+impl Studio {
+    fn open() -> std::io::Result<Self> {
+        let (jobs, receiver) = channel::<Job>();
+        let work = move || {
+            let mut renderers = Renderers::new();
+            while let Ok(job) = receiver.recv() {
+                job(&mut renderers);
+            }
+        };
+        let thread = std::thread::Builder::new().name("tinta-studio".to_owned()).spawn(work)?;
+        Ok(Self { process: std::process::id(), jobs, thread })
+    }
+}
+
+/// Draws with this way to OpenGL and returns what comes of it; given up as [`crate::work::done`] does.
+pub(crate) fn drawn<T: Send + 'static>(
+    py: Python<'_>,
+    backend: Backend,
+    work: impl FnOnce(&mut Renderer) -> Result<T> + Send + 'static,
+) -> PyResult<T> {
+    let (sender, receiver) = sync_channel(1);
+    let is_cancelled = Arc::new(AtomicBool::new(false));
+    let cancelled = is_cancelled.clone();
+    let job: Job = Box::new(move |renderers| {
+        if cancelled.load(Ordering::Relaxed) {
+            return;
+        }
+        let result = opened(renderers, backend).and_then(work);
+        if matches!(result, Err(Error::ContextLost { .. })) {
+            renderers.clear();
+        }
+        // Nobody may wait any more.
+        drop(sender.send(result));
+    });
+    submit(job)?;
+    wait(py, receiver, || is_cancelled.store(true, Ordering::Relaxed))
+}
+
+fn opened(renderers: &mut Renderers, backend: Backend) -> Result<&mut Renderer> {
+    let place = match renderers.iter().position(|(known, _)| *known == backend) {
+        Some(place) => place,
+        None => {
+            renderers.push((backend, Renderer::new(backend)?));
+            renderers.len() - 1
+        }
+    };
+    Ok(&mut renderers[place].1)
+}
+
+/// Hands a job to the thread, which is started for the first one, and again where it has died.
+fn submit(job: Job) -> PyResult<()> {
+    let mut studio = STUDIO.lock().unwrap_or_else(PoisonError::into_inner);
+    if studio.as_ref().is_some_and(|studio| studio.process != std::process::id()) {
+        return Err(PyRuntimeError::new_err(
+            "this process was forked from one that had drawn, and OpenGL does not bear that; start it with \
+             multiprocessing.get_context(\"spawn\")",
+        ));
+    }
+    if studio.as_ref().is_none_or(|studio| studio.thread.is_finished()) {
+        let opened = Studio::open();
+        let problem = |error| PyRuntimeError::new_err(format!("no thread can be started ({error}); try again later"));
+        *studio = Some(opened.map_err(problem)?);
+    }
+    match &*studio {
+        Some(studio) if studio.jobs.send(job).is_ok() => Ok(()),
+        _ => Err(raised(Error::Cancelled)),
+    }
+}
+
+/// Ends the thread, and with it the contexts: Python calls this before it ends, and the driver before its own end.
+#[pyfunction]
+pub(crate) fn close(py: Python<'_>) {
+    let studio = STUDIO.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let Some(studio) = studio.filter(|studio| studio.process == std::process::id()) else { return };
+    let Studio { jobs, thread, .. } = studio;
+    drop(jobs);
+    // A job that panicked has said so.
+    py.detach(|| drop(thread.join()));
+}

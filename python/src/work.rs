@@ -1,0 +1,46 @@
+//! Work on a thread of its own while Python's other threads go on, given up when Ctrl-C is pressed.
+
+use crate::errors::raised;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::{PyResult, Python};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::time::Duration;
+use tinta::Result;
+
+/// How often a waiting thread asks Python for signals.
+const GLANCE: Duration = Duration::from_millis(50);
+
+/// Does the work and returns what comes of it. Where a signal raises an exception that is raised at once: `cancel` asks the work
+/// to end, and what it still does nobody waits for.
+pub(crate) fn done<T: Send + 'static>(
+    py: Python<'_>,
+    cancel: impl Fn(),
+    work: impl FnOnce() -> Result<T> + Send + 'static,
+) -> PyResult<T> {
+    let (sender, receiver) = sync_channel(1);
+    let thread = std::thread::Builder::new().name("tinta".to_owned());
+    // Nobody may wait any more.
+    let started = thread.spawn(move || drop(sender.send(work())));
+    started.map_err(|error| PyRuntimeError::new_err(format!("no thread can be started ({error}); try again later")))?;
+    wait(py, receiver, cancel)
+}
+
+/// Waits for what another thread sends.
+pub(crate) fn wait<T: Send>(py: Python<'_>, receiver: Receiver<Result<T>>, cancel: impl Fn()) -> PyResult<T> {
+    let mut receiver = receiver;
+    loop {
+        let answer;
+        (receiver, answer) = py.detach(move || {
+            let answer = receiver.recv_timeout(GLANCE);
+            (receiver, answer)
+        });
+        match answer {
+            Ok(result) => return result.map_err(raised),
+            Err(RecvTimeoutError::Timeout) => py.check_signals().inspect_err(|_| cancel())?,
+            Err(RecvTimeoutError::Disconnected) => {
+                let problem = "the work ended without an answer; this is a bug in tinta: report it with the mesh";
+                return Err(PyRuntimeError::new_err(problem));
+            }
+        }
+    }
+}

@@ -1,0 +1,190 @@
+"""Lines whose places, classes and visibility are known otherwise."""
+
+import itertools
+
+import numpy as np
+import pytest
+import tinta_npr as tn
+
+ISO = {"view": "iso", "parallel": True, "size": 400}
+
+
+def pixels_from_world(camera, size, points):
+    """Where a camera of ours shows points, computed here once more."""
+    eye, target, up = (np.array(camera[name]) for name in ("eye", "target", "up"))
+    back = (eye - target) / np.linalg.norm(eye - target)
+    right = np.cross(up, back)
+    right /= np.linalg.norm(right)
+    up = np.cross(back, right)
+    seen = (points - eye) @ np.array([right, up, back]).T
+    width, height = size
+    if "height" in camera:
+        scale = height / camera["height"]
+        return np.column_stack([width / 2 + seen[:, 0] * scale, height / 2 - seen[:, 1] * scale]), -seen[:, 2]
+    scale = height / 2 / np.tan(np.radians(camera["fov"] / 2)) / -seen[:, 2]
+    return np.column_stack([width / 2 + seen[:, 0] * scale, height / 2 - seen[:, 1] * scale]), -seen[:, 2]
+
+
+@pytest.mark.parametrize("view", [{"parallel": True}, {"fov": 50}])
+def test_a_cube_has_nine_visible_edges_where_they_belong(cube, view):
+    vertices, faces = cube
+    lines = tn.lines(vertices, faces, view=(30, 20), size=(400, 300), **view)
+    places, _ = pixels_from_world(lines.camera, lines.size, vertices)
+    pairs = {tuple(sorted(pair)) for face in faces.tolist() for pair in zip(face, face[1:] + face[:1])}
+    assert len(pairs) == 12 and {tuple(edge) for edge in lines.edge.tolist()} == pairs
+    assert (np.abs(lines.angle - 90) < 1e-9).all() and set(lines.object) == {0}
+    for pair in pairs:
+        of_it = (lines.edge == pair).all(axis=1)
+        ends = lines.segments[of_it].reshape(-1, 2)
+        # From one vertex to the other, whichever comes first.
+        for place in places[list(pair)]:
+            assert np.linalg.norm(ends - place, axis=1).min() < 1e-6
+        length = np.linalg.norm(np.diff(lines.segments[of_it], axis=1)[:, 0], axis=1).sum()
+        assert length == pytest.approx(np.linalg.norm(np.diff(places[list(pair)], axis=0)), abs=1e-6)
+        assert len(set(lines.visible[of_it].tolist())) == 1
+    seen = {tuple(edge) for edge in lines.edge[lines.visible].tolist()}
+    hidden = pairs - seen
+    assert len(hidden) == 3 and len(set.intersection(*map(set, hidden))) == 1, "three that meet at the far corner"
+    assert lines.counts["silhouette"] == 6 and lines.counts["crease"] == 6
+    assert len(lines["silhouette"]) + len(lines["crease"]) == lines.visible.sum()
+    assert len(lines.hidden) == (~lines.visible).sum() == 3
+    assert lines.select("crease", visible=None).shape[1:] == (2, 2)
+    with pytest.raises(KeyError, match="there is no class creases"):
+        lines["creases"]
+
+
+def torus(rings=24, sides=12):
+    around, across = np.meshgrid(np.arange(rings) * 2 * np.pi / rings, np.arange(sides) * 2 * np.pi / sides, indexing="ij")
+    vertices = np.stack(
+        [(2 + np.cos(across)) * np.cos(around), np.sin(across), -(2 + np.cos(across)) * np.sin(around)], axis=-1
+    ).reshape(-1, 3)
+    number = lambda ring, side: ring % rings * sides + side % sides
+    squares = [
+        (number(i, j), number(i, j + 1), number(i + 1, j + 1), number(i + 1, j)) for i in range(rings) for j in range(sides)
+    ]
+    triangles = [corners for a, b, c, d in squares for corners in ((a, b, c), (a, c, d))]
+    return vertices, np.array(triangles)
+
+
+def test_the_silhouette_of_a_torus_is_where_front_meets_back():
+    vertices, faces = torus()
+    eye = np.array([3.1, 4.2, 7.3])
+    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+    is_front = np.einsum("ij,ij->i", np.cross(b - a, c - a), eye - a) > 0
+    sides = {}
+    for face, corners in enumerate(faces.tolist()):
+        for pair in itertools.combinations(sorted(corners), 2):
+            sides.setdefault(pair, []).append(is_front[face])
+    expected = {pair for pair, (one, other) in sides.items() if one != other}
+    assert len(expected) > 40
+    assert {tuple(pair) for pair in np.sort(tn.silhouette(vertices, eye, faces), axis=1).tolist()} == expected
+    mesh = tn.mesh(vertices, faces)
+    assert {tuple(pair) for pair in np.sort(tn.silhouette(mesh, eye), axis=1).tolist()} == expected
+    far = tn.silhouette(mesh, eye * 1e6)
+    assert sorted(map(tuple, far.tolist())) == sorted(map(tuple, tn.silhouette(mesh, eye, direction=True).tolist()))
+
+
+def test_what_of_a_torus_is_hidden_has_a_face_before_it():
+    vertices, faces = torus()
+    lines = tn.lines(vertices, faces, classes="silhouette", view=(20, 35), parallel=True)
+    camera = lines.camera
+    _, depths = pixels_from_world(camera, lines.size, vertices)
+    places, _ = pixels_from_world(camera, lines.size, vertices)
+    triangles, near = places[faces], depths[faces]
+    judged = 0
+    for piece, edge, is_seen in zip(lines.segments, lines.edge, lines.visible):
+        middle = piece.mean(axis=0)
+        if np.linalg.norm(piece[1] - piece[0]) < 1e-3:
+            continue
+        along = places[edge[1]] - places[edge[0]]
+        share = (middle - places[edge[0]]) @ along / (along @ along)
+        depth = depths[edge[0]] + share * (depths[edge[1]] - depths[edge[0]])
+        one, two = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+        area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+        from_first = middle - triangles[:, 0]
+        u = (from_first[:, 0] * two[:, 1] - from_first[:, 1] * two[:, 0]) / area
+        v = (one[:, 0] * from_first[:, 1] - one[:, 1] * from_first[:, 0]) / area
+        inner = np.minimum(np.minimum(u, v), 1 - u - v)
+        before = depth - (near[:, 0] + u * (near[:, 1] - near[:, 0]) + v * (near[:, 2] - near[:, 0]))
+        if is_seen:
+            assert not ((inner > 1e-6) & (before > 1e-6)).any()
+        else:
+            assert ((inner > -1e-9) & (before > 1e-9)).any()
+        judged += 1
+    assert judged > 60 and 0 < lines.visible.sum() < len(lines)
+
+
+def test_quads_and_polygons_go_the_way_of_files(cube):
+    vertices, faces = cube
+    ragged = [list(face) for face in faces[:5].tolist()] + [[1, 5, 7], [1, 7, 3]]
+    assert tn.mesh(vertices, ragged).faces.shape == tn.mesh(vertices, faces).faces.shape == (12, 3)
+    whole, cut = tn.lines(vertices, faces, **ISO), tn.lines(vertices, ragged, **ISO)
+    assert (whole.segments == cut.segments).all()
+    assert tn.mesh(vertices.tolist(), faces.tolist()).vertices.shape == (8, 3)
+    assert tn.mesh(vertices.astype(np.float32), faces.astype(np.uint8)).faces.dtype == np.uint32
+
+
+def test_several_meshes_are_one_scene(cube):
+    vertices, faces = cube
+    near, far = tn.mesh(vertices + (0, 0, 3), faces), tn.mesh(vertices, faces)
+    lines = tn.lines([near, far], view="front", parallel=True)
+    assert set(lines.object.tolist()) == {0, 1}
+    assert lines.visible[lines.object == 0].any() and not lines.visible[lines.object == 1].any(), "behind the other"
+
+
+def test_edges_have_their_classes_and_faces(cube):
+    vertices, faces = cube
+    edges = tn.edges(vertices, faces[:5])
+    assert sorted(set(edges.cls.tolist())) == ["boundary", "crease"] and len(edges) == 12
+    assert ((edges.faces[edges.cls == "boundary"] >= 0).sum(axis=1) == 1).all()
+    assert len(tn.edges(vertices, faces, crease_angle=91)) == 0
+    assert len(tn.edges(vertices, faces, classes="boundary")) == 0
+
+
+def test_a_mesh_is_read_once_and_seen_often(cube):
+    mesh = tn.mesh(*cube, name="cube")
+    assert mesh.name == "cube" and repr(mesh) == '<tinta_npr.Mesh "cube": 8 vertices, 12 triangles>'
+    for view in ("front", "iso", "top", (12, 34)):
+        assert tn.lines(mesh, view=view).svg() == tn.lines(*cube, name="cube", view=view).svg()
+    assert tn.render(mesh, size=64).shape == (64, 64, 4)
+    with pytest.raises(ValueError, match="^weld: this Mesh has been read already"):
+        tn.lines(mesh, weld=0.001)
+    assert len(tn.lines(mesh, weld=None)) > 0
+
+
+def test_layers_are_the_drawing(cube):
+    lines = tn.lines(*cube, hidden="dashed", class_colors={"crease": (0, 0, 1), "hidden": "red"}, line_width=3)
+    layers = lines.layers()
+    assert [layer["visible"] for layer in layers] == sorted(layer["visible"] for layer in layers), "hidden ones below"
+    names = {(layer["name"], layer["visible"]) for layer in layers}
+    assert names == {("crease", False), ("crease", True), ("silhouette", True)}
+    hidden, crease = layers[0], next(layer for layer in layers if layer["visible"] and layer["name"] == "crease")
+    assert hidden["color"] == [1, 0, 0] and hidden["width"] == 1.5 and hidden["dash"] == [9.0, 7.5]
+    assert crease["color"] == [0, 0, 1] and crease["width"] == 3 and crease["dash"] is None
+    assert all(path.shape[1] == 2 and path.dtype == np.float64 for layer in layers for path in layer["paths"])
+    outline = next(layer for layer in layers if layer["name"] == "silhouette")["paths"]
+    assert len(outline) == 1 and (outline[0][0] == outline[0][-1]).all(), "closed"
+    assert len(lines.layers(hidden="none")) == 2
+
+
+def test_a_notebook_shows_lines_and_pictures(cube):
+    assert tn.lines(*cube)._repr_svg_().startswith("<?xml")
+    picture = tn.render(*cube, size=32)
+    assert picture._repr_png_().startswith(b"\x89PNG") and picture[0]._repr_png_() is None
+    picture.save("cube.png")
+    picture.save("cube.jpg")
+    with open("cube.png", "rb") as file:
+        assert file.read() == picture.png()
+
+
+def test_styles_are_measured_and_compared(cube):
+    rows = tn.measure(*cube, styles=["ink", {"style": "three-pass", "filter": "sobel"}], frames=1, size=96)
+    assert [row["style"] for row in rows] == ["ink", "three-pass"] and rows[1]["options"] == "style three-pass filter sobel"
+    assert all(0 < row["f1"] <= 1 and row["median_ms"] > 0 and row["width_px"] == 96 for row in rows)
+    comparison = tn.compare(*cube, left="ink", right="inking", size=96)
+    numbers = comparison.numbers
+    assert comparison.left.shape == comparison.right.shape == comparison.lines.shape == (96, 96, 4)
+    colors, counts = np.unique(comparison.lines.reshape(-1, 4), axis=0, return_counts=True)
+    count = dict(zip(map(tuple, colors.tolist()), counts.tolist()))
+    assert count.get((213, 94, 0, 255), 0) == numbers["only_left_px"]
+    assert count.get((0, 114, 178, 255), 0) == numbers["only_right_px"]

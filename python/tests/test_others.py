@@ -1,0 +1,198 @@
+"""Meshes and cameras of the real libraries."""
+
+import numpy as np
+import pytest
+import tinta_npr as tn
+
+
+def bounds(points):
+    return np.array([points.min(axis=0), points.max(axis=0)])
+
+
+class TestTrimesh:
+    trimesh = pytest.importorskip("trimesh")
+
+    def test_a_mesh_is_its_arrays(self):
+        ball = self.trimesh.creation.icosphere(subdivisions=2)
+        assert tn.lines(ball).svg() == tn.lines(ball.vertices, ball.faces).svg()
+        edges = tn.silhouette(ball, (0, 0, 9))
+        assert edges.max() < len(ball.vertices)
+
+    def test_a_scene_has_its_meshes_at_their_places_and_its_camera(self):
+        box = self.trimesh.creation.box()
+        scene = self.trimesh.Scene([box, box.copy().apply_translation((3, 0, 0))])
+        lines = tn.lines(scene, camera=scene)
+        assert set(lines.object.tolist()) == {0, 1}
+        expected = np.linalg.inv(scene.camera_transform)
+        assert np.allclose(lines.camera["eye"], scene.camera_transform[:3, 3]) and np.isfinite(expected).all()
+        assert lines.camera["fov"] == pytest.approx(scene.camera.fov[1])
+
+
+class TestMeshio:
+    meshio = pytest.importorskip("meshio")
+
+    def test_triangles_and_quads(self, cube):
+        vertices, faces = cube
+        mesh = self.meshio.Mesh(vertices, [("quad", faces[:4]), ("triangle", [[0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])])
+        assert (tn.lines(mesh).segments == tn.lines(vertices, [*faces[:4].tolist(), [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]).segments).all()
+
+    @pytest.mark.parametrize(
+        "kind, points, faces",
+        [
+            ("tetra", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], 4),
+            ("hexahedron", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)], 12),
+            ("wedge", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)], 8),
+            ("pyramid", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 1)], 6),
+        ],
+    )
+    def test_volumes_are_seen_from_outside(self, kind, points, faces):
+        points = np.array(points, float)
+        mesh = tn.mesh(self.meshio.Mesh(points, [(kind, [list(range(len(points)))])]))
+        a, b, c = (mesh.vertices[mesh.faces[:, corner]] for corner in range(3))
+        outwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), a - points.mean(axis=0))
+        assert len(mesh.faces) == faces and (outwards > 0).all()
+        assert not (tn.edges(mesh, crease_angle=1).cls == "boundary").any(), "closed"
+
+    def test_faces_between_two_cells_are_not_seen(self):
+        points = np.array([(x, y, z) for x in (0.0, 1, 2) for y in (0.0, 1) for z in (0.0, 1)])
+        cell = np.array([0, 4, 6, 2, 1, 5, 7, 3])
+        mesh = tn.mesh(self.meshio.Mesh(points, [("hexahedron", [cell, cell + 4])]))
+        assert len(mesh.faces) == 20
+        with pytest.raises(ValueError, match="cells: none of them has a face .*line"):
+            tn.lines(self.meshio.Mesh(points, [("line", [[0, 1]])]))
+
+
+class TestPyVista:
+    pv = pytest.importorskip("pyvista")
+
+    def test_surfaces_are_their_arrays(self):
+        ball = self.pv.Sphere(theta_resolution=20, phi_resolution=20)
+        assert (tn.lines(ball).segments == tn.lines(ball.points, ball.regular_faces).segments).all()
+        mixed = self.pv.Cylinder(resolution=7)
+        mesh = tn.mesh(mixed)
+        assert len(mesh.faces) == 7 * 2 + 2 * 5
+        assert len(tn.edges(mesh, crease_angle=30)) == 7 * 3
+
+    def test_volumes_and_blocks(self):
+        grid = self.pv.ImageData(dimensions=(3, 3, 3))
+        assert len(tn.mesh(grid).faces) == 6 * 4 * 2
+        assert len(tn.mesh(grid.cast_to_unstructured_grid()).faces) == 6 * 4 * 2
+        blocks = self.pv.MultiBlock([self.pv.Cube(), self.pv.Cube(center=(3, 0, 0))])
+        assert set(tn.lines(blocks, view="iso").object.tolist()) == {0, 1}
+
+    @pytest.mark.parametrize("is_parallel", [False, True])
+    def test_a_plotters_camera_shows_points_where_vtk_does(self, is_parallel):
+        import vtk
+
+        cube = self.pv.Cube()
+        plotter = self.pv.Plotter(off_screen=True, window_size=(400, 300))
+        plotter.add_mesh(cube)
+        plotter.camera.position, plotter.camera.focal_point, plotter.camera.up = (3, 2.5, 2), (0.1, 0, 0), (0, 0, 1)
+        plotter.camera.parallel_projection = is_parallel
+        plotter.camera.parallel_scale = 1.3
+        plotter.camera.is_set = True
+        lines = tn.pv.lines(plotter)
+        matrix = plotter.camera.GetCompositeProjectionTransformMatrix(400 / 300, -1, 1)
+        clip = np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
+        points = np.column_stack([cube.points, np.ones(cube.n_points)]) @ clip.T
+        places = np.column_stack([(points[:, 0] / points[:, 3] + 1) * 200, (1 - points[:, 1] / points[:, 3]) * 150])
+        ends = lines.segments.reshape(-1, 2)
+        assert np.linalg.norm(ends[None] - places[:, None], axis=2).min(axis=1).max() < 1e-3, vtk.vtkVersion().GetVTKVersion()
+        # VTK's own matrix is a camera too.
+        again = tn.lines(cube, camera=clip, size=(400, 300))
+        assert np.abs(np.sort(again.segments.ravel()) - np.sort(lines.segments.ravel())).max() < 1e-3
+        plotter.close()
+
+    def test_what_a_plotter_shows_is_exported(self):
+        plotter = self.pv.Plotter(off_screen=True, window_size=(320, 240))
+        plotter.add_mesh(self.pv.Cube())
+        moved = plotter.add_mesh(self.pv.Cube())
+        moved.position = (0, 2, 0)
+        away = plotter.add_mesh(self.pv.Sphere())
+        away.visibility = False
+        plotter.add_mesh(self.pv.PolyData(np.random.default_rng(1).normal(size=(5, 3))))
+        plotter.view_isometric()
+        lines = tn.pv.lines(plotter)
+        assert set(lines.object.tolist()) == {0, 1} and lines.size == (320, 240)
+        tn.pv.export_svg(plotter, "scene.svg", hidden="dashed")
+        with open("scene.svg") as file:
+            text = file.read()
+        assert text.count("<g id=") >= 3 and 'width="320"' in text
+        plotter.close()
+
+    def test_a_plotter_that_was_never_shown_is_seen_as_when_it_will_be(self):
+        plotter = self.pv.Plotter(off_screen=True, window_size=(300, 300))
+        plotter.add_mesh(self.pv.Cube(x_length=3))
+        camera = tn.pv.lines(plotter).camera
+        plotter.show(auto_close=False)
+        assert np.allclose(camera["eye"], plotter.camera.position) and camera["fov"] == plotter.camera.view_angle
+        plotter.close()
+        with pytest.raises(ValueError, match="plotter: it shows no surface"):
+            tn.pv.lines(self.pv.Plotter(off_screen=True))
+
+
+class TestMatplotlib:
+    matplotlib = pytest.importorskip("matplotlib")
+
+    @pytest.fixture(autouse=True)
+    def without_a_display(self):
+        self.matplotlib.use("agg")
+        # So that a file is read as it is.
+        self.matplotlib.rcParams["pdf.compression"] = 0
+        import matplotlib.pyplot as plt
+
+        self.plt = plt
+        yield
+        plt.close("all")
+        self.matplotlib.rcdefaults()
+
+    def vectors(self, pdf):
+        """How many lines a PDF file draws, and whether a picture is in it."""
+        with open(pdf, "rb") as file:
+            content = file.read()
+        return content.count(b" l\n"), b"/Subtype /Image" in content
+
+    def test_a_drawing_in_plain_axes_is_vectors(self, cube):
+        figure, ax = self.plt.subplots()
+        ax.set_axis_off()
+        figure.savefig("empty.pdf")
+        collection = tn.mpl.draw(ax, *cube, hidden="dashed", extent=(0, 2, 0, 2))
+        figure.savefig("cube.pdf")
+        (before, _), (count, is_picture) = self.vectors("empty.pdf"), self.vectors("cube.pdf")
+        assert count - before >= 12 - len(collection.get_paths()) + 3 and not is_picture
+        assert collection in ax.collections and all((path.vertices >= 0).all() and (path.vertices <= 2).all() for path in collection.get_paths())
+        lines = tn.lines(*cube, hidden="dashed")
+        assert len(collection.get_paths()) == sum(len(layer["paths"]) for layer in lines.layers())
+        assert len({str(style) for style in collection.get_linestyles()}) == 2
+
+    @pytest.mark.parametrize("projection", ["persp", "ortho"])
+    @pytest.mark.parametrize("limits", [(-1, 2), (-1, 5)], ids=["even", "uneven"])
+    def test_lines_in_3d_axes_lie_where_matplotlib_projects_them(self, cube, projection, limits):
+        from mpl_toolkits.mplot3d import proj3d
+
+        vertices, faces = cube
+        figure = self.plt.figure(figsize=(4, 3))
+        ax = figure.add_subplot(projection="3d", proj_type=projection)
+        ax.set(xlim=(-1, 2), ylim=limits, zlim=(-1, 2))
+        collection = tn.mpl.draw(ax, vertices, faces, crease_angle=1)
+        for azimuth in (-60, 25):
+            ax.view_init(elev=20, azim=azimuth, roll=10)
+            figure.savefig("cube3d.pdf")
+            x, y, _ = proj3d.proj_transform(*vertices.T, ax.get_proj())
+            ends = np.concatenate([path.vertices for path in collection.get_paths()])
+            distances = np.linalg.norm(ends[None] - np.column_stack([x, y])[:, None], axis=2).min(axis=1)
+            seen = distances < 1e-6
+            assert seen.sum() == 7, "all corners but the one behind"
+            assert (bounds(ends) - bounds(np.column_stack([x, y])) < 1e-6).all()
+        assert not self.vectors("cube3d.pdf")[1]
+
+    def test_a_camera_is_the_axes_own(self, cube):
+        figure = self.plt.figure()
+        ax = figure.add_subplot(projection="3d")
+        ax.set(xlim=(0, 1), ylim=(0, 1), zlim=(0, 1), aspect="equal")
+        lines = tn.lines(*cube, camera=ax)
+        assert lines.size == (round(ax.bbox.width * 72 / figure.dpi + 0.5), round(ax.bbox.height * 72 / figure.dpi + 0.5)) or lines.size[0] > 100
+        with pytest.raises(ValueError, match="camera: 3-D axes have a camera"):
+            tn.mpl.draw(ax, *cube, camera="iso")
+        with pytest.raises(TypeError, match="camera: give"):
+            tn.lines(*cube, camera=figure)

@@ -1,0 +1,291 @@
+"""Exact visible lines and cartoons of meshes.
+
+    import tinta_npr
+
+    tinta_npr.lines(mesh).save("mesh.svg")          # vectors with right occlusion; no OpenGL, no display
+    tinta_npr.render(mesh).save("mesh.png")         # a picture in ink, drawn off-screen by OpenGL
+    tinta_npr.pv.export_svg(plotter, "scene.svg")   # what a PyVista plotter shows
+    tinta_npr.mpl.draw(ax, mesh)                    # into matplotlib's axes, as vectors
+
+A mesh is a pair of arrays (vertices, faces), the path of a model file, or an object of trimesh, PyVista or meshio.
+"""
+
+import atexit as _atexit
+
+from . import _native
+from ._camera import settings_of as _camera_settings
+from ._mesh import meshes_of as _meshes_of
+from ._results import Comparison, Edges, Lines, Picture
+
+__version__ = _native.VERSION
+
+#: Classes of lines, in the order of ``Class``: an edge of several is drawn as the first.
+CLASSES = tuple(_native.names("class"))
+#: Names of styles, of which `render` draws one.
+STYLES = tuple(_native.names("style"))
+#: Names of looks: a style with settings that suit one another.
+LOOKS = tuple(_native.names("look"))
+
+Mesh = _native.Mesh
+
+__all__ = [
+    "CLASSES", "LOOKS", "STYLES", "Comparison", "Edges", "Lines", "Mesh", "Picture",
+    "compare", "edges", "lines", "measure", "mesh", "render", "silhouette",
+]
+
+# The driver ends after the contexts, which end here.
+_atexit.register(_native.close)
+
+
+def mesh(mesh, faces=None, *, name=None, **settings):
+    """Read a mesh once, to be drawn often.
+
+    Parameters
+    ----------
+    mesh : array_like (N, 3), path or object
+        Vertices in units of your choice; or a model file (OBJ, PLY, STL, MD2, 3DS, glTF) or ``"builtin:bust"``; or an object
+        with ``vertices`` and ``faces`` (trimesh), or with ``points`` and cells (PyVista, meshio).
+    faces : array_like (M, k) of int, or a list of lists, optional
+        With `mesh` as vertices: each face's corners, counter-clockwise seen from outside; 3 or more.
+    name : str, optional
+        What errors and drawings call it.
+
+    Returns
+    -------
+    Mesh
+        To be given to every other function instead of the same mesh.
+
+    Settings
+    --------
+    """
+    return _one(mesh, faces, name, settings, "mesh")
+
+
+def lines(mesh, faces=None, *, camera=None, look=None, preset=None, name=None, **settings):
+    """Find the visible and the hidden lines of a mesh, exactly, in float64.
+
+    Needs neither OpenGL nor a display. Ctrl-C stops it; other threads go on meanwhile.
+
+    Parameters
+    ----------
+    mesh, faces, name
+        As in `tinta_npr.mesh`; a list of meshes makes one scene.
+    camera : optional
+        A view's name (``"iso"``, ``"front"``, ``"top"`` …) or ``(azimuth, elevation)`` in degrees; a dict of the settings under
+        Camera, such as ``{"eye": (3, 2, 5), "target": (0, 0, 0), "fov": 30}``; ``plotter.camera`` of PyVista; a `trimesh.Scene`;
+        matplotlib's `Axes3D`; a matrix from world to pixels (3, 4) or to OpenGL's clip space (4, 4). By default the whole mesh
+        is seen from (30, 15). A matrix that no camera of ours has (a principal point off the middle, oblong pixels) moves the
+        vertices instead, and angles of creases are measured there.
+    look : {"technical"}, optional
+        Settings that suit one another; those given here override them.
+    preset : path, optional
+        A TOML file of settings.
+
+    Returns
+    -------
+    Lines
+        With ``segments``, ``cls``, ``visible`` and other arrays, ``svg()``, ``pdf()`` and ``save()``.
+
+    Settings
+    --------
+    """
+    meshes, settings = _drawn("lines", mesh, faces, name, camera, settings, (None, look, preset))
+    return Lines(_native.lines(meshes, settings, look, preset), CLASSES)
+
+
+def edges(mesh, faces=None, *, name=None, **settings):
+    """Find the edges of a mesh that are worth a line from every side: boundaries, creases, seams.
+
+    Parameters
+    ----------
+    mesh, faces, name
+        As in `tinta_npr.mesh`.
+
+    Returns
+    -------
+    Edges
+        ``vertices`` (N, 2): the numbers of both ends as they were given; ``cls`` (N,): the class; ``faces`` (N, 2): the
+        triangles beside it, -1 for none.
+
+    Settings
+    --------
+    """
+    return Edges(_native.edges(_one(mesh, faces, name, settings, "edges"), settings), CLASSES)
+
+
+def silhouette(mesh, eye, faces=None, *, direction=False, name=None, **settings):
+    """Find the edges between a face seen from its front and one seen from its back, exactly, hidden ones too.
+
+    Parameters
+    ----------
+    mesh, faces, name
+        As in `tinta_npr.mesh`. Given a `Mesh`, a second eye takes less time.
+    eye : array_like (3,)
+        Where it is seen from, in the mesh's coordinates; with `direction` the direction towards an eye far away.
+
+    Returns
+    -------
+    ndarray (N, 2) of uint32
+        The numbers of both ends as they were given.
+
+    Settings
+    --------
+    """
+    from ._arrays import vector
+
+    return _native.silhouette(_one(mesh, faces, name, settings, "silhouette"), vector("eye", eye), bool(direction))
+
+
+def render(
+    mesh, faces=None, *, style=None, look=None, preset=None, camera=None, show=None, backend=None, name=None, **settings
+):
+    """Draw a mesh off-screen with OpenGL, on a graphics card or on the processor.
+
+    The first call opens OpenGL (EGL, or OSMesa), and raises RuntimeError with what is missing where there is none.
+
+    Parameters
+    ----------
+    mesh, faces, name, preset
+        As in `tinta_npr.lines`.
+    style : str, optional
+        One of `tinta_npr.STYLES`.
+    look : str, optional
+        One of `tinta_npr.LOOKS`; ``"print"`` where neither style nor preset nor look is given.
+    camera : optional
+        As in `tinta_npr.lines`; a matrix must be one of a camera with square pixels and its principal point in the middle.
+    show : str, optional
+        One of the style's pictures: ``"final"``, ``"borders"``, ``"tones"`` …
+    backend : {"auto", "egl", "osmesa"}, optional
+        Where OpenGL comes from.
+
+    Returns
+    -------
+    Picture
+        An array (H, W, 4) of uint8: red, green, blue, alpha (straight), the top row first; with ``png()`` and ``save()``.
+
+    Settings
+    --------
+    """
+    basis = (style, look, preset)
+    meshes, settings = _drawn("render", mesh, faces, name, camera, settings, basis)
+    drawn = _native.render(meshes, settings, style, look, preset, show, backend)
+    return Picture(drawn.pixels, drawn.recipe)
+
+
+def measure(mesh, faces=None, *, styles=(), frames=21, tolerance=2.0, camera=None, backend=None, name=None, **settings):
+    """Measure styles: how many of the visible lines each draws, how many it invents, and how long a frame takes.
+
+    Parameters
+    ----------
+    mesh, faces, camera, name, backend
+        As in `tinta_npr.render`.
+    styles : sequence of str or dict, optional
+        Styles by name, or with their settings: ``{"style": "ink", "quality": "best"}``. All styles as published by default.
+    frames : int
+        Frames of each that are timed.
+    tolerance : float
+        Distance within which ink and line count as the same, pixels.
+
+    Returns
+    -------
+    list of dict
+        A row for each style, ready for `pandas.DataFrame`; docs/measuring.md says what the columns mean.
+
+    Settings
+    --------
+    """
+    meshes, settings = _drawn("measure", mesh, faces, name, camera, settings, ("three-pass", None, None))
+    if isinstance(styles, (str, dict)):
+        styles = [styles]
+    asked = [{"style": style} if isinstance(style, str) else dict(style) for style in styles]
+    return _native.measure(meshes, asked, settings, int(frames), float(tolerance), backend)
+
+
+def compare(
+    mesh, faces=None, *, left="three-pass", right="inking", tolerance=2, camera=None, backend=None, name=None, **settings
+):
+    """Draw a mesh in two styles, and show which lines both drew.
+
+    Parameters
+    ----------
+    mesh, faces, camera, name, backend
+        As in `tinta_npr.render`.
+    left, right : str
+        Two of `tinta_npr.STYLES` that draw lines.
+    tolerance : int
+        Distance within which two styles' ink counts as the same, pixels, up to 64.
+
+    Returns
+    -------
+    Comparison
+        ``numbers``, a dict, and the pictures ``left``, ``right`` and ``lines``: both dark grey, left alone vermilion, right
+        alone blue.
+
+    Settings
+    --------
+    """
+    meshes, settings = _drawn("compare", mesh, faces, name, camera, settings, (left, None, None))
+    return Comparison(*_native.compare(meshes, settings, left, right, int(tolerance), backend))
+
+
+def _one(mesh, faces, name, settings, function):
+    """The one mesh that a function takes; of the settings those are left that are not of reading it."""
+    _native.check(function, settings)
+    reading = _reading(settings)
+    found = _meshes_of(mesh, faces, name, reading, tuple(reading))
+    if len(found) != 1:
+        raise ValueError(f"mesh: {function}() takes one mesh, not {len(found)}")
+    return found[0]
+
+
+def _drawn(function, mesh, faces, name, camera, settings, basis):
+    """The meshes of a drawing, and its settings with the camera's among them."""
+    settings = dict(settings)
+    camera, matrix = _camera_settings(camera, settings, is_exact=function != "lines")
+    for key in camera:
+        if settings.get(key) is not None:
+            raise ValueError(f"camera: it says {key}, which is given too; leave one of them out")
+    settings.update(camera)
+    _native.check(function, settings)
+    asked = _reading(settings)
+    reading = {**_native.reading(function, *basis), **asked}
+    meshes = _meshes_of(mesh, faces, name, reading, tuple(asked))
+    if matrix is not None:
+        if reading.get("up_axis") not in (None, "auto", "y"):
+            raise ValueError("up_axis: a camera's matrix is in the mesh's own coordinates; leave one of them out")
+        meshes, camera = matrix.of_meshes(meshes, reading)
+        settings.update(camera)
+    return meshes, settings
+
+
+def _reading(settings):
+    """Takes those settings out that say how a mesh is read."""
+    found = {key: settings.pop(key) for key in list(settings) if key.replace("-", "_") in _READING}
+    return {key: value for key, value in found.items() if value is not None}
+
+
+_READING = frozenset(setting["name"] for setting in _native.settings("mesh"))
+
+
+
+def _document(function, name):
+    """Adds its settings to a function's help, which newer Pythons store without its indentation."""
+    lines = function.__doc__.splitlines()
+    margin = min((len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()), default=0)
+    plain = "\n".join([lines[0]] + [line[margin:] for line in lines[1:]])
+    function.__doc__ = plain.rstrip() + "\n" + _native.documentation(name)
+
+
+for _function in (mesh, lines, edges, silhouette, render, measure, compare):
+    _document(_function, _function.__name__)
+for _name in ("svg", "pdf", "save", "layers"):
+    _document(getattr(Lines, _name), "Lines.svg")
+
+
+def __getattr__(name):
+    # What matplotlib and PyVista are needed for is imported when it is asked for.
+    if name in ("mpl", "pv"):
+        import importlib
+
+        return importlib.import_module(f".{name}", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

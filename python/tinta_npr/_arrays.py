@@ -1,0 +1,73 @@
+"""Arrays as they are given, checked for what numpy knows: shapes and types. Numbers are checked where they are copied."""
+
+import numpy as np
+
+
+def rows(argument, values, width):
+    """An array (N, width) of float64."""
+    try:
+        array = np.asarray(values)
+    except (ValueError, TypeError):
+        raise ValueError(f"{argument}: the rows are of different lengths; give {width} numbers each") from None
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{argument}: these are of type {array.dtype}; give real numbers")
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ValueError(f"{argument}: the shape is {array.shape}; give (N, {width})")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def vector(argument, values):
+    """Three finite numbers."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{argument}: these are of type {array.dtype}; give real numbers")
+    if array.shape != (3,):
+        raise ValueError(f"{argument}: the shape is {array.shape}; give 3 numbers")
+    if not np.isfinite(array).all():
+        raise ValueError(f"{argument}: {array.tolist()} is not finite")
+    return [float(number) for number in array]
+
+
+def corners(values):
+    """Faces as all their corners one after the other, and how many each has; `None` where all are triangles."""
+    try:
+        array = np.asarray(values)
+    except (ValueError, TypeError):
+        array = None
+    if array is None or array.dtype == object:
+        return _ragged(values)
+    if array.size == 0:
+        return np.empty(0, dtype=np.int64), None
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"faces: these are of type {array.dtype}; give whole numbers")
+    if array.ndim != 2 or array.shape[1] < 3:
+        raise ValueError(f"faces: the shape is {array.shape}; give (M, 3), or more corners a row")
+    sizes = None if array.shape[1] == 3 else np.full(len(array), array.shape[1], dtype=np.int64)
+    return np.ascontiguousarray(array, dtype=np.int64).reshape(-1), sizes
+
+
+def _ragged(values):
+    """Faces of different numbers of corners."""
+    lists = [np.asarray(face) for face in values]
+    for row, face in enumerate(lists):
+        if face.ndim != 1 or (face.size and face.dtype.kind not in "iu"):
+            raise TypeError(f"faces: row {row} is no list of whole numbers")
+    sizes = np.array([len(face) for face in lists], dtype=np.int64)
+    return np.concatenate(lists).astype(np.int64), sizes
+
+
+def padded(cells):
+    """VTK's faces: each one's number of corners before them."""
+    cells = np.asarray(cells, dtype=np.int64)
+    if cells.size == 0:
+        return cells, None
+    first = int(cells[0])
+    if cells.size % (first + 1) == 0 and (cells[:: first + 1] == first).all():
+        return corners(cells.reshape(-1, first + 1)[:, 1:])
+    starts, place = [], 0
+    while place < cells.size:
+        starts.append(place)
+        place += int(cells[place]) + 1
+    is_corner = np.ones(cells.size, dtype=bool)
+    is_corner[starts] = False
+    return cells[is_corner], cells[starts]

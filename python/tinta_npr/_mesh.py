@@ -1,0 +1,121 @@
+"""Meshes of other packages, known by what they have, so that none of these packages is imported."""
+
+import os
+
+import numpy as np
+
+from . import _arrays, _native
+
+#: The faces of a cell that has a volume, by meshio's names: each face's corners in a row, from whichever side.
+_FACES_OF_CELLS = {
+    "tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)),
+    "hexahedron": ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
+    "wedge": ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
+    "pyramid": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
+}
+
+
+def meshes_of(mesh, faces, name, reading, asked=()):
+    """A list of `Mesh`; `reading` are the settings they are read with, `asked` those of them that a mesh must have been read with."""
+    if faces is not None:
+        return [of_arrays(mesh, faces, name, reading)]
+    if isinstance(mesh, _native.Mesh):
+        for setting in asked:
+            if not mesh.was_read_with({setting: reading[setting]}):
+                raise ValueError(f"{setting}: this Mesh has been read already; give it to tinta_npr.mesh()")
+        return [mesh]
+    if isinstance(mesh, (str, os.PathLike)):
+        return [_native.Mesh.of_file(os.fspath(mesh), reading)]
+    if isinstance(mesh, (list, tuple)):
+        if not mesh:
+            raise ValueError("mesh: the list is empty; give at least one")
+        if not any(_is_mesh(one) for one in mesh):
+            raise TypeError("mesh: these are vertices without faces; give lines(vertices, faces)")
+        return [one for each in mesh for one in meshes_of(each, None, name, reading, asked)]
+    if isinstance(mesh, np.ndarray):
+        raise TypeError("faces: they are missing; give lines(vertices, faces)")
+    # trimesh's scenes hold meshes at places.
+    if hasattr(mesh, "geometry") and hasattr(mesh, "dump"):
+        parts = mesh.dump()
+        return meshes_of(list(parts), None, name, reading)
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+        return [of_arrays(mesh.vertices, mesh.faces, name, reading)]
+    if hasattr(mesh, "points") and hasattr(mesh, "cells") and hasattr(mesh, "cell_data") and _is_blocks(mesh.cells):
+        return [_of_cells(mesh, name, reading)]
+    if hasattr(mesh, "points") and hasattr(mesh, "faces"):
+        return [_of_poly_data(mesh, name, reading)]
+    # PyVista's blocks.
+    if hasattr(mesh, "n_blocks") and hasattr(mesh, "keys"):
+        return meshes_of([block for block in mesh if block is not None], None, name, reading)
+    if hasattr(mesh, "extract_surface"):
+        return [_of_poly_data(_surface(mesh), name, reading)]
+    kind = type(mesh).__name__
+    raise TypeError(f"mesh: give vertices and faces, a path, or a mesh of trimesh, PyVista or meshio, not {kind}")
+
+
+def of_arrays(vertices, faces, name, reading):
+    """A `Mesh` of vertices and faces."""
+    corners, sizes = _arrays.corners(faces)
+    return _native.Mesh.of_arrays(_arrays.rows("vertices", vertices, 3), corners, sizes, name or "mesh", reading)
+
+
+def _is_mesh(one):
+    is_named = isinstance(one, (str, os.PathLike, _native.Mesh))
+    return is_named or any(hasattr(one, name) for name in ("vertices", "points", "geometry", "n_blocks"))
+
+
+def _is_blocks(cells):
+    return isinstance(cells, list) and all(hasattr(block, "type") and hasattr(block, "data") for block in cells)
+
+
+def _surface(mesh):
+    """The outside of PyVista's volumes, whole faces as they are; older versions have one way alone."""
+    import inspect
+
+    has_ways = "algorithm" in inspect.signature(mesh.extract_surface).parameters
+    return mesh.extract_surface(algorithm=None) if has_ways else mesh.extract_surface()
+
+
+def _of_poly_data(mesh, name, reading):
+    """Of PyVista's surfaces."""
+    if getattr(mesh, "n_strips", 0):
+        mesh = mesh.triangulate()
+    corners, sizes = _arrays.padded(mesh.faces)
+    return _native.Mesh.of_arrays(_arrays.rows("points", mesh.points, 3), corners, sizes, name or "mesh", reading)
+
+
+def _of_cells(mesh, name, reading):
+    """Of meshio's cells: surfaces, and of volumes the faces that only one cell has."""
+    points = np.asarray(mesh.points, dtype=np.float64)
+    if points.ndim == 2 and points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points))])
+    lists = []
+    outside = {}
+    for block in mesh.cells:
+        data = np.asarray(block.data)
+        # Corners come first, then the middles of edges and faces.
+        kind = block.type.rstrip("0123456789") if block.type not in ("vertex", "line") else block.type
+        if kind in ("triangle", "quad"):
+            lists.append(data[:, : 3 if kind == "triangle" else 4])
+        elif kind == "polygon":
+            lists.append(data)
+        elif kind in _FACES_OF_CELLS:
+            for face in _FACES_OF_CELLS[kind]:
+                for corners in _outwards(points, data[:, face], data).tolist():
+                    key = tuple(sorted(corners))
+                    outside[key] = None if key in outside else corners
+    faces = [face for block in lists for face in block.tolist()] if len(lists) != 1 or outside else lists[0]
+    if outside:
+        faces = faces + [corners for corners in outside.values() if corners is not None]
+    if len(faces) == 0:
+        kinds = ", ".join(sorted({block.type for block in mesh.cells})) or "none"
+        raise ValueError(f"cells: none of them has a face (there are: {kinds}); give triangles, polygons or volumes")
+    return of_arrays(points, faces, name, reading)
+
+
+def _outwards(points, faces, cells):
+    """Faces of cells, counter-clockwise seen from outside: formats number the corners of a wedge from either side."""
+    first, second, third = (points[faces[:, corner]] for corner in range(3))
+    away = points[faces].mean(axis=1) - points[cells].mean(axis=1)
+    is_inwards = np.einsum("ij,ij->i", np.cross(second - first, third - first), away) < 0
+    return np.where(is_inwards[:, None], faces[:, ::-1], faces)

@@ -1,0 +1,186 @@
+"""What functions return."""
+
+import os
+
+import numpy as np
+
+from . import _native
+
+
+class Lines:
+    """The lines of a mesh in a picture: every piece that is seen or hidden as a whole.
+
+    Attributes
+    ----------
+    segments : ndarray (N, 2, 2) of float64
+        Both ends, pixels: x to the right, y down, (0, 0) the upper left corner.
+    visible : ndarray (N,) of bool
+    cls : ndarray (N,) of str
+        The class, one of `tinta_npr.CLASSES`.
+    edge : ndarray (N, 2) of int64
+        The mesh edge it is part of, by the numbers of its vertices as they were given; -1 where faces intersect.
+    angle : ndarray (N,) of float64
+        Between the normals of its two faces, degrees; NaN for an edge without exactly two.
+    object : ndarray (N,) of uint32
+        The mesh of the list that was given.
+    outline : ndarray (N,) of bool
+        Whether it has nothing but background on one side; all False unless a width or colour of ``outline`` was asked for.
+    size : (width, height)
+        Of the picture, pixels.
+    counts : dict
+        How many edges there are of each class.
+    camera : dict
+        As `tinta_npr.lines` takes it.
+    """
+
+    def __init__(self, found, classes):
+        self._found = found
+        for name, array in found.arrays().items():
+            setattr(self, name if name != "code" else "_code", array)
+        self._classes = classes
+        self.size = found.size
+        self.counts = found.counts()
+        self.camera = found.camera()
+
+    @property
+    def cls(self):
+        return np.array(self._classes)[self._code]
+
+    @property
+    def hidden(self):
+        """The pieces that are hidden: (K, 2, 2) float64."""
+        return self.segments[~self.visible]
+
+    def __getitem__(self, name):
+        """The visible pieces of a class: (K, 2, 2) float64."""
+        return self.select(name)
+
+    def select(self, *names, visible=True):
+        """The pieces of some classes, visible ones, or hidden ones, or with ``visible=None`` both: (K, 2, 2) float64."""
+        for name in names:
+            if name not in self._classes:
+                raise KeyError(f"there is no class {name}; choose one of {', '.join(self._classes)}")
+        codes = [self._classes.index(name) for name in names]
+        chosen = np.isin(self._code, codes)
+        return self.segments[chosen if visible is None else chosen & (self.visible == visible)]
+
+    def __len__(self):
+        return len(self.segments)
+
+    def __repr__(self):
+        width, height = self.size
+        seen = int(self.visible.sum())
+        return f"<tinta_npr.Lines {width}x{height}: {seen} pieces visible, {len(self) - seen} hidden>"
+
+    def _repr_svg_(self):
+        return self.svg()
+
+    def svg(self, *, title=None, **settings):
+        """The drawing as SVG: a str. Settings given here override those given to `tinta_npr.lines`.
+
+        Settings
+        --------
+        """
+        return self._found.svg(settings, title)
+
+    def pdf(self, *, title=None, **settings):
+        """The drawing as PDF: bytes. Settings as in `svg`.
+
+        Settings
+        --------
+        """
+        return self._found.pdf(settings, title)
+
+    def json(self):
+        """All pieces and the camera as JSON: a str."""
+        return self._found.json()
+
+    def save(self, path, *, title=None, **settings):
+        """Write a file: .svg, .pdf or .json. It appears whole or not at all. Settings as in `svg`.
+
+        Settings
+        --------
+        """
+        path = os.fspath(path)
+        ending = os.path.splitext(path)[1].lower()
+        if ending == ".svg":
+            content = self.svg(title=title, **settings).encode()
+        elif ending == ".pdf":
+            content = self.pdf(title=title, **settings)
+        elif ending == ".json" and not settings:
+            content = self.json().encode()
+        elif ending == ".json":
+            raise ValueError(f"{next(iter(settings))}: a .json file holds all lines but no appearance; leave it out")
+        else:
+            raise ValueError(f"path: lines are written as .svg, .pdf or .json, not as {ending or 'a file without ending'}")
+        _native.write(path, content)
+
+    def layers(self, **settings):
+        """The drawing as plain values, from the lowest layer to the highest: what the SVG has.
+
+        Each is a dict: ``name``, ``visible``, ``color`` (red, green, blue in 0 to 1), ``width`` and ``dash`` in pixels,
+        ``opacity``, and ``paths``, arrays (K, 2) of points in pixels, y down. Settings as in `svg`.
+
+        Settings
+        --------
+        """
+        return self._found.layers(settings)
+
+
+class Edges:
+    """Edges of a mesh: ``vertices`` (N, 2) uint32, ``cls`` (N,) str, ``faces`` (N, 2) int64, -1 for none."""
+
+    def __init__(self, found, classes):
+        self.vertices = found["vertices"]
+        self.faces = found["faces"]
+        self.cls = np.array(classes)[found["code"]]
+
+    def __len__(self):
+        return len(self.vertices)
+
+    def __repr__(self):
+        names, counts = np.unique(self.cls, return_counts=True)
+        said = ", ".join(f"{count} {name}" for name, count in zip(names, counts))
+        return f"<tinta_npr.Edges: {said or 'none'}>"
+
+
+class Picture(np.ndarray):
+    """A picture: an array (H, W, 4) of uint8, red, green, blue, alpha, the top row first."""
+
+    def __new__(cls, pixels, recipe=None):
+        picture = np.asarray(pixels).view(cls)
+        picture.recipe = recipe
+        return picture
+
+    def __array_finalize__(self, source):
+        # What is made of a picture, a part of it say, is not what the recipe draws.
+        self.recipe = None
+
+    def png(self):
+        """The PNG file: bytes. Of a mesh from a file it holds the recipe that `tinta again` draws it anew from."""
+        return _native.png(self._pixels(), self.recipe)
+
+    def save(self, path):
+        """Write a file: .png, .jpg, .bmp, .tga or .ppm. It appears whole or not at all."""
+        _native.save(self._pixels(), os.fspath(path), self.recipe)
+
+    def _pixels(self):
+        return np.ascontiguousarray(self, dtype=np.uint8)
+
+    def _repr_png_(self):
+        is_picture = self.ndim == 3 and self.shape[2] == 4 and self.dtype == np.uint8 and self.size
+        return self.png() if is_picture else None
+
+
+class Comparison:
+    """Two styles' drawings: ``numbers``, and the pictures ``left``, ``right`` and ``lines``."""
+
+    def __init__(self, numbers, pictures):
+        self.numbers = numbers
+        self.left, self.right, self.lines = (Picture(pixels) for pixels in pictures)
+
+    def __repr__(self):
+        return f"<tinta_npr.Comparison {self.numbers}>"
+
+    def _repr_png_(self):
+        return self.lines.png()

@@ -1,0 +1,247 @@
+//! `tinta judge`: any program's drawing of a model against the model's exact lines.
+
+use super::model_cache::ModelCache;
+use super::models::load_meshes;
+use super::options::{CameraArguments, Chosen, ModelArguments, Selection};
+use super::preset::Given;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tinta::judge::{Entry, InkColor, JudgeSettings, Judgement, OneToOne, drawing, judge};
+use tinta::measure::{INK_FROM, MeasureSettings, Reference, Row, error_picture};
+use tinta::picture::PictureFormat;
+use tinta::report::{ReportInfo, ReportPicture, RowLog};
+use tinta::settings::Setting;
+use tinta::styles::Inking;
+use tinta::{Error, LineSettings, Mesh, Result, Scene, SceneSettings, Size, Style, StyleName, Target};
+
+/// Judge any program's drawing of a model by the model's exact visible lines
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Drawings: PNG, BMP, TGA, JPEG, PPM or SVG files
+    #[arg(value_name = "DRAWING", required = true)]
+    drawings: Vec<PathBuf>,
+
+    /// Model that they show: a file, a built-in model, or - for standard input
+    #[arg(long, value_name = "MODEL")]
+    model: String,
+
+    /// Size in which an SVG is drawn, in pixels [default: its own]
+    #[arg(long, value_name = "WxH")]
+    size: Option<Size>,
+
+    /// What is ink: dark (on white), light (on black), alpha, or the colour of the lines [default: dark]
+    #[arg(long, value_name = "INK", default_value = "dark", hide_default_value = true)]
+    ink: InkColor,
+
+    /// Distance within which ink and line count as the same, in pixels [default: 2]
+    #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, allow_hyphen_values = true)]
+    tolerance: f64,
+
+    /// Look for a shift of up to 5 % of the diagonal, a scale of up to 1.1 and a mirror image first, and say what was found [default: off]
+    #[arg(long)]
+    fit: bool,
+
+    /// Folder for results.jsonl, to which rows are added, plots, pictures of the errors and report.html [default: none]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+
+    /// Names of the drawings in the report, separated by commas [default: their files' names]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    names: Vec<String>,
+
+    /// Seconds that each drawing took, separated by commas, for the plots of error against time [default: unknown]
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', allow_hyphen_values = true)]
+    seconds: Vec<f64>,
+
+    /// Name of this machine in the report [default: system, processor, threads]
+    #[arg(long, hide_short_help = true, value_name = "NAME")]
+    machine: Option<String>,
+
+    /// Print one JSON record for each drawing [default: off]
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    crease: Chosen<OfReference>,
+
+    #[command(flatten)]
+    camera: CameraArguments,
+
+    #[command(flatten)]
+    options: ModelArguments,
+}
+
+/// What the exact lines are asked, as `tinta measure` asks it.
+struct OfReference;
+
+impl Selection for OfReference {
+    type Of = Style;
+
+    fn has(setting: &Setting<Style>) -> bool {
+        setting.name == "crease-angle"
+    }
+}
+
+/// What is printed of a drawing with `--json`.
+#[derive(Serialize)]
+struct Record<'a> {
+    version: &'static str,
+    drawing: &'a str,
+    model: &'a str,
+    size: Size,
+    #[serde(flatten)]
+    judgement: &'a Judgement,
+}
+
+/// Files that are written into the folder, pictures of plots and errors aside.
+const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
+
+pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<()> {
+    let names = names(arguments)?;
+    let settings = JudgeSettings { tolerance_px: arguments.tolerance, fits: arguments.fit };
+    settings.check()?;
+    let drawings = arguments.drawings.iter().map(|path| drawing::read(path, arguments.size));
+    let drawings = drawings.collect::<Result<Vec<_>>>()?;
+    let meshes =
+        load_meshes(&ModelCache::for_one(), std::slice::from_ref(&arguments.model), &arguments.options.settings()?)?;
+    let mut log = match &arguments.output {
+        None => None,
+        Some(folder) => {
+            given.inputs(std::slice::from_ref(&arguments.model)).keep_in(folder, WRITTEN)?;
+            super::measure::make_folder(folder)?;
+            Some(RowLog::resume(folder)?)
+        }
+    };
+    let mut subject: Option<Subject> = None;
+    let mut pictures = Vec::new();
+    for (index, (name, picture)) in names.iter().zip(&drawings).enumerate() {
+        if subject.as_ref().is_none_or(|subject| subject.scene.size != picture.size) {
+            subject = Some(Subject::new(arguments, meshes.clone(), picture.size)?);
+        }
+        let Some(Subject { scene, reference }) = &subject else { continue };
+        let ink = arguments.ink.of(picture);
+        let judgement = judge(&ink, reference, &settings)?;
+        if arguments.json {
+            let version = env!("CARGO_PKG_VERSION");
+            let record =
+                Record { version, drawing: name, model: &arguments.model, size: scene.size, judgement: &judgement };
+            super::print_json(&record)?;
+        } else {
+            super::print(&in_words(name, scene.size, &judgement))?;
+        }
+        if let (Some((log, rows)), Some(folder)) = (&mut log, &arguments.output) {
+            let entry = Entry {
+                name: name.clone(),
+                model: arguments.model.clone(),
+                machine: arguments.machine.clone().unwrap_or_else(|| MeasureSettings::default().machine),
+                seconds: arguments.seconds.get(index).copied().unwrap_or_default(),
+            };
+            let row = entry.row(scene, &judgement);
+            log.append(&row)?;
+            let errors = match &judgement.fit {
+                Some(fit) => error_picture(&ink, &reference.moved(|px| fit.apply(px)), settings.tolerance_px),
+                None => error_picture(&ink, reference, settings.tolerance_px),
+            };
+            let path = folder.join("errors").join(format!("{}.png", file_name(&row)));
+            super::measure::make_folder(&folder.join("errors"))?;
+            Target::File { path, format: PictureFormat::Png }.write(&errors)?;
+            let caption = format!("{name}, F1 {:.3}", judgement.lines.f1);
+            let (drawing, png) = (Some(picture.png_bytes(None)?), errors.png_bytes(None)?);
+            pictures.push(ReportPicture { caption, model: Some(row.model.clone()), drawing, png });
+            rows.push(row);
+        }
+    }
+    let (Some((_, rows)), Some(folder)) = (log, &arguments.output) else { return Ok(()) };
+    let info = ReportInfo {
+        command: tinta::shell::command_line(given.as_given.iter().cloned()),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        notes: Vec::new(),
+        pictures,
+    };
+    tinta::report::write(folder, &rows, &info)?;
+    super::say(&format!("tinta: {}", folder.join("report.html").display()));
+    Ok(())
+}
+
+/// A scene of a drawing's size and its lines.
+struct Subject {
+    scene: Scene,
+    reference: Reference,
+}
+
+impl Subject {
+    fn new(arguments: &Arguments, meshes: Vec<Arc<Mesh>>, size: Size) -> Result<Self> {
+        let style = Style::with_options(StyleName::Inking, &arguments.crease.options)?;
+        let Inking { crease_angle, .. } = if let Style::Inking(inking) = style { inking } else { Inking::default() };
+        let settings = SceneSettings { size, camera: arguments.camera.settings()?, ..SceneSettings::default() };
+        let scene = Scene::new(meshes, &settings)?;
+        let reference = Reference::with_hidden(&scene, &LineSettings { crease_angle, ..LineSettings::as_published() })?;
+        Ok(Self { scene, reference })
+    }
+}
+
+/// What the drawings are called, once what is said of each is known to be for as many.
+fn names(arguments: &Arguments) -> Result<Vec<String>> {
+    let count = arguments.drawings.len();
+    let check = |option: &str, given: usize| match given {
+        0 => Ok(()),
+        given if given == count => Ok(()),
+        given => Err(Error::setting(option, format!("{given} are given for {count} drawings; give one for each"))),
+    };
+    check("names", arguments.names.len())?;
+    check("seconds", arguments.seconds.len())?;
+    if let Some(seconds) = arguments.seconds.iter().find(|seconds| !(**seconds > 0.0 && seconds.is_finite())) {
+        return Err(Error::value("seconds", seconds, "a time is a number of seconds above 0"));
+    }
+    let file = |path: &PathBuf| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    Ok(match arguments.names.is_empty() {
+        true => arguments.drawings.iter().map(file).collect(),
+        false => arguments.names.clone(),
+    })
+}
+
+/// A name that every file system takes.
+fn file_name(row: &Row) -> String {
+    let model = Path::new(&row.model).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let name = format!("{model}-{}x{}-{}", row.size[0], row.size[1], row.style);
+    name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).take(120).collect()
+}
+
+fn in_words(name: &str, size: Size, judgement: &Judgement) -> String {
+    let Judgement { lines, one_to_one, hidden, fit, .. } = judgement;
+    let mut text = format!("{name}, {size} px\n");
+    let mut line = |title: &str, words: String| text.push_str(&format!("  {title:<19}{words}\n"));
+    let percent = |share: f64| format!("{:.1} %", share * 100.0);
+    line(
+        "F1",
+        format!(
+            "{:.3}: {} of the lines found, {} of the ink on them, within {} px",
+            lines.f1,
+            percent(lines.recall),
+            percent(lines.precision),
+            lines.tolerance_px
+        ),
+    );
+    line("average precision", format!("{:.3}", lines.average_precision));
+    let score = |one: &OneToOne| format!("{:.3} within {:.3} px", one.f1, one.distance_px).replace(".000 px", " px");
+    line("one to one", one_to_one.iter().map(score).collect::<Vec<_>>().join(", "));
+    if let (Some(chamfer), Some(hausdorff)) = (judgement.chamfer_px, judgement.hausdorff_95_px) {
+        line(
+            "distance",
+            format!("{chamfer:.2} px in the mean (Chamfer), {hausdorff:.2} px for 95 % of it (Hausdorff)"),
+        );
+    } else {
+        line("distance", format!("none: there is no ink from darkness {INK_FROM} of 255 on, or no line"));
+    }
+    line("hidden lines", format!("{:.1} of {:.1} px are drawn", hidden.drawn_px, hidden.length_px));
+    let classes: Vec<String> =
+        lines.recall_of_class.iter().map(|(class, recall)| format!("{class} {}", percent(*recall))).collect();
+    if !classes.is_empty() {
+        line("found of", classes.join(", "));
+    }
+    if let Some(fit) = fit {
+        line("fit", fit.to_string());
+    }
+    text
+}

@@ -1,0 +1,43 @@
+//! Shaders in place of the fixed-function pipeline, for drivers that have none: those in `glsl/fixed/`.
+
+use crate::plan::{Draw, Geometry, LineDrawing, Mark, Program};
+
+/// Vertices without lighting.
+const VERTEX: &str = "fixed/transform.vert";
+
+/// Fragments, by how many texture units are switched on.
+const FRAGMENTS: [&str; 3] = ["fixed/untextured.frag", "fixed/one-texture.frag", "fixed/two-textures.frag"];
+
+/// The textures of these.
+const SAMPLERS: [&str; 2] = ["texture0", "texture1"];
+
+/// What draws smoothed lines and points.
+pub(super) fn smooth(mark: Mark) -> Program {
+    let fragment = match mark {
+        Mark::Lines => "fixed/smooth-line.frag",
+        Mark::Points => "fixed/smooth-point.frag",
+    };
+    Program { vertex: VERTEX, fragments: vec![fragment] }
+}
+
+/// The program that a draw is drawn with; `None` for the pipeline.
+pub(super) fn program_of(draw: &Draw, has_pipeline: bool) -> Option<Program> {
+    let fragments = || vec![FRAGMENTS[draw.textures.len().min(FRAGMENTS.len() - 1)]];
+    match &draw.program {
+        program if has_pipeline => program.clone(),
+        Some(program) if !program.fragments.is_empty() => Some(program.clone()),
+        Some(program) => Some(Program { vertex: program.vertex, fragments: fragments() }),
+        None => match draw.geometry {
+            Geometry::Edges { mark, is_smooth: true, line_drawing: LineDrawing::Gl, .. } => Some(smooth(mark)),
+            _ => Some(Program { vertex: VERTEX, fragments: fragments() }),
+        },
+    }
+}
+
+/// What a texture unit's sampler is called where the program is one of these.
+pub(super) fn sampler(draw: &Draw, program: &Program, unit: u32) -> Option<&'static str> {
+    if draw.program.as_ref() == Some(program) { None } else { SAMPLERS.get(unit as usize).copied() }
+}
+
+#[cfg(test)]
+mod tests;

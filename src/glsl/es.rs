@@ -1,0 +1,386 @@
+//! Shaders in OpenGL ES's language of WebGL 1: GLSL 1.20 rewritten word by word as GLSL ES 1.00.
+//!
+//! In: the text of a shader in `glsl/`. Out: the same program for a browser, in pieces that tell what was changed. What is the
+//! fixed-function pipeline's in 1.20 (matrices, the vertex's attributes, its colours) becomes uniforms, attributes and varyings
+//! of the names in [`UNIFORMS`] and [`ATTRIBUTES`].
+//!
+//! The words are enough: all that needs a type is which whole numbers are floats, and a statement says so. The parsers of GLSL
+//! that there are lose the comments, which a reader of the page wants to see beside the program.
+//!
+//! ```
+//! use tinta::glsl::es::{Stage, linked, transcribed};
+//!
+//! let filter = tinta::glsl::source("evangelista/border.frag").expect("a shader of the article");
+//! let pieces = transcribed(Stage::Fragment, filter)?;
+//! let original: String = pieces.iter().map(|piece| piece.original.as_str()).collect();
+//! assert_eq!(original, filter);
+//! assert!(pieces.iter().any(|piece| piece.original == "0.2f" && piece.text == "0.2"));
+//! // Several shaders linked together are one there.
+//! assert!(linked(Stage::Fragment, &[filter])?.starts_with("#version 100\n"));
+//! # Ok::<(), String>(())
+//! ```
+
+use super::tokens::{Kind, Token, is_whole, tokens};
+use std::collections::HashSet;
+
+/// Which of a program's shaders it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// The vertex shader.
+    Vertex,
+    /// A fragment shader.
+    Fragment,
+}
+
+impl Stage {
+    /// That of a shader of this path.
+    pub fn of(path: &str) -> Self {
+        if path.ends_with(".vert") { Self::Vertex } else { Self::Fragment }
+    }
+}
+
+/// A piece of a shader.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Piece {
+    /// As it stands in the shader.
+    pub original: String,
+    /// What it became; the same where nothing had to change.
+    pub text: String,
+}
+
+impl Piece {
+    /// Whether it became something else.
+    pub fn is_changed(&self) -> bool {
+        self.original != self.text
+    }
+}
+
+/// A name of the fixed-function pipeline: in 1.20, its type, and the name here.
+type Name = (&'static str, &'static str, &'static str);
+
+/// What the fixed-function pipeline hands to shaders for a whole draw.
+pub const UNIFORMS: [Name; 4] = [
+    ("gl_ModelViewMatrix", "mat4", "tinta_ModelViewMatrix"),
+    ("gl_ProjectionMatrix", "mat4", "tinta_ProjectionMatrix"),
+    ("gl_ModelViewProjectionMatrix", "mat4", "tinta_ModelViewProjectionMatrix"),
+    ("gl_NormalMatrix", "mat3", "tinta_NormalMatrix"),
+];
+
+/// What it hands to vertex shaders for each vertex, in the order of their places.
+pub const ATTRIBUTES: [Name; 5] = [
+    ("gl_Vertex", "vec4", "tinta_Vertex"),
+    ("gl_Normal", "vec3", "tinta_Normal"),
+    ("gl_Color", "vec4", "tinta_Color"),
+    ("gl_MultiTexCoord0", "vec4", "tinta_MultiTexCoord0"),
+    ("gl_MultiTexCoord1", "vec4", "tinta_MultiTexCoord1"),
+];
+
+/// Colours on their way from vertices to fragments: written as, read as, the name here. They are clamped on their way.
+const COLORS: [Name; 2] = [
+    ("gl_FrontColor", "gl_Color", "tinta_FrontColor"),
+    ("gl_FrontSecondaryColor", "gl_SecondaryColor", "tinta_FrontSecondaryColor"),
+];
+
+/// The colour of back faces, which nobody reads where lighting is not two-sided.
+const BACK_COLOR: (&str, &str) = ("gl_BackColor", "tinta_BackColor");
+
+/// Texture coordinates on their way.
+const COORDINATES: (&str, &str) = ("gl_TexCoord", "tinta_TexCoord[2]");
+
+/// What a vertex shader's `main` is called here, for another does what the pipeline does after it.
+const MAIN: &str = "tinta_main";
+
+/// How often a loop of unknown length goes round at most: far more than any here does.
+const LONGEST_LOOP: u32 = 1024;
+
+/// A shader in pieces, by itself.
+///
+/// # Errors
+///
+/// A sentence about what this language has no words for.
+pub fn transcribed(stage: Stage, text: &str) -> Result<Vec<Piece>, String> {
+    let tokens = tokens(text);
+    let mut texts = rewritten(stage, &tokens)?;
+    let head = head(stage, &words(&tokens));
+    let version = tokens.iter().position(|token| token.text == "#").ok_or("a shader begins with its #version")?;
+    let end = tokens[version..].iter().position(|token| token.text == "\n").map_or(tokens.len(), |end| version + end);
+    texts[version] = head.trim_end().to_owned();
+    texts[version + 1..end].iter_mut().for_each(String::clear);
+    if stage == Stage::Vertex
+        && let Some(last) = texts.last_mut()
+    {
+        last.push_str(&vertex_main(&words(&tokens)));
+    }
+    let mut pieces: Vec<Piece> = Vec::new();
+    for (place, (token, text)) in tokens.iter().zip(texts).enumerate() {
+        let is_changed = token.text != text;
+        match pieces.last_mut() {
+            Some(last) if (!is_changed && !last.is_changed()) || (version + 1..end).contains(&place) => {
+                last.original.push_str(token.text);
+                last.text.push_str(&text);
+            }
+            _ => pieces.push(Piece { original: token.text.to_owned(), text }),
+        }
+    }
+    Ok(pieces)
+}
+
+/// Several shaders of a stage as the one that is compiled, without comments: what more than one declares is declared once.
+///
+/// # Errors
+///
+/// As [`transcribed`], and of two that declare something of one name differently.
+pub fn linked(stage: Stage, texts: &[&str]) -> Result<String, String> {
+    let all: Vec<Vec<Token<'_>>> = texts.iter().map(|text| tokens(text)).collect();
+    let words: HashSet<&str> = all.iter().flat_map(|tokens| words(tokens)).collect();
+    let mut out = head(stage, &words);
+    let (mut known, mut constants) = (HashSet::new(), HashSet::new());
+    for tokens in &all {
+        for item in items(tokens, &rewritten(stage, tokens)?) {
+            if item.is_empty() || item.starts_with("#version") || !known.insert(item.clone()) {
+                continue;
+            }
+            let constant = item.strip_prefix("const ").and_then(|item| item.split_whitespace().nth(1));
+            if let Some(name) = constant
+                && !constants.insert(name.to_owned())
+            {
+                return Err(format!("two shaders that are linked together declare {name} differently"));
+            }
+            out.push_str(&item);
+            out.push('\n');
+        }
+    }
+    if stage == Stage::Vertex {
+        out.push_str(&vertex_main(&words));
+    }
+    Ok(out)
+}
+
+/// The names in a shader.
+fn words<'a>(tokens: &[Token<'a>]) -> HashSet<&'a str> {
+    tokens.iter().filter(|token| token.kind == Kind::Word).map(|token| token.text).collect()
+}
+
+/// What stands before all else: version, extensions, precision, and what the pipeline had declared.
+fn head(stage: Stage, words: &HashSet<&str>) -> String {
+    let has = |name: &str| words.contains(name);
+    let mut head = "#version 100\n".to_owned();
+    if stage == Stage::Fragment && ["dFdx", "dFdy", "fwidth"].into_iter().any(has) {
+        head.push_str("#extension GL_OES_standard_derivatives : require\n");
+    }
+    if has("gl_FragData") {
+        head.push_str("#extension GL_EXT_draw_buffers : require\n");
+    }
+    head.push_str("precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
+    for (old, kind, new) in UNIFORMS {
+        if has(old) || (old == "gl_ModelViewProjectionMatrix" && has("ftransform")) {
+            head.push_str(&format!("uniform {kind} {new};\n"));
+        }
+    }
+    if stage == Stage::Vertex {
+        for (old, kind, new) in ATTRIBUTES {
+            if has(old) || (old == "gl_Vertex" && has("ftransform")) {
+                head.push_str(&format!("attribute {kind} {new};\n"));
+            }
+        }
+    }
+    for (written, read, new) in COLORS {
+        if has(if stage == Stage::Vertex { written } else { read }) {
+            head.push_str(&format!("varying vec4 {new};\n"));
+        }
+    }
+    if has(BACK_COLOR.0) {
+        head.push_str(&format!("vec4 {};\n", BACK_COLOR.1));
+    }
+    if has(COORDINATES.0) {
+        head.push_str(&format!("varying vec4 {};\n", COORDINATES.1));
+    }
+    // This language has no noise; where 1.20 had it, it was 0 (Valente 2007, section 3.1).
+    let noises = [("noise1", "float", "float"), ("noise2", "vec2", "vec2"), ("noise3", "vec3", "vec3")];
+    for (name, result, argument) in noises.into_iter().chain([("noise4", "float", "vec4")]) {
+        if has(name) {
+            head.push_str(&format!("{result} {name}({argument} place) {{ return {result}(0.0); }}\n"));
+        }
+    }
+    head
+}
+
+/// What the pipeline does after a vertex shader: colours are clamped, points are a pixel wide.
+fn vertex_main(words: &HashSet<&str>) -> String {
+    let mut main = format!("\nvoid main() {{\n    {MAIN}();\n    gl_PointSize = 1.0;\n");
+    for (written, _, new) in COLORS {
+        if words.contains(written) {
+            main.push_str(&format!("    {new} = clamp({new}, 0.0, 1.0);\n"));
+        }
+    }
+    main + "}\n"
+}
+
+/// What becomes of each token, by its place.
+fn rewritten(stage: Stage, tokens: &[Token<'_>]) -> Result<Vec<String>, String> {
+    let mut texts: Vec<String> = tokens.iter().map(|token| token.text.to_owned()).collect();
+    // The places of what is not between.
+    let places: Vec<usize> = (0..tokens.len()).filter(|place| tokens[*place].kind != Kind::Between).collect();
+    for (number, place) in places.iter().enumerate() {
+        let text = tokens[*place].text;
+        match tokens[*place].kind {
+            Kind::Number => texts[*place] = without_suffix(text).to_owned(),
+            Kind::Word if text == "ftransform" => {
+                texts[*place] = format!("({} * {})", UNIFORMS[2].2, ATTRIBUTES[0].2);
+                places[number + 1..].iter().take(2).for_each(|bracket| texts[*bracket].clear());
+            }
+            Kind::Word if text == "texture1D" => sample_table(tokens, &places[number..], &mut texts)?,
+            Kind::Word => {
+                if let Some(new) = renamed(stage, text) {
+                    texts[*place] = new.to_owned();
+                }
+            }
+            Kind::Sign | Kind::Between => {}
+        }
+    }
+    for place in floats(tokens, &places) {
+        texts[place].push_str(".0");
+    }
+    // Last, for what a loop does after each round moves with all that became of it.
+    for number in (0..places.len()).filter(|number| tokens[places[*number]].text == "for") {
+        bound_loop(tokens, &places[number..], &mut texts)?;
+    }
+    Ok(texts)
+}
+
+fn without_suffix(number: &str) -> &str {
+    number.strip_suffix(['f', 'F']).unwrap_or(number)
+}
+
+/// The name here of one in 1.20, where it has another.
+fn renamed(stage: Stage, name: &str) -> Option<&'static str> {
+    let find = |names: &[Name]| names.iter().find(|(old, ..)| *old == name).map(|(.., new)| *new);
+    let color = COLORS.iter().find(|(written, read, _)| match stage {
+        Stage::Vertex => *written == name,
+        Stage::Fragment => *read == name,
+    });
+    let attribute = if stage == Stage::Vertex { find(&ATTRIBUTES) } else { None };
+    match name {
+        "main" if stage == Stage::Vertex => Some(MAIN),
+        "sampler1D" => Some("sampler2D"),
+        name if name == BACK_COLOR.0 => Some(BACK_COLOR.1),
+        name if name == COORDINATES.0 => Some("tinta_TexCoord"),
+        _ => find(&UNIFORMS).or(attribute).or(color.map(|(.., new)| *new)),
+    }
+}
+
+/// A one-dimensional texture is the middle of one that is a texel high. `places` begins with the call.
+fn sample_table(tokens: &[Token<'_>], places: &[usize], texts: &mut [String]) -> Result<(), String> {
+    let close = closing(tokens, places, 1).ok_or("a call of texture1D does not end")?;
+    let comma = (2..close).find(|place| {
+        let is_top = depth(tokens, &places[1..*place]) == 1;
+        tokens[places[*place]].text == "," && is_top
+    });
+    let comma = comma.ok_or("a call of texture1D has no place in the texture")?;
+    texts[places[0]] = "texture2D".to_owned();
+    texts[places[comma]] = ", vec2(".to_owned();
+    texts[places[close]] = ", 0.5))".to_owned();
+    Ok(())
+}
+
+/// A loop has to begin at a number here and go on to one: another goes round up to [`LONGEST_LOOP`] times, and ends by its
+/// own condition. `places` begins with the word `for`.
+fn bound_loop(tokens: &[Token<'_>], places: &[usize], texts: &mut [String]) -> Result<(), String> {
+    let text = |place: usize| tokens[places[place]].text;
+    let close = closing(tokens, places, 1).ok_or("a loop's head does not end")?;
+    let ends: Vec<usize> = (2..close).filter(|place| text(*place) == ";").collect();
+    let [first, second] = ends[..] else { return Err("a loop's head has three parts".to_owned()) };
+    let value = (2..first).find(|place| text(*place) == "=").ok_or("a loop sets a number first")? + 1;
+    if value + 1 == first && tokens[places[value]].kind == Kind::Number {
+        return Ok(());
+    }
+    let body = close + 1;
+    let end = closing(tokens, places, body).filter(|_| text(body) == "{").ok_or("a loop's body is a block")?;
+    if (body..end).any(|place| text(place) == "continue") {
+        return Err("a loop that does not begin at a number cannot be continued".to_owned());
+    }
+    let step = texts[places[second] + 1..places[close]].concat();
+    texts[places[0]] = "{".to_owned();
+    texts[places[1]] = String::new();
+    let counted = format!("for (int tinta_round = 0; tinta_round < {LONGEST_LOOP}; ++tinta_round)");
+    texts[places[first]] = format!("; {counted} {{ if (!(");
+    texts[places[second]] = ")) break;".to_owned();
+    texts[places[second] + 1..=places[close]].iter_mut().for_each(String::clear);
+    texts[places[end]] = format!("}} {}; }} }}", step.trim());
+    Ok(())
+}
+
+/// Which whole numbers are floats: 1.20 takes them for floats where it needs some, this language does not. Whole stay those in
+/// square brackets, and those that stand with a word of type int between two separators.
+fn floats(tokens: &[Token<'_>], places: &[usize]) -> Vec<usize> {
+    let text = |place: &usize| tokens[*place].text;
+    let whole: HashSet<&str> =
+        places.windows(2).filter(|pair| text(&pair[0]) == "int").map(|pair| text(&pair[1])).chain(["int"]).collect();
+    let (mut floats, mut segment, mut has_whole, mut brackets) = (Vec::new(), Vec::new(), false, 0);
+    for (number, place) in places.iter().enumerate() {
+        let next_line = number > 0 && tokens[places[number - 1]].is_directive && !tokens[*place].is_directive;
+        let is_separator = ["(", ")", "{", "}", ";", ","].contains(&text(place));
+        if is_separator || next_line {
+            if !std::mem::take(&mut has_whole) {
+                floats.append(&mut segment);
+            }
+            segment.clear();
+        }
+        match text(place) {
+            "[" => brackets += 1,
+            "]" => brackets -= 1,
+            word => has_whole |= whole.contains(word) || (tokens[*place].is_directive && word == "version"),
+        }
+        if brackets == 0 && tokens[*place].kind == Kind::Number && is_whole(text(place)) {
+            segment.push(*place);
+        }
+    }
+    if !has_whole {
+        floats.append(&mut segment);
+    }
+    floats
+}
+
+/// How many brackets are open after these.
+fn depth(tokens: &[Token<'_>], places: &[usize]) -> i32 {
+    let step = |place: &usize| match tokens[*place].text {
+        "(" | "{" | "[" => 1,
+        ")" | "}" | "]" => -1,
+        _ => 0,
+    };
+    places.iter().map(step).sum()
+}
+
+/// The place of the bracket that closes the one at `open`.
+fn closing(tokens: &[Token<'_>], places: &[usize], open: usize) -> Option<usize> {
+    (open + 1..places.len()).find(|place| depth(tokens, &places[open..=*place]) == 0)
+}
+
+/// What stands at a shader's top, each a text without comments: directives, declarations, functions.
+fn items(tokens: &[Token<'_>], texts: &[String]) -> Vec<String> {
+    let (mut items, mut item, mut depth) = (Vec::new(), String::new(), 0);
+    let mut was_directive = false;
+    let mut close = |item: &mut String| items.push(std::mem::take(item).trim().to_owned());
+    for (token, text) in tokens.iter().zip(texts) {
+        if was_directive && !token.is_directive {
+            close(&mut item);
+        }
+        was_directive = token.is_directive;
+        let is_comment = token.kind == Kind::Between && token.text.starts_with('/');
+        item.push_str(if is_comment { " " } else { text });
+        match token.text {
+            "{" | "(" => depth += 1,
+            "}" | ")" => depth -= 1,
+            _ => {}
+        }
+        let ends = matches!(token.text, ";" | "}") && depth == 0 && !token.is_directive;
+        if ends {
+            close(&mut item);
+        }
+    }
+    close(&mut item);
+    items
+}
+
+#[cfg(test)]
+mod tests;

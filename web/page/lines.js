@@ -1,0 +1,38 @@
+// Exact lines, in a worker: they take longer than a picture. What is no longer wanted is given up with its worker.
+
+let module;
+let worker;
+let number = 0;
+const waiting = new Map();
+
+/** Says which program workers run. */
+export const use = (compiled) => (module = compiled);
+
+function started() {
+  if (worker) return worker;
+  worker = new Worker("worker.js", { type: "module" });
+  worker.addEventListener("message", ({ data }) => {
+    const asked = waiting.get(data.number);
+    waiting.delete(data.number);
+    if (data.problem) asked?.reject(new Error(data.problem));
+    else asked?.resolve(data.answer);
+  });
+  worker.postMessage({ module });
+  return worker;
+}
+
+/** Asks the worker for something of a model; the promise is never kept where it is given up. */
+export function ask(kind, model, options, ink) {
+  number += 1;
+  const asked = new Promise((resolve, reject) => waiting.set(number, { resolve, reject }));
+  started().postMessage({ number, kind, model, options, ink });
+  return asked;
+}
+
+/** Gives up what is being worked on. */
+export function cancel() {
+  if (!waiting.size) return;
+  waiting.clear();
+  worker.terminate();
+  worker = undefined;
+}

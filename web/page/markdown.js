@@ -1,0 +1,50 @@
+// As much of Markdown as the documents use: headings, paragraphs, lists, tables, code, pictures, links.
+
+import { element } from "./panel.js";
+
+/** A document's blocks as elements; `picture(alternative, address, heading)` makes what stands for a picture. */
+export function blocks(text, picture) {
+  const made = [];
+  for (const block of text.split(/\n{2,}/)) {
+    const lines = block.replace(/\n+$/, "").split("\n");
+    if (!lines[0]) continue;
+    const heading = lines[0].match(/^(#+) (.*)/);
+    if (heading) made.push(element(`h${heading[1].length}`, {}, ...words(heading[2], picture)));
+    else if (lines.every((line) => line.startsWith("    "))) made.push(element("pre", { textContent: lines.map((line) => line.slice(4)).join("\n") }));
+    else if (lines[0].startsWith("|")) made.push(table(lines, picture));
+    else if (lines[0].startsWith("- ")) made.push(list(lines, picture));
+    else made.push(element("p", {}, ...words(lines.join(" "), picture)));
+  }
+  return made;
+}
+
+function list(lines, picture) {
+  const items = lines.join("\n").split(/^- /m).slice(1);
+  return element("ul", {}, ...items.map((item) => element("li", {}, ...words(item.replace(/\s+/g, " "), picture))));
+}
+
+function table(lines, picture) {
+  const cells = (line) => line.split("|").slice(1, -1).map((cell) => cell.trim());
+  const heads = cells(lines[0]);
+  const row = (line) => element("tr", {}, ...cells(line).map((cell, place) => element("td", {}, ...words(cell, picture, heads[place]))));
+  return element("table", {}, element("tr", {}, ...heads.map((head) => element("th", {}, ...words(head, picture)))), ...lines.slice(2).map(row));
+}
+
+/** A line's words: code, pictures and links among them. */
+function words(text, picture, heading) {
+  const found = [];
+  const pattern = /\*\*([^*]+)\*\*|`([^`]+)`|!\[([^\]]*)\]\(([^)]+)\)|\[((?:[^[\]]|`[^`]*`)*)\]\(([^)]+)\)/g;
+  let end = 0;
+  for (const match of text.matchAll(pattern)) {
+    found.push(text.slice(end, match.index));
+    end = match.index + match[0].length;
+    const [, strong, code, alternative, address, linked] = match;
+    if (strong) found.push(element("strong", { textContent: strong }));
+    else if (code) found.push(element("code", { textContent: code }));
+    else if (address) found.push(picture(alternative, address, heading));
+    // Other documents are not on the page.
+    else found.push(...words(linked, picture));
+  }
+  found.push(text.slice(end));
+  return found;
+}

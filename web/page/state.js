@@ -1,0 +1,57 @@
+// What is shown: a plain value, and the link that holds it.
+
+/** The state that a page begins with. */
+export const first = () => ({
+  model: "bust",
+  divider: 50,
+  sides: { left: { style: "three-pass", show: "final", settings: {} }, right: { style: "inking", show: "final", settings: {} } },
+  scene: {},
+  orbit: null,
+});
+
+/** A state as what follows the # of a link; a model of the reader's own is not in it. */
+export function linkOf(state) {
+  const words = new URLSearchParams();
+  if (state.model) words.set("model", state.model);
+  words.set("divider", state.divider);
+  for (const [name, side] of Object.entries(state.sides)) {
+    words.set(name, side.style);
+    if (side.show !== "final") words.set(`${name}.show`, side.show);
+    for (const [setting, value] of Object.entries(side.settings)) words.set(`${name}:${setting}`, value);
+  }
+  for (const [setting, value] of Object.entries(state.scene)) words.set(`scene:${setting}`, value);
+  if (state.orbit) words.set("orbit", state.orbit);
+  return words.toString();
+}
+
+/** The state that a link holds; what it does not say is as at first, and what it says wrongly is left out. */
+export function ofLink(link, tables) {
+  const state = first();
+  for (const [key, value] of new URLSearchParams(link.replace(/^#/, ""))) {
+    const [place, setting] = key.split(":");
+    const side = state.sides[place.split(".")[0]];
+    if (key === "model" && tables.models.some((model) => model.name === value)) state.model = value;
+    else if (key === "divider") state.divider = Math.min(100, Math.max(0, Number(value) || 0));
+    else if (key === "orbit") state.orbit = value;
+    else if (place === "scene" && setting) state.scene[setting] = value;
+    else if (side && setting) side.settings[setting] = value;
+    else if (side && key === place && place.endsWith(".show")) side.show = value;
+    else if (side && tables.styles.some((style) => style.name === value)) side.style = value;
+  }
+  for (const side of Object.values(state.sides)) {
+    if (!styleOf(tables, side).shows.includes(side.show)) side.show = "final";
+  }
+  return state;
+}
+
+/** The table of a side's style. */
+export const styleOf = (tables, side) => tables.styles.find((style) => style.name === side.style);
+
+/** Options as the library reads them: flags are true or false, all else is text; those of other styles are left out. */
+export function options(settings, table) {
+  const found = {};
+  for (const { name, kind } of table) {
+    if (name in settings) found[name] = kind.is === "flag" ? settings[name] === "on" : settings[name];
+  }
+  return found;
+}

@@ -1,0 +1,120 @@
+//! A model, its scene, and its exact lines: all that needs no canvas, so that a worker can have it too.
+
+use crate::errors::{said, unreadable};
+use serde_json::json;
+use std::sync::Arc;
+use tinta::measure::{Ink, Reference};
+use tinta::mesh::{Loaded, load, read_bytes};
+use tinta::recipe::{Driver, FileRecord};
+use tinta::settings::{HasSettings, Options};
+use tinta::{LineSettings, LoadOptions, Mesh, Recipe, Scene, SceneSettings, Size, SvgSettings, VisibleLines, lines};
+use wasm_bindgen::JsError;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Distance within which ink lies on a line, pixels: that of `tinta measure`.
+const TOLERANCE_PX: f64 = 2.0;
+
+/// A model, and what was said of it when it was read.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Model {
+    name: String,
+    mesh: Arc<Mesh>,
+    remarks: Vec<String>,
+    files: Vec<FileRecord>,
+}
+
+#[wasm_bindgen]
+impl Model {
+    /// A built-in one, by its name.
+    ///
+    /// # Errors
+    ///
+    /// Where there is none of that name.
+    pub fn builtin(name: &str) -> Result<Model, JsError> {
+        let path = format!("builtin:{name}");
+        let loaded = load(&path, &LoadOptions::default()).map_err(said)?;
+        Ok(Self::of(path, loaded, Vec::new()))
+    }
+
+    /// One from a file's bytes; `materials` are those of an OBJ's MTL file, or none.
+    ///
+    /// # Errors
+    ///
+    /// Those of the library's readers, a sentence each.
+    pub fn read(name: &str, bytes: &[u8], materials: &[u8]) -> Result<Model, JsError> {
+        let loaded = read_bytes(bytes, name, materials, &LoadOptions::default()).map_err(said)?;
+        Ok(Self::of(name.to_owned(), loaded, vec![FileRecord::of_bytes(name, bytes)]))
+    }
+
+    fn of(name: String, loaded: Loaded, files: Vec<FileRecord>) -> Self {
+        Self { name, mesh: Arc::new(loaded.mesh), remarks: loaded.remarks, files }
+    }
+
+    /// Its name, size, and what was noticed: JSON.
+    pub fn about(&self) -> String {
+        let Mesh { triangles, .. } = &*self.mesh;
+        json!({ "name": self.name, "triangles": triangles.len(), "remarks": self.remarks }).to_string()
+    }
+
+    /// The exact lines of a view as the SVG that the command line writes with these options, its recipe in it if it is wanted.
+    ///
+    /// # Errors
+    ///
+    /// Those of the options and of the lines.
+    pub fn svg(&self, options: &str, has_recipe: bool) -> Result<String, JsError> {
+        let options = options_of(options)?;
+        let scene = self.scene(&SceneSettings::from_options(&options).map_err(said)?)?;
+        let recipe = has_recipe.then(|| self.recipe("lines", &options, scene.size, None));
+        let drawing = SvgSettings {
+            title: self.name.clone(),
+            command: recipe.as_ref().map(|recipe| recipe.command_line("drawing.svg")).unwrap_or_default(),
+            recipe: recipe.as_ref().and_then(Recipe::json).unwrap_or_default(),
+            background: scene.background,
+            ..SvgSettings::from_options(&options).map_err(said)?
+        };
+        let settings = LineSettings::from_options(&options).map_err(said)?;
+        let settings = LineSettings { finds_outline: drawing.tells_outline(), ..settings };
+        let visible = VisibleLines::of(&scene, &settings).map_err(said)?;
+        lines::svg(&visible, &drawing).map_err(said)
+    }
+
+    /// How well ink agrees with the exact lines of a view, F1 from 0 to 1, as the command line measures it; `ink` is how dark each
+    /// pixel is.
+    ///
+    /// # Errors
+    ///
+    /// Those of the options and of the lines.
+    pub fn error(&self, options: &str, ink: &[u8]) -> Result<f64, JsError> {
+        let scene = self.scene(&SceneSettings::from_options(&options_of(options)?).map_err(said)?)?;
+        let reference = Reference::of(&scene, &LineSettings::as_published()).map_err(said)?;
+        let ink = Ink { size: scene.size, darkness: ink.to_vec() };
+        Ok(ink.error(&reference, TOLERANCE_PX).f1)
+    }
+}
+
+impl Model {
+    /// What a picture of it was made of.
+    pub(crate) fn recipe(&self, style: &str, options: &Options, size: Size, gl: Option<Driver>) -> Recipe {
+        Recipe {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            command: "render".to_owned(),
+            style: style.to_owned(),
+            size: [size.width, size.height],
+            models: vec![self.name.clone()],
+            options: options.clone(),
+            files: self.files.clone(),
+            gl,
+        }
+    }
+
+    /// A scene of it.
+    pub(crate) fn scene(&self, settings: &SceneSettings) -> Result<Scene, JsError> {
+        Scene::new([self.mesh.clone()], settings).map_err(said)
+    }
+}
+
+/// Options of the page, which are the command line's.
+pub(crate) fn options_of(json: &str) -> Result<Options, JsError> {
+    serde_json::from_str(json).map_err(unreadable)
+}

@@ -1,0 +1,244 @@
+//! What the page draws with: a canvas's renderer, a scene, and from where it is seen.
+
+use crate::errors::{said, unreadable};
+use crate::model::{Model, options_of};
+use serde_json::json;
+use tinta::measure::Ink;
+use tinta::orbit::Orbit;
+use tinta::plan::Step;
+use tinta::plan::prune::prune;
+use tinta::recipe::Driver;
+use tinta::renderer::Renderer;
+use tinta::settings::{HasSettings, Options};
+use tinta::{Picture, Scene, SceneSettings, Show, Style, View};
+use wasm_bindgen::JsError;
+use wasm_bindgen::prelude::wasm_bindgen;
+use web_sys::HtmlCanvasElement;
+
+/// Draws one scene in any style, from wherever it is turned to.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Pane {
+    renderer: Renderer,
+    scene: Option<Scene>,
+    orbit: Orbit,
+    drawn: Option<Picture>,
+}
+
+#[wasm_bindgen]
+impl Pane {
+    /// On this canvas, which the page need not show.
+    ///
+    /// # Errors
+    ///
+    /// Where the browser has no WebGL, or too little of it.
+    #[wasm_bindgen(constructor)]
+    pub fn new(canvas: HtmlCanvasElement) -> Result<Pane, JsError> {
+        let renderer = Renderer::on_canvas(canvas).map_err(said)?;
+        Ok(Self { renderer, scene: None, orbit: Orbit::default(), drawn: None })
+    }
+
+    /// What this browser draws with: JSON.
+    pub fn context(&self) -> String {
+        json!(self.renderer.context()).to_string()
+    }
+
+    /// Shows this model from now on.
+    ///
+    /// # Errors
+    ///
+    /// Where it is too large for a scene.
+    pub fn show(&mut self, model: &Model) -> Result<(), JsError> {
+        self.scene = Some(model.scene(&SceneSettings::default())?);
+        Ok(())
+    }
+
+    /// Draws the scene with these options and keeps the picture; returns its width.
+    ///
+    /// # Errors
+    ///
+    /// Those of the options, the style and the browser.
+    pub fn draw(&mut self, options: &str, show: &str) -> Result<u32, JsError> {
+        let options = options_of(options)?;
+        let style = Style::from_options(&options).map_err(said)?;
+        let scene = self.seen(&options)?;
+        let plan = style.plan(&scene, shown(show)?).map_err(said)?;
+        let pruned = prune(&plan, &scene, &self.renderer.pruning(1)).plan;
+        let picture = self.renderer.draw(&scene, &pruned).map_err(said)?;
+        let width = picture.size.width;
+        self.drawn = Some(picture);
+        Ok(width)
+    }
+
+    /// The picture last drawn: red, green, blue, alpha, from the top.
+    pub fn pixels(&self) -> Vec<u8> {
+        self.drawn.as_ref().map(|picture| picture.pixels.clone()).unwrap_or_default()
+    }
+
+    /// The picture last drawn as a PNG file, with the recipe it was drawn by: these options, of this model.
+    ///
+    /// # Errors
+    ///
+    /// Where nothing was drawn yet.
+    pub fn png(&self, options: &str, model: &Model) -> Result<Vec<u8>, JsError> {
+        let picture = self.drawn.as_ref().ok_or_else(|| JsError::new("nothing was drawn yet"))?;
+        let options = options_of(options)?;
+        let style = Style::from_options(&options).map_err(said)?;
+        let driver = Driver::new(self.renderer.context());
+        let recipe = model.recipe(style.name(), &options, picture.size, Some(driver));
+        picture.png_bytes(recipe.note().as_ref()).map_err(said)
+    }
+
+    /// The passes of what would be drawn, each with its programs' shaders: JSON.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Pane::draw`].
+    pub fn passes(&self, options: &str, show: &str) -> Result<String, JsError> {
+        let options = options_of(options)?;
+        let style = Style::from_options(&options).map_err(said)?;
+        let plan = style.plan(&self.seen(&options)?, shown(show)?).map_err(said)?;
+        let passes: Vec<_> = plan
+            .passes
+            .iter()
+            .map(|pass| {
+                let mut shaders: Vec<&str> = Vec::new();
+                for step in &pass.steps {
+                    if let Step::Draw(draw) = step
+                        && let Some(program) = &draw.program
+                    {
+                        shaders.push(program.vertex);
+                        shaders.extend(&program.fragments);
+                    }
+                }
+                shaders.dedup();
+                json!({ "name": pass.name, "shaders": shaders })
+            })
+            .collect();
+        serde_json::to_string(&passes).map_err(unreadable)
+    }
+
+    /// The ink of the lines that these options draw, how dark each pixel is; nothing for a style without lines.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Pane::draw`].
+    pub fn ink(&mut self, options: &str) -> Result<Option<Vec<u8>>, JsError> {
+        let options = options_of(options)?;
+        let style = Style::from_options(&options).map_err(said)?;
+        let scene = self.seen(&options)?;
+        Ok(Ink::of_style(&mut self.renderer, &scene, &style).map_err(said)?.map(|ink| ink.darkness))
+    }
+
+    /// From where the scene is seen, as [`Pane::set_orbit`] takes it.
+    pub fn orbit(&self) -> String {
+        let Orbit { view, zoom, pan, parallel, fov_y_degrees } = &self.orbit;
+        let View { azimuth_degrees, elevation_degrees } = view;
+        let numbers = [*azimuth_degrees, *elevation_degrees, *zoom, pan[0], pan[1], *fov_y_degrees];
+        let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
+        format!("{},{}", words.join(","), if *parallel { "parallel" } else { "perspective" })
+    }
+
+    /// Sees the scene from where a link says; what it says wrongly is left as it is.
+    #[wasm_bindgen(js_name = setOrbit)]
+    pub fn set_orbit(&mut self, words: &str) {
+        let numbers: Vec<f64> = words.split(',').map_while(|word| word.parse().ok()).collect();
+        let [azimuth_degrees, elevation_degrees, zoom, right, up, fov_y_degrees] = numbers[..] else { return };
+        if !numbers.iter().all(|number| number.is_finite()) {
+            return;
+        }
+        let parallel = words.ends_with(",parallel");
+        self.orbit = Orbit { parallel, fov_y_degrees, ..Orbit::default() };
+        self.orbit.look_from(View { azimuth_degrees, elevation_degrees: elevation_degrees.clamp(-90.0, 90.0) });
+        self.orbit.zoom_by(zoom);
+        self.orbit.pan = [right.clamp(-2.0, 2.0), up.clamp(-2.0, 2.0)];
+    }
+
+    /// Uses these shaders instead of those built in: JSON, texts by their paths; an empty object takes them back.
+    ///
+    /// # Errors
+    ///
+    /// Where one of them is not understood.
+    pub fn replace_shaders(&mut self, shaders: &str) -> Result<(), JsError> {
+        let shaders = serde_json::from_str(shaders).map_err(unreadable)?;
+        self.renderer.replace_shaders(shaders).map_err(said)
+    }
+
+    /// How many objects of WebGL there are.
+    pub fn live_objects(&self) -> usize {
+        self.renderer.live_objects()
+    }
+
+    /// Turns by a drag to the right and down, shares of the picture's height.
+    pub fn turn(&mut self, right: f64, down: f64) {
+        self.orbit.turn(right, down);
+    }
+
+    /// Moves the scene with a drag to the right and down, shares of the picture's height.
+    #[wasm_bindgen(js_name = moveBy)]
+    pub fn move_by(&mut self, right: f64, down: f64) {
+        self.orbit.move_by(right, down);
+    }
+
+    /// Brings the scene nearer by this factor.
+    pub fn zoom(&mut self, factor: f64) {
+        self.orbit.zoom_by(factor);
+    }
+
+    /// Looks from here at the whole scene: a view as the command line has it.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no such view.
+    pub fn look(&mut self, view: &str) -> Result<(), JsError> {
+        let view: View = view.parse().map_err(|error| JsError::new(&format!("{error}")))?;
+        self.orbit.look_from(view);
+        Ok(())
+    }
+
+    /// Looks as at first.
+    pub fn reset(&mut self) {
+        self.orbit = Orbit::default();
+    }
+
+    /// Changes between perspective and parallel projection.
+    pub fn project(&mut self) {
+        self.orbit.parallel = !self.orbit.parallel;
+    }
+
+    /// The options that say from where the scene is seen: JSON.
+    ///
+    /// # Errors
+    ///
+    /// Where the camera is refused.
+    pub fn camera(&self, options: &str) -> Result<String, JsError> {
+        let settings = self.settings(&options_of(options)?)?;
+        let camera = SceneSettings { camera: settings.camera, ..SceneSettings::default() };
+        json_of(&camera.to_options().map_err(said)?)
+    }
+}
+
+impl Pane {
+    fn settings(&self, options: &Options) -> Result<SceneSettings, JsError> {
+        let settings = SceneSettings::from_options(options).map_err(said)?;
+        if ["eye", "target", "view"].iter().any(|name| options.contains_key(*name)) {
+            return Ok(settings);
+        }
+        let scene = self.scene.as_ref().ok_or_else(|| JsError::new("no model is shown yet"))?;
+        let camera = self.orbit.settings(scene, &settings).map_err(said)?;
+        Ok(SceneSettings { camera, ..settings })
+    }
+
+    fn seen(&self, options: &Options) -> Result<Scene, JsError> {
+        let scene = self.scene.as_ref().ok_or_else(|| JsError::new("no model is shown yet"))?;
+        scene.seen_with(&self.settings(options)?).map_err(said)
+    }
+}
+
+fn shown(name: &str) -> Result<Show, JsError> {
+    name.parse().map_err(|error| JsError::new(&format!("{error}")))
+}
+
+fn json_of(options: &Options) -> Result<String, JsError> {
+    serde_json::to_string(options).map_err(unreadable)
+}

@@ -1,0 +1,93 @@
+//! What the page's controls are made of: the tables of settings, the models, the shaders.
+
+use crate::errors::unreadable;
+use serde_json::{Value, json};
+use tinta::glsl::es::{Stage, transcribed};
+use tinta::mesh::BUILTINS;
+use tinta::settings::{HasSettings, Kind, Setting};
+use tinta::{SceneSettings, Style, StyleName};
+use wasm_bindgen::prelude::wasm_bindgen;
+use wasm_bindgen::{JsError, JsValue};
+
+/// Every style with its settings, those of the scene, the built-in models: JSON.
+#[wasm_bindgen]
+pub fn tables() -> String {
+    let styles: Vec<Value> = StyleName::ALL
+        .into_iter()
+        .map(|(name, of)| {
+            let style = Style::named(of);
+            let settings: Vec<Value> =
+                Style::table().of(Some(&style)).into_iter().map(|setting| control(setting, &style)).collect();
+            let shows: Vec<Value> = of.info().shows.iter().map(|show| json!(show)).collect();
+            json!({ "name": name, "shows": shows, "settings": settings })
+        })
+        .collect();
+    let scene = SceneSettings::default();
+    let of_scene: Vec<Value> =
+        SceneSettings::table().of(Some(&scene)).into_iter().map(|setting| control(setting, &scene)).collect();
+    let models: Vec<Value> = BUILTINS.iter().map(|model| json!({ "name": model.name, "what": model.what })).collect();
+    json!({ "version": env!("CARGO_PKG_VERSION"), "styles": styles, "scene": of_scene, "models": models }).to_string()
+}
+
+/// A setting as a control needs it.
+fn control<T: Clone + 'static>(setting: &Setting<T>, of: &T) -> Value {
+    let kind = match &setting.kind {
+        Kind::Numbers { count, range, decimals } => {
+            json!({ "is": "numbers", "count": count, "range": range, "decimals": decimals })
+        }
+        Kind::Choice(names) => json!({ "is": "choice", "names": names }),
+        Kind::Recipe(names) => json!({ "is": "recipe", "names": names }),
+        Kind::Several(names) => json!({ "is": "several", "names": names }),
+        Kind::Switch => json!({ "is": "switch" }),
+        Kind::Flag => json!({ "is": "flag" }),
+        Kind::File => json!({ "is": "file" }),
+        Kind::Color => json!({ "is": "color" }),
+        Kind::Colors { offered, example, .. } | Kind::Text { offered, example } => {
+            json!({ "is": "text", "offered": offered, "example": example })
+        }
+    };
+    json!({
+        "name": setting.name,
+        "label": setting.label(),
+        "kind": kind,
+        "help": setting.help,
+        "heading": setting.heading,
+        "open": setting.open,
+        "default": setting.value(of),
+    })
+}
+
+/// A shader of `glsl/` in pieces, as it was published and as this browser has it: JSON, a list of pairs.
+///
+/// # Errors
+///
+/// A sentence where there is no such shader.
+#[wasm_bindgen]
+pub fn listing(path: &str) -> Result<String, JsError> {
+    let text = tinta::glsl::source(path).ok_or_else(|| JsError::new(&format!("there is no shader {path}")))?;
+    let pieces = transcribed(Stage::of(path), text).map_err(|problem| JsError::new(&format!("{path}: {problem}")))?;
+    let pairs: Vec<[&str; 2]> = pieces.iter().map(|piece| [piece.original.as_str(), piece.text.as_str()]).collect();
+    serde_json::to_string(&pairs).map_err(unreadable)
+}
+
+/// The paths of all shaders: JSON.
+#[wasm_bindgen]
+pub fn shaders() -> String {
+    json!(tinta::glsl::SOURCES.iter().map(|(path, _)| path).collect::<Vec<_>>()).to_string()
+}
+
+/// The word that a text of a setting of a style is refused with; nothing where it is taken.
+#[wasm_bindgen]
+pub fn refusal(style: &str, name: &str, text: &str) -> Option<String> {
+    let style = Style::named(style.parse().ok()?);
+    let setting = Style::table().find(&style, name)?;
+    setting.set(&mut style.clone(), text).err().map(|error| error.to_string())
+}
+
+/// Runs when the page is opened: a bug is told in the console, with its place.
+#[wasm_bindgen(start)]
+pub fn start() {
+    std::panic::set_hook(Box::new(|panic| {
+        web_sys::console::error_1(&JsValue::from_str(&format!("tinta: {panic}")));
+    }));
+}

@@ -1,0 +1,80 @@
+// What tests need: reports to the server, what the command line draws, pictures compared.
+
+const report = (body) => fetch("/report", { method: "POST", body: JSON.stringify(body) });
+
+/** Does some work and reports whether it held, with what it returns. */
+export async function test(name, work) {
+  try {
+    const note = await work();
+    await report({ name, ok: true, note: note ? `: ${note}` : "" });
+  } catch (problem) {
+    await report({ name, ok: false, note: `: ${problem.message ?? problem}` });
+  }
+}
+
+/** All is done. */
+export const finish = () => report({ done: true });
+
+export function assert(holds, problem) {
+  if (!holds) throw new Error(problem);
+}
+
+/** Waits until something holds, up to ten seconds. */
+export async function until(holds, what) {
+  const end = performance.now() + 10_000;
+  while (!holds()) {
+    assert(performance.now() < end, `${what} did not come about`);
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+}
+
+/** What the command line draws with these options, the file's name last: its bytes. */
+export async function drawn(...words) {
+  const answer = await fetch(`/drawn?${encodeURIComponent(JSON.stringify(words))}`);
+  if (!answer.ok) throw new Error(await answer.text());
+  return new Uint8Array(await answer.arrayBuffer());
+}
+
+/** A PNG's pixels, as they are in it. */
+export async function pixels(png) {
+  const picture = await createImageBitmap(new Blob([png]), { premultiplyAlpha: "none", colorSpaceConversion: "none" });
+  const canvas = new OffscreenCanvas(picture.width, picture.height);
+  const context = canvas.getContext("2d");
+  context.drawImage(picture, 0, 0);
+  return context.getImageData(0, 0, picture.width, picture.height).data;
+}
+
+/** The share of pixels of which a channel differs by more than this. */
+export function differing(a, b, by) {
+  assert(a.length === b.length, `${a.length} and ${b.length} bytes`);
+  let count = 0;
+  for (let at = 0; at < a.length; at += 4) {
+    if ([0, 1, 2].some((channel) => Math.abs(a[at + channel] - b[at + channel]) > by)) count += 1;
+  }
+  return count / (a.length / 4);
+}
+
+/** The ink of a picture of lines on white: how far each pixel is from white in its darkest channel. */
+export function darkness(pixels) {
+  return Uint8Array.from({ length: pixels.length / 4 }, (_, at) => 255 - Math.min(pixels[at * 4], pixels[at * 4 + 1], pixels[at * 4 + 2]));
+}
+
+/** The means of a picture's squares of 32 pixels. */
+export function tones(pixels, width) {
+  const side = 32;
+  const columns = width / side;
+  const sums = new Float64Array((pixels.length / side / side) | 0);
+  for (let at = 0; at < pixels.length; at += 1) {
+    const pixel = at >> 2;
+    const [x, y] = [pixel % width, Math.floor(pixel / width)];
+    sums[(Math.floor(y / side) * columns + Math.floor(x / side)) * 4 + (at & 3)] += pixels[at] / side / side;
+  }
+  return sums;
+}
+
+/** Where two texts begin to differ. */
+export function byteDifference(found, expected) {
+  const at = [...found].findIndex((letter, place) => letter !== expected[place]);
+  const near = (text) => JSON.stringify(text.slice(Math.max(0, at - 20), at + 60));
+  return `${found.length} and ${expected.length} letters; ${near(found)} for ${near(expected)}`;
+}

@@ -1,0 +1,236 @@
+// The page itself, in a frame: driven by events as a hand makes them, and looked into.
+
+import { assert, differing, drawn, pixels, test, until } from "./harness.js";
+
+/** Opens the page in a frame of this size; what goes wrong in it is collected. */
+async function opened(width, height, link = "") {
+  const frame = document.createElement("iframe");
+  Object.assign(frame.style, { width: `${width}px`, height: `${height}px`, border: "0" });
+  const problems = [];
+  frame.src = `index.html${link}`;
+  document.body.append(frame);
+  frame.contentWindow.addEventListener("error", (event) => problems.push(event.message));
+  await new Promise((resolve) => frame.addEventListener("load", resolve));
+  const page = frame.contentWindow;
+  page.console.error = (...words) => problems.push(words.join(" "));
+  page.addEventListener("error", (event) => problems.push(event.message));
+  page.addEventListener("unhandledrejection", (event) => problems.push(String(event.reason)));
+  await until(() => page.tinta, "the page");
+  const at = (id) => page.document.getElementById(id);
+  const settled = () => new Promise((resolve) => page.requestAnimationFrame(() => page.requestAnimationFrame(resolve)));
+  await settled();
+  await settled();
+  return { frame, page, at, settled, problems, close: () => frame.remove() };
+}
+
+const picture = (canvas) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+
+/** Tests the page. */
+export async function testPage(tables) {
+  const opening = await opened(1000, 900);
+  const { page, at, settled, problems, close } = opening;
+  const stage = at("stage");
+  const change = (field, value) => {
+    field.value = value;
+    field.dispatchEvent(new page.Event("change"));
+    return settled();
+  };
+  const pointer = (type, x, y, more = {}) => {
+    const box = stage.getBoundingClientRect();
+    const place = { clientX: box.left + x * box.width, clientY: box.top + y * box.height };
+    stage.dispatchEvent(new page.PointerEvent(type, { pointerId: 1, bubbles: true, buttons: 1, ...place, ...more }));
+    return settled();
+  };
+  const key = (key, more = {}) => {
+    stage.dispatchEvent(new page.KeyboardEvent("keydown", { key, bubbles: true, cancelable: true, ...more }));
+    return settled();
+  };
+
+  await test("the page shows both styles at once", () => {
+    for (const name of ["left", "right"]) {
+      const colors = new Set(new Uint32Array(picture(at(name)).buffer));
+      assert(colors.size > 20, `${name}: ${colors.size} colours`);
+    }
+    assert(differing(picture(at("left")), picture(at("right")), 8) > 0.05, "they are two styles");
+  });
+
+  await test("dragging turns, keys turn back, and the divider divides", async () => {
+    const before = picture(at("left"));
+    await pointer("pointerdown", 0.25, 0.5);
+    await pointer("pointermove", 0.45, 0.5);
+    await pointer("pointerup", 0.45, 0.5);
+    assert(differing(before, picture(at("left")), 8) > 0.05, "it turned");
+    await key("r");
+    assert(differing(before, picture(at("left")), 0) === 0, "R is the first view again");
+    await pointer("pointerdown", 0.5, 0.5);
+    await pointer("pointermove", 0.7, 0.5);
+    await pointer("pointerup", 0.7, 0.5);
+    assert(Math.abs(page.tinta.state().divider - 70) < 1, `divider at ${page.tinta.state().divider}`);
+    assert(differing(before, picture(at("left")), 0) === 0, "dividing does not turn");
+    await key("[");
+    assert(Math.abs(Number(at("divider").value) - 65) < 1.5, at("divider").value);
+  });
+
+  await test("every style by its key and every setting by its field", async () => {
+    let count = 0;
+    for (const [number, style] of tables.styles.entries()) {
+      await pointer("pointerdown", 0.2, 0.9);
+      await pointer("pointerup", 0.2, 0.9);
+      await key(String(number + 1));
+      assert(at("left-Style").value === style.name, `${at("left-Style").value} for ${style.name}`);
+      const fields = [...at("left-side").querySelectorAll(".setting")];
+      const named = style.settings.filter(({ kind }) => kind.is !== "file");
+      assert(fields.length === named.length, `${style.name}: ${fields.length} fields for ${named.length} settings`);
+      count += fields.length;
+      for (const field of at("left-side").querySelectorAll(".setting :is(input, select)")) {
+        assert(field.labels.length === 1, `${field.name} has a label`);
+      }
+    }
+    return `${count} fields`;
+  });
+
+  await test("a setting changes the picture, its default comes back, nonsense is refused beside it", async () => {
+    await change(at("left-Style"), "inking");
+    const before = picture(at("left"));
+    const width = at("left-side").querySelector('[name="line-width"]');
+    await change(width, "7");
+    assert(differing(before, picture(at("left")), 8) > 0.005, "lines are wider");
+    await until(() => page.location.hash.includes("left%3Aline-width=7"), "the setting in the address");
+    width.parentElement.querySelector("button").click();
+    await settled();
+    assert(differing(before, picture(at("left")), 0) === 0, "the default is back");
+    const offset = at("left-side").querySelector('[name="polygon-offset"]');
+    await change(offset, "much");
+    assert(offset.parentElement.querySelector(".problem").textContent.length > 10, "a sentence says why");
+  });
+
+  await test("a constant that is changed in a listing is drawn with, and taken back", async () => {
+    await change(at("left-Style"), "three-pass");
+    const before = picture(at("left"));
+    await change(at("shader"), "evangelista/border.frag");
+    at("edit").click();
+    at("text").value = at("text").value.replace("DETECTION_FACTOR 0.2f", "DETECTION_FACTOR 2.0f");
+    at("apply").click();
+    await settled();
+    assert(differing(before, picture(at("left")), 8) > 0.005, "borders are darker");
+    at("text").value = "no shader";
+    at("apply").click();
+    await settled();
+    assert(/shader/i.test(at("status").textContent), at("status").textContent);
+    at("published").click();
+    await settled();
+    assert(differing(before, picture(at("left")), 0) === 0, "as published again");
+  });
+
+  await test("a link shows the same again", async () => {
+    await change(at("model"), "gear");
+    await change(at("right-Style"), "charcoal");
+    await key("ArrowLeft");
+    await key("+");
+    await until(() => page.location.hash.includes(encodeURIComponent(page.tinta.pane().orbit())), "the view in the address");
+    const again = await opened(1000, 900, page.location.hash);
+    for (const name of ["left", "right"]) {
+      assert(differing(picture(at(name)), picture(again.at(name)), 0) === 0, `${name} is the same`);
+    }
+    assert(again.at("model").value === "gear");
+    again.close();
+  });
+
+  await test("a dropped file is drawn, a hostile one is refused and the picture stays", async () => {
+    const drop = async (name, text) => {
+      const data = new page.DataTransfer();
+      data.items.add(new page.File([text], name));
+      stage.dispatchEvent(new page.DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+      const before = at("status").textContent;
+      await until(() => at("status").textContent !== before, "a word about the file");
+      await settled();
+    };
+    await drop("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
+    assert(at("status").textContent.startsWith("two.obj: 2 triangles."), at("status").textContent);
+    const before = picture(at("left"));
+    await drop("bad.obj", "f 7 8 9\n");
+    assert(at("status").textContent.includes("bad.obj"), at("status").textContent);
+    assert(differing(before, picture(at("left")), 0) === 0, "the picture stays");
+  });
+
+  await test("the saved lines are the command line's SVG", async () => {
+    await change(at("model"), "gear");
+    await key("r");
+    let saved;
+    page.URL.createObjectURL = (blob) => {
+      saved = blob;
+      return "#";
+    };
+    page.HTMLAnchorElement.prototype.click = () => {};
+    at("svg").click();
+    await until(() => saved, "the file");
+    const text = await saved.text();
+    const size = text.match(/width="(\d+)" height="(\d+)"/).slice(1).join("x");
+    const expected = new TextDecoder().decode(await drawn("builtin:gear", "--size", size, "drawn.svg"));
+    assert(text === expected, `${text.length} and ${expected.length} letters`);
+    saved = undefined;
+    at("png").click();
+    await until(() => saved, "the picture");
+    const png = new Uint8Array(await saved.arrayBuffer());
+    assert(new TextDecoder("latin1").decode(png).includes("tinta-recipe"), "it carries its recipe");
+    assert((await pixels(png)).length === at("left").width * at("left").height * 4, "it is as large as on the screen");
+  });
+
+  await test("the error against the exact lines is said when nothing moves", async () => {
+    await change(at("left-Style"), "ink");
+    const cost = () => at("left-side").querySelector(".cost").textContent;
+    await until(() => cost().includes("line error 0."), "the error");
+    return cost();
+  });
+
+  await test("a context that is lost is said so, and restored", async () => {
+    const before = picture(at("left"));
+    const context = page.tinta.canvas.getContext("webgl").getExtension("WEBGL_lose_context");
+    context.loseContext();
+    await until(() => at("status").textContent.includes("lost"), "the sentence");
+    await until(() => !at("exact").hidden && at("exact").querySelector("svg"), "the exact lines");
+    context.restoreContext();
+    await until(() => at("status").textContent.includes("back"), "the context");
+    await settled();
+    assert(at("exact").hidden && differing(before, picture(at("left")), 0) === 0, "the same picture again");
+  });
+
+  await test("the page fits 320 pixels and follows a new size", async () => {
+    opening.frame.style.width = "320px";
+    await until(() => at("left").width <= 320 * page.devicePixelRatio, "a smaller picture");
+    const { scrollWidth, clientWidth } = page.document.documentElement;
+    assert(scrollWidth <= clientWidth, `${scrollWidth} px in ${clientWidth}`);
+  });
+
+  await test("nothing was asked of another host, and nothing went wrong unsaid", () => {
+    const others = page.performance.getEntriesByType("resource").filter(({ name }) => new URL(name).host !== location.host);
+    assert(others.length === 0, others.map(({ name }) => name).join(" "));
+    assert(problems.length === 0, problems.join(" | "));
+  });
+  close();
+
+  for (const name of ["evangelista", "dachsbacher", "valente"]) {
+    await test(`the lecture on ${name} shows its figure live, its buffers and its shaders`, async () => {
+      const frame = document.createElement("iframe");
+      Object.assign(frame.style, { width: "360px", height: "900px", border: "0" });
+      frame.src = `lecture.html?${name}`;
+      document.body.append(frame);
+      await new Promise((resolve) => frame.addEventListener("load", resolve));
+      const { document: page } = frame.contentWindow;
+      await until(() => page.querySelector("#buffers button[aria-pressed=true]"), "the buffers");
+      const colors = new Set(new Uint32Array(picture(page.getElementById("figure")).buffer));
+      assert(colors.size > 20, `${colors.size} colours`);
+      assert(page.querySelectorAll("#text h2").length > 3, "its sections");
+      assert([...page.querySelectorAll("#text h2")].some((heading) => heading.textContent === "To try"), "a question");
+      assert(page.getElementById("listing").textContent.startsWith("#version 120"), "a shader");
+      const before = picture(page.getElementById("figure"));
+      page.querySelectorAll("#buffers button")[1].click();
+      assert(differing(before, picture(page.getElementById("figure")), 8) > 0.05, "another buffer");
+      const images = [...page.images].filter((image) => image.complete && !image.naturalWidth);
+      assert(images.length === 0, images.map((image) => image.src).join(" "));
+      const { scrollWidth, clientWidth } = page.documentElement;
+      assert(scrollWidth <= clientWidth, `${scrollWidth} px in ${clientWidth}`);
+      frame.remove();
+    });
+  }
+}
