@@ -2,8 +2,7 @@
 
 use crate::choice::nearest;
 use crate::error::{Error, Result};
-use std::sync::Arc;
-use tinta_geometry::mesh::{EmbeddedPicture, LoadOptions, LoadStage, Loaded, read_bytes};
+use tinta_geometry::mesh::{LoadOptions, LoadStage, Loaded, read_bytes};
 
 /// A built-in model.
 #[derive(Debug, Clone, Copy)]
@@ -12,11 +11,10 @@ pub struct Builtin {
     pub name: &'static str,
     /// What it shows, for help pages.
     pub what: &'static str,
-    /// The model's file, and for an OBJ its materials.
+    /// The model's file.
     model: &'static [u8],
-    materials: &'static [u8],
-    /// The picture on all of its surfaces, a PCX file.
-    skin: Option<&'static [u8]>,
+    /// Files that it names.
+    beside: &'static [(&'static str, &'static [u8])],
 }
 
 /// All built-in models.
@@ -25,36 +23,31 @@ pub const BUILTINS: [Builtin; 5] = [
         name: "bust",
         what: "a portrait bust",
         model: include_bytes!("../models/bust.obj"),
-        materials: include_bytes!("../models/bust.mtl"),
-        skin: None,
+        beside: &[("bust.mtl", include_bytes!("../models/bust.mtl"))],
     },
     Builtin {
         name: "open-box",
         what: "a box without its lid",
         model: include_bytes!("../models/open-box.obj"),
-        materials: b"",
-        skin: None,
+        beside: &[],
     },
     Builtin {
         name: "ant",
         what: "an ant",
         model: include_bytes!("../models/ant.obj"),
-        materials: include_bytes!("../models/ant.mtl"),
-        skin: None,
+        beside: &[("ant.mtl", include_bytes!("../models/ant.mtl"))],
     },
     Builtin {
         name: "gear",
         what: "a gear wheel",
         model: include_bytes!("../models/gear.obj"),
-        materials: include_bytes!("../models/gear.mtl"),
-        skin: None,
+        beside: &[("gear.mtl", include_bytes!("../models/gear.mtl"))],
     },
     Builtin {
         name: "soldier",
         what: "a toy soldier with a skin, from Quake 2's format",
         model: include_bytes!("../models/soldier.md2"),
-        materials: b"",
-        skin: Some(include_bytes!("../models/soldier.pcx")),
+        beside: &[("soldier.pcx", include_bytes!("../models/soldier.pcx"))],
     },
 ];
 
@@ -90,13 +83,7 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
         Some(model) => {
             let model = model?;
             watch(LoadStage::Joining);
-            let mut loaded = read_bytes(model.model, path, model.materials, options)?;
-            if let (Some(skin), None) = (model.skin, &options.skin) {
-                let name = format!("{}.pcx", model.name);
-                let picture = Arc::new(EmbeddedPicture { name, bytes: skin.to_vec() });
-                loaded.mesh.materials.iter_mut().for_each(|material| material.embedded = Some(picture.clone()));
-            }
-            Ok(loaded)
+            read_bytes(model.model, path, model.beside, options)
         }
         None => tinta_geometry::mesh::load_watched(path, options, watch),
     }

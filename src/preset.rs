@@ -50,6 +50,8 @@ pub struct Preset {
     /// What it sets.
     pub options: Options,
     lines: BTreeMap<String, u64>,
+    /// The presets that this one was laid [over](Self::over), the nearest first.
+    below: Vec<Preset>,
 }
 
 impl Preset {
@@ -116,7 +118,8 @@ impl Preset {
             let offset = error.span().map_or(0, |span| span.start);
             at(offset, format!("this is not TOML ({}); write lines such as line-width = 3", shown(&message)))
         })?;
-        let mut preset = Self { name: name.to_owned(), options: Options::new(), lines: BTreeMap::new() };
+        let mut preset =
+            Self { name: name.to_owned(), options: Options::new(), lines: BTreeMap::new(), below: Vec::new() };
         for (key, value) in table.into_inner() {
             let start = key.span().start;
             let key = key.into_inner().into_owned();
@@ -130,16 +133,22 @@ impl Preset {
 
     /// Options that come from somewhere else; `name` is what errors call it.
     pub fn of_options(name: &str, options: Options) -> Self {
-        Self { name: name.to_owned(), options, lines: BTreeMap::new() }
+        Self { name: name.to_owned(), options, lines: BTreeMap::new(), below: Vec::new() }
     }
 
-    /// The same over another: what this one does not set is as the other has it.
+    /// The same over another: what this one does not set is as the other has it. An error about an option names the one that
+    /// set it.
     #[must_use]
-    pub fn over(mut self, below: Self) -> Self {
-        below.options.into_iter().for_each(|(name, value)| {
-            self.options.entry(name).or_insert(value);
-        });
+    pub fn over(mut self, mut below: Self) -> Self {
+        below.options.retain(|name, _| !self.options.contains_key(name));
+        self.options.extend(below.options.clone());
+        self.below.push(below);
         self
+    }
+
+    /// The names of this preset and of those below it.
+    pub fn names(&self) -> Vec<&str> {
+        std::iter::once(self.name.as_str()).chain(self.below.iter().flat_map(Self::names)).collect()
     }
 
     /// The same without the scene's settings that are listed under a heading.
@@ -153,7 +162,12 @@ impl Preset {
 
     /// Where an option stands, 1-based.
     pub fn line_of(&self, option: &str) -> Option<u64> {
-        self.lines.get(option).copied()
+        self.origin(option).lines.get(option).copied()
+    }
+
+    /// The preset that set an option: this one, or one below.
+    fn origin(&self, option: &str) -> &Self {
+        self.below.iter().find(|below| below.options.contains_key(option)).map_or(self, |below| below.origin(option))
     }
 
     /// The style it names, three-pass where it names none, with the settings it sets.
@@ -198,7 +212,7 @@ impl Preset {
 
     /// An error about one of its options.
     pub fn refuse(&self, option: &str, problem: impl Into<String>) -> Error {
-        Error::file(FileKind::Preset, self.name.clone(), problem.into()).at(self.line_of(option))
+        Error::file(FileKind::Preset, self.origin(option).name.clone(), problem.into()).at(self.line_of(option))
     }
 }
 
@@ -306,6 +320,21 @@ mod tests {
 
     fn parsed(text: &str) -> Preset {
         Preset::parse("a.toml", text).unwrap()
+    }
+
+    #[test]
+    fn an_error_names_the_preset_that_set_the_option() {
+        let near = Preset::parse("near.toml", "line-width = 2\n").unwrap();
+        let far = Preset::parse("far.toml", "line-width = 3\n\ntones = 2\n").unwrap();
+        let both = Preset::of_options("camera.txt", Options::new()).over(near.over(far));
+        assert_eq!(both.names(), ["camera.txt", "near.toml", "far.toml"]);
+        let place = |option: &str| match both.refuse(option, "wrong") {
+            Error::File { path, line, .. } => (path.display().to_string(), line),
+            other => panic!("{other}"),
+        };
+        assert_eq!(place("tones"), ("far.toml".to_owned(), Some(3)));
+        assert_eq!(place("line-width"), ("near.toml".to_owned(), Some(1)));
+        assert_eq!(place("eye"), ("camera.txt".to_owned(), None));
     }
 
     #[test]

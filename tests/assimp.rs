@@ -148,7 +148,7 @@ mod with_the_library {
 
     /// Whether there is a library to test; says so where not.
     fn has_library() -> bool {
-        let read = read_bytes(&dxf_file(), "box.dxf", b"", &LoadOptions::default());
+        let read = read_bytes(&dxf_file(), "box.dxf", &[], &LoadOptions::default());
         match read.map_err(|error| error.to_string()) {
             Err(message) if message.contains("is read by libassimp, which is not installed") => {
                 skip("libassimp: the library is not there; on Debian: apt-get install libassimp5");

@@ -76,7 +76,7 @@ impl File {
     }
 
     pub fn load(&self) -> Result<Loaded> {
-        read_bytes(&self.text(), "file.gltf", b"", &LoadOptions::default())
+        read_bytes(&self.text(), "file.gltf", &[], &LoadOptions::default())
     }
 
     pub fn mesh(&self) -> Mesh {

@@ -38,7 +38,7 @@ fn data_and_pictures_outside_the_models_folder_are_followed_only_when_asked_to()
     }
     // Out of memory no file is read at all.
     let bytes = file.with_buffer(Some(&absolute));
-    let message = read_bytes(&bytes, "m.gltf", b"", &LoadOptions { allow_external: true, ..LoadOptions::default() });
+    let message = read_bytes(&bytes, "m.gltf", &[], &LoadOptions { allow_external: true, ..LoadOptions::default() });
     assert!(message.unwrap_err().to_string().contains("which is not read; export it as GLB"));
 }
 
@@ -68,7 +68,7 @@ fn extensions_that_are_needed_and_not_read_are_named_with_what_to_do() {
 fn the_first_version_is_named_with_what_to_do_however_it_says_so() {
     let problem = |file: Value| {
         let bytes = serde_json::to_vec(&file).unwrap();
-        read_bytes(&bytes, "truck.gltf", b"", &LoadOptions::default()).map(|_| ()).unwrap_err().to_string()
+        read_bytes(&bytes, "truck.gltf", &[], &LoadOptions::default()).map(|_| ()).unwrap_err().to_string()
     };
     let remedy = "and only glTF 2 is read; convert it, for instance with: gltf-pipeline -i IN.gltf -o OUT.glb";
     let (accessors, meshes) = (json!({"accessor_21": {"count": 3}}), json!({"Geometry-mesh002": {"primitives": []}}));
@@ -148,7 +148,7 @@ fn files_that_lie_about_themselves_are_refused_in_a_sentence() {
 fn glb_that_is_cut_off_anywhere_or_lies_about_its_length_is_refused() {
     let whole = box_file().binary();
     let message = |bytes: &[u8]| {
-        let read = read_bytes(bytes, "cut.glb", b"", &LoadOptions::default());
+        let read = read_bytes(bytes, "cut.glb", &[], &LoadOptions::default());
         read.map(|loaded| loaded.mesh.triangles.len()).unwrap_err().to_string()
     };
     for length in (4..whole.len()).step_by(13) {
@@ -189,6 +189,6 @@ fn nodes_that_repeat_a_mesh_beyond_reason_and_trees_beyond_depth_are_refused_at_
 
     // Two bytes an object: refused before they are read.
     let many = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{}{{}}]}}", "{},".repeat(200_000));
-    let message = read_bytes(many.as_bytes(), "many.gltf", b"", &LoadOptions::default()).unwrap_err().to_string();
+    let message = read_bytes(many.as_bytes(), "many.gltf", &[], &LoadOptions::default()).unwrap_err().to_string();
     assert!(message.contains("holds 200003 objects"), "{message}");
 }

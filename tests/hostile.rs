@@ -236,7 +236,7 @@ fn check_many_corners(faces: &[(u32, f64, usize)]) {
         // One triangle more, so that something is left to draw.
         text.push_str("\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf -3 -2 -1\n");
         let options = LoadOptions { weld: 0.0, ..LoadOptions::default() };
-        let mesh = read_bytes(text.as_bytes(), "face.obj", b"", &options).unwrap().mesh;
+        let mesh = read_bytes(text.as_bytes(), "face.obj", &[], &options).unwrap().mesh;
         let lost = mesh.defects.degenerate_triangles;
         assert_eq!(mesh.triangles.len() + lost, corners as usize - 1, "{corners} {depth}");
         assert!(
@@ -268,7 +268,7 @@ fn polygons_that_cross_themselves_a_hundred_thousand_times_come_to_an_end() {
     text.push('f');
     (1..=count).for_each(|i| text.push_str(&format!(" {i}")));
     text.push_str("\nf 1 2 3\n");
-    let mesh = read_bytes(text.as_bytes(), "knot.obj", b"", &LoadOptions::default()).unwrap().mesh;
+    let mesh = read_bytes(text.as_bytes(), "knot.obj", &[], &LoadOptions::default()).unwrap().mesh;
     assert_eq!((mesh.triangles.len(), mesh.defects.degenerate_triangles), (1, count as usize - 2));
 }
 
@@ -314,7 +314,7 @@ fn check_long_lines(bytes: usize) {
         format!("#{blanks}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
         format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n{}3\n", "\\\n".repeat(bytes / 2)),
     ] {
-        let mesh = read_bytes(text.as_bytes(), "long.obj", b"", &LoadOptions::default()).unwrap().mesh;
+        let mesh = read_bytes(text.as_bytes(), "long.obj", &[], &LoadOptions::default()).unwrap().mesh;
         assert_eq!((mesh.triangles.len(), mesh.positions.len()), (1, 3));
     }
 }
@@ -336,13 +336,16 @@ fn numbers_that_many_names_are_looked_up_by_do_not_multiply() {
     let materials: String = (0..16_000).map(|i| format!("newmtl m{i}\n")).collect();
     let uses: String = (0..320_000).map(|i| format!("usemtl m{}\nf 1 2 3\n", i % 32_000)).collect();
     let text = format!("{SQUARE}mtllib a.mtl\n{uses}f 1 3 4\n");
-    let loaded = read_bytes(text.as_bytes(), "many.obj", materials.as_bytes(), &LoadOptions::default()).unwrap();
+    let loaded =
+        read_bytes(text.as_bytes(), "many.obj", &[("many.mtl", materials.as_bytes())], &LoadOptions::default())
+            .unwrap();
     assert_eq!((loaded.mesh.defects.missing_materials, loaded.mesh.materials.len()), (16_000, 16_000));
     let more: String = (0..16_385).map(|i| format!("newmtl m{i}\n")).collect();
-    let error = read_bytes(text.as_bytes(), "many.obj", more.as_bytes(), &LoadOptions::default()).unwrap_err();
+    let error =
+        read_bytes(text.as_bytes(), "many.obj", &[("many.mtl", more.as_bytes())], &LoadOptions::default()).unwrap_err();
     assert!(error.to_string().starts_with("many.obj: it has more than 16384 materials"), "{error}");
     let libraries: String = (0..1025).map(|i| format!("mtllib {i}\n")).collect();
-    let error = read_bytes(libraries.as_bytes(), "many.obj", b"", &LoadOptions::default()).unwrap_err();
+    let error = read_bytes(libraries.as_bytes(), "many.obj", &[], &LoadOptions::default()).unwrap_err();
     assert!(error.to_string().starts_with("many.obj: it names more than 1024 material files"), "{error}");
 }
 

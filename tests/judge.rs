@@ -170,6 +170,11 @@ fn rows_of_drawings_are_added_to_a_folder_and_land_in_its_plot() {
     let plot = std::fs::read_to_string(format!("{out}/plot-lines.svg")).unwrap();
     assert!(plot.contains("one") && plot.contains("other") && !plot.contains("third"));
     assert!(std::path::Path::new(&format!("{out}/errors/builtin-open-box-128x128-one.png")).is_file());
+    // The pictures of the first command are still in the page that the second wrote.
+    let page = std::fs::read_to_string(format!("{out}/report.html")).unwrap();
+    for name in ["one", "other", "third"] {
+        assert!(page.contains(&format!("128x128: {name}, F1 ")), "{name}");
+    }
 }
 
 #[test]

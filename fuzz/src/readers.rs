@@ -41,7 +41,7 @@ pub fn three_ds(bytes: &[u8]) {
 
 /// A glTF model, JSON or GLB; pictures in it are no longer than it.
 pub fn gltf(bytes: &[u8]) {
-    let loaded = read_bytes(bytes, "fuzz.gltf", b"", &LoadOptions::default());
+    let loaded = read_bytes(bytes, "fuzz.gltf", &[], &LoadOptions::default());
     if let Ok(Loaded { mesh, .. }) = &loaded {
         let pictures = mesh.materials.iter().filter_map(|material| material.embedded.as_ref());
         pictures.for_each(|picture| assert!(picture.bytes.len() <= bytes.len()));
@@ -58,11 +58,11 @@ pub fn load(bytes: &[u8]) {
         strict: how & 8 != 0,
         ..LoadOptions::default()
     };
-    check_model(read_bytes(bytes, "fuzz", b"", &options));
+    check_model(read_bytes(bytes, "fuzz", &[], &options));
 }
 
 fn model_of(bytes: &[u8], materials: &[u8], name: &str) {
-    check_model(read_bytes(bytes, name, materials, &LoadOptions::default()));
+    check_model(read_bytes(bytes, name, &[("fuzz.mtl", materials)], &LoadOptions::default()));
 }
 
 /// A model is sound down to what is drawn of it, and says what was wrong with it in single lines.

@@ -1,7 +1,7 @@
 //! Styles judged: error against run time, and two styles' lines laid over each other.
 
 use crate::errors::{raised, wrong};
-use crate::mesh::{Mesh, scene};
+use crate::mesh::{Mesh, drawable};
 use crate::picture::{named, words};
 use crate::request::{Basis, Request};
 use crate::settings::options;
@@ -14,8 +14,8 @@ use serde_json::Value;
 use tinta::compare::{Agreement, InkMask};
 use tinta::measure::{MeasureSettings, Setting, Subject};
 use tinta::plan::Submission;
-use tinta::settings::{HasSettings, OptionValue, Options};
-use tinta::{Backend, Error, Result, Scene, SceneSettings, Show, Style, StyleName};
+use tinta::settings::{OptionValue, Options};
+use tinta::{Backend, Error, Result, Show, Style, StyleName};
 
 /// Measures settings on meshes together: a row each. Every item of `asked` is a style with its settings.
 #[pyfunction]
@@ -40,15 +40,8 @@ pub(crate) fn measure<'py>(
     };
     let request =
         Request::new("measure", &meshes, given, &Basis { style: Some("three-pass"), look: None, preset: None })?;
-    let subject = done(
-        py,
-        || (),
-        move || {
-            let scene = scene(&meshes, &SceneSettings::from_options(&request.options)?)?;
-            scene.make_arrays();
-            Subject::new(&request.title, scene, 0.0)
-        },
-    )?;
+    let scene = drawable(py, meshes, &request.options)?;
+    let subject = done(py, || (), move || Subject::new(&request.title, scene, 0.0))?;
     let rows = drawn(py, backend, move |renderer| {
         let (measured, left_out) = tinta::measure::measure(renderer, &subject, &settings, &how, |_| ())?;
         match left_out.is_empty() {
@@ -126,16 +119,7 @@ pub(crate) fn compare<'py>(
         Ok(style)
     };
     let styles = [style("left", left)?, style("right", right)?];
-    let asked = request.options.clone();
-    let scene: Scene = done(
-        py,
-        || (),
-        move || {
-            let scene = scene(&meshes, &SceneSettings::from_options(&asked)?)?;
-            scene.make_arrays();
-            Ok(scene)
-        },
-    )?;
+    let scene = drawable(py, meshes, &request.options)?;
     let (pictures, numbers) = drawn(py, backend, move |renderer| {
         let mut draw =
             |style: &Style, show| -> Result<tinta::Picture> { renderer.draw(&scene, &style.plan(&scene, show)?) };

@@ -185,6 +185,20 @@ impl Mesh {
     }
 }
 
+/// Meshes together as options show them, ready to be drawn, while Python goes on.
+pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, options: &Options) -> PyResult<Scene> {
+    let options = options.clone();
+    done(
+        py,
+        || (),
+        move || {
+            let scene = scene(&meshes, &SceneSettings::from_options(&options)?)?;
+            scene.make_arrays();
+            Ok(scene)
+        },
+    )
+}
+
 /// Meshes together as settings show them; a single one keeps what is found out about it for the next time.
 pub(crate) fn scene(meshes: &[Py<Mesh>], settings: &SceneSettings) -> Result<Scene> {
     let all = || meshes.iter().map(|mesh| mesh.get().mesh.clone());

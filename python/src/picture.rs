@@ -2,7 +2,7 @@
 
 use crate::arrays::shaped;
 use crate::errors::{in_python, raised, wrong};
-use crate::mesh::{Mesh, scene};
+use crate::mesh::{Mesh, drawable};
 use crate::request::{Basis, Request, warn};
 use crate::studio::drawn;
 use crate::work::done;
@@ -14,9 +14,9 @@ use std::str::FromStr;
 use tinta::picture::Note;
 use tinta::plan::prune::prune;
 use tinta::recipe::KEYWORD;
-use tinta::settings::{HasSettings, OptionValue, Options};
+use tinta::settings::{OptionValue, Options};
 use tinta::styles::is_ignored;
-use tinta::{Backend, Error, ParseError, Recipe, SceneSettings, Show, Size, Style, Target, TextTarget};
+use tinta::{Backend, Error, ParseError, Recipe, Show, Size, Style, Target, TextTarget};
 
 /// A picture as it was drawn: its pixels, handed over once, and the recipe that its PNG file carries.
 #[pyclass(frozen, module = "tinta_npr._native")]
@@ -49,16 +49,7 @@ pub(crate) fn render(
     let shown: Show = named("show", show)?;
     let backend: Backend = named("backend", backend)?;
     warn(py, &ignored(given, style.name())?, 2)?;
-    let asked = request.options.clone();
-    let scene = done(
-        py,
-        || (),
-        move || {
-            let scene = scene(&meshes, &SceneSettings::from_options(&asked)?)?;
-            scene.make_arrays();
-            Ok(scene)
-        },
-    )?;
+    let scene = drawable(py, meshes, &request.options)?;
     let (picture, recipe, remarks) = drawn(py, backend, move |renderer| {
         let plan = style.plan(&scene, shown)?;
         renderer.choose_context(&scene, &plan)?;

@@ -123,7 +123,7 @@ pub(crate) fn options(function: &str, given: &Bound<'_, PyDict>) -> PyResult<Opt
         let key: String = key.extract()?;
         let name = key.replace('_', "-");
         let Some((part, entry)) = entries.iter().find(|(_, entry)| entry.name == name) else {
-            return Err(PyValueError::new_err(unknown(function, &key, &entries)));
+            return Err(PyValueError::new_err(unknown(given.py(), function, &key, &entries)));
         };
         let Some(value) = value_of(&key, entry, &given_value)? else { continue };
         if let OptionValue::Text(text) = &value {
@@ -153,12 +153,23 @@ pub(crate) fn check(function: &str, given: &Bound<'_, PyDict>) -> PyResult<()> {
 }
 
 /// What to say of a name that is no setting of a function.
-fn unknown(function: &str, key: &str, entries: &[(Part, Entry)]) -> String {
-    let names: Vec<&str> = entries.iter().map(|(_, entry)| entry.name).collect();
-    match nearest(key, &names).map(python_name) {
-        Some(meant) => no_option(function, key, Some(&meant)),
+fn unknown(py: Python<'_>, function: &str, key: &str, entries: &[(Part, Entry)]) -> String {
+    let own = own_names(py, function).unwrap_or_default();
+    let settings: Vec<String> = entries.iter().map(|(_, entry)| python_name(entry.name)).collect();
+    let names: Vec<&str> = own.iter().chain(&settings).map(String::as_str).collect();
+    match nearest(key, &names) {
+        Some(meant) => no_option(function, key, Some(meant)),
         None => format!("{}; see help(tinta_npr.{function})", no_option(function, key, None)),
     }
+}
+
+/// What a function of the package takes besides settings, by the names in its signature.
+fn own_names(py: Python<'_>, function: &str) -> PyResult<Vec<String>> {
+    let package = py.import("tinta_npr")?.into_any();
+    let of_python = function.split('.').try_fold(package, |within, name| within.getattr(name))?;
+    let parameters = py.import("inspect")?.call_method1("signature", (of_python,))?.getattr("parameters")?;
+    let names: Vec<String> = parameters.try_iter()?.map(|name| name?.extract()).collect::<PyResult<_>>()?;
+    Ok(names.into_iter().filter(|name| name != "settings" && name != "self").collect())
 }
 
 /// A value as recipes and presets keep it, as the command line does; `None` for a switch that is off.

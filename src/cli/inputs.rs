@@ -1,4 +1,4 @@
-//! Protects input files from being overwritten: a model, its pictures, a preset.
+//! Protects input files from being overwritten: a model, its pictures, a preset, a camera's file.
 
 use std::path::{Path, PathBuf};
 use tinta::preset::{OptionValue, Options};
@@ -16,15 +16,15 @@ fn read() -> Vec<&'static str> {
 pub(super) struct Inputs(Vec<(&'static str, PathBuf)>);
 
 impl Inputs {
-    /// The models, the files that options name, and a preset.
-    pub(super) fn new(models: &[String], options: &Options, preset: Option<&str>) -> Self {
+    /// The models, the files that options name, and presets, a camera's file among them.
+    pub(super) fn new(models: &[String], options: &Options, presets: &[&str]) -> Self {
         let named = |name: &'static str| match options.get(name) {
             Some(OptionValue::Text(path)) => Some((name, PathBuf::from(path))),
             _ => None,
         };
         let models = models.iter().map(|model| ("model", PathBuf::from(model)));
-        let preset = preset.map(|preset| ("preset", PathBuf::from(preset)));
-        Self(models.chain(read().into_iter().filter_map(named)).chain(preset).collect())
+        let presets = presets.iter().map(|preset| ("preset", PathBuf::from(preset)));
+        Self(models.chain(read().into_iter().filter_map(named)).chain(presets).collect())
     }
 
     /// Pictures that models name, known once these are read.
@@ -88,7 +88,7 @@ mod tests {
             std::fs::write(at(name), "kept").unwrap();
         }
         let options = Options::from([("skin".to_owned(), OptionValue::text(at("skin.png")))]);
-        let inputs = Inputs::new(&[at("model.png"), at("frame-0007.png"), "builtin:bust".to_owned()], &options, None);
+        let inputs = Inputs::new(&[at("model.png"), at("frame-0007.png"), "builtin:bust".to_owned()], &options, &[]);
         for output in ["model.png", "./model.png", "skin.png", "frame-%04d.png", "frame-%d.png"] {
             let message = inputs.keep(&at(output)).unwrap_err().to_string();
             assert!(message.contains("this would overwrite the "), "{output}: {message}");

@@ -1,19 +1,19 @@
 //! `tinta judge`: any program's drawing of a model against the model's exact lines.
 
+use super::measure::errors::{error_page, known_picture};
 use super::model_cache::ModelCache;
 use super::models::load_meshes;
 use super::options::{CameraArguments, Chosen, ModelArguments, Selection};
 use super::preset::Given;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use tinta::judge::{Entry, InkColor, JudgeSettings, Judgement, OneToOne, drawing, judge};
-use tinta::measure::{INK_FROM, MeasureSettings, Reference, Row, error_picture};
-use tinta::picture::PictureFormat;
-use tinta::report::{ReportInfo, ReportPicture, RowLog};
+use tinta::measure::{INK_FROM, MeasureSettings, Reference, error_picture};
+use tinta::report::{ReportInfo, RowLog};
 use tinta::settings::Setting;
 use tinta::styles::Inking;
-use tinta::{Error, LineSettings, Mesh, Result, Scene, SceneSettings, Size, Style, StyleName, Target};
+use tinta::{Error, LineSettings, Mesh, Result, Scene, SceneSettings, Size, Style, StyleName};
 
 /// Judge any program's drawing of a model by the model's exact visible lines
 #[derive(clap::Args)]
@@ -114,7 +114,12 @@ pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<()> {
         }
     };
     let mut subject: Option<Subject> = None;
-    let mut pictures = Vec::new();
+    let known = log.iter().flat_map(|(_, rows)| rows);
+    let known = known.filter(|row| !names.contains(&row.style) || row.model != arguments.model);
+    let mut pictures: Vec<_> = match &arguments.output {
+        Some(folder) => known.filter_map(|row| known_picture(folder, row)).collect(),
+        None => Vec::new(),
+    };
     for (index, (name, picture)) in names.iter().zip(&drawings).enumerate() {
         if subject.as_ref().is_none_or(|subject| subject.scene.size != picture.size) {
             subject = Some(Subject::new(arguments, meshes.clone(), picture.size)?);
@@ -143,12 +148,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<()> {
                 Some(fit) => error_picture(&ink, &reference.moved(|px| fit.apply(px)), settings.tolerance_px),
                 None => error_picture(&ink, reference, settings.tolerance_px),
             };
-            let path = folder.join("errors").join(format!("{}.png", file_name(&row)));
-            super::measure::make_folder(&folder.join("errors"))?;
-            Target::File { path, format: PictureFormat::Png }.write(&errors)?;
-            let caption = format!("{name}, F1 {:.3}", judgement.lines.f1);
-            let (drawing, png) = (Some(picture.png_bytes(None)?), errors.png_bytes(None)?);
-            pictures.push(ReportPicture { caption, model: Some(row.model.clone()), drawing, png });
+            pictures.push(error_page(folder, &row, [picture, &errors])?);
             rows.push(row);
         }
     }
@@ -199,13 +199,6 @@ fn names(arguments: &Arguments) -> Result<Vec<String>> {
         true => arguments.drawings.iter().map(file).collect(),
         false => arguments.names.clone(),
     })
-}
-
-/// A name that every file system takes.
-fn file_name(row: &Row) -> String {
-    let model = Path::new(&row.model).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let name = format!("{model}-{}x{}-{}", row.size[0], row.size[1], row.style);
-    name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).take(120).collect()
 }
 
 fn in_words(name: &str, size: Size, judgement: &Judgement) -> String {

@@ -1,6 +1,6 @@
 //! `tinta measure`: every style's error against its run time, on the user's own models and machine.
 
-mod errors;
+pub(super) mod errors;
 mod settings;
 
 use super::model_cache::ModelCache;
@@ -189,7 +189,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
         for row in rows.iter().filter(|row| row.machine == how.machine && row.model == subject.model) {
             let Size { width, height } = subject.scene.size;
             if row.size == [width, height] && is_shown(row) {
-                pictures.extend(known_picture(arguments, row));
+                pictures.extend(known_picture(&arguments.output, row));
             }
         }
         let left: Vec<Setting> = settings.iter().filter(|setting| !is_known(setting)).cloned().collect();
@@ -204,7 +204,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
             for Measured { row, drawing, error_picture } in measured {
                 log.append(&row)?;
                 if let Some(picture) = error_picture.filter(|_| is_shown(&row)) {
-                    pictures.push(error_page(arguments, &row, [&drawing, &picture])?);
+                    pictures.push(error_page(&arguments.output, &row, [&drawing, &picture])?);
                 }
                 rows.push(row);
             }

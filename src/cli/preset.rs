@@ -85,7 +85,8 @@ pub(super) struct Given {
 impl Given {
     /// What the command reads.
     pub(super) fn inputs(&self, models: &[String]) -> Inputs {
-        Inputs::new(models, &self.options, self.preset.as_ref().map(|preset| preset.name.as_str()))
+        let presets = self.preset.as_ref().map(Preset::names).unwrap_or_default();
+        Inputs::new(models, &self.options, &presets)
     }
 
     /// An error about an option that the preset gave, with the preset's name and line.

@@ -1,7 +1,8 @@
 // The page: it reads the state, draws both sides, and changes the state by what a hand does.
 
-import init, { Model, Pane, listing, refusal, tables as tablesOf } from "./tinta.js";
+import init, { Pane, listing, refusal, tables as tablesOf } from "./tinta.js";
 import * as lines from "./lines.js";
+import { ofFiles, read as readModel } from "./model.js";
 import { show as showListing } from "./listing.js";
 import { element, panel } from "./panel.js";
 import { first, linkOf, ofLink, options, styleOf } from "./state.js";
@@ -136,7 +137,7 @@ async function exactOnly() {
 /** Shows a model: a built-in one by its name, or a file. */
 async function open(asked) {
   try {
-    const read = asked.bytes ? Model.read(asked.name, asked.bytes, asked.materials) : Model.builtin(asked.name);
+    const read = readModel(asked);
     const about = JSON.parse(read.about());
     pane?.show(read);
     shown?.read.free();
@@ -153,10 +154,9 @@ async function open(asked) {
 
 /** Opens the model among files that were chosen or dropped. */
 async function openFiles(files) {
-  const all = await Promise.all([...files].map(async (file) => ({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) })));
-  const materials = all.find(({ name }) => /\.mtl$/i.test(name))?.bytes ?? new Uint8Array();
-  const model = all.find(({ name }) => !/\.mtl$/i.test(name));
-  if (model) await open({ ...model, materials });
+  const model = await ofFiles(files);
+  if (model) await open(model);
+  else fail(new Error("None of these files is a model: choose an OBJ, PLY, STL, glTF, MD2 or 3DS file with those that it names."));
 }
 
 /** The controls of a side. */

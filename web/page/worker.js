@@ -1,6 +1,7 @@
 // What takes long, beside the page: the exact lines of a model, and the error of a picture's ink.
 
-import init, { Model } from "./tinta.js";
+import { read } from "./model.js";
+import init from "./tinta.js";
 
 let known;
 let ready;
@@ -15,7 +16,7 @@ onmessage = async ({ data }) => {
     await ready;
     if (known?.key !== model.key) {
       known?.read.free();
-      known = { key: model.key, read: model.bytes ? Model.read(model.name, model.bytes, model.materials) : Model.builtin(model.name) };
+      known = { key: model.key, read: read(model) };
     }
     const answer = kind === "svg" ? known.read.svg(options, Boolean(ink)) : known.read.error(options, ink);
     postMessage({ number, answer });

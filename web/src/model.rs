@@ -24,6 +24,25 @@ pub struct Model {
     files: Vec<FileRecord>,
 }
 
+/// Files that lie beside a model, by their names.
+#[wasm_bindgen]
+#[derive(Debug, Default)]
+pub struct Files(Vec<(String, Vec<u8>)>);
+
+#[wasm_bindgen]
+impl Files {
+    /// None yet.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Files {
+        Self::default()
+    }
+
+    /// One more.
+    pub fn add(&mut self, name: String, bytes: Vec<u8>) {
+        self.0.push((name, bytes));
+    }
+}
+
 #[wasm_bindgen]
 impl Model {
     /// A built-in one, by its name.
@@ -37,14 +56,17 @@ impl Model {
         Ok(Self::of(path, loaded, Vec::new()))
     }
 
-    /// One from a file's bytes; `materials` are those of an OBJ's MTL file, or none.
+    /// One from a file's bytes, and the files that it may name: materials, data, pictures.
     ///
     /// # Errors
     ///
     /// Those of the library's readers, a sentence each.
-    pub fn read(name: &str, bytes: &[u8], materials: &[u8]) -> Result<Model, JsError> {
-        let loaded = read_bytes(bytes, name, materials, &LoadOptions::default()).map_err(said)?;
-        Ok(Self::of(name.to_owned(), loaded, vec![FileRecord::of_bytes(name, bytes)]))
+    pub fn read(name: &str, bytes: &[u8], files: &Files) -> Result<Model, JsError> {
+        let beside: Vec<(&str, &[u8])> = files.0.iter().map(|(name, bytes)| (name.as_str(), &bytes[..])).collect();
+        let loaded = read_bytes(bytes, name, &beside, &LoadOptions::default()).map_err(said)?;
+        let all = std::iter::once(&(name, bytes)).chain(&beside);
+        let records = all.map(|(name, bytes)| FileRecord::of_bytes(name, bytes)).collect();
+        Ok(Self::of(name.to_owned(), loaded, records))
     }
 
     fn of(name: String, loaded: Loaded, files: Vec<FileRecord>) -> Self {

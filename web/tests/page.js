@@ -136,21 +136,42 @@ export async function testPage(tables) {
     again.close();
   });
 
+  const drop = async (files) => {
+    const data = new page.DataTransfer();
+    for (const [name, text] of Object.entries(files)) data.items.add(new page.File([text], name));
+    stage.dispatchEvent(new page.DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+    const before = at("status").textContent;
+    await until(() => at("status").textContent !== before, "a word about the file");
+    await settled();
+  };
+
   await test("a dropped file is drawn, a hostile one is refused and the picture stays", async () => {
-    const drop = async (name, text) => {
-      const data = new page.DataTransfer();
-      data.items.add(new page.File([text], name));
-      stage.dispatchEvent(new page.DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
-      const before = at("status").textContent;
-      await until(() => at("status").textContent !== before, "a word about the file");
-      await settled();
-    };
-    await drop("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
+    await drop({ "two.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n" });
     assert(at("status").textContent.startsWith("two.obj: 2 triangles."), at("status").textContent);
     const before = picture(at("left"));
-    await drop("bad.obj", "f 7 8 9\n");
+    await drop({ "bad.obj": "f 7 8 9\n" });
     assert(at("status").textContent.includes("bad.obj"), at("status").textContent);
     assert(differing(before, picture(at("left")), 0) === 0, "the picture stays");
+    await drop({ "wood.png": "" });
+    assert(at("status").textContent.startsWith("None of these files is a model"), at("status").textContent);
+  });
+
+  await test("materials and pictures dropped with a model are read", async () => {
+    await change(at("left-Style"), "phong");
+    const files = {
+      "square.obj": "mtllib square.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl a\nf 1/1 2/2 3/3\nf 1/1 3/3 4/2\n",
+      "Square.MTL": "newmtl a\nKd 1 1 1\nmap_Kd art\\red.ppm\n",
+    };
+    await drop(files);
+    assert(at("status").textContent.includes("red.ppm is not beside it"), at("status").textContent);
+    await drop({ ...files, "red.ppm": "P3 1 1 255 255 0 0\n" });
+    assert(!at("status").textContent.includes("red.ppm"), at("status").textContent);
+    const surface = page.document.querySelector('[name="surface"]');
+    await change(surface, "textured");
+    const red = () => picture(at("left")).filter((value, place, all) => place % 4 === 0 && value > 60 && all[place + 1] < value / 4).length;
+    assert(red() > 1000, `${red()} red pixels`);
+    await change(surface, "plain");
+    assert(red() === 0, `${red()} red pixels on a plain surface`);
   });
 
   await test("the saved lines are the command line's SVG", async () => {

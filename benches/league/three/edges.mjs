@@ -17,7 +17,11 @@ function finish(result) {
   writeFileSync(drawing, Buffer.from(result.picture.split(',')[1], 'base64'));
   console.log(JSON.stringify({
     version: `three.js r${result.version}`, renderer: result.renderer, drawing_seconds: result.drawing_seconds }));
-  browser.on('exit', () => { rmSync(profile, { recursive: true, force: true, maxRetries: 5 }); process.exit(0); });
+  browser.on('exit', () => {
+    // Its other processes may still be writing there; then the folder stays behind.
+    try { rmSync(profile, { recursive: true, force: true, maxRetries: 5 }); } catch { }
+    process.exit(0);
+  });
   browser.kill();
 }
 

@@ -1,7 +1,7 @@
 //! Pictures of what a row's setting draws and where its errors lie, beside the page that shows them.
 
-use super::{Arguments, make_folder};
-use std::path::PathBuf;
+use super::make_folder;
+use std::path::{Path, PathBuf};
 use tinta::measure::Row;
 use tinta::picture::PictureFormat;
 use tinta::report::ReportPicture;
@@ -22,12 +22,15 @@ const ERRORS: &str = "";
 const MOST_BYTES: usize = 36_000;
 
 /// Where a picture of a row lies.
-fn path(arguments: &Arguments, row: &Row, end: &str) -> PathBuf {
-    let model: String = row.model.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    let options = row.options.replace("--style ", "").replace(" --", "-").replace([' ', ',', '/', '\\'], "-");
-    let options = shortened(options);
+fn path(folder: &Path, row: &Row, end: &str) -> PathBuf {
+    let safe = |text: &str, others: &[char]| -> String {
+        text.chars().map(|c| if c.is_ascii_alphanumeric() || others.contains(&c) { c } else { '-' }).collect()
+    };
+    let model = safe(&row.model, &[]);
+    let options = row.options.replace("--style ", "").replace(" --", "-");
+    let options = shortened(safe(&options, &['.', '_', '#', '+', '=']));
     let name = format!("{}-{}x{}-{options}{end}.png", model.trim_matches('-'), row.size[0], row.size[1]);
-    arguments.output.join("errors").join(name)
+    folder.join("errors").join(name)
 }
 
 /// A name that every file system takes: of a long one the beginning, and a number that stands for the rest.
@@ -44,20 +47,20 @@ fn shortened(name: String) -> String {
 }
 
 /// Writes a drawing and the picture of its errors and hands them over for the page.
-pub(super) fn error_page(arguments: &Arguments, row: &Row, pictures: [&Picture; 2]) -> Result<ReportPicture> {
-    make_folder(&arguments.output.join("errors"))?;
-    let paths = [DRAWING, ERRORS].map(|end| path(arguments, row, end));
+pub(in crate::cli) fn error_page(folder: &Path, row: &Row, pictures: [&Picture; 2]) -> Result<ReportPicture> {
+    make_folder(&folder.join("errors"))?;
+    let paths = [DRAWING, ERRORS].map(|end| path(folder, row, end));
     for (path, picture) in paths.iter().zip(pictures) {
         Target::File { path: path.clone(), format: PictureFormat::Png }.write(picture)?;
     }
     let [_, errors] = paths;
-    known_picture(arguments, row).ok_or_else(|| Error::output(errors, "it cannot be read again; choose another folder"))
+    known_picture(folder, row).ok_or_else(|| Error::output(errors, "it cannot be read again; choose another folder"))
 }
 
 /// The pictures of a row for the page, if that of its errors is there.
-pub(super) fn known_picture(arguments: &Arguments, row: &Row) -> Option<ReportPicture> {
-    let png = std::fs::read(path(arguments, row, ERRORS)).ok()?;
-    let drawing = Picture::read_png(&path(arguments, row, DRAWING)).ok();
+pub(in crate::cli) fn known_picture(folder: &Path, row: &Row) -> Option<ReportPicture> {
+    let png = std::fs::read(path(folder, row, ERRORS)).ok()?;
+    let drawing = Picture::read_png(&path(folder, row, DRAWING)).ok();
     let drawing = drawing.and_then(|drawing| drawing.small_png(MOST_BYTES));
     let f1 = row.lines.as_ref().map(|lines| format!(", F1 {:.3}", lines.f1)).unwrap_or_default();
     let caption = format!("{}x{}: {}{f1}", row.size[0], row.size[1], row.options);

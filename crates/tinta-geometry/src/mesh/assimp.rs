@@ -65,7 +65,7 @@ pub(super) fn read(
     format: &str,
     path: &str,
     _: &LoadOptions,
-    _: &Folder,
+    _: &Folder<'_>,
     _: &mut Vec<String>,
 ) -> crate::Result<Soup> {
     let problem = format!(

@@ -3,18 +3,28 @@
 //! A model may name any file of its reader's disk: `..`, absolute, or by a link in its folder. None of them is followed
 //! unless `LoadOptions::allow_external`; whether a file lies inside is asked of its real path, links resolved.
 
+use super::{EmbeddedPicture, Material};
 use crate::files::{self, Failure};
+use std::borrow::Cow;
 use std::cell::OnceCell;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-/// The folder of a model, or no place at all: a model out of memory names files that nobody looks for.
+/// What lies beside a model.
 #[derive(Debug)]
-pub(super) struct Folder {
-    path: Option<PathBuf>,
-    /// What its files must lie in: its real path; `None` where they may lie anywhere.
-    within: Option<PathBuf>,
+pub(super) struct Folder<'a> {
+    place: Place<'a>,
     /// The names of what lies in it, read when first asked for.
     names: OnceCell<Vec<String>>,
+}
+
+#[derive(Debug)]
+enum Place<'a> {
+    /// A folder of the disk, and what its files must lie in: its real path; `None` where they may lie anywhere.
+    Disk { path: PathBuf, within: Option<PathBuf> },
+    /// Files out of memory. Of none, nobody looks for any.
+    Memory(&'a [(&'a str, &'a [u8])]),
 }
 
 /// What became of a file that a model names.
@@ -28,59 +38,109 @@ pub(super) enum Found {
     Nowhere,
 }
 
-impl Folder {
+impl<'a> Folder<'a> {
     /// The folder of a model file.
     pub(super) fn of(model: &str, allow_external: bool) -> Self {
         let path = Path::new(model).parent().unwrap_or(Path::new("")).to_path_buf();
         // A folder that is not there has no files either.
         let real = || listed(&path).canonicalize().unwrap_or_else(|_| path.clone());
-        Self { within: (!allow_external).then(real), path: Some(path), names: OnceCell::new() }
+        Self { place: Place::Disk { within: (!allow_external).then(real), path }, names: OnceCell::new() }
     }
 
-    /// No folder: nothing is found and nothing missed.
-    pub(super) fn none() -> Self {
-        Self { path: None, within: None, names: OnceCell::new() }
+    /// These files, by their names. Of none, nothing is found and nothing missed.
+    pub(super) fn of_files(files: &'a [(&'a str, &'a [u8])]) -> Self {
+        Self { place: Place::Memory(files), names: OnceCell::new() }
     }
 
-    /// Whether there is a folder to look in.
+    /// Whether there is anything to look in.
     pub(super) fn is_some(&self) -> bool {
-        self.path.is_some()
+        !matches!(self.place, Place::Memory([]))
     }
 
-    /// Where a file of this name would be.
+    /// Where on the disk a file of this name would be.
     pub(super) fn place_of(&self, name: &str) -> Option<PathBuf> {
-        self.path.as_ref().map(|folder| folder.join(name))
-    }
-
-    /// What a file found here must still lie in when it is opened; `None`: anything.
-    pub(super) fn within(&self) -> Option<&Path> {
-        self.within.as_deref()
+        match &self.place {
+            Place::Disk { path, .. } => Some(path.join(name)),
+            Place::Memory(_) => None,
+        }
     }
 
     /// The file of this name, which may have folders before it.
     pub(super) fn find(&self, name: &Path) -> Found {
-        let Some(path) = self.path.as_ref().map(|folder| folder.join(name)).filter(|path| path.is_file()) else {
-            return Found::Nowhere;
-        };
-        match &self.within {
-            Some(within) if !files::is_within(&path, within) => Found::Outside,
-            _ => Found::Here(path),
+        match &self.place {
+            Place::Disk { path, within } => {
+                let path = path.join(name);
+                match within {
+                    _ if !path.is_file() => Found::Nowhere,
+                    Some(within) if !files::is_within(&path, within) => Found::Outside,
+                    _ => Found::Here(path),
+                }
+            }
+            Place::Memory(files) => match in_memory(files, name) {
+                Some((name, _)) => Found::Here(PathBuf::from(name)),
+                None => Found::Nowhere,
+            },
         }
     }
 
     /// Reads the file of this name.
-    pub(super) fn read(&self, name: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
-        let path = self.path.as_ref().map_or_else(|| name.to_path_buf(), |folder| folder.join(name));
-        files::read_within(&path, self.within(), limit)
+    pub(super) fn read(&self, name: &Path, limit: u64) -> Result<Cow<'a, [u8]>, Failure> {
+        match &self.place {
+            Place::Disk { path, within } => {
+                files::read_within(&path.join(name), within.as_deref(), limit).map(Cow::Owned)
+            }
+            Place::Memory(files) => match in_memory(files, name) {
+                Some((_, bytes)) if bytes.len() as u64 <= limit => Ok(Cow::Borrowed(bytes)),
+                Some((_, bytes)) => Err(Failure::TooLarge(bytes.len() as u64)),
+                None => Err(Failure::System(ErrorKind::NotFound.into())),
+            },
+        }
+    }
+
+    /// Reads a material library: the file of this name, or out of memory the only one, whatever it is called.
+    pub(super) fn read_library(&self, name: &str, limit: u64) -> Result<Cow<'a, [u8]>, Failure> {
+        let is_library =
+            |name: &str| Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mtl"));
+        if let Place::Memory(files) = &self.place {
+            let mut libraries = files.iter().filter(|(name, _)| is_library(name));
+            if let (Some((only, _)), None) = (libraries.next(), libraries.next()) {
+                return self.read(only.as_ref(), limit);
+            }
+        }
+        self.read(name.as_ref(), limit)
+    }
+
+    /// Makes what was found here a material's picture; it is read when a style needs it.
+    pub(super) fn put_picture(&self, material: &mut Material, found: PathBuf) {
+        match &self.place {
+            Place::Disk { within, .. } => {
+                material.texture = Some(found);
+                material.texture_within.clone_from(within);
+            }
+            Place::Memory(files) => {
+                material.embedded = in_memory(files, &found)
+                    .map(|(name, bytes)| Arc::new(EmbeddedPicture { name: (*name).to_owned(), bytes: bytes.to_vec() }));
+            }
+        }
     }
 
     /// The names of the files and folders in it, as far as they are text.
     pub(super) fn names(&self) -> &[String] {
-        self.names.get_or_init(|| {
-            let entries = self.path.as_deref().and_then(|path| std::fs::read_dir(listed(path)).ok());
-            entries.into_iter().flatten().flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect()
+        self.names.get_or_init(|| match &self.place {
+            Place::Disk { path, .. } => {
+                let entries = std::fs::read_dir(listed(path)).ok().into_iter().flatten().flatten();
+                entries.filter_map(|entry| entry.file_name().into_string().ok()).collect()
+            }
+            Place::Memory(files) => files.iter().map(|(name, _)| (*name).to_owned()).collect(),
         })
     }
+}
+
+/// The file of this name: as it is written, or in any case without the folders before it.
+fn in_memory<'f, 'a>(files: &'f [(&'a str, &'a [u8])], name: &Path) -> Option<&'f (&'a str, &'a [u8])> {
+    let base = name.file_name()?.to_str()?;
+    let exact = files.iter().find(|(known, _)| Path::new(known) == name);
+    exact.or_else(|| files.iter().find(|(known, _)| known.eq_ignore_ascii_case(base)))
 }
 
 /// A folder as the system wants it: an empty path is the current folder.

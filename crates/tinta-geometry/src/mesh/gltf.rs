@@ -36,7 +36,7 @@ pub(super) fn read(
     bytes: &[u8],
     path: &str,
     options: &LoadOptions,
-    folder: &Folder,
+    folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<Soup> {
     let mut soup = contents(bytes, path, folder, remarks).map_err(|problem| Error::model(path, problem))?;
@@ -47,7 +47,12 @@ pub(super) fn read(
 }
 
 /// The same; the error is a sentence without the file's name.
-fn contents(bytes: &[u8], path: &str, folder: &Folder, remarks: &mut Vec<String>) -> std::result::Result<Soup, String> {
+fn contents(
+    bytes: &[u8],
+    path: &str,
+    folder: &Folder<'_>,
+    remarks: &mut Vec<String>,
+) -> std::result::Result<Soup, String> {
     let (json, data) = container::open(bytes)?;
     let root = container::parse(json)?;
     refuse_unknown_extensions(&root)?;

@@ -4,7 +4,6 @@ use super::folder::Folder;
 use super::format::Format;
 #[cfg(feature = "gltf")]
 use super::gltf;
-use super::obj::Materials;
 use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, three_ds};
 use crate::error::{Error, FileKind, Result};
 use crate::files;
@@ -277,7 +276,7 @@ fn read_as_watched(bytes: &[u8], path: &str, options: &LoadOptions, watch: &dyn 
     let mut remarks = Vec::new();
     watch(LoadStage::Parsing);
     let folder = Folder::of(path, options.allow_external);
-    let soup = soup(bytes, path, options, &Materials::Beside(&folder), &folder, &mut remarks)?;
+    let soup = soup(bytes, path, options, &folder, &mut remarks)?;
     watch(LoadStage::Joining);
     made(soup, path, options, remarks)
 }
@@ -300,18 +299,20 @@ pub fn refuse_address(path: &str) -> Result<()> {
     }
 }
 
-/// Reads a model out of memory: an OBJ, PLY, STL, MD2, 3DS or glTF file's bytes. No other file is read: the materials of an OBJ
-/// model are looked for in `materials`, an MTL file's bytes, and pictures that the model names are left out.
+/// Reads a model out of memory: an OBJ, PLY, STL, MD2, 3DS or glTF file's bytes. The files that it names, materials, data and
+/// pictures, are looked for in `beside`, names with bytes; a name fits in any case and without its folders, and a single `.mtl`
+/// file whatever it is called. With none, pictures are left out without a remark, and no other file is read.
 ///
 /// `name` is for messages, and its extension tells the format where the bytes do not.
 ///
 /// # Errors
 ///
 /// Those of [`load`].
-pub fn read_bytes(bytes: &[u8], name: &str, materials: &[u8], options: &LoadOptions) -> Result<Loaded> {
+pub fn read_bytes(bytes: &[u8], name: &str, beside: &[(&str, &[u8])], options: &LoadOptions) -> Result<Loaded> {
     check(options)?;
     let mut remarks = Vec::new();
-    let mut soup = soup(bytes, name, options, &Materials::Text(materials), &Folder::none(), &mut remarks)?;
+    let mut soup = soup(bytes, name, options, &Folder::of_files(beside), &mut remarks)?;
+    // Of what was not found here nothing is known of any disk.
     soup.materials.iter_mut().for_each(|material| material.texture = None);
     made(soup, name, options, remarks)
 }
@@ -371,8 +372,7 @@ fn soup(
     bytes: &[u8],
     path: &str,
     options: &LoadOptions,
-    materials: &Materials<'_>,
-    folder: &Folder,
+    folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<Soup> {
     if bytes.is_empty() {
@@ -398,7 +398,7 @@ fn soup(
     }
     let soup = match format {
         Format::Obj => {
-            let mut soup = obj::read(bytes, path, materials, remarks)?;
+            let mut soup = obj::read(bytes, path, folder, remarks)?;
             if options.skin.is_none() {
                 skin::find_all(&mut soup, folder, path, remarks);
             }
@@ -456,7 +456,7 @@ mod tests {
         for bytes in [text.as_slice(), &binary] {
             let positions = |up_axis| {
                 let options = LoadOptions { up_axis, ..LoadOptions::default() };
-                let mut positions = read_bytes(bytes, "a.stl", b"", &options).unwrap().mesh.positions;
+                let mut positions = read_bytes(bytes, "a.stl", &[], &options).unwrap().mesh.positions;
                 positions.sort_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap());
                 positions
             };
@@ -509,7 +509,7 @@ mod tests {
 
     fn mesh_of(bytes: &[u8], name: &str) -> Result<Mesh> {
         let options = LoadOptions::default();
-        Ok(read_bytes(bytes, name, b"", &options)?.mesh)
+        Ok(read_bytes(bytes, name, &[], &options)?.mesh)
     }
 
     #[test]

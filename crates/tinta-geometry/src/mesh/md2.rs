@@ -98,7 +98,7 @@ pub(super) fn read(
     bytes: &[u8],
     path: &str,
     options: &LoadOptions,
-    folder: &Folder,
+    folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<Soup> {
     if !bytes.starts_with(MAGIC) {
@@ -154,9 +154,13 @@ pub(super) fn read(
         Some(_) => None,
         None => find_skin(skins.take(SKINS).map(name), path, folder, remarks),
     };
-    let texture_within = folder.within().filter(|_| texture.is_some()).map(Path::to_path_buf);
+    let mut skin =
+        Material { name: "skin".to_owned(), color: None, texture: None, texture_within: None, embedded: None };
+    if let Some(found) = texture {
+        folder.put_picture(&mut skin, found);
+    }
     soup.polygon_materials = vec![0; soup.polygon_count()];
-    soup.materials = vec![Material { name: "skin".to_owned(), color: None, texture, texture_within, embedded: None }];
+    soup.materials = vec![skin];
     Ok(soup)
 }
 
@@ -220,7 +224,7 @@ fn corners(triangle: &[u8], header: &Header) -> Option<[Corner; 3]> {
 fn find_skin(
     names: impl Iterator<Item = String>,
     path: &str,
-    folder: &Folder,
+    folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> Option<PathBuf> {
     let own = Path::new(path).file_stem().map(|stem| stem.to_string_lossy().into_owned());

@@ -27,43 +27,32 @@ use std::path::PathBuf;
 /// How much of a file is read in one go. Much less than a core's share, as another core opens the GL context meanwhile.
 const PIECE_BYTES: usize = 1 << 20;
 
-/// Where material files are looked for.
-pub(super) enum Materials<'a> {
-    /// In the model's folder.
-    Beside(&'a Folder),
-    /// In this text, whatever name the model asks for.
-    Text(&'a [u8]),
-}
-
-impl<'a> Materials<'a> {
-    /// The text of a material library with its files, or a sentence why there is none; a name that is no file is taken for
-    /// several names with blanks between them.
-    fn find(&self, name: &str) -> std::result::Result<(Cow<'a, [u8]>, Vec<PathBuf>), String> {
-        let folder = match self {
-            Self::Text(text) => return Ok((Cow::Borrowed(text), Vec::new())),
-            Self::Beside(folder) => folder,
-        };
-        let read = |name: &str| folder.read(name.as_ref(), MATERIAL_FILE_BYTES);
-        let several = || -> Option<Vec<Vec<u8>>> { name.split_whitespace().map(|name| read(name).ok()).collect() };
-        let failure = match read(name) {
-            Ok(text) => return Ok((Cow::Owned(text), folder.place_of(name).into_iter().collect())),
-            Err(failure) => failure,
-        };
-        match several() {
-            Some(texts) => {
-                let files = name.split_whitespace().filter_map(|name| folder.place_of(name)).collect();
-                Ok((Cow::Owned(texts.join(&b'\n')), files))
-            }
-            None => Err(match failure {
-                Failure::Outside => {
-                    format!("{}; its faces get the default colour", skin::outside("material file", name))
-                }
-                Failure::TooLarge(_) | Failure::NoMemory(_) => {
-                    format!("the material file {}: {}", shown(name), failure.problem("a material file"))
-                }
-                _ => format!("the material file {} is missing; its faces get the default colour", shown(name)),
-            }),
+/// The text of a material library with its files, or a sentence why there is none; a name that is no file is taken for several
+/// names with blanks between them. Empty where there is nothing to look in.
+fn library<'a>(folder: &Folder<'a>, name: &str) -> std::result::Result<(Cow<'a, [u8]>, Vec<PathBuf>), String> {
+    if !folder.is_some() {
+        return Ok((Cow::Borrowed(b""), Vec::new()));
+    }
+    let read = |name: &str| folder.read_library(name, MATERIAL_FILE_BYTES);
+    let several = || -> Option<Vec<Cow<'_, [u8]>>> { name.split_whitespace().map(|name| read(name).ok()).collect() };
+    let failure = match read(name) {
+        Ok(text) => return Ok((text, folder.place_of(name).into_iter().collect())),
+        Err(failure) => failure,
+    };
+    match several() {
+        Some(texts) => {
+            let files = name.split_whitespace().filter_map(|name| folder.place_of(name)).collect();
+            Ok((Cow::Owned(texts.join(&b'\n')), files))
         }
+        None => Err(match failure {
+            Failure::Outside => {
+                format!("{}; its faces get the default colour", skin::outside("material file", name))
+            }
+            Failure::TooLarge(_) | Failure::NoMemory(_) => {
+                format!("the material file {}: {}", shown(name), failure.problem("a material file"))
+            }
+            _ => format!("the material file {} is missing; its faces get the default colour", shown(name)),
+        }),
     }
 }
 
@@ -78,8 +67,8 @@ pub(super) fn looks_like(head: &[u8]) -> bool {
 }
 
 /// Reads an OBJ file's bytes. `path` is for messages; `remarks` gets a sentence for each missing material file.
-pub(super) fn read(bytes: &[u8], path: &str, materials: &Materials<'_>, remarks: &mut Vec<String>) -> Result<Soup> {
-    read_in_pieces(bytes, PIECE_BYTES, path, materials, remarks)
+pub(super) fn read(bytes: &[u8], path: &str, folder: &Folder<'_>, remarks: &mut Vec<String>) -> Result<Soup> {
+    read_in_pieces(bytes, PIECE_BYTES, path, folder, remarks)
 }
 
 /// The same, of pieces of about `length` bytes; what comes out does not depend on it.
@@ -87,7 +76,7 @@ fn read_in_pieces(
     bytes: &[u8],
     length: usize,
     path: &str,
-    materials: &Materials<'_>,
+    folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<Soup> {
     let pieces = lines::pieces(bytes, length);
@@ -111,7 +100,7 @@ fn read_in_pieces(
             .at(Some(problem.line))
     })?;
     let (mut soup, namings) = joined(pieces);
-    put_on_materials(&mut soup, &namings, path, materials, remarks)?;
+    put_on_materials(&mut soup, &namings, path, folder, remarks)?;
     Ok(soup)
 }
 
@@ -145,7 +134,7 @@ fn put_on_materials(
     soup: &mut Soup,
     namings: &[(usize, Naming)],
     path: &str,
-    materials: &Materials<'_>,
+    folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<()> {
     let mut found = Vec::new();
@@ -163,7 +152,7 @@ fn put_on_materials(
                 return Err(Error::model(path, problem));
             }
             Naming::Library(name) => {
-                let (text, files) = materials.find(name).unwrap_or_else(|sentence| {
+                let (text, files) = library(folder, name).unwrap_or_else(|sentence| {
                     missing.push(sentence);
                     (Cow::Borrowed(b""), Vec::new())
                 });
@@ -264,11 +253,11 @@ mod tests {
     use glam::{DVec3, Vec2};
 
     fn soup(text: &str) -> Soup {
-        read(text.as_bytes(), "test.obj", &Materials::Text(b""), &mut Vec::new()).unwrap()
+        read(text.as_bytes(), "test.obj", &Folder::of_files(&[]), &mut Vec::new()).unwrap()
     }
 
     fn message(text: &str) -> String {
-        read(text.as_bytes(), "test.obj", &Materials::Text(b""), &mut Vec::new()).unwrap_err().to_string()
+        read(text.as_bytes(), "test.obj", &Folder::of_files(&[]), &mut Vec::new()).unwrap_err().to_string()
     }
 
     const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -320,7 +309,7 @@ mod tests {
     fn materials_are_kept_with_colour_and_texture_and_half_a_colour_does_not_panic() {
         let text = format!("mtllib m.mtl\n{SQUARE}usemtl red\nf 1 2 3\nusemtl none\nf 1 3 4\n");
         let mtl = b"newmtl red\nKd 1 0.5 0\nmap_Kd skin.png\nKd 1\nKa x\n";
-        let soup = read(text.as_bytes(), "t.obj", &Materials::Text(mtl), &mut Vec::new()).unwrap();
+        let soup = read(text.as_bytes(), "t.obj", &Folder::of_files(&[("t.mtl", mtl)]), &mut Vec::new()).unwrap();
         assert_eq!(soup.polygon_materials, [0, NONE]);
         assert_eq!(soup.materials[0].color, Some([1.0, 0.5, 0.0]));
         assert_eq!(soup.materials[0].texture, Some(PathBuf::from("skin.png")));
@@ -344,7 +333,7 @@ mod tests {
             assert_eq!(texture_name(statement), name, "{statement}");
             let text = format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1 2 3\n");
             let mtl = sound_material_lines(format!("newmtl a\nmap_Kd\t{statement}\r\n").as_bytes(), 9).unwrap();
-            let soup = read(text.as_bytes(), "t.obj", &Materials::Text(&mtl), &mut Vec::new()).unwrap();
+            let soup = read(text.as_bytes(), "t.obj", &Folder::of_files(&[("t.mtl", &mtl)]), &mut Vec::new()).unwrap();
             assert_eq!(soup.materials[0].texture, Some(PathBuf::from(name)));
         }
     }
@@ -353,7 +342,7 @@ mod tests {
     fn material_names_with_hash_signs_blanks_and_tabs_are_found_and_unknown_ones_counted() {
         let text = format!("mtllib a b.mtl\n{SQUARE}  usemtl\tMaterial_#25 x\nf 1 2 3 # red\nusemtl other\nf 1 3 4\n");
         let mtl = b"newmtl Material_#25 x\nKd 1 0 7\n";
-        let soup = read(text.as_bytes(), "t.obj", &Materials::Text(mtl), &mut Vec::new()).unwrap();
+        let soup = read(text.as_bytes(), "t.obj", &Folder::of_files(&[("t.mtl", mtl)]), &mut Vec::new()).unwrap();
         assert_eq!(soup.polygon_materials, [0, NONE]);
         assert_eq!(soup.materials[0].color, Some([1.0, 0.0, 1.0]), "colours end at 1");
         assert_eq!(soup.defects.missing_materials, 1);
@@ -377,8 +366,7 @@ mod tests {
     #[test]
     fn a_material_file_that_is_a_device_is_not_read() {
         let text = format!("mtllib /dev/zero\n{SQUARE}f 1 2 3\n");
-        let soup =
-            read(text.as_bytes(), "t.obj", &Materials::Beside(&Folder::of("/t.obj", true)), &mut Vec::new()).unwrap();
+        let soup = read(text.as_bytes(), "t.obj", &Folder::of("/t.obj", true), &mut Vec::new()).unwrap();
         assert_eq!(soup.defects.missing_materials, 1);
     }
 
@@ -386,9 +374,7 @@ mod tests {
     fn a_missing_material_file_is_remarked_and_counted() {
         let mut remarks = Vec::new();
         let text = format!("mtllib no-such.mtl\n{SQUARE}f 1 2 3\n");
-        let soup =
-            read(text.as_bytes(), "t.obj", &Materials::Beside(&Folder::of("/nowhere/t.obj", false)), &mut remarks)
-                .unwrap();
+        let soup = read(text.as_bytes(), "t.obj", &Folder::of("/nowhere/t.obj", false), &mut remarks).unwrap();
         assert_eq!(soup.defects.missing_materials, 1);
         assert!(remarks[0].starts_with("t.obj: the material file no-such.mtl"), "{remarks:?}");
     }

@@ -16,7 +16,7 @@ pub(super) const EXTENSIONS: [&str; 6] = ["pcx", "png", "tga", "bmp", "jpg", "jp
 /// says, in any case and, where it is not there, with any other extension of a picture.
 ///
 /// Models name pictures as they lay on their author's disk, `C:\ART\SKIN.PCX`.
-pub(super) fn find(folder: &Folder, name: &str) -> Found {
+pub(super) fn find(folder: &Folder<'_>, name: &str) -> Found {
     let slashes = name.replace('\\', "/");
     let written = [name, &slashes].map(|name| folder.find(Path::new(name)));
     let base = slashes.rsplit('/').next().unwrap_or_default();
@@ -33,7 +33,7 @@ pub(super) fn find(folder: &Folder, name: &str) -> Found {
 }
 
 /// The picture of this name in a folder, in any case, or else the first with its stem and an extension of a picture.
-fn beside(folder: &Folder, base: &str) -> Found {
+fn beside(folder: &Folder<'_>, base: &str) -> Found {
     let Some(stem) = Path::new(base).file_stem().and_then(|stem| stem.to_str()) else { return Found::Nowhere };
     let rank = |name: &str| {
         if name.eq_ignore_ascii_case(base) {
@@ -61,7 +61,7 @@ fn beside(folder: &Folder, base: &str) -> Found {
 
 /// Puts where each material's picture lies in place of the name the file has for it; a sentence for each that is
 /// nowhere, or outside the model's folder.
-pub(super) fn find_all(soup: &mut Soup, folder: &Folder, path: &str, remarks: &mut Vec<String>) {
+pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks: &mut Vec<String>) {
     let mut known: HashMap<PathBuf, Found> = HashMap::new();
     let mut lost = Vec::new();
     for material in &mut soup.materials {
@@ -81,8 +81,7 @@ pub(super) fn find_all(soup: &mut Soup, folder: &Folder, path: &str, remarks: &m
             found
         });
         if let Found::Here(place) = found {
-            material.texture = Some(place.clone());
-            material.texture_within = folder.within().map(Path::to_path_buf);
+            folder.put_picture(material, place.clone());
         }
     }
     remark(path, lost, "pictures are missing or were not read", remarks);
@@ -179,7 +178,26 @@ mod tests {
             assert_eq!(found(name), None, "{name}");
         }
         assert_eq!(find(&Folder::of("/no/such/folder/a.obj", false), "skin.png"), Found::Nowhere);
-        assert_eq!(find(&Folder::none(), "/etc/passwd"), Found::Nowhere);
+        assert_eq!(find(&Folder::of_files(&[]), "/etc/passwd"), Found::Nowhere);
+    }
+
+    #[test]
+    fn files_out_of_memory_are_found_by_their_names_in_any_case_and_a_single_library_by_any() {
+        let files: [(&str, &[u8]); 3] = [("Wood.PNG", b"wood"), ("art/deep.png", b"deep"), ("other.mtl", b"library")];
+        let folder = Folder::of_files(&files);
+        let found = |name: &str| match find(&folder, name) {
+            Found::Here(path) => Some(path),
+            _ => None,
+        };
+        assert_eq!(found("C:\\ART\\wood.png"), Some(PathBuf::from("Wood.PNG")));
+        assert_eq!(found("wood.tga"), Some(PathBuf::from("Wood.PNG")), "another extension");
+        assert_eq!(found("art\\deep.png"), Some(PathBuf::from("art/deep.png")));
+        assert_eq!(found("stone.png"), None);
+        assert_eq!(folder.read_library("scene.mtl", 7).unwrap(), &b"library"[..]);
+        assert!(folder.read_library("scene.mtl", 6).is_err() && folder.read("scene.bin".as_ref(), 7).is_err());
+        let two: [(&str, &[u8]); 2] = [("a.mtl", b"a"), ("b.mtl", b"b")];
+        assert!(Folder::of_files(&two).read_library("c.mtl", 7).is_err());
+        assert!(!Folder::of_files(&[]).is_some() && folder.is_some());
     }
 
     #[test]

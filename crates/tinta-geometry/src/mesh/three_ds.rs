@@ -86,7 +86,7 @@ pub(super) fn read(
     bytes: &[u8],
     path: &str,
     options: &LoadOptions,
-    folder: &Folder,
+    folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<Soup> {
     let mut main = Bytes(bytes);

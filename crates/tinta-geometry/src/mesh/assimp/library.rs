@@ -164,7 +164,7 @@ pub(super) fn check() -> Result<(), String> {
 
 /// The files that the library may open: the model, and what its folder holds.
 pub(super) struct Files<'a> {
-    folder: &'a Folder,
+    folder: &'a Folder<'a>,
     name: String,
     model: &'a [u8],
     /// Those it opened besides the model.
@@ -176,7 +176,7 @@ pub(super) struct Files<'a> {
 
 impl<'a> Files<'a> {
     /// `name` is the model's, without folders.
-    pub(super) fn new(model: &'a [u8], name: String, folder: &'a Folder) -> Self {
+    pub(super) fn new(model: &'a [u8], name: String, folder: &'a Folder<'a>) -> Self {
         Self { folder, name, model, opened: Vec::new(), outside: Vec::new(), bytes: 0 }
     }
 
@@ -201,7 +201,7 @@ impl<'a> Files<'a> {
         };
         self.bytes += bytes.len() as u64;
         self.opened.extend(self.folder.place_of(&name));
-        Some(bytes)
+        Some(bytes.into_owned())
     }
 }
 
@@ -402,7 +402,7 @@ mod tests {
 
     #[test]
     fn a_file_is_read_and_sought_as_the_c_library_does() {
-        let folder = Folder::none();
+        let folder = Folder::of_files(&[]);
         let mut files = Files::new(b"0123456789", "a.x".to_owned(), &folder);
         let mut io = AiFileIo { open, close, data: ptr::from_mut(&mut files).cast() };
         assert!(open(&raw mut io, c"a.x".as_ptr(), c"wb".as_ptr()).is_null(), "nothing is written");

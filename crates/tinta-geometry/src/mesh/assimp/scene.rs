@@ -20,7 +20,7 @@ pub(crate) fn read(
     format: &str,
     path: &str,
     options: &LoadOptions,
-    folder: &Folder,
+    folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<Soup> {
     library::check().map_err(|reason| {

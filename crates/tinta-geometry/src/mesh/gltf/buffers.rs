@@ -23,7 +23,7 @@ pub(super) struct Buffers<'a> {
 
 impl<'a> Buffers<'a> {
     /// Reads all buffers of a file; `data` is what GLB has behind the JSON.
-    pub(super) fn of(root: &Root, data: Option<&'a [u8]>, folder: &Folder) -> Result<Self, String> {
+    pub(super) fn of(root: &Root, data: Option<&'a [u8]>, folder: &Folder<'a>) -> Result<Self, String> {
         let mut buffers = Self { places: Vec::new(), contents: Vec::new(), files: Vec::new(), bytes_beside: 0 };
         // Several buffers may be one file.
         let mut known = HashMap::new();
@@ -65,7 +65,7 @@ impl<'a> Buffers<'a> {
     }
 
     /// Reads a file of the model's folder.
-    fn read(&mut self, name: &str, folder: &Folder) -> Result<usize, String> {
+    fn read(&mut self, name: &str, folder: &Folder<'a>) -> Result<usize, String> {
         if !folder.is_some() {
             return Err(format!("its data is in {}, which is not read; export it as GLB", shown(name)));
         }
@@ -79,7 +79,7 @@ impl<'a> Buffers<'a> {
         })?;
         self.bytes_beside += bytes.len();
         self.files.extend(folder.place_of(&slashes));
-        Ok(self.keep(Cow::Owned(bytes)))
+        Ok(self.keep(bytes))
     }
 
     /// The bytes of all of them together.

@@ -136,7 +136,7 @@ fn frames_are_taken_by_name_and_between_two_the_positions_lie_on_the_way() {
 #[test]
 fn an_up_axis_takes_the_files_coordinates_as_they_are() {
     let options = LoadOptions { up_axis: UpAxis::Y, ..LoadOptions::default() };
-    let soup = read(&pyramid(), "test.md2", &options, &Folder::none(), &mut Vec::new()).unwrap();
+    let soup = read(&pyramid(), "test.md2", &options, &Folder::of_files(&[]), &mut Vec::new()).unwrap();
     assert_eq!(soup.positions[3], DVec3::new(100.0, 0.0, 19.0));
 }
 
@@ -209,7 +209,7 @@ fn every_truncation_is_refused_and_no_changed_byte_panics() {
 fn a_model_frame_of_a_file_with_one_frame_is_that_frame() {
     let mut made = made();
     made.frames.truncate(1);
-    let soup = read(&made.bytes(), "test.md2", &options("STAND01"), &Folder::none(), &mut Vec::new()).unwrap();
+    let soup = read(&made.bytes(), "test.md2", &options("STAND01"), &Folder::of_files(&[]), &mut Vec::new()).unwrap();
     assert_eq!(soup.frames.len(), 1);
     assert!(ModelFrame::Number(0.5).find(&soup.frames, "test.md2").is_err());
 }

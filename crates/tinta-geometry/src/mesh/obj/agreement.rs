@@ -3,7 +3,7 @@
 use super::super::NONE;
 use super::super::folder::Folder;
 use super::super::soup::Soup;
-use super::{Materials, read_in_pieces, twin};
+use super::{read_in_pieces, twin};
 use crate::error::Result;
 use glam::{DVec3, Vec2, Vec3};
 use std::collections::BTreeSet;
@@ -14,14 +14,14 @@ use std::path::{Path, PathBuf};
 type Understood = std::result::Result<(Soup, Vec<String>), String>;
 
 /// Both readers' opinions of a text, that of the pieces' for a piece's length.
-fn both(bytes: &[u8], length: usize, materials: &Materials<'_>) -> [Understood; 2] {
+fn both(bytes: &[u8], length: usize, folder: &Folder<'_>) -> [Understood; 2] {
     let understood = |read: &dyn Fn(&mut Vec<String>) -> Result<Soup>| {
         let mut remarks = Vec::new();
         read(&mut remarks).map(|soup| (meaning(soup), remarks)).map_err(|error| error.to_string())
     };
     [
-        understood(&|remarks| read_in_pieces(bytes, length, "a.obj", materials, remarks)),
-        understood(&|remarks| twin::read(bytes, "a.obj", materials, remarks)),
+        understood(&|remarks| read_in_pieces(bytes, length, "a.obj", folder, remarks)),
+        understood(&|remarks| twin::read(bytes, "a.obj", folder, remarks)),
     ]
 }
 
@@ -39,8 +39,8 @@ fn meaning(mut soup: Soup) -> Soup {
 }
 
 /// Compared as text, in which a number that is none equals itself.
-fn assert_same(bytes: &[u8], length: usize, materials: &Materials<'_>) {
-    let [ours, twins] = both(bytes, length, materials).map(|understood| format!("{understood:?}"));
+fn assert_same(bytes: &[u8], length: usize, folder: &Folder<'_>) {
+    let [ours, twins] = both(bytes, length, folder).map(|understood| format!("{understood:?}"));
     // A fourth field that is empty is what the twin's two halves do not agree on.
     if !twins.contains("read in two ways") {
         assert!(ours == twins, "{}\n{ours:.900}\n{twins:.900}", String::from_utf8_lossy(bytes));
@@ -59,7 +59,7 @@ fn every_model_at_hand_is_read_as_tobj_reads_it() {
         let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
         for path in paths.filter(|path| path.extension() == Some("obj".as_ref())) {
             let bytes = std::fs::read(&path).unwrap();
-            assert_same(&bytes, 10_000, &Materials::Beside(&Folder::of(path.to_str().unwrap(), true)));
+            assert_same(&bytes, 10_000, &Folder::of(path.to_str().unwrap(), true));
         }
     }
 }
@@ -99,7 +99,7 @@ proptest::proptest! {
             }
             text.push_str(ENDS.get(end).copied().unwrap_or("\n"));
         }
-        let materials = Materials::Text(b"newmtl red\nKd 1 0 0\nnewmtl blue#1\nmap_Kd a.png\n");
+        let materials = Folder::of_files(&[("t.mtl", b"newmtl red\nKd 1 0 0\nnewmtl blue#1\nmap_Kd a.png\n")]);
         assert_same(text.as_bytes(), length, &materials);
     }
 }

@@ -1,9 +1,10 @@
 //! A second OBJ reader to test the first against: tobj's, behind a reader that hands on one sound line at a time and keeps what
 //! tobj does not tell. It read everybody's files once; what it shares with the reader now is MTL files and the mesh made.
 
+use super::super::folder::Folder;
 use super::super::soup::{Corner, Soup};
 use super::super::{NONE, skin};
-use super::{Materials, material, sound_material_lines};
+use super::{library, material, sound_material_lines};
 use crate::error::{Error, Result};
 use glam::{DVec3, Vec2, Vec3};
 use std::borrow::Cow;
@@ -13,7 +14,7 @@ use std::io::{self, BufRead, Read};
 use std::path::Path;
 
 /// What a read makes of a file; vertices, normals and texture coordinates that no face names are zero.
-pub(super) fn read(bytes: &[u8], path: &str, materials: &Materials<'_>, remarks: &mut Vec<String>) -> Result<Soup> {
+pub(super) fn read(bytes: &[u8], path: &str, folder: &Folder<'_>, remarks: &mut Vec<String>) -> Result<Soup> {
     let options = tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..tobj::LoadOptions::default() };
     // What is not UTF-8 can only be in names.
     let text = String::from_utf8_lossy(bytes);
@@ -23,7 +24,7 @@ pub(super) fn read(bytes: &[u8], path: &str, materials: &Materials<'_>, remarks:
     let files = RefCell::new(Vec::new());
     let load_material = |name: &Path| {
         let text = match known.borrow_mut().insert(name.to_path_buf()) {
-            true => match materials.find(name.to_str().unwrap()) {
+            true => match library(folder, name.to_str().unwrap()) {
                 Ok((text, found)) => {
                     files.borrow_mut().extend(found);
                     text

@@ -142,7 +142,7 @@ fn unknown_materials_and_indices_out_of_range_are_counted() {
 #[test]
 fn an_up_axis_takes_the_files_coordinates_as_they_are() {
     let options = LoadOptions { up_axis: UpAxis::Y, ..LoadOptions::default() };
-    let soup = read(&square(), "test.3ds", &options, &Folder::none(), &mut Vec::new()).unwrap();
+    let soup = read(&square(), "test.3ds", &options, &Folder::of_files(&[]), &mut Vec::new()).unwrap();
     assert_eq!(soup.positions[6], DVec3::new(1.0, 2.0, 5.0));
 }
 
@@ -150,7 +150,7 @@ fn an_up_axis_takes_the_files_coordinates_as_they_are() {
 fn every_truncation_is_refused_and_no_changed_byte_panics() {
     let whole = square();
     let attempt = |bytes: &[u8]| {
-        read(bytes, "test.3ds", &LoadOptions::default(), &Folder::none(), &mut Vec::new())
+        read(bytes, "test.3ds", &LoadOptions::default(), &Folder::of_files(&[]), &mut Vec::new())
             .and_then(|soup| soup.into_mesh("test.3ds", &LoadOptions::default()))
     };
     assert!(attempt(&whole).is_ok());
