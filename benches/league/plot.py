@@ -26,7 +26,7 @@ def plot(points, title):
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="12">',
         '<rect width="100%" height="100%" fill="#fff"/>',
         f'<text x="{LEFT}" y="20" font-size="15" font-weight="bold">{escape(title)}</text>',
-        f'<text x="{LEFT}" y="38">up: error, 1 − F1; to the right: seconds of the whole process; red: tinta</text>',
+        f'<text x="{LEFT}" y="38">left is faster (seconds of the whole process), low is better (1 − F1; 0.0005 stands for that or less); red: tinta</text>',
     ]
     for low, high, of, is_x in ((low_x, high_x, x_of, True), (low_y, high_y, y_of, False)):
         for exponent in range(math.floor(low), math.ceil(high) + 1):
@@ -44,8 +44,10 @@ def plot(points, title):
     taken = [(x_of(s) - 5, y_of(e) - 5, x_of(s) + 5, y_of(e) + 5) for s, e in zip(seconds, errors)]
     for (name, _, _), second, error in sorted(zip(points, seconds, errors), key=lambda entry: entry[1]):
         x, y = x_of(second), y_of(error)
-        color = OURS if name.startswith("tinta") else PEERS
-        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.5" fill="{color}"/>')
+        color = OURS if name.startswith(("tinta", "(tinta")) else PEERS
+        # What stands in brackets is the reference: a ring.
+        fill = "#fff" if name.startswith("(") else color
+        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.5" fill="{fill}" stroke="{color}"/>')
         box = place(x, y, 7.2 * len(name), taken)
         taken.append(box)
         if abs(box[1] + 7 - y) > 12:

@@ -16,6 +16,7 @@ class Program:
     draws: str  # what it can draw at all
     settings: str
     needs_display: bool = False
+    is_reference: bool = False  # it draws what the others are judged by
 
 
 TINTA = "TINTA render MODEL --camera MATRIX --size 512x512 -o DRAWING"
@@ -29,6 +30,7 @@ PROGRAMS = [
         "svg",
         "visible edges and intersections",
         "`--min-length 0`: the reference itself, drawn",
+        is_reference=True,
     ),
     Program(
         "tinta inking",
@@ -69,7 +71,7 @@ PROGRAMS = [
         "visible edges, by the depth buffer",
         "polygon offset for coincident topology, 4 samples",
     ),
-    Program("three.js EdgesGeometry", f"NODE three/edges.mjs {SCRIPT}", "png", "creases and borders, no silhouettes", "polygon offset on the mesh, antialiasing, lines of 1 px (WebGL has no others)"),
+    Program("three.js EdgesGeometry", f"NODE three/edges.mjs {SCRIPT}", "png", "creases and borders, no silhouettes", "polygon offset on the mesh, antialiasing, lines of 1 px, as `LineBasicMaterial` has them"),
     Program("OCCT HLR, polygons", f"PYTHON occt_poly.py {SCRIPT}", "svg", "visible edges", "creases as sharp edges, others as smooth; sharp edges and outlines"),
     Program("OCCT HLR, exact", f"PYTHON occt_exact.py {SCRIPT}", "svg", "sharp edges; outlines of curved faces only", "the same"),
     Program("Panda3D cartoon ink", f"PYTHON panda3d_ink.py {SCRIPT}", "png", "edges found in a picture of normals", "`setCartoonInk(separation=1)`, normals split at 30 degrees", True),

@@ -26,7 +26,8 @@ from programs import PROGRAMS  # noqa: E402
 
 CLASSES = ["silhouette", "crease", "boundary", "non-manifold", "intersection"]
 SHEET_VIEW = "30,15"
-THUMBNAIL_PX = 192
+SHEET_MODELS = ["ant", "suzanne", "teapot"]
+THUMBNAIL_PX = 200
 
 
 def records(text):
@@ -92,6 +93,7 @@ def summary(name, rows):
     inside = [row["drawing_seconds"] for row in rows]
     return {
         "name": name,
+        "is_reference": next(program.is_reference for program in PROGRAMS if program.name == name),
         "version": rows[0]["version"],
         "cases": len(rows),
         "f1": mean(line["f1"] for line in lines),
@@ -107,67 +109,106 @@ def summary(name, rows):
     }
 
 
+# F1 is printed to three digits, and what differs by less is called equal.
+EQUAL_F1 = 0.002
+
+
 def beaten(summaries):
-    """Which programs have less error than which of tinta's styles, and in how much of their time; the fastest comes first."""
-    ours = [row for row in summaries if row["name"].startswith("tinta")]
-    pairs = [(peer, own) for peer in summaries if peer not in ours for own in ours if peer["f1"] > own["f1"]]
-    pairs.sort(key=lambda pair: pair[0]["seconds"] / pair[1]["seconds"])
-    if any(peer["seconds"] <= own["seconds"] for peer, own in pairs):
-        text = ["With less error than one of tinta's styles in the same time or less: see the first lines with a factor up to 1.", ""]
-    else:
-        text = ["No other program has less error than one of tinta's styles in the same time or less. With less error in more time:", ""]
-    for peer in dict.fromkeys(peer["name"] for peer, _ in pairs):
-        beats = [(found, own) for found, own in pairs if found["name"] == peer]
-        words = [f"{own['name']} ({own['f1']:.3f}; {found['seconds'] / own['seconds']:.1f} x its seconds)" for found, own in beats]
-        text.append(f"- {peer}, F1 {beats[0][0]['f1']:.3f}, than " + ", ".join(words))
-    return [*text, ""]
+    """Which programs have less error than which of tinta's styles, in no more time."""
+    ours = [row for row in summaries if row["name"].startswith("tinta") and not row["is_reference"]]
+    peers = [row for row in summaries if not row["name"].startswith("tinta")]
+    better = [(peer, own) for peer in peers for own in ours if peer["f1"] > own["f1"] + EQUAL_F1 and peer["seconds"] <= own["seconds"]]
+    if better:
+        return [f"- {peer['name']} has less error than {own['name']} ({peer['f1']:.3f}, {own['f1']:.3f}) in {peer['seconds'] / own['seconds']:.2f} of its time" for peer, own in better] + [""]
+    fastest, slowest = min(peers, key=lambda row: row["seconds"]), max(ours, key=lambda row: row["seconds"])
+    return [
+        f"No other program is compared with one of tinta's styles at equal time: the fastest, {fastest['name']}, takes {fastest['seconds']:.2f} s, and the slowest "
+        f"style, {slowest['name']}, {slowest['seconds']:.2f} s. How much of the others' time is start, \"of that, drawing\" says.",
+        "",
+    ]
 
 
-def tables(about_run, summaries, cases, failures, missing):
+def by_model(summaries, rows):
+    """Seconds of whole processes on the smallest, the middle and the largest model."""
+    triangles = {row["model"]: row["triangles"] for row in rows}
+    models = sorted(triangles, key=triangles.get)
+    models = [models[0], models[len(models) // 2], models[-1]]
+    text = ["", "| seconds | " + " | ".join(f"{model}, {triangles[model]} triangles" for model in models) + " |", "|---|---|---|---|"]
+    for row in summaries:
+        own = [[run["seconds"] for run in rows if (run["program"], run["model"]) == (row["name"], model)] for model in models]
+        text.append(f"| {row['name']} | " + " | ".join(f"{statistics.median(values):.2f}" if values else "–" for values in own) + " |")
+    return text
+
+
+def tables(about_run, summaries, rows, failures, missing):
     """The report's Markdown."""
-    about = {program.name: program for program in PROGRAMS}
-    text = [f"{about_run['date']}, {about_run['system']}, {about_run['cores']} cores, {about_run['tinta']}; {about_run['rounds']} rounds.", ""]
+    cases = len({row["case"] for row in rows})
+    text = [f"{about_run['date']}, {about_run['system']}, {about_run['processor']}, {about_run['cores']} cores, OpenGL in software, {about_run['tinta']}; {about_run['rounds']} rounds.", ""]
     text += beaten(summaries)
     text += ["| program | F1 | worst | found | of the ink right | one to one, 1 px | hidden drawn | s | of that, drawing | MiB | drawn |"]
     text.append("|" + "---|" * 11)
     for row in summaries:
-        inside = "" if row["inside"] is None else f"{row['inside']:.2f}"
+        # A single executable has no modules to load: all of it counts.
+        inside = "all" if row["inside"] is None or row["inside"] > 0.95 * row["seconds"] else f"{row['inside']:.2f}"
+        hidden = "–" if program_of(row).draws.startswith("all") else share(row["hidden"])
         text.append(
-            f"| {row['name']} | {row['f1']:.3f} | {row['worst']} | {share(row['recall'])} | {share(row['precision'])} | {row['one']:.3f} | "
-            f"{share(row['hidden'])} | {row['seconds']:.2f} | {inside} | {row['peak']:.0f} | {row['cases']} of {cases} |"
+            f"| {named(row)} | {row['f1']:.3f} | {row['worst']} | {share(row['recall'])} | {share(row['precision'])} | {row['one']:.3f} | "
+            f"{hidden} | {row['seconds']:.2f} | {inside} | {row['peak']:.0f} | {row['cases']} of {cases} |"
         )
-    text += ["", "| program | " + " | ".join(CLASSES) + " |", "|" + "---|" * (len(CLASSES) + 1)]
+    text += by_model(summaries, rows)
+    text += ["", "| found of | " + " | ".join(CLASSES) + " |", "|" + "---|" * (len(CLASSES) + 1)]
+    having = [sum(1 for row in first_of_cases(rows) if kind in row["judged"]["lines"]["recall_of_class"]) for kind in CLASSES]
+    text.append("| pictures with such lines | " + " | ".join(map(str, having)) + " |")
     for row in summaries:
         text.append(f"| {row['name']} | " + " | ".join(share(row["classes"][kind]) for kind in CLASSES) + " |")
     text += ["", "| program | version | can draw | settings |", "|---|---|---|---|"]
     for row in summaries:
-        program = about[row["name"]]
+        program = program_of(row)
         text.append(f"| {row['name']} | {row['version']} | {program.draws} | {program.settings} |")
     text += ["", "Not drawn:", ""] + [f"- {name}: {reason}" for name, reason in sorted({**missing, **failures}.items())]
     return "\n".join(text) + "\n"
 
 
-def sheet(folder, rows, names):
-    """One row of error pictures for each program, one column for each model, in one view."""
-    from PIL import Image, ImageDraw
+def program_of(row):
+    return next(program for program in PROGRAMS if program.name == row["name"])
 
-    models = list(dict.fromkeys(row["model"] for row in rows))
-    picture = Image.new("RGB", (THUMBNAIL_PX * len(models), (THUMBNAIL_PX + 14) * len(names)), "white")
+
+def named(row):
+    return f"({row['name']}: the reference)" if row["is_reference"] else row["name"]
+
+
+def first_of_cases(rows):
+    """One row for each model and view."""
+    return {row["case"]: row for row in rows}.values()
+
+
+def sheet(folder, rows, names):
+    """Error pictures of each program, of some models in one view."""
+    from PIL import Image, ImageDraw, ImageFilter, ImageFont
+
+    try:
+        font = ImageFont.truetype("DejaVuSans.ttf", 13)
+    except OSError:
+        font = ImageFont.load_default()
+    half = (len(names) + 1) // 2
+    wide, high = THUMBNAIL_PX * len(SHEET_MODELS) + 24, THUMBNAIL_PX + 20
+    picture = Image.new("RGB", (2 * wide, high * half), "white")
     draw = ImageDraw.Draw(picture)
     for row in rows:
-        if row["view"] != SHEET_VIEW:
+        if row["view"] != SHEET_VIEW or row["model"] not in SHEET_MODELS:
             continue
-        errors = folder / "judged" / row["case"] / "errors"
-        # As `tinta judge` names its files: a hyphen for each run of other characters.
-        ending = "512x512-" + re.sub("[^A-Za-z0-9]+", "-", row["program"].replace(",", ""))
-        found = [path for path in errors.iterdir() if path.stem.endswith(ending)]
-        x, y = models.index(row["model"]) * THUMBNAIL_PX, names.index(row["program"]) * (THUMBNAIL_PX + 14)
+        # As `tinta judge` names its files.
+        ending = "512x512-" + re.sub("[^A-Za-z0-9._#+=-]", "-", row["program"].replace(",", ""))
+        found = [path for path in (folder / "judged" / row["case"] / "errors").iterdir() if path.stem.endswith(ending)]
+        number = names.index(row["program"])
+        x, y = number // half * wide + SHEET_MODELS.index(row["model"]) * THUMBNAIL_PX, number % half * high
         if found:
-            small = Image.open(found[0]).convert("RGB").resize((THUMBNAIL_PX, THUMBNAIL_PX), Image.Resampling.LANCZOS)
-            picture.paste(small, (x, y + 14))
+            # Lines of two pixels stay as dark where they are made small.
+            large = Image.open(found[0]).convert("RGB").filter(ImageFilter.MinFilter(3))
+            picture.paste(large.resize((THUMBNAIL_PX, THUMBNAIL_PX), Image.Resampling.LANCZOS), (x, y + 20))
     for number, name in enumerate(names):
-        draw.text((4, number * (THUMBNAIL_PX + 14) + 1), name, fill="black")
-    picture.save(folder / "sheet.png", optimize=True)
+        draw.text((number // half * wide + 4, number % half * high + 2), name, fill="black", font=font)
+    picture.quantize(32).save(folder / "sheet.png", optimize=True)
 
 
 def main():
@@ -194,16 +235,16 @@ def main():
     summaries = sorted((summary(name, own) for name, own in by_program.items()), key=lambda row: -row["f1"])
     failures = {f"{run['program']}, {run['model']}": run["failure"] for run in runs if run["failure"]}
     missing = json.loads((folder / "missing.json").read_text())
-    cases = len({run["case"] for run in runs})
     about_run = {**json.loads((folder / "about.json").read_text()), "rounds": max(row["rounds"] for row in rows)}
-    text = tables(about_run, summaries, cases, failures, missing)
+    text = tables(about_run, summaries, rows, failures, missing)
     (folder / "table.md").write_text(text)
-    picture = plot([(row["name"], row["seconds"], 1 - row["f1"]) for row in summaries], f"Error against time, {cases} pictures each")
+    picture = plot([(named(row), row["seconds"], 1 - row["f1"]) for row in summaries], "Error against time")
     (folder / "plot.svg").write_text(picture)
+    sheet(folder, rows, [row["name"] for row in summaries])
     if asked.document:
         (asked.document.parent / "pictures/league.svg").write_text(picture)
+        shutil.copy(folder / "sheet.png", asked.document.parent / "pictures/league-sheet.png")
         put(asked.document, f"![error against time](pictures/league.svg)\n\n{text}")
-    sheet(folder, rows, [row["name"] for row in summaries])
     page = folder / "page"
     shutil.rmtree(page, ignore_errors=True)
     merged = [str(folder / "judged" / case / "results.jsonl") for case in by_case]

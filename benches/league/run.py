@@ -131,6 +131,15 @@ def cases(asked):
             yield {"model": name, "view": view, "case": case, "triangles": len(triangles), "MODEL": mesh, "MATRIX": matrix, "CAMERA": words}
 
 
+def processor():
+    """The processor's name, as far as the system tells it."""
+    try:
+        names = [line.partition(":")[2].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")]
+    except OSError:
+        names = []
+    return names[0] if names else platform.processor() or "unknown processor"
+
+
 def main():
     asked = options()
     asked.output = asked.output.resolve()
@@ -150,7 +159,13 @@ def main():
     (asked.output / "missing.json").write_text(json.dumps(missing, indent=1) + "\n")
     programs = [program for program in programs if program.name not in missing]
     tinta_version = subprocess.run([asked.tinta, "--version"], capture_output=True, text=True, check=True).stdout.strip()
-    about = {"date": datetime.date.today().isoformat(), "system": f"{platform.system()} {platform.machine()}", "cores": os.cpu_count(), "tinta": tinta_version}
+    about = {
+        "date": datetime.date.today().isoformat(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "processor": processor(),
+        "cores": os.cpu_count(),
+        "tinta": tinta_version,
+    }
     (asked.output / "about.json").write_text(json.dumps(about, indent=1) + "\n")
     all_cases = list(cases(asked))
     screen, server = display(asked.output)

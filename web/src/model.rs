@@ -64,7 +64,7 @@ impl Model {
     pub fn read(name: &str, bytes: &[u8], files: &Files) -> Result<Model, JsError> {
         let beside: Vec<(&str, &[u8])> = files.0.iter().map(|(name, bytes)| (name.as_str(), &bytes[..])).collect();
         let loaded = read_bytes(bytes, name, &beside, &LoadOptions::default()).map_err(said)?;
-        let all = std::iter::once(&(name, bytes)).chain(&beside);
+        let all = std::iter::once((name, bytes)).chain(beside.iter().copied());
         let records = all.map(|(name, bytes)| FileRecord::of_bytes(name, bytes)).collect();
         Ok(Self::of(name.to_owned(), loaded, records))
     }
