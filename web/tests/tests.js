@@ -1,6 +1,6 @@
 // Tests of the program and the page in a browser: each reports its name and whether it held.
 
-import init, { Model, Pane, listing, shaders, tables as tablesOf } from "./tinta.js";
+import init, { Files, Model, Pane, listing, shaders, tables as tablesOf } from "./tinta.js";
 import { assert, byteDifference, darkness, differing, drawn, finish, pixels, test, tones } from "./harness.js";
 import { testPage } from "./page.js";
 
@@ -116,7 +116,7 @@ await test("what is no model is refused in a sentence", () => {
   for (const [name, data] of hostile) {
     let said;
     try {
-      Model.read(name, data, new Uint8Array()).free();
+      Model.read(name, data, new Files()).free();
     } catch (problem) {
       said = problem.message;
     }
