@@ -119,6 +119,13 @@ impl Renderer {
         })
     }
 
+    /// Draws by a context that is there.
+    #[cfg(test)]
+    pub(crate) fn of(context: Context) -> Self {
+        let drawers = vec![Drawer::new(context)];
+        Self { backend: Backend::Egl, fault: None, drawers, used: 0, confined_to: None }
+    }
+
     fn open(backend: Backend, fault: Option<Fault>) -> Result<Self> {
         let context = Context::open(backend, fault)?;
         Ok(Self { backend, fault, drawers: vec![Drawer::new(context)], used: 0, confined_to: None })

@@ -6,7 +6,7 @@ use tinta::{Backend, Error, Result};
 /// Show which OpenGL backends work on this machine, and why the others do not
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Backends to try: auto (all), egl, osmesa [default: auto]
+    /// Backends to try: auto (all), egl, surfaceless, osmesa, wgl, cgl [default: auto]
     #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 
