@@ -28,6 +28,8 @@ mod immediate;
 mod legacy;
 mod meshes;
 mod objects;
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) mod probe;
 mod quads;
 mod smooth_edges;
 mod sources;

@@ -35,7 +35,7 @@ pub(crate) use canvas::{Context, Current};
 #[cfg(not(target_arch = "wasm32"))]
 pub use driver::{attempts, witnesses};
 #[cfg(not(target_arch = "wasm32"))]
-pub(crate) use driver::{Context, Current};
+pub(crate) use driver::{Context, Current, each};
 pub use info::{ContextInfo, is_software};
 #[cfg(any(target_os = "macos", test))]
 pub(in crate::gl) use surface_framebuffer::SurfaceFramebuffer;

@@ -147,17 +147,20 @@ fn boxed(context: impl Platform + 'static) -> Box<dyn Platform> {
 
 /// Tries every way of this backend and tells what came of each.
 pub fn attempts(backend: Backend) -> Vec<Attempt> {
-    Candidate::all(backend)
-        .into_iter()
-        .map(|candidate| {
-            let device = candidate.name.clone();
-            let outcome = match candidate.open(None) {
+    each(backend)
+        .map(|(device, opened)| {
+            let outcome = match opened {
                 Ok(context) => Outcome::Context(Box::new(context.info().clone())),
                 Err(reason) => Outcome::Error(reason),
             };
             Attempt { device, outcome }
         })
         .collect()
+}
+
+/// A context of every way of this backend, one after the other, by its device's name; else why there is none.
+pub(crate) fn each(backend: Backend) -> impl Iterator<Item = (String, std::result::Result<Context, String>)> {
+    Candidate::all(backend).into_iter().map(|candidate| (candidate.name.clone(), candidate.open(None)))
 }
 
 /// Two backends of this system, for what is drawn twice and compared: its own, and OSMesa or where there is none another screen of
