@@ -26,7 +26,7 @@ use crate::picture::Picture;
 use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Style, StyleName};
-pub use known::{KnownFault, KNOWN};
+pub use known::{KNOWN, KnownFault};
 use serde::Serialize;
 use std::sync::Arc;
 

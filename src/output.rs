@@ -86,7 +86,9 @@ pub(crate) fn check_file(file: &Path) -> Result<()> {
         return Err(refuse("this is a directory; name a file in it".to_owned()));
     }
     if cfg!(windows) && is_device(file) {
-        return Err(refuse("Windows has a device of this name; name another file, or - for standard output".to_owned()));
+        return Err(refuse(
+            "Windows has a device of this name; name another file, or - for standard output".to_owned(),
+        ));
     }
     // A new file takes the old one's place, which must be a file: not a device, a pipe or a link to nowhere.
     if file.symlink_metadata().is_ok() && !file.is_file() {

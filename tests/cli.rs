@@ -285,7 +285,10 @@ fn a_dump_holds_every_step() {
 #[test]
 fn info_lists_every_attempt_in_words_and_as_json() {
     let text = String::from_utf8(tinta(&["info"]).stdout).unwrap();
-    assert!(["EGL device 0", "OSMesa", "EGL surfaceless", "largest picture"].iter().all(|word| text.contains(word)), "{text}");
+    assert!(
+        ["EGL device 0", "OSMesa", "EGL surfaceless", "largest picture"].iter().all(|word| text.contains(word)),
+        "{text}"
+    );
     let json: serde_json::Value = serde_json::from_slice(&tinta(&["info", "--json"]).stdout).unwrap();
     let attempts = json["attempts"].as_array().unwrap();
     assert!(attempts.len() >= 3);

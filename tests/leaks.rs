@@ -23,9 +23,7 @@ fn check_frames(frames_at_once: usize, looks: usize) {
     let names = StyleName::ALL.into_iter().map(|(_, name)| name);
     let others = names.filter(|name| ![StyleName::Sand, StyleName::Charcoal].contains(name)).map(Style::named);
     let groups = [others.chain(improved()).collect::<Vec<_>>(), vec![Style::named(StyleName::Charcoal)]];
-    for (backend, styles) in
-        witnesses().into_iter().flat_map(|one| groups.iter().map(move |s| (one, s)))
-    {
+    for (backend, styles) in witnesses().into_iter().flat_map(|one| groups.iter().map(move |s| (one, s))) {
         let mut renderer = Renderer::new(backend).unwrap_or_else(|error| panic!("{error}"));
         let mut frames = |count| {
             for style in styles {

@@ -83,7 +83,8 @@ fn check_compared(summary: &Summary) {
     let second = summary.cases.iter().filter(is_drawn).filter(|row| row.backend == backend_names()[1]).count();
     let sizes = ["the widest picture", "the highest picture", "one pixel wider", "one pixel higher"];
     let of_largest = |name: &str| sizes.contains(&name);
-    let largest = summary.cases.iter().filter(is_drawn).filter(|row| row.backend == backend_names()[1] && of_largest(&row.name));
+    let largest =
+        summary.cases.iter().filter(is_drawn).filter(|row| row.backend == backend_names()[1] && of_largest(&row.name));
     assert_eq!(compared("backends_differing_px"), second - largest.count());
 }
 

@@ -29,13 +29,13 @@ mod wgl;
 pub(crate) mod window;
 
 #[cfg(target_arch = "wasm32")]
-pub use canvas::{attempts, witnesses};
-#[cfg(target_arch = "wasm32")]
 pub(crate) use canvas::{Context, Current};
-#[cfg(not(target_arch = "wasm32"))]
-pub use driver::{attempts, witnesses};
+#[cfg(target_arch = "wasm32")]
+pub use canvas::{attempts, witnesses};
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) use driver::{Context, Current, each};
+#[cfg(not(target_arch = "wasm32"))]
+pub use driver::{attempts, witnesses};
 pub use info::{ContextInfo, is_software};
 #[cfg(any(target_os = "macos", test))]
 pub(in crate::gl) use surface_framebuffer::SurfaceFramebuffer;

@@ -2,12 +2,12 @@
 
 use super::super::Gl;
 use super::super::faults::{self, Fault, Faults};
-use super::context_lock::{self, ContextGuard, ContextLock};
-use super::load::load_functions;
 #[cfg(target_os = "macos")]
 use super::cgl;
+use super::context_lock::{self, ContextGuard, ContextLock};
 #[cfg(not(target_os = "macos"))]
 use super::egl;
+use super::load::load_functions;
 #[cfg(all(unix, not(target_os = "macos")))]
 use super::surfaceless;
 #[cfg(windows)]

@@ -1,7 +1,7 @@
 //! A framebuffer object in the place of a surface, for contexts that have none: those of macOS.
 //!
 //! It has what a surface is asked for, 8 bits of alpha and 24 of depth, and is bound wherever another context's own framebuffer
-//! would be. Drawing, copying and reading back do not see the difference; a test compares the bytes by EGL.
+//! would be. Drawing, copying and reading back do not see the difference but in lines, which Mesa draws from below there; a test compares by EGL.
 
 use super::super::legacy;
 use crate::scene::Size;

@@ -99,8 +99,7 @@ impl Egl {
             if get_platform_display.is_null() {
                 return Err("the library lacks eglGetPlatformDisplayEXT".to_owned());
             }
-            let get_platform_display =
-                std::mem::transmute::<*const c_void, GetPlatformDisplay>(get_platform_display);
+            let get_platform_display = std::mem::transmute::<*const c_void, GetPlatformDisplay>(get_platform_display);
             let initialize = std::mem::transmute::<*const c_void, Initialize>(find(c"eglInitialize")?);
             let found = Self {
                 bind_api: std::mem::transmute::<*const c_void, BindApi>(find(c"eglBindAPI")?),
@@ -187,8 +186,7 @@ impl SurfacelessContext {
     pub(super) fn open((major, minor): (u8, u8)) -> Result<Self, String> {
         let egl = opened()?;
         let config = egl.config()?;
-        let attributes =
-            [CONTEXT_MAJOR_VERSION, i32::from(major), CONTEXT_MINOR_VERSION, i32::from(minor), NONE];
+        let attributes = [CONTEXT_MAJOR_VERSION, i32::from(major), CONTEXT_MINOR_VERSION, i32::from(minor), NONE];
         // SAFETY: display and config belong together, nothing is shared, and the list ends with EGL_NONE.
         let context = unsafe {
             (egl.bind_api)(OPENGL_API);

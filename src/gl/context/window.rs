@@ -72,9 +72,8 @@ impl WindowGl {
         // On Windows it does.
         #[cfg(windows)]
         let (window, config) = {
-            let window = event_loop
-                .create_window(attributes)
-                .map_err(|error| format!("making the window failed ({error})"))?;
+            let window =
+                event_loop.create_window(attributes).map_err(|error| format!("making the window failed ({error})"))?;
             let config = config(event_loop, Some(&window))?;
             (window, config)
         };
