@@ -29,7 +29,7 @@ pub const KNOWN: [KnownFault; 6] = [
         last_seen: "Mesa 22.3.6, llvmpipe",
         workaround: "contexts of one software screen take turns; a second thread draws on a screen of its own",
         detected_by: "the renderer's name: every driver that draws on the processor is taken for one",
-        is_of: |info| info.is_software(),
+        is_of: |info| info.renderer.starts_with("llvmpipe"),
     },
     KnownFault {
         name: "surfaces of earlier sizes are kept",
@@ -56,10 +56,10 @@ pub const KNOWN: [KnownFault; 6] = [
         is_of: |info| info.renderer.contains("softpipe"),
     },
     KnownFault {
-        name: "wide lines and the points that join them cover other pixels",
+        name: "the points that join wide lines cover other pixels",
         first_seen: "Mesa 22.3.6, zink on lavapipe",
         last_seen: "Mesa 22.3.6, zink on lavapipe",
-        workaround: "none; about one pixel of 200 differs in the style inking",
+        workaround: "none; the style inking with joints off draws as the reference driver does",
         detected_by: "the renderer's name",
         is_of: |info| info.renderer.starts_with("zink"),
     },
