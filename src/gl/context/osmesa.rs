@@ -40,9 +40,14 @@ fn functions() -> Result<&'static Functions, String> {
     FUNCTIONS.get_or_init(load).as_ref().map_err(Clone::clone)
 }
 
-/// Whether the library is there.
+/// Whether the library is there, with the driver that GALLIUM_DRIVER asks for.
 pub(super) fn is_there() -> bool {
-    functions().is_ok()
+    functions().is_ok() && check_driver(asked_driver().as_deref()).is_ok()
+}
+
+/// The value of GALLIUM_DRIVER.
+fn asked_driver() -> Option<String> {
+    std::env::var_os("GALLIUM_DRIVER").map(|name| name.to_string_lossy().into_owned())
 }
 
 /// For people: OSMesa and the library it is.
@@ -144,7 +149,7 @@ impl OsMesaContext {
     /// A compatibility context of this version of OpenGL with a surface of one pixel.
     pub(super) fn open((major, minor): (u8, u8)) -> Result<Self, String> {
         let functions = functions()?;
-        check_driver(std::env::var_os("GALLIUM_DRIVER").map(|name| name.to_string_lossy().into_owned()).as_deref())?;
+        check_driver(asked_driver().as_deref())?;
         let [major, minor] = [major, minor].map(i32::from);
         // OSMESA_FORMAT RGBA, DEPTH_BITS 24, STENCIL_BITS 0, ACCUM_BITS 0, PROFILE compatibility, VERSION, end.
         let attributes = [0x22, 0x1908, 0x30, 24, 0x31, 0, 0x32, 0, 0x33, 0x35, 0x36, major, 0x37, minor, 0, 0];
