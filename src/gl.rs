@@ -28,7 +28,7 @@ mod immediate;
 mod legacy;
 mod meshes;
 mod objects;
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub(crate) mod probe;
 mod quads;
 mod smooth_edges;

@@ -32,8 +32,10 @@ pub(crate) mod window;
 pub(crate) use canvas::{Context, Current};
 #[cfg(target_arch = "wasm32")]
 pub use canvas::{attempts, witnesses};
+#[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+pub(crate) use driver::each;
 #[cfg(not(target_arch = "wasm32"))]
-pub(crate) use driver::{Context, Current, each};
+pub(crate) use driver::{Context, Current};
 #[cfg(not(target_arch = "wasm32"))]
 pub use driver::{attempts, witnesses};
 pub use info::{ContextInfo, is_software};
