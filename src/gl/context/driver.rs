@@ -117,7 +117,7 @@ impl Candidate {
                 Backend::Cgl => ("CGL", "macOS"),
                 _ => ("EGL", "Linux"),
             };
-            let reason = format!("it is of {whose}, and this is {}; leave --backend out", std::env::consts::OS);
+            let reason = format!("it is of {whose}, and this is {}; choose the backend auto", std::env::consts::OS);
             candidates.push(Self::new("none", name, &context_lock::OF_EGL, |_| Err(reason)));
         }
         candidates
