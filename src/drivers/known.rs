@@ -49,11 +49,11 @@ pub const KNOWN: [KnownFault; 6] = [
     },
     KnownFault {
         name: "published charcoal and sand come out in other shades",
-        first_seen: "Mesa 22.3.6, softpipe",
+        first_seen: "Mesa 20.3.5, llvmpipe",
         last_seen: "Mesa 22.3.6, softpipe",
-        workaround: "none; llvmpipe draws them as the references are",
-        detected_by: "the renderer's name",
-        is_of: |info| info.renderer.contains("softpipe"),
+        workaround: "none; less so with texture-size as large as the picture",
+        detected_by: "the renderer's name and version",
+        is_of: |info| info.renderer.contains("softpipe") || info.version.contains("Mesa 20.3"),
     },
     KnownFault {
         name: "the points that join wide lines cover other pixels",
