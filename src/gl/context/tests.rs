@@ -4,6 +4,7 @@ use super::context_lock::{ContextLock, OF_EGL, OF_OSMESA, OF_SURFACELESS};
 use super::driver::{NotCurrent, Platform, VERSION};
 use super::{Backend, Context, egl, osmesa};
 use crate::mesh::{LoadOptions, load};
+use crate::picture::Picture;
 use crate::plan::{Draw, Geometry, Step};
 use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings, Size};
@@ -150,6 +151,12 @@ impl Platform for WithoutSurface {
     }
 }
 
+/// Pixels that differ by more than rounding.
+fn of_other_shades([a, b]: &[Picture; 2]) -> usize {
+    let pairs = a.pixels.chunks_exact(4).zip(b.pixels.chunks_exact(4));
+    pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 1)).count()
+}
+
 #[test]
 fn a_framebuffer_object_in_the_place_of_a_surface_draws_the_same_but_for_lines_and_rounding() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -174,10 +181,12 @@ fn a_framebuffer_object_in_the_place_of_a_surface_draws_the_same_but_for_lines_a
                 let difference = pictures[0].difference(&pictures[1]).unwrap();
                 let is_edge = |step: &Step| matches!(step, Step::Draw(Draw { geometry: Geometry::Edges { .. }, .. }));
                 // Mesa draws into a surface from above and into a framebuffer object from below. What lies between is rounded from
-                // the other side, and a line's pixels are those of one side where it passes between two.
+                // the other side, which charcoal's tables turn into another shade here and there, and a line's pixels are those
+                // of one side where it passes between two.
+                let all = scene.size.pixel_count();
                 let is_near = match plan.steps().any(|(_, step)| is_edge(step)) {
-                    true => difference.pixels <= scene.size.pixel_count() / 8,
-                    false => difference.largest <= 1,
+                    true => difference.pixels <= all / 8,
+                    false => difference.largest <= 1 || of_other_shades(&pictures) <= all / 200,
                 };
                 if !is_near {
                     wrong.push(format!("{name}, {show:?}, {width}x{height}: {difference:?}"));
