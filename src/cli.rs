@@ -190,7 +190,7 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
         Command::Stress(arguments) => return stress::run(&arguments),
         Command::Batch(arguments) => return batch::run(&arguments),
         Command::Provenance(arguments) => provenance::run(&arguments),
-        Command::Info(arguments) => info::run(&arguments),
+        Command::Info(arguments) => return info::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
     }

@@ -28,6 +28,8 @@ mod immediate;
 mod legacy;
 mod meshes;
 mod objects;
+#[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+pub(crate) mod probe;
 mod quads;
 mod smooth_edges;
 mod sources;
@@ -56,6 +58,9 @@ pub(crate) struct Gl {
     /// What draws without buffers; else the name of the first function of it that the driver lacks.
     immediate: std::result::Result<Immediate, String>,
     info: ContextInfo,
+    /// What stands for the surface of a context without one.
+    #[cfg(any(target_os = "macos", test))]
+    surface: Option<context::SurfaceFramebuffer>,
     live_objects: Cell<usize>,
     /// Shaders used instead of those built in, by their paths below `glsl/`.
     replaced_shaders: RefCell<HashMap<String, String>>,
@@ -64,6 +69,14 @@ pub(crate) struct Gl {
 }
 
 impl Gl {
+    /// The framebuffer that is the context's own: 0, or what stands for it.
+    fn own_framebuffer(&self) -> Option<glow::Framebuffer> {
+        #[cfg(any(target_os = "macos", test))]
+        return self.surface.as_ref().map(context::SurfaceFramebuffer::id);
+        #[cfg(not(any(target_os = "macos", test)))]
+        None
+    }
+
     /// Refuses to go on with a context that is lost.
     pub(crate) fn refuse_if_lost(&self, during: &str) -> Result<()> {
         match self.lost.get() {

@@ -68,7 +68,7 @@
 //! | exact lines, SVG, hidden lines | [`lines`], [`VisibleLines`] |
 //! | styles and their buffers | [`styles`], [`Style`], [`Show`] |
 //! | a style of your own | [`plan`], and `examples/own_style.rs` |
-//! | contexts, drawing, timing | [`gl`], [`renderer`], [`Renderer`] |
+//! | contexts, drawing, timing | [`gl`], [`renderer`], [`Renderer`]; `drivers` checks a driver |
 //! | a view that is turned by hand | [`orbit`] |
 //! | pictures and animations | [`picture`], [`animation`] |
 //! | presets, and pictures that can be made again | [`preset`], [`recipe`] |
@@ -122,6 +122,8 @@ pub mod provenance;
 // Drawing it.
 pub mod gl;
 pub mod renderer;
+#[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+pub mod drivers;
 pub mod orbit;
 #[cfg(feature = "animation")]
 pub mod animation;

@@ -85,11 +85,27 @@ pub(crate) fn check_file(file: &Path) -> Result<()> {
     if file.is_dir() {
         return Err(refuse("this is a directory; name a file in it".to_owned()));
     }
+    if cfg!(windows) && is_device(file) {
+        return Err(refuse(
+            "Windows has a device of this name; name another file, or - for standard output".to_owned(),
+        ));
+    }
     // A new file takes the old one's place, which must be a file: not a device, a pipe or a link to nowhere.
     if file.symlink_metadata().is_ok() && !file.is_file() {
         return Err(refuse("this is not a regular file; name another, or - for standard output".to_owned()));
     }
     StagedFile::open(&resolved(file)).map(drop).map_err(|error| refused(file, &error))
+}
+
+/// Whether a path's last name is one that Windows gives to devices, in whatever folder and with whatever ending: `aux.png`.
+fn is_device(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_uppercase();
+    let stem = name.split('.').next().unwrap_or_default().trim_end();
+    let is_numbered = |kind: &str| {
+        let number = stem.strip_prefix(kind).and_then(|rest| rest.chars().next().filter(|_| rest.chars().count() == 1));
+        number.is_some_and(|number| number.is_ascii_digit() || "¹²³".contains(number))
+    };
+    ["CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"].contains(&stem) || is_numbered("COM") || is_numbered("LPT")
 }
 
 /// A file's new contents, whole on the disk, under no name yet or under one that goes away with this.
@@ -208,6 +224,16 @@ mod tests {
         }
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
         assert_eq!(TextTarget::check("-").unwrap(), TextTarget::Stdout);
+    }
+
+    #[test]
+    fn names_of_windows_devices_are_known_with_any_ending_and_in_any_folder() {
+        for name in ["nul", "NUL.png", "out/aux.svg", "Com1.png", "lpt9", "COM².png", "con .txt", "prn.tar.gz"] {
+            assert!(is_device(Path::new(name)), "{name}");
+        }
+        for name in ["null.png", "com.png", "com10.png", "lpt", "auxiliary.png", "out.nul", "nul/a.png", "", "."] {
+            assert!(!is_device(Path::new(name)), "{name}");
+        }
     }
 
     #[test]

@@ -78,7 +78,7 @@ pub struct FileRecord {
 /// Who drew.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Driver {
-    /// `egl` or `osmesa`.
+    /// `egl`, `wgl`, `osmesa`, …
     pub backend: String,
     /// The library, and the device where there is a choice.
     pub device: String,

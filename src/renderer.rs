@@ -119,6 +119,24 @@ impl Renderer {
         })
     }
 
+    /// Draws by a context that is there, and by no other.
+    #[cfg(any(test, all(feature = "cli", not(target_arch = "wasm32"))))]
+    pub(crate) fn of(context: Context) -> Self {
+        let drawers = vec![Drawer::new(context)];
+        Self { backend: Backend::Egl, fault: None, drawers, used: 0, confined_to: None }
+    }
+
+    /// Asks the driver whether it does as OpenGL says. Afterwards the renderer is used up: its context's state is the questions'.
+    #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+    pub(crate) fn probe(mut self) -> Result<Vec<crate::gl::probe::Probe>> {
+        use crate::gl::probe::{SIDE, probes};
+        let drawer = self.drawer();
+        drawer.release();
+        drawer.context.resize(Size { width: SIDE, height: SIDE })?;
+        let _current = drawer.context.enter()?;
+        probes(drawer.context.gl())
+    }
+
     fn open(backend: Backend, fault: Option<Fault>) -> Result<Self> {
         let context = Context::open(backend, fault)?;
         Ok(Self { backend, fault, drawers: vec![Drawer::new(context)], used: 0, confined_to: None })

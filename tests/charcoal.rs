@@ -41,7 +41,7 @@ fn mean(picture: &Picture) -> f64 {
 fn smudging_never_lightens_saturation_never_darkens_and_density_darkens_on_average() {
     let common = small();
     let base = || common.clone();
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let scene = scene("builtin:bust", 200, 200);
         let mut picture = |charcoal: Charcoal| draw(&mut renderer, &scene, &charcoal, Show::Final);
@@ -68,7 +68,7 @@ fn smudging_never_lightens_saturation_never_darkens_and_density_darkens_on_avera
 fn the_listing_and_its_parts_draw_the_same_picture() {
     // Luminance is sand's, so that charcoal with it runs the parts and none of them is an improved one.
     let improve = Improvements { luminance: true, ..Improvements::default() };
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let scene = scene("builtin:bust", 256, 256);
         for smudge in [false, true] {
@@ -229,7 +229,7 @@ fn sand_is_the_drawing_mixed_with_sepia_by_the_printed_weights_or_rec_709s() {
         (Improvements::default(), weighted([0.1125, 0.0154, 0.0721], 1.0)),
         ("luminance".parse().unwrap(), weighted([0.2125, 0.7154, 0.0721], 0.0)),
     ];
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for (improve, luminance) in cases {
             let charcoal = Charcoal { improve, ..small() };

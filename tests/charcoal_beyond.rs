@@ -105,7 +105,7 @@ fn leaf(sides: &[bool]) -> Scene {
 
 #[test]
 fn both_sides_are_lit_and_of_faces_on_each_other_it_does_not_matter_which_is_drawn() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let mut picture =
             |names: &str, sides: &[bool]| draw(&mut renderer, &leaf(sides), &improved(names, 64), Show::Final);

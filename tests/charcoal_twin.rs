@@ -261,5 +261,5 @@ fn the_plain_drawing_one_by_one_light_and_the_mended_one_are_the_texts_formula()
 #[test]
 #[ignore = "exhaustive: eight variants by both backends"]
 fn the_drawing_is_the_texts_formula() {
-    check_formula(&BACKENDS, &variants());
+    check_formula(&*BACKENDS, &variants());
 }

@@ -285,14 +285,40 @@ fn a_dump_holds_every_step() {
 #[test]
 fn info_lists_every_attempt_in_words_and_as_json() {
     let text = String::from_utf8(tinta(&["info"]).stdout).unwrap();
-    assert!(text.contains("EGL device 0") && text.contains("OSMesa") && text.contains("largest picture"), "{text}");
+    assert!(
+        ["EGL device 0", "OSMesa", "EGL surfaceless", "largest picture"].iter().all(|word| text.contains(word)),
+        "{text}"
+    );
     let json: serde_json::Value = serde_json::from_slice(&tinta(&["info", "--json"]).stdout).unwrap();
     let attempts = json["attempts"].as_array().unwrap();
-    assert!(attempts.len() >= 2);
+    assert!(attempts.len() >= 3);
     let working = attempts.iter().find(|attempt| attempt["context"].is_object()).unwrap();
     for key in ["vendor", "renderer", "version", "glsl_version", "alpha_bits", "depth_bits", "aliased_line_width"] {
         assert!(!working["context"][key].is_null(), "{key}");
     }
+}
+
+#[test]
+fn a_check_of_the_drivers_says_of_each_style_and_question_how_it_came_out() {
+    let output = tinta(&["info", "--check", "--backend", "egl"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let json: serde_json::Value =
+        serde_json::from_slice(&tinta(&["info", "--check", "--json", "--backend", "egl"]).stdout).unwrap();
+    let found = &json["checked"][0]["found"];
+    let names = |list: &str, key: &str| -> Vec<String> {
+        found[list].as_array().unwrap().iter().map(|row| row[key].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(names("styles", "style").len(), tinta::StyleName::ALL.len());
+    assert_eq!(names("probes", "name").len(), 5);
+    for name in [names("styles", "style"), names("probes", "name")].concat() {
+        assert!(text.contains(&format!("  {name} ")), "{name}: {text}");
+    }
+    let all = ["styles", "probes"].iter().flat_map(|list| found[list].as_array().unwrap());
+    let is_good = all.map(|row| row["passed"].as_bool().unwrap()).fold(true, |all, passed| all && passed);
+    assert_eq!(output.status.code(), Some(if is_good { 0 } else { 1 }), "{text}");
+    let refused = tinta(&["info", "--check", "--backend", "wgl"]);
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert!(refused.status.code() == Some(2) && said.contains("it is of Windows, and this is "), "{said}");
 }
 
 #[test]

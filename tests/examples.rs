@@ -59,7 +59,7 @@ fn shaders() -> HashMap<String, String> {
 #[test]
 fn a_style_of_ones_own_needs_its_shaders_and_leaves_the_others_alone() {
     let scene = scene("builtin:ant", 96, 96);
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer: Renderer = renderer(backend);
         let three_pass = Style::named(StyleName::ThreePass);
         let before = renderer.render(&scene, &three_pass).unwrap();

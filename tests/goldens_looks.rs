@@ -3,6 +3,7 @@
 //! `TINTA_UPDATE_GOLDENS=1 cargo test goldens_looks` draws them anew and then fails.
 
 use crate::goldens::{Goldens, compare, how_to_update, names};
+use crate::support::backend_names;
 use std::process::Command;
 use tinta::Picture;
 use tinta::preset::LOOKS;
@@ -13,7 +14,7 @@ fn every_look_draws_the_built_in_models_as_they_were_looked_at() {
     let mut failures = Vec::new();
     for look in LOOKS {
         for model in ["bust", "gear", "ant"] {
-            for backend in ["egl", "osmesa"] {
+            for backend in backend_names() {
                 let file = folder.path().join(format!("{}-{model}-{backend}.png", look.name));
                 let mut tinta = Command::new(env!("CARGO_BIN_EXE_tinta"));
                 tinta.args(["render", &format!("builtin:{model}"), "--look", look.name, "--size", "128"]);

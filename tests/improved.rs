@@ -193,7 +193,7 @@ fn biased_normals_draw_equal_creases_equally_strong() {
 #[test]
 fn every_encoding_can_be_dumped_and_a_second_form_of_it_draws_the_same() {
     let scene = scene("builtin:gear", 120, 90);
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for (name, map_encoding) in MapEncoding::ALL {
             let cartoon = Cartoon { map_encoding, ..Cartoon::default() };
@@ -252,7 +252,7 @@ impl PlaneInk<'_> {
 
 #[test]
 fn ink_agrees_with_its_twin_on_the_cpu() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for model in ["builtin:bust", "builtin:gear", "builtin:ant"] {
             let scene = scene(model, 160, 120);
@@ -308,7 +308,7 @@ fn the_best_ink_has_more_than_two_shades_and_the_same_lines() {
 
 #[test]
 fn a_map_drawn_into_a_texture_is_the_same_whatever_was_drawn_into_the_framebuffer_before() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let scene = scene("builtin:bust", 90, 90);
         let ink = |map_target| Style::Ink(Ink { map_target, ..Ink::default() });
         let plan = ink(MapTarget::Texture).plan(&scene, Show::Final).unwrap();

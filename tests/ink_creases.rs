@@ -32,7 +32,7 @@ fn built_in(model: &str, normals: Normals) -> Scene {
 
 #[test]
 fn flat_faces_have_the_same_creases_by_normals_as_by_planes() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         for model in ["builtin:open-box", "builtin:gear"] {
             let scene = built_in(model, Normals::Lasting);
             for width_px in [2, 5] {

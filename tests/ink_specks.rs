@@ -35,7 +35,7 @@ fn is_in_an_empty_frame(mask: &Picture, x: i64, y: i64, side: i64) -> bool {
 #[test]
 fn what_fits_into_an_empty_frame_is_left_out_and_nothing_else() {
     let mut removed = 0;
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for (width_px, quality) in [(1, Quality::Standard), (2, Quality::Standard), (1, Quality::Best)] {
             let scene = scene("builtin:bust", 150, 150);

@@ -51,7 +51,7 @@ fn of_a_boxs_twelve_edges_the_nine_that_are_seen_are_drawn_and_the_others_hidden
     let size = Size { width: 240, height: 240 };
     let scene = Scene::new(vec![mesh.clone()], &SceneSettings { camera, size, ..SceneSettings::default() }).unwrap();
     let eye = scene.camera.eye;
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for line_drawing in [LineDrawing::Gl, LineDrawing::Quads] {
             let style = Inking { line_drawing, paint: PaintMode::None, ..Inking::default() };
@@ -166,7 +166,7 @@ fn colors(picture: &Picture) -> std::collections::BTreeSet<[u8; 3]> {
 fn of_the_three_shadings_only_gourauds_has_more_colours_than_the_ramp() {
     // The text's argument for the texture: flat shading shows the triangles, Gouraud's makes colours run into each other.
     let scene = scene("builtin:bust", 200, 200);
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let mut painted = |paint| {
             let style = Inking { paint, ramp_row: RampRow::Row(1), is_inked: false, ..Inking::default() };
@@ -192,7 +192,7 @@ fn a_gradient_for_each_colour_paints_every_material_in_three_tones_of_its_own() 
     let own = [PaintMode::Ramp, PaintMode::FlatShaded, PaintMode::Gouraud];
     let own = own.map(|paint| Inking { ramp_row: RampRow::Own, is_inked: false, paint, ..Inking::default() });
     let flat = Inking { paint: PaintMode::Flat, is_inked: false, ..Inking::default() };
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let [ramp, flat_shaded, gouraud] =
             own.clone().map(|style| colors(&draw(&mut renderer, &scene, style, Show::Final)));
@@ -236,7 +236,7 @@ fn flat_shading_gives_each_side_of_a_box_the_tone_of_its_light() {
 
 #[test]
 fn light_from_the_vertex_shader_paints_what_light_from_the_cpu_does() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let scene = scene("builtin:ant", 200, 200);
         let [cpu, shader] = [LightOn::Cpu, LightOn::VertexShader]
@@ -261,7 +261,7 @@ fn silhouettes_by_the_hierarchy_give_the_same_pixels() {
 
 #[test]
 fn quads_lie_where_gls_lines_do_and_have_their_width() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let scene = scene("builtin:gear", 240, 240);
         let ink = |renderer: &mut Renderer, line_drawing| {
@@ -361,7 +361,7 @@ fn lines_that_only_test_depth_close_the_gaps_between_smoothed_ones() {
     let mut settings = SceneSettings { size: Size { width: 240, height: 240 }, ..SceneSettings::default() };
     settings.camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..settings.camera };
     let scene = scene_with("builtin:gear", settings);
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let [written, tested] = [true, false].map(|writes_depth| {
             let style = Inking { writes_depth, silhouette: SilhouetteRule::Exact, ..Inking::default() };
@@ -390,7 +390,7 @@ fn the_models_own_picture_is_multiplied_into_the_paint() {
     settings.camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..settings.camera };
     settings.color = Some(tinta::Color([1.0, 1.0, 0.5]));
     let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let flat = Inking { paint: PaintMode::Flat, has_texture: true, is_inked: false, ..Inking::default() };
         let picture = draw(&mut renderer, &scene, flat.clone(), Show::Final);
@@ -431,7 +431,7 @@ fn dietrichs_ink_on_a_sphere_is_the_rim_its_threshold_says() {
     let mut settings = SceneSettings { size: Size { width: 400, height: 400 }, ..SceneSettings::default() };
     settings.camera.parallel = true;
     let scene = Scene::new(vec![with_normals(&icosphere(5))], &settings).unwrap();
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for threshold in [0.1f32, 0.25, 0.5, 0.9] {
             let style = Style::Dietrich(Dietrich { threshold, ..Dietrich::default() });
@@ -499,5 +499,5 @@ fn what_was_drawn_before_changes_nothing_by_egl() {
 #[test]
 #[ignore = "exhaustive: every style after every other, by both backends"]
 fn what_was_drawn_before_changes_nothing() {
-    check_order(&BACKENDS);
+    check_order(&*BACKENDS);
 }

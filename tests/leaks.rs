@@ -1,6 +1,7 @@
 //! Memory and GL objects over many frames; in a process of its own, because other tests' memory would count too.
 
 use std::sync::{Arc, Mutex};
+use tinta::gl::context::witnesses;
 use tinta::styles::{Cartoon, Ink, MapEncoding, MapTarget, Mrt, Quality, Supersample};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
 
@@ -22,9 +23,7 @@ fn check_frames(frames_at_once: usize, looks: usize) {
     let names = StyleName::ALL.into_iter().map(|(_, name)| name);
     let others = names.filter(|name| ![StyleName::Sand, StyleName::Charcoal].contains(name)).map(Style::named);
     let groups = [others.chain(improved()).collect::<Vec<_>>(), vec![Style::named(StyleName::Charcoal)]];
-    for (backend, styles) in
-        [Backend::Egl, Backend::OsMesa].iter().flat_map(|one| groups.iter().map(move |s| (*one, s)))
-    {
+    for (backend, styles) in witnesses().into_iter().flat_map(|one| groups.iter().map(move |s| (one, s))) {
         let mut renderer = Renderer::new(backend).unwrap_or_else(|error| panic!("{error}"));
         let mut frames = |count| {
             for style in styles {
@@ -74,7 +73,7 @@ fn pictures_of_changing_sizes_leave_memory_as_it_was() {
         let settings = SceneSettings { size: Size { width: side, height: side }, ..SceneSettings::default() };
         Scene::new(vec![mesh.clone()], &settings).unwrap()
     });
-    for backend in [Backend::Egl, Backend::OsMesa] {
+    for backend in witnesses() {
         let mut renderer = Renderer::new(backend).unwrap_or_else(|error| panic!("{error}"));
         let mut draw = |count: usize| {
             for number in 0..count {
@@ -95,7 +94,7 @@ fn a_renderer_deletes_every_object_it_made() {
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let scene_mesh = Arc::new(load("builtin:open-box", &LoadOptions::default()).unwrap().mesh);
     let scene = Scene::new(vec![scene_mesh], &SceneSettings::default()).unwrap();
-    for backend in [Backend::Egl, Backend::OsMesa] {
+    for backend in witnesses() {
         let mut renderer = Renderer::new(backend).unwrap_or_else(|error| panic!("{error}"));
         renderer.render(&scene, &Style::named(StyleName::ThreePass)).unwrap();
         for style in improved() {

@@ -134,13 +134,13 @@ fn every_setting_draws_of_a_gear_what_the_three_passes_draw() {
 #[test]
 #[ignore = "exhaustive: four models by both backends"]
 fn every_setting_draws_what_the_three_passes_draw() {
-    check_settings(&BACKENDS, &["builtin:bust", "builtin:gear", "builtin:ant", "builtin:open-box"]);
+    check_settings(&*BACKENDS, &["builtin:bust", "builtin:gear", "builtin:ant", "builtin:open-box"]);
 }
 
 #[test]
 fn public_models_are_drawn_as_by_the_three_passes() {
     let Some(folder) = public_models() else { return };
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for name in ["stanford-bunny.obj", "beethoven.obj", "fandisk.obj", "suzanne.obj"] {
             let mesh = Arc::new(load(&folder.join(name).display().to_string(), &LoadOptions::default()).unwrap().mesh);
@@ -159,7 +159,7 @@ fn every_background_and_size_is_the_same_and_sizes_may_change_between_frames() {
     let colors = [[1.0; 3], [0.0; 3], [0.2, 0.4, 0.8], [16.0 / 255.0, 32.0 / 255.0, 48.0 / 255.0]];
     let mut backgrounds = vec![Background::Transparent];
     backgrounds.extend(colors.map(|color| Background::Color(Color(color))));
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for (width, height) in [(1, 1), (64, 48), (1, 1), (77, 3), (3, 77), (333, 257)] {
             for background in &backgrounds {
@@ -198,7 +198,7 @@ picture: the texture Tones
 
 #[test]
 fn steps_can_be_dumped_and_the_last_is_the_picture() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let scene = scene("builtin:gear", 120, 90);
         for supersample in [Supersample::One, Supersample::Two] {
@@ -214,7 +214,7 @@ fn steps_can_be_dumped_and_the_last_is_the_picture() {
 #[test]
 fn a_map_drawn_into_a_texture_gives_the_picture_of_a_copied_one() {
     let targets = [MapTarget::Copy, MapTarget::Texture];
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for model in ["builtin:bust", "builtin:gear"] {
             let scene = scene(model, 161, 120);

@@ -36,7 +36,7 @@ fn a_border_shader_replaced_by_one_that_inks_all_of_the_picture_inks_all_of_it()
     let scene = far_away("builtin:gear");
     let style = Style::named(StyleName::ThreePass);
     let plan = style.plan(&scene, Show::Final).unwrap();
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         let published = renderer.render(&scene, &style).unwrap();
         replace(&mut renderer, "evangelista/border.frag", ALL_INK);

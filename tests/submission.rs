@@ -36,7 +36,7 @@ fn ink_and_paint_are_the_same_bytes_by_every_way_to_hand_vertices_over() {
         Inking { paint: PaintMode::Gouraud, is_inked: false, ..base() },
         Inking { light: LightOn::VertexShader, ramp_row: RampRow::Object, cull_back_faces: true, ..base() },
     ];
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for model in ["builtin:bust", "builtin:gear"] {
             let settings =
@@ -115,7 +115,7 @@ fn display_lists_are_made_once_and_gone_with_the_plan_that_asked_for_them() {
 fn a_driver_without_glbegin_says_so_in_a_sentence_and_draws_from_buffers() {
     let scene = scene("builtin:open-box", 48, 48);
     let plan = Style::named(StyleName::Inking).plan(&scene, Show::Final).unwrap();
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut core = Renderer::with_fault(backend, Fault::NoImmediateMode).unwrap();
         for submission in OLD {
             let error = core.draw(&scene, &Plan { submission, ..plan.clone() }).unwrap_err().to_string();

@@ -33,7 +33,7 @@ fn styles(supersample: Supersample) -> Vec<(&'static str, [Style; 2])> {
 
 #[test]
 fn a_supersampled_picture_is_the_large_one_with_its_pixels_averaged() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for supersample in LARGER {
             let factor = i64::from(supersample.factor());

@@ -4,10 +4,21 @@ use glam::DVec3;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
+use tinta::gl::context::witnesses;
 use tinta::{Backend, LoadOptions, Picture, Renderer, Scene, SceneSettings, Size, Style, StyleName, load};
 
-/// Both ways to a context; each must work wherever the tests run.
-pub const BACKENDS: [Backend; 2] = [Backend::Egl, Backend::OsMesa];
+/// Two ways to a context, for what is drawn twice, which both must work wherever the tests run: EGL, and beside it OSMesa or where
+/// Mesa has none EGL's surfaceless platform. Which they are is said.
+pub static BACKENDS: LazyLock<[Backend; 2]> = LazyLock::new(|| {
+    let both = witnesses();
+    let _ = writeln!(std::io::stderr(), "DRAWN by {} and {}", both[0], both[1]);
+    both
+});
+
+/// Their names.
+pub fn backend_names() -> [&'static str; 2] {
+    BACKENDS.map(|backend| Backend::ALL.iter().find(|(_, known)| *known == backend).unwrap().0)
+}
 
 /// The project's folder.
 pub fn root() -> &'static Path {

@@ -33,7 +33,7 @@ fn middle(picture: &Picture) -> [u8; 4] {
 
 #[test]
 fn a_colour_at_all_vertices_is_multiplied_with_the_shading() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for name in STYLES {
             let style = Style::named(name);
@@ -55,7 +55,7 @@ fn a_colour_at_all_vertices_is_multiplied_with_the_shading() {
 
 #[test]
 fn colours_are_mixed_between_vertices() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let black_to_white = vec![[0.0; 3], [1.0; 3], [1.0; 3], [0.0; 3]];
         let scene = square(black_to_white, Surface::Textured);
         let picture = renderer(backend).render(&scene, &Style::named(StyleName::ThreePass)).unwrap();
@@ -67,7 +67,7 @@ fn colours_are_mixed_between_vertices() {
 #[test]
 fn what_is_left_out_is_said_and_a_plain_scene_draws_what_it_drew() {
     let soldier = Arc::new(load("builtin:soldier", &LoadOptions::default()).unwrap().mesh);
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for name in STYLES {
             let style = Style::named(name);

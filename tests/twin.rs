@@ -66,7 +66,7 @@ fn inked(tone: u8, borders: &[f64]) -> f64 {
 
 #[test]
 fn every_filter_and_both_styles_agree_with_the_twin_within_one_step_of_255_everywhere() {
-    for backend in BACKENDS {
+    for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for model in ["builtin:bust", "builtin:gear"] {
             let scene = scene(model, 160, 120);

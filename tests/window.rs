@@ -1,6 +1,6 @@
 //! The viewer: its pictures without a window, and the window itself under Xvfb.
 
-use crate::support::{root, skip};
+use crate::support::{BACKENDS, backend_names, root, skip};
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
@@ -60,7 +60,7 @@ fn by_command(command: &str, backend: &str) -> Picture {
 
 #[test]
 fn the_viewers_picture_is_the_one_its_command_line_draws_byte_for_byte() {
-    for (backend, name) in [(Backend::Egl, "egl"), (Backend::OsMesa, "osmesa")] {
+    for (backend, name) in BACKENDS.iter().copied().zip(backend_names()) {
         let mut viewer = viewer(&["builtin:bust"], backend, None);
         let steps: [Vec<ViewerEvent>; 10] = [
             vec![],
@@ -124,7 +124,7 @@ fn a_border_shader_that_inks_all_of_the_picture_is_not_confined_to_the_objects()
     std::fs::create_dir(folder.path().join("evangelista")).unwrap();
     let all_ink = "#version 120\nvoid main() { gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0); }\n";
     std::fs::write(folder.path().join("evangelista/border.frag"), all_ink).unwrap();
-    for backend in [Backend::Egl, Backend::OsMesa] {
+    for backend in *BACKENDS {
         let mut viewer = viewer(&["builtin:gear"], backend, Some(folder.path()));
         let picture = shown(&mut viewer, [ViewerEvent::Zoom(0.3)]);
         let inked = picture.pixels.chunks_exact(4).filter(|pixel| **pixel == [0, 0, 0, u8::MAX]).count();

@@ -57,7 +57,7 @@ def test_pdf_and_json_are_too(tinta):
         (("--transparent", "--show", "borders", "--style", "two-pass"), {"transparent": True, "show": "borders", "style": "two-pass"}),
         (("--look", "print", "--style", "three-pass"), {"look": "print", "style": "three-pass"}),
         (("--preset", "paper:dachsbacher-inking"), {"preset": "paper:dachsbacher-inking"}),
-        (("--backend", "osmesa", "--style", "inking", "--joints", "off"), {"backend": "osmesa", "style": "inking", "joints": False}),
+        (("--backend", "surfaceless", "--style", "inking", "--joints", "off"), {"backend": "surfaceless", "style": "inking", "joints": False}),
     ],
 )
 def test_png_is_the_command_lines_byte_for_byte(tinta, words, settings):

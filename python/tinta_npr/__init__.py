@@ -141,7 +141,7 @@ def render(
 ):
     """Draw a mesh off-screen with OpenGL, on a graphics card or on the processor.
 
-    The first call opens OpenGL (EGL, or OSMesa), and raises RuntimeError with what is missing where there is none.
+    The first call opens OpenGL (EGL, OSMesa; on Windows WGL), and raises RuntimeError with what is missing where there is none.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def render(
         As in `tinta_npr.lines`; a matrix must be one of a camera with square pixels and its principal point in the middle.
     show : str, optional
         One of the style's pictures: ``"final"``, ``"borders"``, ``"tones"`` …
-    backend : {"auto", "egl", "osmesa"}, optional
+    backend : {"auto", "egl", "surfaceless", "osmesa", "wgl", "cgl"}, optional
         Where OpenGL comes from.
 
     Returns

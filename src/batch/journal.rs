@@ -37,10 +37,7 @@ impl Journal {
         let cannot = |error: std::io::Error| {
             Error::output(&path, format!("it cannot be written ({error}); choose another folder")).because(&error)
         };
-        let mut file = OpenOptions::new().read(true).append(true).create(true).open(&path).map_err(cannot)?;
-        if !is_alone(&file) {
-            return Err(Error::Busy { path });
-        }
+        let Some(mut file) = open_alone(&path).map_err(cannot)? else { return Err(Error::Busy { path }) };
         cut_torn(&mut file).map_err(cannot)?;
         Ok(Self { file, path })
     }
@@ -55,7 +52,9 @@ impl Journal {
         let mut line = serde_json::to_string(entry).map_err(|error| refuse(format!("{error}; please report this")))?;
         line.push('\n');
         let length = self.file.metadata().map(|metadata| metadata.len());
-        self.file.write_all(line.as_bytes()).map_err(|error| {
+        // Only Unix has a way to open a file that writes at its end by itself and can still be cut.
+        let written = self.file.seek(SeekFrom::End(0)).and_then(|_| self.file.write_all(line.as_bytes()));
+        written.map_err(|error| {
             if let Ok(length) = length {
                 let _ = self.file.set_len(length);
             }
@@ -84,16 +83,36 @@ fn cut_torn(file: &mut File) -> std::io::Result<()> {
     if end < length { file.set_len(end) } else { Ok(()) }
 }
 
-/// Whether this run alone has the file open. Where the system cannot tell, it is believed.
-#[cfg(target_os = "linux")]
-fn is_alone(file: &File) -> bool {
+/// Opens the file to be written at its end, for this run alone; `None` where another has it open.
+#[cfg(unix)]
+fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     use rustix::fs::{FlockOperation, flock};
-    !matches!(flock(file, FlockOperation::NonBlockingLockExclusive), Err(rustix::io::Errno::WOULDBLOCK))
+    use rustix::io::Errno;
+    let file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
+    // Where the file system cannot tell, the run is believed to be alone.
+    let is_taken = matches!(flock(&file, FlockOperation::NonBlockingLockExclusive), Err(Errno::WOULDBLOCK));
+    Ok((!is_taken).then_some(file))
 }
 
-#[cfg(not(target_os = "linux"))]
-fn is_alone(_: &File) -> bool {
-    true
+/// The same where a file says itself how others may open it: to read.
+#[cfg(windows)]
+fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
+    use std::os::windows::fs::OpenOptionsExt;
+    use windows_sys::Win32::Foundation::ERROR_SHARING_VIOLATION;
+    use windows_sys::Win32::Storage::FileSystem::FILE_SHARE_READ;
+    let mut options = OpenOptions::new();
+    // What Windows opens to append to cannot be cut.
+    options.read(true).write(true).create(true).truncate(false).share_mode(FILE_SHARE_READ);
+    match options.open(path) {
+        Err(error) if error.raw_os_error() == Some(ERROR_SHARING_VIOLATION as i32) => Ok(None),
+        opened => opened.map(Some),
+    }
+}
+
+/// Elsewhere nothing can be known of others.
+#[cfg(not(any(unix, windows)))]
+fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
+    OpenOptions::new().read(true).append(true).create(true).open(path).map(Some)
 }
 
 fn read(path: &Path) -> Result<Vec<u8>> {
@@ -267,7 +286,7 @@ mod tests {
         assert!(read.of(&job("a")).is_some() && read.of(&job("b")).is_some() && read.of(&job("c")).is_none());
     }
 
-    #[cfg(target_os = "linux")]
+    #[cfg(any(unix, windows))]
     #[test]
     fn two_runs_of_one_slice_are_refused() {
         let folder = tempfile::tempdir().unwrap();

@@ -104,7 +104,10 @@ fn models(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<String>> {
         );
         return refuse("model", problem);
     }
-    let models = if arguments.model.is_empty() { &recipe.models } else { &arguments.model };
+    let models: Vec<String> = match arguments.model.is_empty() {
+        true => recipe.models.iter().map(|model| on_this_system(model)).collect(),
+        false => arguments.model.clone(),
+    };
     if arguments.model.is_empty() && models.iter().any(|model| model == standard_input::DASH) {
         let known = recipe.files.iter().find(|file| file.path == standard_input::DASH);
         let known =
@@ -123,8 +126,14 @@ fn models(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<String>> {
         Some(model) => {
             Err(Error::model(model.clone(), "the picture's model is missing; say where it is now with --model FILE"))
         }
-        None => Ok(models.clone()),
+        None => Ok(models),
     }
+}
+
+/// A path as this system writes it: one of Windows has its folders behind `\`, and Windows knows `/` as well.
+fn on_this_system(model: &str) -> String {
+    let slashes = model.replace('\\', "/");
+    if !Path::new(model).exists() && Path::new(&slashes).exists() { slashes } else { model.to_owned() }
 }
 
 /// Draws by the recipe. Its options pass through the same parser as a user's, and what is not part of a picture, such as a

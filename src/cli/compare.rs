@@ -34,7 +34,7 @@ pub(super) struct Arguments {
     #[arg(long, hide_short_help = true, value_name = "PIXELS", default_value = "2", hide_default_value = true, value_parser = clap::value_parser!(u32).range(0..=64))]
     tolerance: u32,
 
-    /// OpenGL from: egl, osmesa, auto (the first that works) [default: auto]
+    /// OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works) [default: auto]
     #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 

@@ -50,7 +50,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE", requires = "model")]
     skin: Option<PathBuf>,
 
-    /// OpenGL from: egl, osmesa, auto (the first that works) [default: auto]
+    /// OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works) [default: auto]
     #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 }

@@ -75,7 +75,7 @@ pub(super) struct Arguments {
     #[arg(long, hide_short_help = true, value_name = "NAME")]
     machine: Option<String>,
 
-    /// OpenGL from: egl, osmesa, auto (the first that works) [default: auto]
+    /// OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works) [default: auto]
     #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 

@@ -112,7 +112,7 @@ impl Arguments {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Running")]
 struct RunArguments {
-    /// OpenGL from: egl, osmesa, auto (the first that works) [default: auto]
+    /// OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works) [default: auto]
     #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 

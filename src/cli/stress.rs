@@ -10,7 +10,7 @@ use tinta::{Result, TextTarget};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Files: stress.json has every case in every style by every backend, with its verdict and figures; stress.md is the same as a \
-table. A missing backend (EGL or OSMesa) is skipped, and both files and standard error say so; without any backend nothing is \
+table. A missing backend is skipped, and both files and standard error say so; without any backend nothing is \
 tried. Exit code: 0 if every case ends as it must, 1 otherwise. docs/stability.md explains the figures.")]
 pub(super) struct Arguments {
     /// Folder to write into; created if missing

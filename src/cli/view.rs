@@ -40,7 +40,7 @@ pub(super) struct Arguments {
     #[arg(long, hide_short_help = true)]
     coarse: bool,
 
-    /// OpenGL for the pictures from: egl, osmesa, auto (the first that works); the window has its own [default: auto]
+    /// OpenGL for the pictures from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works); the window has its own [default: auto]
     #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
     backend: Backend,
 

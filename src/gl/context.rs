@@ -1,32 +1,46 @@
 //! Ways to an OpenGL 2.1 context without a window, tried in order, each attempt remembered; in a browser, a canvas's.
+//!
+//! Each system has its own: WGL on Windows, CGL on macOS, EGL elsewhere and where such a library is. OSMesa needs none of them.
 
 #[cfg(target_arch = "wasm32")]
 mod canvas;
+#[cfg(target_os = "macos")]
+mod cgl;
 #[cfg(not(target_arch = "wasm32"))]
 mod context_lock;
 #[cfg(not(target_arch = "wasm32"))]
 mod driver;
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(not(any(target_arch = "wasm32", target_os = "macos")))]
 mod egl;
 mod info;
 #[cfg(not(target_arch = "wasm32"))]
 mod load;
 #[cfg(not(target_arch = "wasm32"))]
 mod osmesa;
-#[cfg(test)]
+#[cfg(any(target_os = "macos", test))]
+mod surface_framebuffer;
+#[cfg(all(unix, not(target_os = "macos")))]
+mod surfaceless;
+#[cfg(all(test, unix, not(target_os = "macos")))]
 mod tests;
+#[cfg(windows)]
+mod wgl;
 #[cfg(feature = "window")]
 pub(crate) mod window;
 
 #[cfg(target_arch = "wasm32")]
-pub use canvas::attempts;
-#[cfg(target_arch = "wasm32")]
 pub(crate) use canvas::{Context, Current};
-#[cfg(not(target_arch = "wasm32"))]
-pub use driver::attempts;
+#[cfg(target_arch = "wasm32")]
+pub use canvas::{attempts, witnesses};
+#[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+pub(crate) use driver::each;
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) use driver::{Context, Current};
+#[cfg(not(target_arch = "wasm32"))]
+pub use driver::{attempts, witnesses};
 pub use info::{ContextInfo, is_software};
+#[cfg(any(target_os = "macos", test))]
+pub(in crate::gl) use surface_framebuffer::SurfaceFramebuffer;
 
 use serde::Serialize;
 
@@ -35,18 +49,33 @@ use serde::Serialize;
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Backend {
-    /// EGL, then OSMesa: the first that works; for pictures too large for it the next that draws them.
+    /// Those of this system, in this order: WGL, CGL, EGL, OSMesa, EGL's surfaceless platform. The first that works; for pictures
+    /// too large for it the next that draws them.
     #[default]
     Auto,
     /// EGL on a device, without a window system; hardware first.
     Egl,
-    /// Mesa's off-screen library.
+    /// EGL on Mesa's surfaceless platform: another screen of the same driver, so that two contexts need not take turns.
+    Surfaceless,
+    /// Mesa's off-screen library, which Mesa has no more since 25.1.
     OsMesa,
+    /// Windows' own, beside a window that is never shown.
+    Wgl,
+    /// That of macOS.
+    Cgl,
 }
 
 impl Backend {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 3] = [("auto", Self::Auto), ("egl", Self::Egl), ("osmesa", Self::OsMesa)];
+    /// All of them, as the user writes them. Those of other systems are refused with a sentence when they are asked for: a recipe or
+    /// a script that names one is understood everywhere.
+    pub const ALL: [(&'static str, Self); 6] = [
+        ("auto", Self::Auto),
+        ("egl", Self::Egl),
+        ("surfaceless", Self::Surfaceless),
+        ("osmesa", Self::OsMesa),
+        ("wgl", Self::Wgl),
+        ("cgl", Self::Cgl),
+    ];
 }
 
 tinta_geometry::choices!(Backend);

@@ -20,6 +20,11 @@ impl Live {
     pub(super) fn gl(&self) -> &glow::Context {
         &self.0.glow
     }
+
+    /// As [`Gl::own_framebuffer`].
+    pub(super) fn own_framebuffer(&self) -> Option<glow::Framebuffer> {
+        self.0.own_framebuffer()
+    }
 }
 
 impl Drop for Live {
@@ -332,12 +337,11 @@ pub(super) fn one_line(log: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gl::Backend;
-    use crate::gl::context::Context;
+    use crate::gl::context::{Context, witnesses};
 
     #[test]
     fn dropping_the_owner_deletes_the_object() {
-        for backend in [Backend::Egl, Backend::OsMesa] {
+        for backend in witnesses() {
             let context = Context::open(backend, None).unwrap_or_else(|error| panic!("{error}"));
             let _current = context.enter().unwrap();
             let gl = context.gl();
@@ -365,7 +369,7 @@ mod tests {
 
     #[test]
     fn a_gl_error_is_reported_once_with_its_name_and_place() {
-        for backend in [Backend::Egl, Backend::OsMesa] {
+        for backend in witnesses() {
             let context = Context::open(backend, None).unwrap_or_else(|error| panic!("{error}"));
             let _current = context.enter().unwrap();
             let gl = context.gl();

@@ -31,7 +31,7 @@ impl Picture {
     fn with_table(&self, table: &[[u8; 3]], colors: &[[u8; 3]]) -> Option<Vec<u8>> {
         let indices: Option<Vec<u8>> = colors
             .iter()
-            .map(|color| table.binary_search(color).ok().and_then(|index| index.try_into().ok()))
+            .map(|color| table.binary_search(color).ok().and_then(|index| u8::try_from(index).ok()))
             .collect();
         self.png(png::ColorType::Indexed, Some(table.concat()), png::Filter::NoFilter, &indices?)
     }

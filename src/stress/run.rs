@@ -6,6 +6,7 @@ use super::{drawing, failing, reading};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::gl::Backend;
+use crate::gl::context::witnesses;
 use crate::renderer::Renderer;
 use crate::threads::cores;
 use serde::Serialize;
@@ -23,13 +24,13 @@ pub struct StressSettings {
     pub mixes: usize,
     /// Only cases whose name or group has this in it; default all.
     pub only: Option<String>,
-    /// The backends, each of which must draw the same; one that is not there is left out. Default EGL and OSMesa.
+    /// The backends, each of which must draw the same; one that is not there is left out. Default [`witnesses`].
     pub backends: Vec<Backend>,
 }
 
 impl Default for StressSettings {
     fn default() -> Self {
-        Self { seed: 0, mixes: 24, only: None, backends: vec![Backend::Egl, Backend::OsMesa] }
+        Self { seed: 0, mixes: 24, only: None, backends: witnesses().to_vec() }
     }
 }
 
@@ -103,7 +104,7 @@ pub struct Summary {
 /// A backend that could not be had.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct MissingBackend {
-    /// `egl` or `osmesa`.
+    /// Its backend's name.
     pub backend: &'static str,
     /// What was tried and why it failed.
     pub reason: String,

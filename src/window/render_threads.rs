@@ -2,7 +2,8 @@
 //!
 //! One draws, until the picture changes faster than it can: then, where drawing is the processor's work, a second one takes
 //! every other picture. Mesa's software drivers compute vertices on one core, so that a second core would wait for them. Two
-//! contexts of one such driver take turns (see `gl`), so the second is OSMesa's where the first is EGL's.
+//! contexts of one screen of such a driver take turns (see `gl`), so the second is of EGL's surfaceless platform where the first is of a
+//! device: the same library's driver with a screen of its own.
 
 use super::draw::{self, Job, Order};
 use super::report::Reporter;
@@ -16,7 +17,7 @@ use std::thread::JoinHandle;
 const MOST: usize = 2;
 
 /// How the second one draws.
-const SECOND: Backend = Backend::OsMesa;
+const SECOND: Backend = Backend::Surfaceless;
 
 /// The threads.
 pub(super) struct RenderThreads {

@@ -128,7 +128,7 @@ pub enum Error {
     },
     /// No way to an OpenGL 2.1 context worked.
     #[error(
-        "no OpenGL 2.1 context could be made (tried {}); install Mesa's software renderer, on Debian: apt-get install libegl1 libgl1-mesa-dri libosmesa6",
+        "no OpenGL 2.1 context could be made (tried {}); {INSTALL}",
         attempts.join("; ")
     )]
     NoContext {
@@ -175,7 +175,7 @@ pub enum Error {
         log: String,
     },
     /// GL reported an error after a plan, or lost what it was given.
-    #[error("the GL driver failed in {during} ({what}); try the backend osmesa, or a smaller size")]
+    #[error("the GL driver failed in {during} ({what}); try another backend, or a smaller size")]
     Gl {
         /// The pass or call.
         during: String,
@@ -185,7 +185,7 @@ pub enum Error {
     /// The driver has taken the GL context away, as it does when a device hangs or its driver is replaced.
     #[error(
         "the GL context was lost in {during} ({what}): the driver reset its device; draw again, and if that fails too, \
-         try the backend osmesa or a smaller size"
+         try another backend or a smaller size"
     )]
     ContextLost {
         /// The pass or call.
@@ -195,11 +195,20 @@ pub enum Error {
     },
 }
 
+/// What [`Error::NoContext`] advises, by system.
+const INSTALL: &str = if cfg!(windows) {
+    "install your graphics card's driver, or Mesa's opengl32.dll beside tinta.exe"
+} else if cfg!(target_os = "macos") {
+    "log in where macOS has a screen"
+} else {
+    "install Mesa's software renderer, on Debian: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri"
+};
+
 /// What [`Error::PictureTooLarge`] ends with.
 const BACKEND_FOR_LARGER: &str = "a backend that draws larger ones";
 
 /// What [`Error::Gl`] and [`Error::ContextLost`] advise.
-const ANOTHER_BACKEND: &str = "the backend osmesa";
+const ANOTHER_BACKEND: &str = "another backend";
 
 /// Names as a sentence has them: `a`, `a and b`, `a, b and c`.
 fn in_a_row(names: &[String]) -> String {
@@ -340,7 +349,7 @@ impl Error {
                     .map_or_else(|| sentence.clone(), |start| format!("{start}a --backend that draws larger ones"))
             }
             Self::Gl { .. } | Self::ContextLost { .. } => match sentence.rsplit_once(ANOTHER_BACKEND) {
-                Some((start, end)) => format!("{start}--backend osmesa{}", end.replacen("size", "--size", 1)),
+                Some((start, end)) => format!("{start}another --backend{}", end.replacen("size", "--size", 1)),
                 None => sentence,
             },
             _ => sentence,
@@ -405,15 +414,15 @@ mod tests {
             ),
             (
                 Error::gl("drawing", "GL_SIZE"),
-                "the GL driver failed in drawing (GL_SIZE); try the backend osmesa, or a smaller size",
-                "the GL driver failed in drawing (GL_SIZE); try --backend osmesa, or a smaller --size",
+                "the GL driver failed in drawing (GL_SIZE); try another backend, or a smaller size",
+                "the GL driver failed in drawing (GL_SIZE); try another --backend, or a smaller --size",
             ),
             (
                 lost,
                 "the GL context was lost in drawing (GL_OUT_OF_MEMORY): the driver reset its device; draw again, and \
-                 if that fails too, try the backend osmesa or a smaller size",
+                 if that fails too, try another backend or a smaller size",
                 "the GL context was lost in drawing (GL_OUT_OF_MEMORY): the driver reset its device; draw again, and \
-                 if that fails too, try --backend osmesa or a smaller --size",
+                 if that fails too, try another --backend or a smaller --size",
             ),
         ] {
             assert_eq!((error.to_string(), error.with_dashes()), (plain.to_owned(), dashed.to_owned()));

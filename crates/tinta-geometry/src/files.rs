@@ -97,8 +97,16 @@ fn is_same(open: &std::fs::Metadata, real: &Path) -> bool {
     real.symlink_metadata().is_ok_and(|there| (there.dev(), there.ino()) == (open.dev(), open.ino()))
 }
 
+/// Windows tells by handle alone which file one is, and std does not ask; what it says of both must be the same.
+#[cfg(windows)]
+fn is_same(open: &std::fs::Metadata, real: &Path) -> bool {
+    use std::os::windows::fs::MetadataExt;
+    let of = |file: &std::fs::Metadata| (file.creation_time(), file.last_write_time(), file.file_size());
+    real.symlink_metadata().is_ok_and(|there| there.is_file() && of(&there) == of(open))
+}
+
 /// Elsewhere nothing can be asked of an open file that tells it from others.
-#[cfg(not(unix))]
+#[cfg(not(any(unix, windows)))]
 fn is_same(_: &std::fs::Metadata, real: &Path) -> bool {
     real.symlink_metadata().is_ok_and(|there| there.is_file())
 }

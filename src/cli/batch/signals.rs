@@ -10,8 +10,7 @@ pub(super) struct Stop {
 }
 
 impl Stop {
-    /// From now on.
-    #[cfg(unix)]
+    /// From now on. Windows has Ctrl-C of the two; nobody sends the other there.
     pub(super) fn on_signals() -> Self {
         use signal_hook::consts::{SIGINT, SIGTERM};
         use signal_hook::flag::{register, register_conditional_shutdown, register_usize};
@@ -23,12 +22,6 @@ impl Stop {
             let _ = register(signal, stop.is_asked.clone());
         }
         stop
-    }
-
-    /// Elsewhere a run ends at once, and what is written down stays.
-    #[cfg(not(unix))]
-    pub fn on_signals() -> Self {
-        Self { is_asked: Arc::default(), signal: Arc::default() }
     }
 
     /// Whether it is.
@@ -44,14 +37,13 @@ impl Stop {
 
 /// In a worker: terminals and schedulers send their signals to it too, but its run says when it has done enough.
 pub(super) fn leave_to_the_run() {
-    #[cfg(unix)]
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
         let _ = signal_hook::flag::register(signal, Arc::default());
     }
 }
 
 /// Ends a worker whose run is gone, in the middle of its job: what the driver would do at an orderly end is not safe beside a
-/// thread that draws.
+/// thread that draws. On Windows that thread has ended by then, whatever the end.
 pub(super) fn end_at_once() -> ! {
     #[cfg(unix)]
     let _ = signal_hook::low_level::raise(signal_hook::consts::SIGKILL);

@@ -37,6 +37,11 @@ pub fn attempts(_: Backend) -> Vec<Attempt> {
     Vec::new()
 }
 
+/// A page gives its canvas; there is nothing to choose from.
+pub fn witnesses() -> [Backend; 2] {
+    [Backend::Auto; 2]
+}
+
 impl Context {
     /// Refused: a page gives its canvas.
     pub(crate) fn open(_: Backend, _: Option<Fault>) -> Result<Self> {

@@ -19,6 +19,18 @@ pub(super) struct ContextGuard {
 /// Those of EGL's software device, of which Mesa has one.
 pub(super) static OF_EGL: ContextLock = ContextLock(Mutex::new(()));
 
+/// Those of EGL's surfaceless platform, whose screen is another one.
+#[cfg(all(unix, not(target_os = "macos")))]
+pub(super) static OF_SURFACELESS: ContextLock = ContextLock(Mutex::new(()));
+
+/// Those of WGL, the window's among them: Mesa's library for Windows has one screen for all.
+#[cfg(windows)]
+pub(super) static OF_WGL: ContextLock = ContextLock(Mutex::new(()));
+
+/// Those of CGL.
+#[cfg(target_os = "macos")]
+pub(super) static OF_CGL: ContextLock = ContextLock(Mutex::new(()));
+
 /// Those of OSMesa.
 pub(super) static OF_OSMESA: ContextLock = ContextLock(Mutex::new(()));
 

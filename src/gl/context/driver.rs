@@ -2,9 +2,17 @@
 
 use super::super::Gl;
 use super::super::faults::{self, Fault, Faults};
+#[cfg(target_os = "macos")]
+use super::cgl;
 use super::context_lock::{self, ContextGuard, ContextLock};
+#[cfg(not(target_os = "macos"))]
+use super::egl;
 use super::load::load_functions;
-use super::{Attempt, Backend, ContextInfo, Outcome, egl, osmesa};
+#[cfg(all(unix, not(target_os = "macos")))]
+use super::surfaceless;
+#[cfg(windows)]
+use super::wgl;
+use super::{Attempt, Backend, ContextInfo, Outcome, osmesa};
 use crate::error::{Error, Result};
 use crate::scene::Size;
 use std::ffi::{CStr, c_void};
@@ -12,14 +20,14 @@ use std::mem::ManuallyDrop;
 use std::rc::Rc;
 
 /// The OpenGL that contexts are asked for.
-const VERSION: (u8, u8) = (2, 1);
+pub(super) const VERSION: (u8, u8) = (2, 1);
 
 /// One that no driver has, for [`Fault::ContextRefused`].
 const NO_VERSION: (u8, u8) = (9, 9);
 
 /// A context with its loaded functions; current on this thread only between [`Context::enter`] and its guard's end.
 pub(crate) struct Context {
-    platform: ManuallyDrop<Platform>,
+    platform: ManuallyDrop<Box<dyn Platform>>,
     gl: Rc<Gl>,
     faults: Option<Rc<Faults>>,
     /// Shared with the contexts of the same screen; `None` for those of hardware, which may all be at work at once.
@@ -32,72 +40,116 @@ pub(super) struct NotCurrent {
     pub(super) reason: String,
 }
 
-/// The platforms' contexts.
-pub(super) enum Platform {
-    Egl(egl::EglContext),
-    OsMesa(osmesa::OsMesaContext),
+/// A platform's context with the surface it draws into.
+pub(super) trait Platform {
+    /// Makes the surface this large. The context is not current.
+    fn resize(&mut self, size: Size) -> std::result::Result<(), String>;
+
+    /// Makes the context current on this thread.
+    fn make_current(&self) -> std::result::Result<(), NotCurrent>;
+
+    /// Ends that.
+    fn release(&self);
+
+    /// The address of a GL function, or null. The context is current.
+    fn proc_address(&self, name: &CStr) -> *const c_void;
+
+    /// The largest surface, where the platform has a limit of its own.
+    fn largest_surface(&self) -> Size;
+
+    /// Whether there is no surface, so that a framebuffer object has to stand for it.
+    #[cfg_attr(not(any(target_os = "macos", test)), expect(dead_code, reason = "only contexts of macOS do"))]
+    fn lacks_surface(&self) -> bool {
+        false
+    }
 }
 
+/// Opens a platform's context of this version of OpenGL.
+type Open = Box<dyn FnOnce((u8, u8)) -> std::result::Result<Box<dyn Platform>, String>>;
+
 /// A way not yet tried.
-enum Candidate {
-    Egl(egl::Device),
-    OsMesa,
-    /// A whole platform that is not there, and why.
-    Missing {
-        device: String,
-        reason: String,
-    },
+struct Candidate {
+    backend: &'static str,
+    /// For people: the library, and the device where there is a choice.
+    name: String,
+    lock: &'static ContextLock,
+    open: Open,
 }
 
 impl Candidate {
+    /// The ways of this backend on this system, in the order they are tried.
     fn all(backend: Backend) -> Vec<Self> {
+        let is_wanted = |one: Backend| backend == one || backend == Backend::Auto;
         let mut candidates = Vec::new();
-        if backend != Backend::OsMesa {
+        #[cfg(windows)]
+        if is_wanted(Backend::Wgl) {
+            let open = |version| wgl::WglContext::open(version).map(boxed);
+            candidates.push(Self::new("wgl", "WGL", &context_lock::OF_WGL, open));
+        }
+        #[cfg(target_os = "macos")]
+        if is_wanted(Backend::Cgl) {
+            let open = |version| cgl::CglContext::open(version).map(boxed);
+            candidates.push(Self::new("cgl", "CGL", &context_lock::OF_CGL, open));
+        }
+        #[cfg(not(target_os = "macos"))]
+        if is_wanted(Backend::Egl) {
             match egl::devices() {
-                Ok(devices) => candidates.extend(devices.into_iter().map(Self::Egl)),
-                Err(reason) => candidates.push(Self::Missing { device: "EGL".to_owned(), reason }),
+                Ok(devices) => candidates.extend(devices.into_iter().map(|device| {
+                    let name = device.name.clone();
+                    let open = move |version| egl::EglContext::open(&device, version).map(boxed);
+                    Self::new("egl", &name, &context_lock::OF_EGL, open)
+                })),
+                Err(reason) => candidates.push(Self::new("egl", "EGL", &context_lock::OF_EGL, |_| Err(reason))),
             }
         }
-        if backend != Backend::Egl {
-            candidates.push(Self::OsMesa);
+        if is_wanted(Backend::OsMesa) {
+            let open = |version| osmesa::OsMesaContext::open(version).map(boxed);
+            candidates.push(Self::new("osmesa", &osmesa::name(), &context_lock::OF_OSMESA, open));
+        }
+        #[cfg(all(unix, not(target_os = "macos")))]
+        if is_wanted(Backend::Surfaceless) {
+            let open = |version| surfaceless::SurfacelessContext::open(version).map(boxed);
+            candidates.push(Self::new("surfaceless", "EGL surfaceless", &context_lock::OF_SURFACELESS, open));
+        }
+        if candidates.is_empty() {
+            let (name, whose) = match backend {
+                Backend::Wgl => ("WGL", "Windows"),
+                Backend::Cgl => ("CGL", "macOS"),
+                _ => ("EGL", "Linux"),
+            };
+            let reason = format!("it is of {whose}, and this is {}; choose the backend auto", std::env::consts::OS);
+            candidates.push(Self::new("none", name, &context_lock::OF_EGL, |_| Err(reason)));
         }
         candidates
     }
 
-    fn name(&self) -> String {
-        match self {
-            Self::Egl(device) => device.name.clone(),
-            Self::OsMesa => osmesa::name(),
-            Self::Missing { device, .. } => device.clone(),
-        }
+    fn new(
+        backend: &'static str,
+        name: &str,
+        lock: &'static ContextLock,
+        open: impl FnOnce((u8, u8)) -> std::result::Result<Box<dyn Platform>, String> + 'static,
+    ) -> Self {
+        Self { backend, name: name.to_owned(), lock, open: Box::new(open) }
     }
 
     fn open(self, fault: Option<Fault>) -> std::result::Result<Context, String> {
-        let device = self.name();
         let version = if fault == Some(Fault::ContextRefused) { NO_VERSION } else { VERSION };
-        let (backend, lock) = match &self {
-            Self::Egl(_) => ("egl", &context_lock::OF_EGL),
-            Self::OsMesa => ("osmesa", &context_lock::OF_OSMESA),
-            Self::Missing { reason, .. } => return Err(reason.clone()),
-        };
         // Whether the context is software's is known only when it is there.
-        let _guard = lock.lock();
-        let platform = match self {
-            Self::Egl(found) => Platform::Egl(egl::EglContext::open(&found, version)?),
-            Self::OsMesa => Platform::OsMesa(osmesa::OsMesaContext::open(version)?),
-            Self::Missing { reason, .. } => return Err(reason),
-        };
-        Context::load(platform, backend, device, fault, lock)
+        let _guard = self.lock.lock();
+        let platform = (self.open)(version)?;
+        Context::load(platform, self.backend, self.name, fault, self.lock)
     }
+}
+
+fn boxed(context: impl Platform + 'static) -> Box<dyn Platform> {
+    Box::new(context)
 }
 
 /// Tries every way of this backend and tells what came of each.
 pub fn attempts(backend: Backend) -> Vec<Attempt> {
-    Candidate::all(backend)
-        .into_iter()
-        .map(|candidate| {
-            let device = candidate.name();
-            let outcome = match candidate.open(None) {
+    each(backend)
+        .map(|(device, opened)| {
+            let outcome = match opened {
                 Ok(context) => Outcome::Context(Box::new(context.info().clone())),
                 Err(reason) => Outcome::Error(reason),
             };
@@ -106,12 +158,33 @@ pub fn attempts(backend: Backend) -> Vec<Attempt> {
         .collect()
 }
 
+/// A context of every way of this backend, one after the other, by its device's name; else why there is none.
+pub(crate) fn each(backend: Backend) -> impl Iterator<Item = (String, std::result::Result<Context, String>)> {
+    Candidate::all(backend).into_iter().map(|candidate| (candidate.name.clone(), candidate.open(None)))
+}
+
+/// Two backends of this system, for what is drawn twice and compared: its own, and OSMesa or where there is none another screen of
+/// the first one's driver.
+pub fn witnesses() -> [Backend; 2] {
+    let own = match () {
+        () if cfg!(windows) => Backend::Wgl,
+        () if cfg!(target_os = "macos") => Backend::Cgl,
+        () => Backend::Egl,
+    };
+    let other = match osmesa::is_there() {
+        true => Backend::OsMesa,
+        false if own == Backend::Egl => Backend::Surfaceless,
+        false => own,
+    };
+    [own, other]
+}
+
 impl Context {
     /// The first way of this backend that works; with a fault something will go wrong in it.
     pub(crate) fn open(backend: Backend, fault: Option<Fault>) -> Result<Self> {
         let mut attempts = Vec::new();
         for candidate in Candidate::all(backend) {
-            let name = candidate.name();
+            let name = candidate.name.clone();
             match candidate.open(fault) {
                 Ok(context) => return Ok(context),
                 Err(reason) => attempts.push(format!("{name}: {reason}")),
@@ -124,7 +197,7 @@ impl Context {
     /// largest; `None` where no other works.
     pub(crate) fn open_for(backend: Backend, fault: Option<Fault>, surface: Size, but: &[&str]) -> Option<Self> {
         let mut largest: Option<Self> = None;
-        for candidate in Candidate::all(backend).into_iter().filter(|other| !but.contains(&other.name().as_str())) {
+        for candidate in Candidate::all(backend).into_iter().filter(|other| !but.contains(&other.name.as_str())) {
             let Ok(context) = candidate.open(fault) else { continue };
             if context.draws(surface) {
                 return Some(context);
@@ -143,8 +216,8 @@ impl Context {
         surface.width <= limit.width && surface.height <= limit.height
     }
 
-    fn load(
-        platform: Platform,
+    pub(super) fn load(
+        platform: Box<dyn Platform>,
         backend: &'static str,
         device: String,
         fault: Option<Fault>,
@@ -152,8 +225,8 @@ impl Context {
     ) -> std::result::Result<Self, String> {
         let faults = fault.map(|fault| Rc::new(Faults::new(fault)));
         platform.make_current().map_err(|failed| failed.reason)?;
-        let current = Current::new(&platform, faults.as_ref(), None);
-        let loaded = load_functions(&platform, faults.as_deref(), backend, device);
+        let current = Current::new(&*platform, faults.as_ref(), None);
+        let loaded = load_functions(&*platform, faults.as_deref(), backend, device);
         drop(current);
         let gl = loaded?;
         let lock = gl.info.is_software().then_some(lock);
@@ -185,12 +258,16 @@ impl Context {
                 renderer: self.info().renderer.clone(),
             });
         }
-        let _guard = self.lock_context();
-        let resized = match &mut *self.platform {
-            Platform::Egl(context) => context.resize(size),
-            Platform::OsMesa(context) => context.resize(size),
-        };
-        resized.map_err(|reason| Error::gl(format!("making a surface of {size} pixels"), reason))
+        let failed = |reason: String| Error::gl(format!("making a surface of {size} pixels"), reason);
+        let guard = self.lock_context();
+        self.platform.resize(size).map_err(failed)?;
+        drop(guard);
+        #[cfg(any(target_os = "macos", test))]
+        if let Some(surface) = &self.gl.surface {
+            let _current = self.enter()?;
+            surface.resize(&self.gl.glow, size).map_err(failed)?;
+        }
+        Ok(())
     }
 
     /// Makes the context current until the guard is dropped, after waiting for its lock: a thread has one such guard at most.
@@ -204,7 +281,7 @@ impl Context {
                 false => Error::gl(during, reason),
             }
         })?;
-        Ok(Current::new(&self.platform, self.faults.as_ref(), guard))
+        Ok(Current::new(&**self.platform, self.faults.as_ref(), guard))
     }
 }
 
@@ -218,13 +295,13 @@ impl Drop for Context {
 
 /// While it lives its context is current.
 pub(crate) struct Current<'a> {
-    platform: &'a Platform,
+    platform: &'a dyn Platform,
     /// Ends after the context has been released, below.
     _guard: Option<ContextGuard>,
 }
 
 impl<'a> Current<'a> {
-    fn new(platform: &'a Platform, faults: Option<&Rc<Faults>>, guard: Option<ContextGuard>) -> Self {
+    fn new(platform: &'a dyn Platform, faults: Option<&Rc<Faults>>, guard: Option<ContextGuard>) -> Self {
         faults::set_current(faults);
         Self { platform, _guard: guard }
     }
@@ -234,35 +311,5 @@ impl Drop for Current<'_> {
     fn drop(&mut self) {
         faults::set_current(None);
         self.platform.release();
-    }
-}
-
-impl Platform {
-    fn make_current(&self) -> std::result::Result<(), NotCurrent> {
-        match self {
-            Self::Egl(context) => context.make_current(),
-            Self::OsMesa(context) => context.make_current(),
-        }
-    }
-
-    fn release(&self) {
-        match self {
-            Self::Egl(context) => context.release(),
-            Self::OsMesa(context) => context.release(),
-        }
-    }
-
-    pub(super) fn proc_address(&self, name: &CStr) -> *const c_void {
-        match self {
-            Self::Egl(context) => context.proc_address(name),
-            Self::OsMesa(context) => context.proc_address(name),
-        }
-    }
-
-    pub(super) fn largest_surface(&self) -> Size {
-        match self {
-            Self::Egl(context) => context.largest_surface(),
-            Self::OsMesa(context) => context.largest_surface(),
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! EGL on a device, without a window system, through glutin.
 
-use super::driver::NotCurrent;
+use super::driver::{NotCurrent, Platform};
 use crate::scene::Size;
 use glutin::api::egl::{config::Config, context::PossiblyCurrentContext, device, display::Display, surface::Surface};
 use glutin::config::{Api, AsRawConfig, ConfigSurfaceTypes, ConfigTemplateBuilder, GlConfig, RawConfig};
@@ -17,9 +17,9 @@ use std::sync::OnceLock;
 
 /// The library's names, in the order glutin tries them.
 #[cfg(not(windows))]
-const LIBRARIES: [&str; 2] = ["libEGL.so.1", "libEGL.so"];
+pub(super) const LIBRARIES: [&str; 2] = ["libEGL.so.1", "libEGL.so"];
 #[cfg(windows)]
-const LIBRARIES: [&str; 2] = ["libEGL.dll", "atioglxx.dll"];
+pub(super) const LIBRARIES: [&str; 2] = ["libEGL.dll", "atioglxx.dll"];
 
 /// What of it is called here and by glutin, which takes for granted that a library of this name has it.
 const FUNCTIONS: [&CStr; 15] = [
@@ -143,8 +143,10 @@ impl EglContext {
         let surface = create_surface(&display, &config, size)?;
         Ok(Self { context: context.treat_as_possibly_current(), surface, size, config, display })
     }
+}
 
-    pub(super) fn resize(&mut self, size: Size) -> Result<(), String> {
+impl Platform for EglContext {
+    fn resize(&mut self, size: Size) -> Result<(), String> {
         if size != self.size {
             self.surface = create_surface(&self.display, &self.config, size)?;
             self.size = size;
@@ -152,25 +154,29 @@ impl EglContext {
         Ok(())
     }
 
-    pub(super) fn make_current(&self) -> Result<(), NotCurrent> {
+    fn make_current(&self) -> Result<(), NotCurrent> {
         self.context.make_current(&self.surface).map_err(|error| NotCurrent {
             is_lost: matches!(error.error_kind(), ErrorKind::ContextLost),
             reason: format!("it cannot be made current ({error})"),
         })
     }
 
-    pub(super) fn release(&self) {
+    fn release(&self) {
         // Fails only if the display is gone, and then there is nothing to release.
         let _ = self.context.make_not_current_in_place();
     }
 
-    pub(super) fn proc_address(&self, name: &CStr) -> *const c_void {
+    fn proc_address(&self, name: &CStr) -> *const c_void {
         self.display.get_proc_address(name)
     }
 
-    pub(super) fn largest_surface(&self) -> Size {
-        let RawDisplay::Egl(display) = self.display.raw_display();
-        let RawConfig::Egl(config) = self.config.raw_config();
+    fn largest_surface(&self) -> Size {
+        // Elsewhere displays and configs may be of other kinds; these are EGL's.
+        #[cfg_attr(not(windows), expect(irrefutable_let_patterns, reason = "EGL is all there is"))]
+        let (RawDisplay::Egl(display), RawConfig::Egl(config)) = (self.display.raw_display(), self.config.raw_config())
+        else {
+            return Size { width: u32::MAX, height: u32::MAX };
+        };
         let limit = |attribute: u32| {
             let mut value = 0;
             // SAFETY: display and config are alive, and the attribute is one integer.

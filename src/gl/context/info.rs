@@ -21,7 +21,7 @@ pub fn is_software(renderer: &str) -> bool {
 /// What a context says about itself.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ContextInfo {
-    /// `egl` or `osmesa`, in a browser `webgl`.
+    /// `egl`, `surfaceless`, `osmesa`, `wgl` or `cgl`, in a browser `webgl`.
     pub backend: &'static str,
     /// The library, and the device where there is a choice.
     pub device: String,

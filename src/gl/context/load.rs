@@ -6,6 +6,8 @@ use super::super::immediate::Immediate;
 use super::super::legacy::{self, Legacy};
 use super::driver::Platform;
 use super::info::{ContextInfo, LEAST_SUBPIXEL_BITS};
+#[cfg(any(target_os = "macos", test))]
+use super::surface_framebuffer::SurfaceFramebuffer;
 use crate::error::Error;
 use crate::scene::Size;
 use glow::HasContext;
@@ -21,7 +23,7 @@ fn version_numbers(version: &str) -> Option<(u32, u32)> {
 
 /// Loads GL for the current context and asks it about itself; an error is why it cannot serve.
 pub(super) fn load_functions(
-    platform: &Platform,
+    platform: &dyn Platform,
     faults: Option<&Faults>,
     backend: &'static str,
     device: String,
@@ -42,6 +44,9 @@ pub(super) fn load_functions(
     }
     // SAFETY: as above.
     let glow = unsafe { glow::Context::from_loader_function_cstr(load) };
+    // Before the questions about the framebuffer.
+    #[cfg(any(target_os = "macos", test))]
+    let own_surface = platform.lacks_surface().then(|| SurfaceFramebuffer::new(&glow)).transpose()?;
     let has = |name: &str| glow.supported_extensions().contains(name);
     if has("GL_ARB_robustness") || has("GL_KHR_robustness") {
         // SAFETY: as above; the context has the extension.
@@ -98,8 +103,17 @@ pub(super) fn load_functions(
     // SAFETY: as above.
     let immediate = unsafe { Immediate::load(load) };
     let (live_objects, lost) = (Cell::new(0), Cell::new(None));
-    let gl =
-        Gl { glow: Rc::new(glow), legacy, immediate, info, live_objects, replaced_shaders: RefCell::default(), lost };
+    let gl = Gl {
+        glow: Rc::new(glow),
+        legacy,
+        immediate,
+        info,
+        #[cfg(any(target_os = "macos", test))]
+        surface: own_surface,
+        live_objects,
+        replaced_shaders: RefCell::default(),
+        lost,
+    };
     // A core profile answers the questions about alpha and lines with an error: it lacks what the articles use.
     gl.check("asking the context about itself").map_err(|error| match error {
         Error::ContextLost { what, .. } => format!("the context was lost at once ({what})"),

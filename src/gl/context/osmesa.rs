@@ -1,6 +1,6 @@
-//! Mesa's off-screen library: a context that draws into our memory, with no device at all.
+//! Mesa's off-screen library: a context that draws into our memory, with no device at all. Mesa 25.1 removed it.
 
-use super::driver::NotCurrent;
+use super::driver::{NotCurrent, Platform};
 use crate::scene::Size;
 use libloading::{Library, Symbol};
 use std::cell::{Cell, RefCell};
@@ -9,11 +9,11 @@ use std::ptr;
 use std::sync::OnceLock;
 
 type Handle = *mut c_void;
-type CreateContext = unsafe extern "C" fn(*const i32, Handle) -> Handle;
-type DestroyContext = unsafe extern "C" fn(Handle);
-type MakeCurrent = unsafe extern "C" fn(Handle, *mut c_void, u32, i32, i32) -> u8;
-type GetInteger = unsafe extern "C" fn(i32, *mut i32);
-type GetProcAddress = unsafe extern "C" fn(*const c_char) -> *const c_void;
+type CreateContext = unsafe extern "system" fn(*const i32, Handle) -> Handle;
+type DestroyContext = unsafe extern "system" fn(Handle);
+type MakeCurrent = unsafe extern "system" fn(Handle, *mut c_void, u32, i32, i32) -> u8;
+type GetInteger = unsafe extern "system" fn(i32, *mut i32);
+type GetProcAddress = unsafe extern "system" fn(*const c_char) -> *const c_void;
 
 /// The functions of the library used here.
 struct Functions {
@@ -26,12 +26,28 @@ struct Functions {
     get_proc_address: GetProcAddress,
 }
 
+/// Its names, as Mesa's makers and packagers have them.
+#[cfg(windows)]
+const LIBRARIES: [&str; 1] = ["osmesa.dll"];
+#[cfg(target_os = "macos")]
+const LIBRARIES: [&str; 2] = ["libOSMesa.8.dylib", "libOSMesa.dylib"];
+#[cfg(not(any(windows, target_os = "macos")))]
 const LIBRARIES: [&str; 3] = ["libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"];
 
 /// The library, loaded once and never unloaded: Mesa leaves threads and exit handlers behind.
 fn functions() -> Result<&'static Functions, String> {
     static FUNCTIONS: OnceLock<Result<Functions, String>> = OnceLock::new();
     FUNCTIONS.get_or_init(load).as_ref().map_err(Clone::clone)
+}
+
+/// Whether the library is there, with the driver that GALLIUM_DRIVER asks for.
+pub(super) fn is_there() -> bool {
+    functions().is_ok() && check_driver(asked_driver().as_deref()).is_ok()
+}
+
+/// The value of GALLIUM_DRIVER.
+fn asked_driver() -> Option<String> {
+    std::env::var_os("GALLIUM_DRIVER").map(|name| name.to_string_lossy().into_owned())
 }
 
 /// For people: OSMesa and the library it is.
@@ -49,7 +65,10 @@ fn load() -> Result<Functions, String> {
             Err(error) => reasons.push(error.to_string()),
         }
     }
-    Err(format!("the library is not installed ({})", reasons[0]))
+    Err(format!(
+        "the library is not installed ({}); Mesa has none since 25.1, and nothing needs it where another way works",
+        reasons[0]
+    ))
 }
 
 fn find_functions(name: &'static str, library: &'static Library) -> Result<Functions, String> {
@@ -130,7 +149,7 @@ impl OsMesaContext {
     /// A compatibility context of this version of OpenGL with a surface of one pixel.
     pub(super) fn open((major, minor): (u8, u8)) -> Result<Self, String> {
         let functions = functions()?;
-        check_driver(std::env::var_os("GALLIUM_DRIVER").map(|name| name.to_string_lossy().into_owned()).as_deref())?;
+        check_driver(asked_driver().as_deref())?;
         let [major, minor] = [major, minor].map(i32::from);
         // OSMESA_FORMAT RGBA, DEPTH_BITS 24, STENCIL_BITS 0, ACCUM_BITS 0, PROFILE compatibility, VERSION, end.
         let attributes = [0x22, 0x1908, 0x30, 24, 0x31, 0, 0x32, 0, 0x33, 0x35, 0x36, major, 0x37, minor, 0, 0];
@@ -142,8 +161,10 @@ impl OsMesaContext {
         let size = Size { width: 1, height: 1 };
         Ok(Self { functions, context, size, memory: RefCell::new(vec![0]), made_current: Cell::new(size) })
     }
+}
 
-    pub(super) fn resize(&mut self, size: Size) -> Result<(), String> {
+impl Platform for OsMesaContext {
+    fn resize(&mut self, size: Size) -> Result<(), String> {
         let mut memory = Vec::new();
         memory.try_reserve_exact(size.pixel_count()).map_err(|_| "there is not enough memory".to_owned())?;
         memory.resize(size.pixel_count(), 0);
@@ -152,7 +173,7 @@ impl OsMesaContext {
         Ok(())
     }
 
-    pub(super) fn make_current(&self) -> Result<(), NotCurrent> {
+    fn make_current(&self) -> Result<(), NotCurrent> {
         let _elsewhere = (self.made_current.replace(self.size) != self.size).then(SmallBlocks::take);
         let mut memory = self.memory.borrow_mut();
         let (width, height) = (self.size.width as i32, self.size.height as i32);
@@ -169,17 +190,17 @@ impl OsMesaContext {
         }
     }
 
-    pub(super) fn release(&self) {
+    fn release(&self) {
         // SAFETY: no context, no memory: Mesa flushes and lets go of both.
         unsafe { (self.functions.make_current)(ptr::null_mut(), ptr::null_mut(), glow::UNSIGNED_BYTE, 0, 0) };
     }
 
-    pub(super) fn proc_address(&self, name: &CStr) -> *const c_void {
+    fn proc_address(&self, name: &CStr) -> *const c_void {
         // SAFETY: the name ends with 0.
         unsafe { (self.functions.get_proc_address)(name.as_ptr()) }
     }
 
-    pub(super) fn largest_surface(&self) -> Size {
+    fn largest_surface(&self) -> Size {
         const MAX_WIDTH: i32 = 0x24;
         const MAX_HEIGHT: i32 = 0x25;
         let limit = |name: i32| {

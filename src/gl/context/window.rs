@@ -3,6 +3,9 @@
 //! Models are not drawn here but by [`crate::Renderer`] without a window; their pictures come as textures. So a pane's
 //! pixels do not depend on what the window system does with its buffers, and a picture can have any size.
 
+use super::context_lock::ContextLock;
+#[cfg(windows)]
+use super::{context_lock::OF_WGL, is_software};
 use crate::error::{Error, Result};
 use crate::picture::Picture;
 use crate::scene::Size;
@@ -27,6 +30,9 @@ pub(crate) struct WindowGl {
     painter: egui_glow::Painter,
     surface: Surface<WindowSurface>,
     context: PossiblyCurrentContext,
+    /// Shared with the contexts that draw models, where they are of the same software driver's screen: on Windows. Elsewhere the
+    /// window's display is another than theirs.
+    lock: Option<&'static ContextLock>,
 }
 
 /// Shapes on their way to the screen.
@@ -53,15 +59,31 @@ impl WindowGl {
         event_loop: &ActiveEventLoop,
         attributes: WindowAttributes,
     ) -> std::result::Result<(Window, Self), String> {
-        super::egl::check_library().map_err(|reason| format!("EGL: {reason}"))?;
-        let config = config(event_loop)?;
-        let window = glutin_winit::finalize_window(event_loop, attributes, &config)
-            .map_err(|error| format!("making the window failed ({error})"))?;
+        // Where the display's format does not depend on the window, it comes first, as X11 wants it.
+        #[cfg(not(windows))]
+        let (window, config) = {
+            #[cfg(not(target_os = "macos"))]
+            super::egl::check_library().map_err(|reason| format!("EGL: {reason}"))?;
+            let config = config(event_loop, None)?;
+            let window = glutin_winit::finalize_window(event_loop, attributes, &config)
+                .map_err(|error| format!("making the window failed ({error})"))?;
+            (window, config)
+        };
+        // On Windows it does.
+        #[cfg(windows)]
+        let (window, config) = {
+            let window =
+                event_loop.create_window(attributes).map_err(|error| format!("making the window failed ({error})"))?;
+            let config = config(event_loop, Some(&window))?;
+            (window, config)
+        };
         let handle = window.window_handle().map_err(|error| format!("the window has no handle ({error})"))?;
         let display = config.display();
         let attributes = ContextAttributesBuilder::new()
             .with_context_api(ContextApi::OpenGl(Some(Version::new(2, 1))))
             .build(Some(handle.as_raw()));
+        #[cfg(windows)]
+        let guard = OF_WGL.lock();
         // SAFETY: display, config and window handle belong together, and the window is alive.
         let context = unsafe { display.create_context(&config, &attributes) }
             .map_err(|error| format!("making a GL 2.1 context failed ({error})"))?;
@@ -74,14 +96,26 @@ impl WindowGl {
         let context = context
             .make_current(&surface)
             .map_err(|error| format!("the window's context cannot be made current ({error})"))?;
-        // Without it frames are shown at once, which is no worse.
-        let _ = surface.set_swap_interval(&context, SwapInterval::Wait(NonZeroU32::MIN));
         // SAFETY: the context is current, and the addresses are its own.
         let gl = unsafe { egui_glow::glow::Context::from_loader_function_cstr(|name| display.get_proc_address(name)) };
+        #[cfg(windows)]
+        let lock = {
+            use egui_glow::glow::{HasContext, RENDERER};
+            // SAFETY: the context is current; every context has this name.
+            is_software(&unsafe { gl.get_parameter_string(RENDERER) }).then_some(&OF_WGL)
+        };
+        #[cfg(not(windows))]
+        let lock = None;
+        // A frame that waits for the screen would keep drawings waiting with it. Without it frames are shown at once, which is no worse.
+        if lock.is_none() {
+            let _ = surface.set_swap_interval(&context, SwapInterval::Wait(NonZeroU32::MIN));
+        }
         let painter = egui_glow::Painter::new(Arc::new(gl), "", None, false)
             .map_err(|error| format!("the window's OpenGL cannot show panels ({error})"))?;
-        let mut opened = Self { painter, surface, context };
+        let mut opened = Self { painter, surface, context, lock };
         opened.release();
+        #[cfg(windows)]
+        drop(guard);
         Ok((window, opened))
     }
 
@@ -107,6 +141,7 @@ impl WindowGl {
             let during = format!("{what} the window");
             move |error: glutin::error::Error| Error::gl(during, error.to_string())
         };
+        let _guard = self.lock.map(ContextLock::lock);
         self.context.make_current(&self.surface).map_err(failed("painting"))?;
         let pixels = [size.width, size.height];
         self.painter.clear(pixels, GROUND);
@@ -130,6 +165,7 @@ impl WindowGl {
 
 impl Drop for WindowGl {
     fn drop(&mut self) {
+        let _guard = self.lock.map(ContextLock::lock);
         // Without its context the driver has let go of its objects already.
         if self.context.make_current(&self.surface).is_ok() {
             self.painter.destroy();
@@ -138,15 +174,26 @@ impl Drop for WindowGl {
     }
 }
 
-/// The display's plainest format. glutin-winit's own builder takes for certain that there is one.
-fn config(event_loop: &ActiveEventLoop) -> std::result::Result<Config, String> {
+/// The display's plainest format, or on Windows the window's. glutin-winit's own builder takes for certain that there is one.
+fn config(event_loop: &ActiveEventLoop, window: Option<&Window>) -> std::result::Result<Config, String> {
     let handle = event_loop.display_handle().map_err(|error| format!("the display has no handle ({error})"))?;
-    // SAFETY: the handle is that of the event loop's connection, which outlives the display.
-    let display = unsafe { Display::new(handle.as_raw(), DisplayApiPreference::Egl) }
+    let window = window.map(HasWindowHandle::window_handle).transpose();
+    let window = window.map_err(|error| format!("the window has no handle ({error})"))?.map(|window| window.as_raw());
+    #[cfg(windows)]
+    let preference = DisplayApiPreference::Wgl(window);
+    #[cfg(target_os = "macos")]
+    let preference = DisplayApiPreference::Cgl;
+    #[cfg(not(any(windows, target_os = "macos")))]
+    let preference = DisplayApiPreference::Egl;
+    // SAFETY: the handles are those of the event loop's connection, which outlives the display, and of a window that is alive.
+    let display = unsafe { Display::new(handle.as_raw(), preference) }
         .map_err(|error| format!("the display has no OpenGL ({error})"))?;
-    let template = ConfigTemplateBuilder::new().with_alpha_size(0).with_api(Api::OPENGL).build();
-    // SAFETY: the display is alive and the template names no native window.
-    let configs = unsafe { display.find_configs(template) }
+    let mut template = ConfigTemplateBuilder::new().with_alpha_size(0).with_api(Api::OPENGL);
+    if let Some(window) = window {
+        template = template.compatible_with_native_window(window);
+    }
+    // SAFETY: the display is alive, and so is the template's window, if any.
+    let configs = unsafe { display.find_configs(template.build()) }
         .map_err(|error| format!("the display has no format that OpenGL can draw in ({error})"))?;
     configs
         .min_by_key(|config| (config.num_samples(), config.depth_size(), config.stencil_size(), config.alpha_size()))

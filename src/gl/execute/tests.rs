@@ -1,6 +1,5 @@
 use super::*;
-use crate::gl::Backend;
-use crate::gl::context::Context;
+use crate::gl::context::{Context, witnesses};
 use crate::mesh::Mesh;
 use crate::scene::SceneSettings;
 use crate::styles::{Show, Style, StyleName};
@@ -12,7 +11,7 @@ fn polygons_are_not_smoothed_whatever_the_driver_was_told_before() {
     let settings = SceneSettings { size: Size { width: 16, height: 16 }, ..SceneSettings::default() };
     let scene = Scene::new(vec![Arc::new(Mesh::triangle())], &settings).unwrap();
     let plan = Style::named(StyleName::Inking).plan(&scene, Show::Final).unwrap();
-    for backend in [Backend::Egl, Backend::OsMesa] {
+    for backend in witnesses() {
         let mut context = Context::open(backend, None).unwrap_or_else(|error| panic!("{error}"));
         context.resize(scene.size).unwrap();
         let _current = context.enter().unwrap();

@@ -16,7 +16,10 @@ pub(super) struct Framebuffer {
 /// Draws go there, and copies and read-back come from there; `None` is the context's own framebuffer.
 pub(super) fn bind(gl: &Gl, framebuffer: Option<&Framebuffer>) {
     // SAFETY: the context is current and has framebuffer objects; this one is alive.
-    unsafe { gl.glow.bind_framebuffer(glow::FRAMEBUFFER, framebuffer.map(|framebuffer| framebuffer.id)) }
+    unsafe {
+        let id = framebuffer.map_or(gl.own_framebuffer(), |framebuffer| Some(framebuffer.id));
+        gl.glow.bind_framebuffer(glow::FRAMEBUFFER, id)
+    }
 }
 
 /// Clears each of the bound framebuffer's colours to one of its own, and depth to 1.
@@ -78,7 +81,7 @@ impl Framebuffer {
             let gl = self.live.gl();
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.id));
             let status = gl.check_framebuffer_status(glow::FRAMEBUFFER);
-            gl.bind_framebuffer(glow::FRAMEBUFFER, None);
+            gl.bind_framebuffer(glow::FRAMEBUFFER, self.live.own_framebuffer());
             status == glow::FRAMEBUFFER_COMPLETE
         }
     }

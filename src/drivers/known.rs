@@ -1,0 +1,74 @@
+//! What is known to be wrong with drivers, and what is done about it: each was seen with tinta.
+
+use crate::gl::ContextInfo;
+use serde::Serialize;
+
+/// A fault of a driver.
+#[derive(Debug, Clone, Serialize)]
+pub struct KnownFault {
+    /// In a few words.
+    pub name: &'static str,
+    /// The first version it was seen in.
+    pub first_seen: &'static str,
+    /// The last one; versions in which nobody looked are not said to be free of it.
+    pub last_seen: &'static str,
+    /// What tinta does about it.
+    pub workaround: &'static str,
+    /// How tinta knows that the driver has it.
+    pub detected_by: &'static str,
+    /// Whether a context is of such a driver.
+    #[serde(skip)]
+    pub is_of: fn(&ContextInfo) -> bool,
+}
+
+/// All that are known.
+pub const KNOWN: [KnownFault; 6] = [
+    KnownFault {
+        name: "two contexts of one screen at work at once crash",
+        first_seen: "Mesa 22.3.6, llvmpipe",
+        last_seen: "Mesa 22.3.6, llvmpipe",
+        workaround: "contexts of one software screen take turns; a second thread draws on a screen of its own",
+        detected_by: "the renderer's name: every driver that draws on the processor is taken for one",
+        is_of: |info| info.renderer.starts_with("llvmpipe"),
+    },
+    KnownFault {
+        name: "surfaces of earlier sizes are kept",
+        first_seen: "Mesa 22.3.6, OSMesa",
+        last_seen: "Mesa 22.3.6, OSMesa",
+        workaround: "a surface's record is kept from lying where the last one lay",
+        detected_by: "the backend",
+        is_of: |info| info.backend == "osmesa",
+    },
+    KnownFault {
+        name: "a GALLIUM_DRIVER that it does not have ends in a crash",
+        first_seen: "Mesa 22.3.6, OSMesa",
+        last_seen: "Mesa 22.3.6, OSMesa",
+        workaround: "it is refused with a sentence before the library is asked",
+        detected_by: "the backend, and the variable",
+        is_of: |info| info.backend == "osmesa",
+    },
+    KnownFault {
+        name: "published charcoal and sand come out in other shades",
+        first_seen: "Mesa 20.3.5, llvmpipe",
+        last_seen: "Mesa 22.3.6, softpipe",
+        workaround: "none; less so with texture-size as large as the picture",
+        detected_by: "the renderer's name and version",
+        is_of: |info| info.renderer.contains("softpipe") || info.version.contains("Mesa 20.3"),
+    },
+    KnownFault {
+        name: "the points that join wide lines cover other pixels",
+        first_seen: "Mesa 22.3.6, zink on lavapipe",
+        last_seen: "Mesa 22.3.6, zink on lavapipe",
+        workaround: "none; the style inking with joints off draws as the reference driver does",
+        detected_by: "the renderer's name",
+        is_of: |info| info.renderer.starts_with("zink"),
+    },
+    KnownFault {
+        name: "EGL's display does not open unless software is asked for",
+        first_seen: "Mesa 22.3.6, zink on lavapipe",
+        last_seen: "Mesa 22.3.6, zink on lavapipe",
+        workaround: "set LIBGL_ALWAYS_SOFTWARE=1 beside GALLIUM_DRIVER=zink",
+        detected_by: "the renderer's name",
+        is_of: |info| info.renderer.starts_with("zink"),
+    },
+];
