@@ -314,7 +314,8 @@ fn a_check_of_the_drivers_says_of_each_style_and_question_how_it_came_out() {
         assert!(text.contains(&format!("  {name} ")), "{name}: {text}");
     }
     let all = ["styles", "probes"].iter().flat_map(|list| found[list].as_array().unwrap());
-    let is_good = all.map(|row| row["passed"].as_bool().unwrap()).fold(true, |all, passed| all && passed);
+    let passed: Vec<bool> = all.map(|row| row["passed"].as_bool().unwrap()).collect();
+    let is_good = passed.iter().all(|passed| *passed);
     assert_eq!(output.status.code(), Some(if is_good { 0 } else { 1 }), "{text}");
     let refused = tinta(&["info", "--check", "--backend", "wgl"]);
     let said = String::from_utf8(refused.stderr).unwrap();
