@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Tests web/dist in a headless browser: serves it with the test page, opens the page, waits for what it reports.
 
-usage: serve.py BROWSER TINTA    BROWSER is Chromium, TINTA the command line that draws what the page is compared with.
-Beside the page the server has what only the machine can do: /drawn?ARGUMENTS runs `tinta render ARGUMENTS` and answers the file.
+usage: serve.py BROWSER TINTA [PAGE]    BROWSER is Chromium, TINTA the command line that draws what the page is compared with, PAGE
+tests.html or times.html. Beside the page the server has what only the machine can do: /drawn?ARGUMENTS runs `tinta render ARGUMENTS`
+and answers the file, /models/NAME is a file of the folder TINTA_MODELS.
 """
 
 import http.server
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -18,7 +20,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 DIST = HERE.parent / "dist"
 SECONDS = 540
 
-browser, tinta = sys.argv[1:]
+browser, tinta, *rest = sys.argv[1:]
+page_name = rest[0] if rest else "tests.html"
 done = threading.Event()
 results = []
 outside = []
@@ -29,6 +32,8 @@ class Handler(http.server.SimpleHTTPRequestHandler):
 
     def translate_path(self, path):
         name = urllib.parse.urlsplit(path).path.lstrip("/")
+        if name.startswith("models/"):
+            return str(pathlib.Path(os.environ.get("TINTA_MODELS", "models")) / pathlib.Path(name).name)
         for folder in (DIST, HERE):
             if (folder / name).is_file():
                 return str(folder / name)
@@ -78,7 +83,7 @@ with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
             "--enable-precise-memory-info",
             "--window-size=1280,900",
             f"--user-data-dir={profile}",
-            f"http://127.0.0.1:{server.server_port}/tests.html",
+            f"http://127.0.0.1:{server.server_port}/{page_name}",
         ],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
