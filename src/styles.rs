@@ -37,6 +37,7 @@ mod phong;
 mod ramp;
 mod row;
 mod shading;
+mod suggestive;
 mod supersample;
 mod textured;
 mod tones;
@@ -58,6 +59,7 @@ pub use mrt::Mrt;
 pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
 pub use row::{Mark, Origin, Outline, StyleInfo};
+pub use suggestive::Suggestive;
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
 
@@ -162,6 +164,17 @@ row::styles! {
         shows: CHARCOAL_SHOWS,
         origin: Origin::Published,
         mark: Some(Mark { rgb: [184, 137, 11], outline: Outline::Polygon { corners: 6, turn: 0.0 } }),
+    }
+
+    /// Ink in the valleys of a picture shaded by how far the surface faces the eye: contours and suggestive contours in image space,
+    /// DeCarlo et al. 2003.
+    Suggestive(Suggestive) {
+        name: "suggestive",
+        plan: Suggestive::plan,
+        has_lines: |style| style.is_inked,
+        shows: &[Show::Final, Show::Map, Show::Borders, Show::Tones],
+        origin: Origin::Own,
+        mark: Some(Mark { rgb: [230, 159, 0], outline: Outline::Star }),
     }
 
     // A new style's row comes here: docs/adding-a-style.md.
@@ -311,12 +324,13 @@ impl Serialize for Style {
 }
 
 /// What the settings are listed under, in this order.
-const HEADINGS: [&str; 7] = [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, CHARCOAL];
+const HEADINGS: [&str; 8] = [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, SUGGESTIVE, CHARCOAL];
 const ALL_STYLES: &str = "All styles";
 const CARTOON: &str = "Styles three-pass, two-pass and mrt (the defaults are the paper's)";
 const INKING: &str = "Style inking: lines from the model's edges (the defaults are the text's)";
 const IMAGE_SPACE: &str = "Styles three-pass, two-pass, mrt and ink";
 const INK: &str = "Style ink (tones as three-pass, --crease-angle as inking)";
+const SUGGESTIVE: &str = "Style suggestive (tones as three-pass)";
 const CHARCOAL: &str = "Styles charcoal and sand (the defaults are the text's where it gives them)";
 
 /// The settings of all styles, each declared beside its struct; those of a heading begin with the styles that have lines.

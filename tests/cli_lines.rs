@@ -33,7 +33,7 @@ fn lines_are_written_as_json_and_their_record_is_printed() {
     let record = made(&["render", "builtin:open-box", "-o", &out, "--json", "--classes", "all"]);
     let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
     assert_eq!(record["style"]["name"], "lines");
-    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(8));
+    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(14));
     assert_eq!(record["model"]["path"], "builtin:open-box");
     for time in ["load_ms", "topology_ms", "silhouette_ms", "visibility_ms", "lines_ms"] {
         assert!(record[time].is_f64(), "{time}");
@@ -68,7 +68,7 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse(&png, &["--style", "lines", "--page", "A4"], &["--page", "no paper"]);
     refuse("a.jpg", &["--style", "lines", "--transparent"], &["a.jpg", "no transparency"]);
     refuse(&svg, &["--style", "three-pass"], &["a.svg: style three-pass draws pixels", ".png"]);
-    refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "sand, lines"]);
+    refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "suggestive, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
     refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
     for options in [
@@ -106,7 +106,7 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--class-widths", "crease=-1"], &["--class-widths crease=-1"]);
     refuse(&["--class-widths", "crease"], &["--class-widths", "CLASS=PIXELS"]);
     refuse(&["--hidden", "dotted"], &["--hidden", "none, dashed, ghost"]);
-    refuse(&["--classes", "outline"], &["--classes", "intersection, or all"]);
+    refuse(&["--classes", "outline"], &["--classes", "apparent-ridge, or all"]);
     refuse(&["--crease-angle", "200"], &["--crease-angle 200"]);
     refuse(&["--pen", "--line-width", "3"], &["--pen", "--line-width"]);
     refuse(&["--class-widths", "outlines=3"], &["--class-widths", "outline, hidden, or hidden-"]);

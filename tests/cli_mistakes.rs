@@ -35,7 +35,7 @@ const MISTAKES: [(&str, &str); 75] = [
     ("render triangle.obj -o out.png -size 64", "tinta render has no option -size; did you mean --size?"),
     (
         "render triangle.obj -o out.png --style toon",
-        "invalid value 'toon' for '--style <STYLE>': choose one of phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand, lines; see --help",
+        "invalid value 'toon' for '--style <STYLE>': choose one of phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand, suggestive, lines; see --help",
     ),
     (
         "render triangle.obj -o out.png --style three_pass",
@@ -216,7 +216,7 @@ const MISTAKES: [(&str, &str); 75] = [
     ("edges triangle.obj other.obj", "unexpected argument 'other.obj' found; see --help"),
     (
         "compare triangle.obj -o out.png --left phong",
-        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink",
+        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink, suggestive",
     ),
     ("measure triangle.obj", "--output is missing; name the folder to write into: -o results; see --help"),
     ("measure triangle.obj -o out --tolerance 0", "--tolerance 0: it is a number of pixels above 0 and at most 1000"),

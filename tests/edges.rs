@@ -23,7 +23,24 @@ fn counts(mesh: &Mesh) -> (EdgeList, ClassCounts) {
 fn a_box_has_twelve_creases_and_six_flat_diagonals() {
     let (edges, counts) = counts(&cuboid(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0)));
     assert_eq!(edges.len(), 18);
-    assert_eq!(counts, ClassCounts { crease: 12, ..ClassCounts::default() });
+    assert_eq!(counts, ClassCounts { crease: 12, convex_crease: 12, ..ClassCounts::default() });
+}
+
+#[test]
+fn of_an_angle_iron_one_long_crease_is_concave() {
+    let outline = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let positions = [0.0, 3.0].into_iter().flat_map(|z| outline.map(|[x, y]| DVec3::new(x, y, z))).collect();
+    let mut corners = vec![5, 4, 3, 2, 1, 0, 6, 7, 8, 9, 10, 11];
+    (0..6).for_each(|side: u32| corners.extend([side, (side + 1) % 6, (side + 1) % 6 + 6, side + 6]));
+    let sizes = vec![6, 6, 4, 4, 4, 4, 4, 4];
+    let iron = Mesh::of_polygons("angle iron", positions, &corners, sizes, &LoadOptions::default()).unwrap();
+    let (edges, counts) = counts(&iron);
+    assert_eq!((counts.crease, counts.convex_crease, counts.concave_crease), (18, 17, 1));
+    let only = ClassSet::of(&[Class::ConcaveCrease]);
+    let classes = Classes::new(&iron, &edges, CreaseAngle::default(), only);
+    let ends = edges.positions()[classes.marked[0] as usize].map(|end| iron.positions[end as usize].truncate());
+    assert_eq!((classes.marked.len(), ends), (1, [glam::DVec2::ONE; 2]));
+    assert_eq!(classes.of_edges[classes.marked[0] as usize], only);
 }
 
 #[test]

@@ -42,7 +42,7 @@ pub fn lines_with(scene: &Scene, settings: &LineSettings) -> VisibleLines {
             assert!(end.is_finite() && is_inside, "{segment:?}");
         }
         assert!(segment.angle_degrees.is_none_or(f64::is_finite), "{segment:?}");
-        assert_eq!(segment.edge.is_none(), segment.class == Class::Intersection, "{segment:?}");
+        assert_eq!(segment.edge.is_some(), ClassSet::EDGES.contains(segment.class), "{segment:?}");
     }
     found
 }

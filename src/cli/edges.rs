@@ -121,10 +121,13 @@ fn in_words(record: &EdgeRecord) -> String {
             Class::NonManifold => "three faces or more",
             Class::Silhouette => "between a face seen from the front and one that is not",
             Class::Crease => "sharper than the crease angle",
+            Class::ConvexCrease => "of these convex",
+            Class::ConcaveCrease => "of these concave",
             Class::Material => "between two materials",
             Class::Texture => "between different texture coordinates",
             Class::Normal => "between different vertex normals",
             Class::Intersection => "where faces pass through one another",
+            Class::Suggestive | Class::Ridge | Class::Valley | Class::ApparentRidge => "faces with such a line",
         };
         text.push_str(&format!("  {name:<14}{:>10}  {what}\n", counts.of(class)));
     }

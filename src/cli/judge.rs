@@ -11,7 +11,7 @@ use std::sync::Arc;
 use tinta::judge::{Entry, InkColor, JudgeSettings, Judgement, OneToOne, drawing, judge};
 use tinta::measure::{INK_FROM, MeasureSettings, Reference, error_picture};
 use tinta::report::{ReportInfo, RowLog};
-use tinta::settings::Setting;
+use tinta::settings::{HasSettings as _, Setting};
 use tinta::styles::Inking;
 use tinta::{Error, LineSettings, Mesh, Result, Scene, SceneSettings, Size, Style, StyleName};
 
@@ -79,7 +79,7 @@ impl Selection for OfReference {
     type Of = Style;
 
     fn has(setting: &Setting<Style>) -> bool {
-        setting.name == "crease-angle"
+        ["crease-angle", "classes"].contains(&setting.name)
     }
 }
 
@@ -176,7 +176,9 @@ impl Subject {
         let Inking { crease_angle, .. } = if let Style::Inking(inking) = style { inking } else { Inking::default() };
         let settings = SceneSettings { size, camera: arguments.camera.settings()?, ..SceneSettings::default() };
         let scene = Scene::new(meshes, &settings)?;
-        let reference = Reference::with_hidden(&scene, &LineSettings { crease_angle, ..LineSettings::as_published() })?;
+        let LineSettings { classes, .. } = LineSettings::from_options(&arguments.crease.options)?;
+        let lines = LineSettings { classes, crease_angle, ..LineSettings::as_published() };
+        let reference = Reference::with_hidden(&scene, &lines)?;
         Ok(Self { scene, reference })
     }
 }

@@ -187,9 +187,11 @@ impl StyleArguments {
         self.given.is_on("no-borders")
     }
 
-    /// What the style lines finds.
-    pub(super) fn line_settings(&self) -> Result<LineSettings> {
-        LineSettings::from_options(&self.given.options)
+    /// What the style lines finds; some of that it has in common with inking.
+    pub(super) fn line_settings(&self, forms: &FormArguments) -> Result<LineSettings> {
+        let mut lines = LineSettings::from_options(&self.given.options)?;
+        LineSettings::table().apply(&mut lines, &forms.options)?;
+        Ok(lines)
     }
 
     /// How the style lines draws it; some of that it has in common with inking.
@@ -212,6 +214,19 @@ impl Selection for OfLinesAlone {
 }
 
 pub(super) type LineArguments = Chosen<OfLinesAlone>;
+
+/// The settings of what lines finds that no other style has: its form lines.
+pub(super) struct OfForms;
+
+impl Selection for OfForms {
+    type Of = LineSettings;
+
+    fn has(setting: &Setting<LineSettings>) -> bool {
+        !Style::table().has(setting.name)
+    }
+}
+
+pub(super) type FormArguments = Chosen<OfForms>;
 
 /// What a scene is besides its models and its camera.
 pub(super) struct OfScene;

@@ -17,7 +17,9 @@ use super::Verdict;
 use super::inputs::Inputs;
 use super::model_cache::ModelCache;
 use super::models::load_with_files;
-use super::options::{CameraArguments, LineArguments, ModelArguments, SceneArguments, StyleArguments, ignored};
+use super::options::{
+    CameraArguments, FormArguments, LineArguments, ModelArguments, SceneArguments, StyleArguments, ignored,
+};
 use super::preset::Given;
 use super::session::Session;
 use std::path::{Path, PathBuf};
@@ -57,6 +59,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     lines: LineArguments,
+
+    #[command(flatten)]
+    forms: FormArguments,
 
     #[command(flatten)]
     model: ModelArguments,
@@ -418,7 +423,7 @@ mod tests {
             assert_eq!(arguments.styles.style(style).unwrap(), Style::named(style), "{name}");
         }
         assert_eq!(arguments.style_name(), StyleName::ThreePass);
-        assert_eq!(arguments.styles.line_settings().unwrap(), LineSettings::default());
+        assert_eq!(arguments.styles.line_settings(&arguments.forms).unwrap(), LineSettings::default());
         let drawn = SvgSettings { title: String::new(), ..lines::svg_settings(&arguments, None).unwrap() };
         assert_eq!(drawn, SvgSettings::default());
         assert_eq!(arguments.model.settings().unwrap(), LoadOptions::default());

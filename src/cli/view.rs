@@ -1,6 +1,6 @@
 //! `tinta view`: models in a window.
 
-use super::options::{Chosen, ModelArguments, Selection, StyleArguments};
+use super::options::{Chosen, FormArguments, ModelArguments, Selection, StyleArguments};
 use super::preset::{LookArguments, PresetArguments};
 use super::render::StyleChoice;
 use super::standard_input;
@@ -73,6 +73,9 @@ pub(super) struct Arguments {
     lines: Chosen<OfLinesInView>,
 
     #[command(flatten)]
+    forms: FormArguments,
+
+    #[command(flatten)]
     models_are_read: ModelArguments,
 }
 
@@ -138,7 +141,7 @@ pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
 fn line_style(arguments: &Arguments) -> Result<LineStyle> {
     let drawing = arguments.styles.svg_settings(&arguments.lines)?;
     drawing.check()?;
-    Ok(LineStyle::new(arguments.styles.line_settings()?, drawing))
+    Ok(LineStyle::new(arguments.styles.line_settings(&arguments.forms)?, drawing))
 }
 
 /// What is shown first.

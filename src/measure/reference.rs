@@ -106,6 +106,7 @@ impl Reference {
             crease_angle: CreaseAngle::from_degrees(SOFT_CREASE_DEGREES)?,
             finds_hidden: false,
             finds_outline: false,
+            ..settings.clone()
         };
         let limit = settings.crease_angle.degrees();
         let is_between = |segment: &&LineSegment| segment.angle_degrees.is_none_or(|angle| angle <= limit);

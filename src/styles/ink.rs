@@ -289,7 +289,7 @@ impl Ink {
     }
 
     /// The published tones; the background is cleared and needs no square.
-    fn tone_pass(&self, scene: &Scene) -> Pass {
+    pub(super) fn tone_pass(&self, scene: &Scene) -> Pass {
         let published = self.tones.are_published() && self.tone_light.is_none();
         let fragments = match published {
             true => vec!["evangelista/toon.frag"],

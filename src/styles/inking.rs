@@ -287,12 +287,15 @@ impl Inking {
                 format!("a line's width is a number of pixels above 0 and at most {WIDEST_LINE}"),
             ));
         }
-        if self.classes.contains(Class::Intersection) {
-            return Err(Error::value(
-                "classes",
-                "intersection",
-                "only style lines finds where faces pass through one another; leave it out, or write a .svg",
-            ));
+        let beyond = self.classes.classes().find(|class| !ClassSet::EDGES.contains(*class));
+        if let Some(class) = beyond {
+            let problem = match class {
+                Class::Intersection => {
+                    "only style lines finds where faces pass through one another; leave it out, or write a .svg"
+                }
+                _ => "only style lines finds lines that run through faces; leave it out, or write a .svg",
+            };
+            return Err(Error::value("classes", class.name(), problem));
         }
         if let Some(name) = self.colors.0.first_beyond_classes() {
             let problem =

@@ -69,6 +69,7 @@ macro_rules! styles {
         /// A style with its settings.
         #[derive(Debug, Clone, PartialEq)]
         #[non_exhaustive]
+        #[expect(clippy::large_enum_variant, reason = "a picture has one style: a box would save nothing")]
         pub enum Style {
             $($(#[$about])* $style($settings),)*
         }

@@ -8,8 +8,20 @@ use std::sync::LazyLock;
 pub(super) const LINES: &str = "lines";
 
 /// The settings of exact lines that a window shows and sets: the others are of files and of paper.
-pub const LINE_SETTINGS: [&str; 7] =
-    ["classes", "crease-angle", "class-colors", "line-width", "hidden", "class-widths", "min-length"];
+pub const LINE_SETTINGS: [&str; 12] = [
+    "classes",
+    "crease-angle",
+    "suggestive-threshold",
+    "ridge-threshold",
+    "apparent-ridge-threshold",
+    "surface-crease-angle",
+    "curvature-smoothing",
+    "class-colors",
+    "line-width",
+    "hidden",
+    "class-widths",
+    "min-length",
+];
 
 /// What a side shows of the exact lines.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -49,6 +49,7 @@ pub mod settings;
 pub mod camera;
 pub mod mesh;
 pub mod edges;
+pub mod curvature;
 mod bvh;
 pub mod hiding;
 pub mod scene;

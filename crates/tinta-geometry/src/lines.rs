@@ -29,6 +29,7 @@ mod chain;
 mod drawing;
 mod faces;
 mod features;
+mod forms;
 mod image;
 mod intersections;
 mod layers;
@@ -55,6 +56,7 @@ mod visibility;
 pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
 pub use drawing::{DrawnLayer, GHOST_OPACITY, drawn_layers};
+pub use forms::FormSettings;
 pub use layers::{ClassColors, ClassWidths, Layer, OfLayers};
 pub use length::{Length, Millimetres, Units, line_width};
 pub use page::{PageSize, Paper, Sheet, Turn};
@@ -70,7 +72,7 @@ use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Scene, Size};
-use crate::settings::{HasSettings, Kind, Setting, Table, Value as _};
+use crate::settings::{HasSettings, Kind, Setting, Table, Value as _, within};
 use crate::threads::both;
 use faces::Faces;
 use features::{Edges, MendedEdges, Part};
@@ -85,7 +87,8 @@ use visibility::Lines;
 /// Which lines are wanted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineSettings {
-    /// Classes of lines. Default all but the seams of textures and normals, which belong to a model's data, not its shape.
+    /// Classes of lines. Default all but the seams of textures and normals, which belong to a model's data, not its shape, and the
+    /// form lines, which are those of a smooth surface.
     pub classes: ClassSet,
     /// From which angle between faces an edge is a crease. Default 30 degrees; more find fewer lines.
     pub crease_angle: CreaseAngle,
@@ -95,6 +98,8 @@ pub struct LineSettings {
     /// Whether outlines are found, for [`LineSegment::is_outline`]; lines are cut where they begin and end. Default no: it takes
     /// time, and nobody else needs the cuts.
     pub finds_outline: bool,
+    /// How strong form lines must be, where their classes are wanted.
+    pub forms: FormSettings,
 }
 
 impl Default for LineSettings {
@@ -111,6 +116,7 @@ impl Default for LineSettings {
             crease_angle: CreaseAngle::of_drawings(),
             finds_hidden: true,
             finds_outline: false,
+            forms: FormSettings::default(),
         }
     }
 }
@@ -148,11 +154,13 @@ impl LineSettings {
                 .into()),
             },
         );
-        vec![
+        let edges = vec![
             ClassSet::setting(ClassSet::ALL, |lines: &mut Self| &mut lines.classes),
             CreaseAngle::setting(|lines: &mut Self| &mut lines.crease_angle),
             silhouette.said(SilhouetteRule::SAID_DEFAULT),
-        ]
+        ];
+        let forms = within(FormSettings::settings(), |lines: &mut Self| Some(&mut lines.forms));
+        edges.into_iter().chain(forms).collect()
     }
 }
 
@@ -168,7 +176,8 @@ pub struct LineSegment {
     /// Where it begins and ends in the picture: pixels from the upper left corner, y down. Pieces that meet at a vertex have
     /// bit for bit the same end there.
     pub ends_px: [DVec2; 2],
-    /// The mesh edge it is part of: two vertices by their 0-based numbers in the file; `None` where faces intersect.
+    /// The mesh edge it is part of: two vertices by their 0-based numbers in the file; `None` where faces intersect, and for form
+    /// lines.
     pub edge: Option<[u32; 2]>,
     /// The angle between its two faces' normals, degrees; `None` for an edge without exactly two faces with area.
     pub angle_degrees: Option<f64>,
@@ -189,7 +198,7 @@ pub struct VisibleLines {
     /// The picture's size.
     pub size: Size,
     /// All pieces with any length inside the picture and between the near and the far plane, in a stable order: by
-    /// object, then edge, then along it; intersections last.
+    /// object, then edge, then along it; then intersections, then form lines by object and face.
     pub segments: Vec<LineSegment>,
     /// How many edges there are of each class, each counted in its first one.
     pub edges: ClassCounts,
@@ -231,6 +240,8 @@ impl VisibleLines {
         if scene.triangle_count().max(all_positions) > u32::MAX as usize / 4 {
             return Err(Error::setting("copies", "the scene has too many faces to find its lines; ask for fewer"));
         }
+        settings.forms.check()?;
+        let has_forms = !settings.classes.and(ClassSet::FORMS).is_empty();
         let clock = Instant::now();
         let space = Space::of(scene);
         let unmended: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
@@ -240,6 +251,9 @@ impl VisibleLines {
                 let parts = parts(scene);
                 for part in &parts {
                     part.edges.get().classes(settings.crease_angle, features::asked(settings));
+                    if has_forms && matches!(part.edges, Edges::OfScene(_)) {
+                        forms::curvatures(scene, part, settings);
+                    }
                 }
                 parts
             },
@@ -267,6 +281,9 @@ impl VisibleLines {
         if settings.classes.contains(Class::Intersection) {
             edges.intersection = intersections.len();
             lines.extend(features::intersection_features(&faces, &parts, &intersections));
+        }
+        if has_forms {
+            lines.extend(forms::form_features(scene, &space, &faces, &parts, settings, &mut edges));
         }
         lines.extend(features::near_plane_features(&space, &faces));
         progress.go_on()?;

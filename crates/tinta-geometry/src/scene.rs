@@ -29,7 +29,8 @@ mod turntable;
 pub use crate::values::{Background, Color, Rectangle, Size};
 
 use crate::camera::{Camera, CameraSettings, Projection};
-use crate::edges::{Eye, MeshEdges, SilhouetteRule};
+use crate::curvature::{Curvatures, KeptCurvatures};
+use crate::edges::{CreaseAngle, Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::hiding::{Hiding, ObjectView};
 use crate::mesh::{Material, Mesh, VertexArrays, bounds};
@@ -54,6 +55,8 @@ pub struct Object {
     hiding: Arc<OnceLock<Hiding>>,
     /// Its edges, likewise.
     edges: Arc<OnceLock<MeshEdges>>,
+    /// The curvature of its surface, likewise.
+    curvatures: Arc<KeptCurvatures>,
 }
 
 /// Which object something was made for: copies of one object share theirs. It keeps nothing of the object alive.
@@ -335,6 +338,12 @@ impl Scene {
         object.edges.get_or_init(|| MeshEdges::new(object.mesh.clone()))
     }
 
+    /// The curvature of an object's surface between creases, smoothed as [`Curvatures::new`] says; that of the last settings asked
+    /// for is kept.
+    pub fn curvatures(&self, object: &Object, crease_angle: CreaseAngle, smoothing: f64) -> Arc<Curvatures> {
+        object.curvatures.get(&object.mesh, self.edges(object).list(), crease_angle, smoothing)
+    }
+
     /// Prepares every object's edges for an animation; see [`MeshEdges::prepare_for_many_views`].
     pub fn prepare_for_many_views(&self) {
         self.objects.iter().for_each(|object| self.edges(object).prepare_for_many_views());
@@ -436,6 +445,7 @@ impl Object {
             boxes: Arc::default(),
             hiding: Arc::default(),
             edges: Arc::default(),
+            curvatures: Arc::default(),
         }
     }
 

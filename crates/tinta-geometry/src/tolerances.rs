@@ -163,3 +163,22 @@ pub const DOUBLED_AREA: f64 = 5e-4;
 /// Distance between an end of a line and another line below which they touch in a drawing, pixels: some steps of the numbers in
 /// an SVG, so that what looks joined is.
 pub const JOINED_PX: f64 = 5e-3;
+
+/// Area of a triangle, as a share of its longest side's square, below which its corners' differences say nothing of a surface:
+/// what a file's six digits leave of a triangle that has none.
+pub const NEEDLE: f64 = 1e-6;
+
+/// The length in which the thresholds of form lines are measured, as a share of the radius of curvature that a tenth of all
+/// principal curvatures is flatter than, as the authors of suggestive contours have it in their viewer.
+pub const FEATURE_SHARE: f64 = 0.01;
+
+/// Most of that length, in the mesh's radii: where much of a model is flat.
+pub const LARGEST_FEATURE: f64 = 0.05;
+
+/// Distance from an end of a face's side, as a share of the side, within which a form line that crosses the side runs through that
+/// end: far less than the line may be off, far more than the shortest line.
+pub const THROUGH_VERTEX: f64 = 1e-4;
+
+/// How fast a curvature must fall beside its crest, as a share of its own third power, for the crest to be one: on pipes and balls
+/// it is constant but for the mesh's error.
+pub const CREST_SHARPNESS: f64 = 0.05;

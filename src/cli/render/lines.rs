@@ -132,7 +132,7 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
     let finds_outline = format == Format::Json || asked.tells_outline();
     // What is neither drawn nor counted is not looked for.
     let finds_hidden = format == Format::Json || asked.hidden != Hidden::None || arguments.run.json;
-    let settings = LineSettings { finds_outline, finds_hidden, ..arguments.styles.line_settings()? };
+    let settings = LineSettings { finds_outline, finds_hidden, ..arguments.styles.line_settings(&arguments.forms)? };
     let start = Instant::now();
     let (meshes, files) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
@@ -209,7 +209,10 @@ fn find(scene: &Scene, settings: &LineSettings) -> Result<VisibleLines> {
     let work = || VisibleLines::with_progress(scene, settings, &state);
     std::thread::scope(|scope| {
         let (sender, receiver) = std::sync::mpsc::channel();
-        let start = std::thread::Builder::new().spawn_scoped(scope, move || sender.send(work()));
+        let start = std::thread::Builder::new().spawn_scoped(scope, move || {
+            // Whoever waited may have given up.
+            let _ = sender.send(work());
+        });
         if start.is_err() {
             return VisibleLines::of(scene, settings);
         }

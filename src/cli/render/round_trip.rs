@@ -215,7 +215,7 @@ fn an_option_is_said_to_have_no_effect_exactly_where_it_changes_nothing() {
 /// All that the style lines takes from the options of styles.
 fn lines_of(arguments: &Arguments) -> (LineSettings, SvgSettings) {
     let drawn = lines::svg_settings(arguments, None).unwrap();
-    (arguments.styles.line_settings().unwrap(), SvgSettings { title: String::new(), ..drawn })
+    (arguments.styles.line_settings(&arguments.forms).unwrap(), SvgSettings { title: String::new(), ..drawn })
 }
 
 #[test]

@@ -23,6 +23,10 @@ pub enum Class {
     Silhouette,
     /// The normals of its two faces differ by more than the crease angle.
     Crease,
+    /// The same where the surface is convex, for drawings that set both apart.
+    ConvexCrease,
+    /// The same where it is concave.
+    ConcaveCrease,
     /// Its two faces have different materials: in the text an inner edge that counts as boundary (errata D10).
     Material,
     /// The texture coordinates at it differ between its two faces; likewise.
@@ -31,19 +35,34 @@ pub enum Class {
     Normal,
     /// No edge of the mesh: two faces pass through one another along it. Only the exact lines find it.
     Intersection,
+    /// No edge either, nor are the three below, which the exact lines find from the curvature of the surface that is meant: a
+    /// suggestive contour, where a nearby eye would see a contour (DeCarlo et al. 2003).
+    Suggestive,
+    /// Where a convex surface is most curved along the direction in which it is most curved (Ohtake et al. 2004).
+    Ridge,
+    /// The same where it is concave.
+    Valley,
+    /// Where the surface seems most curved to the eye (Judd et al. 2007).
+    ApparentRidge,
 }
 
 impl Class {
     /// All of them, as the user writes them, in the order in which an edge of several classes belongs to one.
-    pub const ALL: [(&'static str, Self); 8] = [
+    pub const ALL: [(&'static str, Self); 14] = [
         ("boundary", Self::Boundary),
         ("non-manifold", Self::NonManifold),
         ("silhouette", Self::Silhouette),
         ("crease", Self::Crease),
+        ("convex-crease", Self::ConvexCrease),
+        ("concave-crease", Self::ConcaveCrease),
         ("material", Self::Material),
         ("texture", Self::Texture),
         ("normal", Self::Normal),
         ("intersection", Self::Intersection),
+        ("suggestive", Self::Suggestive),
+        ("ridge", Self::Ridge),
+        ("valley", Self::Valley),
+        ("apparent-ridge", Self::ApparentRidge),
     ];
 
     /// As the user writes it.
@@ -56,14 +75,17 @@ crate::choices!(Class);
 
 /// Some classes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct ClassSet(u8);
+pub struct ClassSet(u16);
 
 impl ClassSet {
     /// Every class.
-    pub const ALL: Self = Self(u8::MAX >> (u8::BITS as usize - Class::ALL.len()));
+    pub const ALL: Self = Self(u16::MAX >> (u16::BITS as usize - Class::ALL.len()));
 
     /// Every class that a mesh's edges can be of.
-    pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8));
+    pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8) & !Self::FORMS.0);
+
+    /// The classes of lines that run through faces where the curvature of the surface says so: form lines.
+    pub const FORMS: Self = Self::of(&[Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge]);
 
     /// The set of these classes.
     pub const fn of(classes: &[Class]) -> Self {
@@ -117,8 +139,9 @@ impl ClassSet {
             "classes",
             "CLASSES",
             Kind::Several(names.collect()),
-            "Edges to draw: boundary, non-manifold, silhouette, crease, material, texture, normal, in style lines also \
-             intersection; separated by commas, or all",
+            "Edges to draw: boundary, non-manifold, silhouette, crease (or convex-crease, concave-crease), material, texture, \
+             normal, in style lines also intersection and the form lines suggestive, ridge, valley, apparent-ridge; separated \
+             by commas, or all",
             move |of: &T| field(&mut of.clone()).classes().map(Class::name).collect::<Vec<_>>().join(","),
             move |of: &mut T, text: &str| {
                 let named = || -> std::result::Result<Vec<Class>, ParseError> {
@@ -131,7 +154,7 @@ impl ClassSet {
                 Ok(())
             },
         )
-        .said("boundary,silhouette,crease; style lines: all but texture and normal")
+        .said("boundary,silhouette,crease; style lines also non-manifold, material and intersection")
         .printed("D, Inking: boundary, crease and silhouette are what the listing asks for")
     }
 }
@@ -249,6 +272,12 @@ pub struct ClassCounts {
     pub silhouette: usize,
     /// Sharper than the crease angle.
     pub crease: usize,
+    /// Likewise, and convex.
+    #[serde(rename = "convex-crease")]
+    pub convex_crease: usize,
+    /// Likewise, and concave.
+    #[serde(rename = "concave-crease")]
+    pub concave_crease: usize,
     /// Between two materials.
     pub material: usize,
     /// Between different texture coordinates.
@@ -257,6 +286,15 @@ pub struct ClassCounts {
     pub normal: usize,
     /// Where faces pass through one another; not counted among edges.
     pub intersection: usize,
+    /// Faces through which a suggestive contour runs.
+    pub suggestive: usize,
+    /// Likewise for ridges.
+    pub ridge: usize,
+    /// Likewise for valleys.
+    pub valley: usize,
+    /// Likewise for apparent ridges.
+    #[serde(rename = "apparent-ridge")]
+    pub apparent_ridge: usize,
 }
 
 impl ClassCounts {
@@ -267,10 +305,16 @@ impl ClassCounts {
             Class::NonManifold => &mut self.non_manifold,
             Class::Silhouette => &mut self.silhouette,
             Class::Crease => &mut self.crease,
+            Class::ConvexCrease => &mut self.convex_crease,
+            Class::ConcaveCrease => &mut self.concave_crease,
             Class::Material => &mut self.material,
             Class::Texture => &mut self.texture,
             Class::Normal => &mut self.normal,
             Class::Intersection => &mut self.intersection,
+            Class::Suggestive => &mut self.suggestive,
+            Class::Ridge => &mut self.ridge,
+            Class::Valley => &mut self.valley,
+            Class::ApparentRidge => &mut self.apparent_ridge,
         }
     }
 }
@@ -292,9 +336,15 @@ impl Classes {
         wanted: ClassSet,
         threads: usize,
     ) -> Self {
-        let normals = if wanted.contains(Class::Crease) { face_normals(mesh, threads) } else { Vec::new() };
-        let judge =
-            Judge { mesh, edges, normals: &normals, cosine: crease_angle.cosine, seams: Seams::of(mesh, wanted) };
+        let normals = if wanted.and(CREASES).is_empty() { Vec::new() } else { face_normals(mesh, threads) };
+        let judge = Judge {
+            mesh,
+            edges,
+            normals: &normals,
+            cosine: crease_angle.cosine,
+            has_turns: wanted.contains(Class::ConvexCrease) || wanted.contains(Class::ConcaveCrease),
+            seams: Seams::of(mesh, wanted),
+        };
         let parts = in_parallel(edges.len(), threads, |range| {
             let mut marked = Vec::new();
             let classes: Vec<ClassSet> = range
@@ -355,8 +405,13 @@ struct Judge<'a> {
     edges: &'a EdgeList,
     normals: &'a [[f64; 3]],
     cosine: f64,
+    /// Whether creases are asked for that are convex, or concave.
+    has_turns: bool,
     seams: Seams,
 }
+
+/// The classes of which an edge between two faces is one by their angle.
+const CREASES: ClassSet = ClassSet::of(&[Class::Crease, Class::ConvexCrease, Class::ConcaveCrease]);
 
 /// Which seams to look for: those wanted that this mesh can have.
 struct Seams {
@@ -394,12 +449,23 @@ impl Judge<'_> {
                     let cosine = first.dot(second);
                     let cosine = if incidence == Incidence::Inner { cosine } else { -cosine };
                     if cosine < self.cosine - PARALLEL_COSINE {
-                        classes = ClassSet::of(&[Class::Crease]);
+                        classes =
+                            if self.has_turns { self.turn_at(edge, first) } else { ClassSet::of(&[Class::Crease]) };
                     }
                 }
                 if self.seams.any() { classes.or(self.seams_at(edge, faces)) } else { classes }
             }
         }
+    }
+
+    /// A crease's classes: convex where the second face's third corner is not in front of the first face, which has this normal.
+    fn turn_at(&self, edge: usize, normal: DVec3) -> ClassSet {
+        let ends = self.edges.positions[edge];
+        let second = self.mesh.triangles[self.edges.faces[edge][1] as usize];
+        let position = |number: u32| self.mesh.positions[number as usize];
+        let third = second.into_iter().find(|corner| !ends.contains(corner)).map(position);
+        let is_concave = third.is_some_and(|third| (third - position(ends[0])).dot(normal) > 0.0);
+        ClassSet::of(&[Class::Crease, if is_concave { Class::ConcaveCrease } else { Class::ConvexCrease }])
     }
 
     fn seams_at(&self, edge: usize, faces: [usize; 2]) -> ClassSet {

@@ -78,7 +78,7 @@ impl Part<'_> {
     }
 
     /// Of a face of the edge list the number of the one in the shape that it is a part of.
-    fn whole_face(&self, face: u32) -> u32 {
+    pub(super) fn whole_face(&self, face: u32) -> u32 {
         match &self.edges {
             Edges::OfScene(_) => face,
             Edges::Mended(mended) => mended.whole_faces[face as usize],

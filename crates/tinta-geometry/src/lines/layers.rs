@@ -341,7 +341,7 @@ mod tests {
     #[test]
     fn every_name_is_read_and_written() {
         let names: Vec<String> = Name::all().map(Name::text).collect();
-        assert_eq!(names.len(), 18);
+        assert_eq!(names.len(), 2 * CLASSES + 2);
         for (number, name) in names.iter().enumerate() {
             assert_eq!(name.parse::<Name>().unwrap().index(), number);
             let text = format!("{name}=#010203");
@@ -363,9 +363,9 @@ mod tests {
     #[test]
     fn hidden_layers_lie_below_visible_ones_and_the_outline_above_all() {
         let layers: Vec<Layer> = Layer::upwards().collect();
-        assert_eq!(layers.len(), 17);
-        assert_eq!(layers[0], Layer::Hidden(Class::Intersection));
-        assert_eq!(layers[15..], [Layer::Visible(Class::Boundary), Layer::Outline]);
-        assert!(layers.iter().position(|layer| layer.is_visible()) == Some(8));
+        assert_eq!(layers.len(), 2 * CLASSES + 1);
+        assert_eq!(layers[0], Layer::Hidden(Class::ApparentRidge));
+        assert_eq!(layers[2 * CLASSES - 1..], [Layer::Visible(Class::Boundary), Layer::Outline]);
+        assert!(layers.iter().position(|layer| layer.is_visible()) == Some(CLASSES));
     }
 }

@@ -1,0 +1,149 @@
+//! The numbers that curvature is made of: tensors in tangent planes, how they are fitted in a triangle and seen in another plane.
+
+use super::Curvature;
+use glam::{DVec2, DVec3};
+
+/// A tangent plane with its two axes, right-handed with the normal.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Basis {
+    pub axes: [DVec3; 2],
+    pub normal: DVec3,
+    /// For a face its sides in these axes: from each corner's successor to the one after that.
+    pub sides: [DVec2; 3],
+}
+
+/// One plane's axes, turned into another plane along the shortest way, in that plane's axes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turn([DVec2; 2]);
+
+/// How near to opposite, as 1 plus the cosine, two normals may be before there is no shortest way from one to the other.
+const OPPOSITE: f64 = 1e-6;
+
+impl Basis {
+    /// Of a face with some area.
+    pub(super) fn of_face([a, b, c]: [DVec3; 3], areas: [f64; 3]) -> Option<Self> {
+        if areas.iter().sum::<f64>() <= 0.0 {
+            return None;
+        }
+        let normal = (b - a).cross(c - a).try_normalize()?;
+        let along = (c - b).try_normalize()?;
+        let axes = [along, normal.cross(along)];
+        let flat = |side: DVec3| DVec2::new(side.dot(axes[0]), side.dot(axes[1]));
+        Some(Self { axes, normal, sides: [c - b, a - c, b - a].map(flat) })
+    }
+
+    /// Of a unit normal; none for 0.
+    pub(super) fn of_normal(normal: DVec3) -> Option<Self> {
+        if normal == DVec3::ZERO {
+            return None;
+        }
+        let first = normal.any_orthonormal_vector();
+        Some(Self { axes: [first, normal.cross(first)], normal, sides: [DVec2::ZERO; 3] })
+    }
+
+    /// Of the principal directions; none where there is no normal.
+    pub(super) fn of_curvature(at: &Curvature) -> Option<Self> {
+        let is_some = at.normal != DVec3::ZERO;
+        is_some.then_some(Self { axes: at.directions, normal: at.normal, sides: [DVec2::ZERO; 3] })
+    }
+
+    /// What of a vector lies in the plane.
+    pub(super) fn flat(&self, vector: DVec3) -> [f64; 2] {
+        self.axes.map(|axis| vector.dot(axis))
+    }
+
+    /// Its axes, turned into another plane; none where the planes face away from each other.
+    pub(super) fn turned(&self, other: &Self) -> Option<Turn> {
+        let cosine = 1.0 + self.normal.dot(other.normal);
+        if cosine < OPPOSITE {
+            return None;
+        }
+        let both = (self.normal + other.normal) / cosine;
+        let turned = self.axes.map(|axis| axis - both * axis.dot(other.normal));
+        Some(Turn(turned.map(|axis| DVec2::from_array(other.flat(axis)))))
+    }
+}
+
+/// A symmetric tensor in a plane: for the first axis twice, for both, for the second twice.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tensor(pub [f64; 3]);
+
+impl Tensor {
+    fn of(&self, a: DVec2, b: DVec2) -> f64 {
+        let [p, q, r] = self.0;
+        p * a.x * b.x + q * (a.x * b.y + a.y * b.x) + r * a.y * b.y
+    }
+
+    /// The same for the axes of another plane.
+    pub(super) fn seen(&self, Turn([a, b]): Turn) -> Self {
+        Self([self.of(a, a), self.of(a, b), self.of(b, b)])
+    }
+
+    /// Its values and their directions, the one of larger amount first.
+    pub(super) fn principal(&self, basis: &Basis) -> ([f64; 2], [DVec3; 2]) {
+        let [p, q, r] = self.0;
+        // A turn of the axes by half the angle of (p - r, 2 q).
+        let (half, radius) = (0.5 * (p - r), (0.5 * (p - r)).hypot(q));
+        let (high, low) = (0.5 * (p + r) + radius, 0.5 * (p + r) - radius);
+        let cosine = if radius > 0.0 { half / radius } else { 1.0 };
+        let (x, y) = ((0.5 * (1.0 + cosine)).max(0.0).sqrt(), (0.5 * (1.0 - cosine)).max(0.0).sqrt());
+        let of_high = basis.axes[0] * x + basis.axes[1] * y.copysign(q);
+        let of_low = basis.normal.cross(of_high);
+        if high.abs() >= low.abs() { ([high, low], [of_high, of_low]) } else { ([low, high], [of_low, -of_high]) }
+    }
+}
+
+/// A symmetric form of three vectors in a plane: for the first axis three times, twice, once, never.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Derivative(pub [f64; 4]);
+
+impl Derivative {
+    fn of(&self, a: DVec2, b: DVec2, c: DVec2) -> f64 {
+        let [p, q, r, s] = self.0;
+        p * a.x * b.x * c.x
+            + q * (a.x * b.x * c.y + a.x * b.y * c.x + a.y * b.x * c.x)
+            + r * (a.x * b.y * c.y + a.y * b.x * c.y + a.y * b.y * c.x)
+            + s * a.y * b.y * c.y
+    }
+
+    /// The same for the axes of another plane.
+    pub(super) fn seen(&self, Turn([a, b]): Turn) -> Self {
+        Self([self.of(a, a, a), self.of(a, a, b), self.of(a, b, b), self.of(b, b, b)])
+    }
+}
+
+/// Fits a symmetric form of one more vector to how values at a triangle's corners differ along its sides, by least squares: of
+/// `FROM` numbers a form of `TO`, which is one more. Both are in the triangle's axes.
+///
+/// Along a side (x, y) number k of the values changes by x times the form's number k plus y times the next. So the normal
+/// equations have three diagonals, and elimination needs no exchange of rows. A number counts as often as it stands in the whole
+/// form, the middle one of a tensor twice, so that the axes do not matter.
+pub(super) fn of_triangle<const FROM: usize, const TO: usize>(
+    sides: &[DVec2; 3],
+    values: [[f64; FROM]; 3],
+) -> Option<[f64; TO]> {
+    let weight = |number: usize| if FROM == 3 && number == 1 { 2.0 } else { 1.0 };
+    let (mut diagonal, mut beside, mut right) = ([0.0; TO], [0.0; TO], [0.0; TO]);
+    for (corner, side) in sides.iter().enumerate() {
+        let (from, to) = (&values[(corner + 1) % 3], &values[(corner + 2) % 3]);
+        for (number, (from, to)) in from.iter().zip(to).enumerate() {
+            let (x, y) = (side.x * weight(number), side.y * weight(number));
+            diagonal[number] += x * side.x;
+            diagonal[number + 1] += y * side.y;
+            beside[number] += x * side.y;
+            right[number] += x * (to - from);
+            right[number + 1] += y * (to - from);
+        }
+    }
+    for row in 1..TO {
+        let share = beside[row - 1] / diagonal[row - 1];
+        diagonal[row] -= share * beside[row - 1];
+        right[row] -= share * right[row - 1];
+    }
+    let mut form = right;
+    form[TO - 1] /= diagonal[TO - 1];
+    for row in (0..TO - 1).rev() {
+        form[row] = (right[row] - beside[row] * form[row + 1]) / diagonal[row];
+    }
+    form.iter().all(|number| number.is_finite()).then_some(form)
+}

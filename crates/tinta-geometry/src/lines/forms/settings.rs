@@ -1,0 +1,105 @@
+//! The settings of form lines.
+
+use crate::edges::CreaseAngle;
+use crate::error::{Error, Result};
+use crate::settings::{Setting, under};
+
+/// Which form lines are strong enough to be drawn. Thresholds have no unit: lengths are measured in the model's feature size,
+/// [`crate::curvature::Curvatures::feature_size`], so that neither its scale nor its unit matters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FormSettings {
+    /// How fast the curvature along the view must grow towards the eye for a suggestive contour. Default 0.01; more leaves out the
+    /// shallow ones, which come and go as the model turns.
+    pub suggestive_threshold: f64,
+    /// The least curvature of a ridge or valley. Default 0.1; more leaves only the sharp ones.
+    pub ridge_threshold: f64,
+    /// The least curvature, as the eye sees it, of an apparent ridge. Default 0.2; more leaves only the sharp ones.
+    pub apparent_ridge_threshold: f64,
+    /// From which angle between faces the smooth surface is broken. Default the listing's 66.4 degrees: what a drawing shows as a
+    /// crease from 30 degrees on is in a coarse mesh of a round shape often none. More smooths sharper edges over.
+    pub crease_angle: CreaseAngle,
+    /// Standard deviation of the Gaussian by which normals are smoothed before curvature is computed from them, edge lengths.
+    /// Default 1; more draws fewer and longer lines and moves them off small features.
+    pub smoothing: f64,
+}
+
+/// Largest smoothing, edge lengths: beyond, a mesh has hardly any shape left, and it takes long.
+const LARGEST_SMOOTHING: f64 = 10.0;
+
+impl Default for FormSettings {
+    fn default() -> Self {
+        Self {
+            suggestive_threshold: 0.01,
+            ridge_threshold: 0.1,
+            apparent_ridge_threshold: 0.2,
+            crease_angle: CreaseAngle::default(),
+            smoothing: 1.0,
+        }
+    }
+}
+
+impl FormSettings {
+    /// The settings, for a table of something that has form lines in it.
+    pub fn settings() -> Vec<Setting<Self>> {
+        let settings = vec![
+            Setting::field(
+                "suggestive-threshold",
+                "NUMBER",
+                "Least growth of the curvature along the view that makes a suggestive contour; more draws fewer",
+                |forms: &mut Self| &mut forms.suggestive_threshold,
+            )
+            .ours("the default of qrtsc, by the authors of suggestive contours")
+            .range(0.0, 0.1, 3),
+            Setting::field(
+                "ridge-threshold",
+                "NUMBER",
+                "Least curvature of a ridge or valley; more draws fewer",
+                |forms: &mut Self| &mut forms.ridge_threshold,
+            )
+            .ours("the default of qrtsc")
+            .range(0.0, 1.0, 2),
+            Setting::field(
+                "apparent-ridge-threshold",
+                "NUMBER",
+                "Least curvature, as the eye sees it, of an apparent ridge; more draws fewer",
+                |forms: &mut Self| &mut forms.apparent_ridge_threshold,
+            )
+            .ours("looked at on public models")
+            .range(0.0, 1.0, 2),
+            Setting::field(
+                "surface-crease-angle",
+                "DEGREES",
+                "Smallest angle between two faces at which the smooth surface is broken, in degrees; more smooths sharper edges over",
+                |forms: &mut Self| &mut forms.crease_angle,
+            )
+            .ours("Dachsbacher's crease angle: the faces of coarse round shapes meet at less")
+            .said("66.4"),
+            Setting::field(
+                "curvature-smoothing",
+                "EDGES",
+                "How far normals are smoothed before form lines are found, in edge lengths, 0 to 10; more draws fewer, longer lines",
+                |forms: &mut Self| &mut forms.smoothing,
+            )
+            .ours("looked at on public models")
+            .range(0.0, LARGEST_SMOOTHING, 1),
+        ];
+        under("Style lines: form lines, with --classes suggestive, ridge, valley, apparent-ridge", settings).collect()
+    }
+
+    /// Refuses what is no threshold.
+    pub(in crate::lines) fn check(&self) -> Result<()> {
+        let thresholds = [
+            ("suggestive-threshold", self.suggestive_threshold),
+            ("ridge-threshold", self.ridge_threshold),
+            ("apparent-ridge-threshold", self.apparent_ridge_threshold),
+        ];
+        if let Some((name, value)) = thresholds.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0)) {
+            return Err(Error::value(name, value, "the threshold is a number, 0 or more"));
+        }
+        if !(0.0..=LARGEST_SMOOTHING).contains(&self.smoothing) {
+            let problem = format!("the smoothing is between 0 and {LARGEST_SMOOTHING} edge lengths");
+            return Err(Error::value("curvature-smoothing", self.smoothing, problem));
+        }
+        Ok(())
+    }
+}
