@@ -117,6 +117,9 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--page", "A4", "--width-mm", "90"], &["--page", "--width-mm"]);
     refuse(&["--page", "A4", "--margin", "105"], &["--margin 105mm", "105 millimetres"]);
     refuse(&["--margin", "10mm"], &["--margin", "--page A4"]);
+    refuse(&["--fit-curves", "0"], &["--fit-curves 0", "0.01 to 100"]);
+    refuse(&["--fit-curves", "0.5", "--provenance"], &["--fit-curves", "--provenance"]);
+    refuse(&["--silhouette", "round"], &["--silhouette", "exact, smooth"]);
 }
 
 #[test]

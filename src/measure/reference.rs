@@ -105,7 +105,7 @@ impl Reference {
             classes: ClassSet::of(&[Class::Crease]),
             crease_angle: CreaseAngle::from_degrees(SOFT_CREASE_DEGREES)?,
             finds_hidden: false,
-            finds_outline: false,
+            ..LineSettings::default()
         };
         let limit = settings.crease_angle.degrees();
         let is_between = |segment: &&LineSegment| segment.angle_degrees.is_none_or(|angle| angle <= limit);
