@@ -57,6 +57,7 @@ mod specks;
 mod strokes;
 mod summits;
 mod svg;
+mod turns;
 mod visibility;
 
 pub use cast::{Hit, first_hits};
@@ -313,7 +314,7 @@ impl VisibleLines {
         let contours = (settings.has_smooth_contours() || settings.counts_changes)
             .then(|| Contours::new(scene, &space, &faces, &parts, settings.crease_angle));
         let drawn_contours = contours.as_ref().filter(|_| settings.has_smooth_contours());
-        let (mut lines, mut edges) = features::edge_features(scene, &faces, &parts, drawn_contours, settings);
+        let (mut lines, mut edges) = features::edge_features(scene, &space, &faces, &parts, drawn_contours, settings);
         let silhouette_ms = milliseconds_since(clock);
         progress.go_on()?;
 

@@ -23,7 +23,14 @@ impl MeshEdges {
     /// Builds the list; everything else is made when first asked for.
     pub fn new(mesh: Arc<Mesh>) -> Self {
         let list = EdgeList::new(&mesh);
-        Self { mesh, list, silhouettes: OnceLock::new(), cones: OnceLock::new(), classes: Mutex::new(None), smooth: Mutex::new(None) }
+        Self {
+            mesh,
+            list,
+            silhouettes: OnceLock::new(),
+            cones: OnceLock::new(),
+            classes: Mutex::new(None),
+            smooth: Mutex::new(None),
+        }
     }
 
     /// The mesh.

@@ -5,8 +5,8 @@
 
 use super::classes::corners;
 use super::{EdgeList, Eye, Incidence, Side, side_of_face};
-use crate::mesh::{Mesh, triangle_normal};
 use crate::error::Error;
+use crate::mesh::{Mesh, triangle_normal};
 use crate::settings::{Setting, Value as _};
 use crate::threads::{filled, in_parallel, ranges, threads_for};
 use glam::{DVec3, Vec3, Vec4};

@@ -14,6 +14,7 @@
 use super::LineSegment;
 use super::faces::{Own, Probe};
 use super::summits::{ContourLines, Decided, Stretch};
+use super::turns::{Link, REACH};
 use crate::edges::Class;
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -46,9 +47,6 @@ impl VisibilityChanges {
     }
 }
 
-/// How near a reason must be, edges.
-const REACH: f64 = 2.0;
-
 /// The cusps of smooth contours.
 struct Cusps {
     /// In the eye's space, and how far they reach.
@@ -60,8 +58,7 @@ struct Cusps {
 impl ContourLines<'_> {
     /// The changes along smooth contours.
     pub(super) fn changes(&self, decided: &[Decided]) -> VisibilityChanges {
-        let links = self.links();
-        let cusps = self.cusps(&links);
+        let cusps = self.cusps();
         let mut changes = VisibilityChanges::default();
         let mut by_piece: Vec<Option<&Decided>> = vec![None; self.contours.pieces.len()];
         for decided in decided {
@@ -71,7 +68,7 @@ impl ContourLines<'_> {
                 changes.count(&self.reason(decided, hidden, &cusps));
             }
         }
-        for Link { part, edge, ends } in &links {
+        for Link { part, edge, ends } in &self.contours.links {
             let [Some(first), Some(second)] = ends.map(|(piece, end)| at_end(by_piece[piece]?, end)) else { continue };
             if first.1.is_visible == second.1.is_visible {
                 continue;
@@ -89,7 +86,7 @@ impl ContourLines<'_> {
 
     /// The changes along silhouettes that are edges of the mesh, without sharp ones; `segments` has hidden ones, too.
     pub(super) fn changes_of_edges(&self, segments: &[LineSegment]) -> VisibilityChanges {
-        let cusps = self.cusps(&self.links());
+        let cusps = self.cusps();
         let features: HashMap<(u32, Option<[u32; 2]>), usize> =
             self.lines.features.iter().enumerate().map(|(index, of)| ((of.object, of.edge), index)).collect();
         let mut meetings: HashMap<(u32, [u64; 2]), Vec<usize>> = HashMap::new();
@@ -102,7 +99,8 @@ impl ContourLines<'_> {
         let smooth: Vec<Option<(usize, f64)>> = segments
             .iter()
             .map(|segment| {
-                let feature = features.get(&(segment.object, segment.edge)).filter(|_| segment.class == Class::Silhouette)?;
+                let feature =
+                    features.get(&(segment.object, segment.edge)).filter(|_| segment.class == Class::Silhouette)?;
                 Some((*feature, self.longest_at_edge(*feature)?))
             })
             .collect();
@@ -134,7 +132,12 @@ impl ContourLines<'_> {
     fn reason(&self, decided: &Decided, hidden: Stretch, cusps: &Cusps) -> Reason {
         let piece = &self.contours.pieces[decided.piece];
         let probe = self.probe(piece, &decided.image, (hidden.from + hidden.to) * 0.5);
-        self.reason_of(&probe, piece.part, self.longest_side(piece.part, piece.face), cusps)
+        self.reason_of(
+            &probe,
+            piece.part,
+            self.contours.parts[piece.part as usize].longest_side(self.lines.faces, piece.face),
+            cusps,
+        )
     }
 
     /// Why a point is hidden.
@@ -148,7 +151,8 @@ impl ContourLines<'_> {
         if is_far || !is_hidden {
             return Reason::Crossing;
         }
-        let is_near = cusps.places.iter().any(|(place, reach)| place.distance(probe.view) <= reach.max(REACH * longest));
+        let is_near =
+            cusps.places.iter().any(|(place, reach)| place.distance(probe.view) <= reach.max(REACH * longest));
         if is_near { Reason::Cusp } else { Reason::None }
     }
 
@@ -160,12 +164,6 @@ impl ContourLines<'_> {
         let position = self.lines.faces.triangles[place as usize][0];
         let shell = |position: u32| surface.position_shells.get(position.checked_sub(first)? as usize).copied();
         shell(own) != shell(position)
-    }
-
-    /// The longest side of a face of a part.
-    fn longest_side(&self, part: u32, face: u32) -> f64 {
-        let [a, b, c] = self.contours.parts[part as usize].corners(self.lines.faces, face);
-        a.distance(b).max(b.distance(c)).max(c.distance(a))
     }
 
     /// The longest side of the faces at an edge that is not sharp.
@@ -180,28 +178,12 @@ impl ContourLines<'_> {
         if part.surface.is_sharp[edge] {
             return None;
         }
-        let sides = list.faces(edge as u32).iter().map(|face| self.longest_side(feature.object, *face));
+        let sides = list.faces(edge as u32).iter().map(|face| part.longest_side(self.lines.faces, *face));
         Some(sides.fold(0.0, f64::max))
     }
 
-    /// The places where two pieces hang together.
-    fn links(&self) -> Vec<Link> {
-        let mut ends: Vec<(u32, u32, usize, usize)> = Vec::new();
-        for (number, piece) in self.contours.pieces.iter().enumerate() {
-            let surface = &self.contours.parts[piece.part as usize].surface;
-            let smooth = piece.edges.iter().enumerate().filter(|(_, edge)| !surface.is_sharp[**edge as usize]);
-            ends.extend(smooth.map(|(end, edge)| (piece.part, *edge, number, end)));
-        }
-        ends.sort_unstable();
-        let links = ends.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).filter_map(|ends| match ends {
-            [a, b] => Some(Link { part: a.0, edge: a.1, ends: [(a.2, a.3), (b.2, b.3)] }),
-            _ => None,
-        });
-        links.collect()
-    }
-
     /// The cusps with contours of some length on either side.
-    fn cusps(&self, links: &[Link]) -> Cusps {
+    fn cusps(&self) -> Cusps {
         let pieces = &self.contours.pieces;
         let mut runs: Vec<usize> = (0..pieces.len()).collect();
         let root = |runs: &mut Vec<usize>, mut number: usize| {
@@ -211,7 +193,7 @@ impl ContourLines<'_> {
             }
             number
         };
-        for Link { ends: [(a, _), (b, _)], .. } in links {
+        for Link { ends: [(a, _), (b, _)], .. } in &self.contours.links {
             if pieces[*a].bends_away == pieces[*b].bends_away {
                 let (a, b) = (root(&mut runs, *a), root(&mut runs, *b));
                 runs[a.max(b)] = a.min(b);
@@ -222,8 +204,10 @@ impl ContourLines<'_> {
             lengths[root(&mut runs, number)] += piece.ends[0].distance(piece.ends[1]);
         }
         let mut cusps = Cusps { places: Vec::new(), edges: HashSet::new() };
-        for Link { part, edge, ends: [(a, end), (b, _)] } in links {
-            let longest = self.longest_side(*part, pieces[*a].face).max(self.longest_side(*part, pieces[*b].face));
+        for Link { part, edge, ends: [(a, end), (b, _)] } in &self.contours.links {
+            let longest_side =
+                |piece: usize| self.contours.parts[*part as usize].longest_side(self.lines.faces, pieces[piece].face);
+            let longest = longest_side(*a).max(longest_side(*b));
             let least = lengths[root(&mut runs, *a)].min(lengths[root(&mut runs, *b)]);
             if pieces[*a].bends_away != pieces[*b].bends_away && least > REACH * longest {
                 cusps.places.push((pieces[*a].ends[*end], REACH * longest));
@@ -232,13 +216,6 @@ impl ContourLines<'_> {
         }
         cusps
     }
-}
-
-/// An edge with the two pieces that meet on it, and which end of each.
-struct Link {
-    part: u32,
-    edge: u32,
-    ends: [(usize, usize); 2],
 }
 
 /// The stretch at an end of a piece, if that end is in the picture.

@@ -13,6 +13,7 @@
 use super::faces::Faces;
 use super::features::Part;
 use super::space::Space;
+use super::turns::{Link, links, settle};
 use crate::edges::{CreaseAngle, EdgeList, Eye, Incidence, Shell, SilhouetteRule, SmoothSurface};
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::scene::Scene;
@@ -24,8 +25,10 @@ use std::sync::Arc;
 /// The smooth contours of a scene, before their visibility is known.
 pub(super) struct Contours {
     pub parts: Vec<PartSurface>,
-    /// By object, then face.
+    /// By object, then face; then those on edges.
     pub pieces: Vec<Piece>,
+    /// Where they hang together.
+    pub links: Vec<Link>,
 }
 
 /// A part's smooth surface as an eye sees it.
@@ -36,9 +39,11 @@ pub(super) struct PartSurface {
     pub towards: Vec<f64>,
     /// Of the part's first position among all.
     pub first_position: u32,
+    /// Whether the eye may be inside of closed shells.
+    sees_inside: bool,
 }
 
-/// A straight piece of a contour, inside one face.
+/// A straight piece of a contour, inside one face or on a sharp edge.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     /// The part and its face, of those that the edges are of.
@@ -51,8 +56,8 @@ pub(super) struct Piece {
     pub normals: [DVec3; 2],
     /// Whether the front's side of the piece is the nearer one: there the surface bends away from the eye on the normal's side.
     pub bends_away: bool,
-    /// Whether its shell encloses something and it bends towards its inside: it cannot be seen from outside.
-    pub is_inside: bool,
+    /// The sharp edge it lies on, if it does: one at which the smooth normals turn away, the faces do not.
+    pub on_edge: Option<u32>,
 }
 
 /// How the smooth rule sees an edge.
@@ -61,6 +66,8 @@ pub(super) enum OnEdge {
     ByFaces,
     /// It is silhouette between these shares of it, counted from its lower position.
     Parts(Vec<[f64; 2]>),
+    /// The same, but only its smooth normals turn away, its faces do not: a contour has these parts.
+    OfContour(Vec<[f64; 2]>),
 }
 
 /// Faces looked at by a thread at once.
@@ -68,8 +75,14 @@ const CHUNK: usize = 8192;
 
 impl Contours {
     /// Finds them.
-    pub(super) fn new(scene: &Scene, space: &Space, faces: &Faces, parts: &[Part<'_>], crease_angle: CreaseAngle) -> Self {
-        let mut all = Self { parts: Vec::with_capacity(parts.len()), pieces: Vec::new() };
+    pub(super) fn new(
+        scene: &Scene,
+        space: &Space,
+        faces: &Faces,
+        parts: &[Part<'_>],
+        crease_angle: CreaseAngle,
+    ) -> Self {
+        let mut all = Self { parts: Vec::with_capacity(parts.len()), pieces: Vec::new(), links: Vec::new() };
         let mut first_position = 0;
         for (number, part) in parts.iter().enumerate() {
             let edges = part.edges.get();
@@ -82,15 +95,25 @@ impl Contours {
             let (low, high) = mesh.bounds();
             let is_within = |eye: DVec3| eye.cmpge(low).all() && eye.cmple(high).all();
             let sees_inside = !faces.cut_by_near.is_empty() || matches!(eye, Eye::Point(eye) if is_within(eye));
-            let part = PartSurface { surface, mesh, towards, first_position };
+            let part = PartSurface { surface, mesh, towards, first_position, sees_inside };
             let chunks = in_chunks(part.mesh.triangles.len(), CHUNK, cores(), |range| {
-                range.filter_map(|face| part.piece(space, faces, number as u32, face as u32, sees_inside)).collect::<Vec<_>>()
+                range.filter_map(|face| part.piece(space, faces, number as u32, face as u32)).collect::<Vec<_>>()
             });
             chunks.into_iter().for_each(|chunk| all.pieces.extend(chunk));
+            let list = edges.list();
+            let sharp = (0..list.len() as u32).filter(|edge| part.surface.is_sharp[*edge as usize]);
+            all.pieces.extend(sharp.flat_map(|edge| part.pieces_on_edge(space, faces, list, number as u32, edge)));
             first_position += part.mesh.positions.len() as u32;
             all.parts.push(part);
         }
+        all.links = links(&all.parts, &all.pieces);
+        settle(&all.parts, &mut all.pieces, faces, &all.links);
         all
+    }
+
+    /// Whether a piece's shell encloses something and it bends towards its inside: it cannot be seen from outside.
+    pub(super) fn is_inside(&self, piece: &Piece) -> bool {
+        self.parts[piece.part as usize].encloses(piece.face, piece.bends_away)
     }
 }
 
@@ -134,8 +157,14 @@ impl PartSurface {
         self.mesh.triangles[face as usize].map(|position| faces.positions[(position + self.first_position) as usize])
     }
 
+    /// A face's longest side.
+    pub(super) fn longest_side(&self, faces: &Faces, face: u32) -> f64 {
+        let [a, b, c] = self.corners(faces, face);
+        a.distance(b).max(b.distance(c)).max(c.distance(a))
+    }
+
     /// The piece of contour inside a face, if there is one.
-    fn piece(&self, space: &Space, faces: &Faces, part: u32, face: u32, sees_inside: bool) -> Option<Piece> {
+    fn piece(&self, space: &Space, faces: &Faces, part: u32, face: u32) -> Option<Piece> {
         let values = self.of_face(face);
         let fronts = values.map(is_front);
         if fronts == [true; 3] || fronts == [false; 3] || self.surface.sides[face as usize] == [NONE; 3] {
@@ -159,12 +188,6 @@ impl PartSurface {
         // The direction in which n . v grows fastest, times the normal's square.
         let growth = across.cross(normal) * (values[1] - values[0]) + normal.cross(along) * (values[2] - values[0]);
         let bends_away = growth.dot(space.to_eye((first.1 + second.1) * 0.5)) > 0.0;
-        let is_inside = !sees_inside
-            && match self.surface.shells[face as usize] {
-                Shell::Open => false,
-                Shell::Outward => !bends_away,
-                Shell::Inward => bends_away,
-            };
         Some(Piece {
             part,
             face,
@@ -172,12 +195,41 @@ impl PartSurface {
             ends: [first.1, second.1],
             normals: [first.2, second.2],
             bends_away,
-            is_inside,
+            on_edge: None,
         })
     }
 
+    /// The parts of a sharp edge at which its smooth normals turn away but its faces do not.
+    fn pieces_on_edge(&self, space: &Space, faces: &Faces, list: &EdgeList, part: u32, edge: u32) -> Vec<Piece> {
+        let OnEdge::OfContour(parts) = self.on_edge(space, faces, list, edge) else { return Vec::new() };
+        let &[first, second] = list.faces(edge) else { return Vec::new() };
+        let ends = list.positions()[edge as usize];
+        let [low, high] = ends.map(|position| faces.positions[(position + self.first_position) as usize]);
+        let normal = |face: u32, share: f64| {
+            let [low, high] = self.at_ends(face, ends).map(|normal| self.surface.normals[normal as usize]);
+            between(low, high, share)
+        };
+        let bends_away = self.is_convex(faces, [first, second]);
+        let piece = |[from, to]: [f64; 2]| Piece {
+            part,
+            face: first,
+            edges: [edge; 2],
+            ends: [from, to].map(|share| between(low, high, share)),
+            normals: [from, to].map(|share| space.direction(normal(first, share) + normal(second, share))),
+            bends_away,
+            on_edge: Some(edge),
+        };
+        parts.into_iter().map(piece).collect()
+    }
+
+    /// Whether the eye sees a face's front.
+    pub(super) fn is_front_face(&self, space: &Space, faces: &Faces, face: u32) -> bool {
+        let [a, b, c] = self.corners(faces, face);
+        (b - a).cross(c - a).dot(space.to_eye(a)) > 0.0
+    }
+
     /// Where an edge is silhouette.
-    pub(super) fn on_edge(&self, list: &EdgeList, edge: u32) -> OnEdge {
+    pub(super) fn on_edge(&self, space: &Space, faces: &Faces, list: &EdgeList, edge: u32) -> OnEdge {
         if list.incidence()[edge as usize] != Incidence::Inner {
             return OnEdge::ByFaces;
         }
@@ -198,7 +250,29 @@ impl PartSurface {
             is_front(first) != is_front(second)
         };
         let parts = places.windows(2).filter(|part| part[0] < part[1] && differs((part[0] + part[1]) * 0.5));
-        OnEdge::Parts(parts.map(|part| [part[0], part[1]]).collect())
+        let parts = parts.map(|part| [part[0], part[1]]).collect();
+        // Where one does not see the bend from outside, the edge is what else it is.
+        match self.is_front_face(space, faces, first) == self.is_front_face(space, faces, second) {
+            false => OnEdge::Parts(parts),
+            true if self.encloses(first, self.is_convex(faces, [first, second])) => OnEdge::Parts(Vec::new()),
+            true => OnEdge::OfContour(parts),
+        }
+    }
+
+    /// Whether a second face lies behind a first.
+    fn is_convex(&self, faces: &Faces, of: [u32; 2]) -> bool {
+        let [[a, b, c], other] = of.map(|face| self.corners(faces, face));
+        (b - a).cross(c - a).dot((other[0] + other[1] + other[2]) / 3.0 - a) < 0.0
+    }
+
+    /// Whether a face's shell encloses something, and what bends so at the face bends towards its inside.
+    fn encloses(&self, face: u32, bends_away: bool) -> bool {
+        !self.sees_inside
+            && match self.surface.shells[face as usize] {
+                Shell::Open => false,
+                Shell::Outward => !bends_away,
+                Shell::Inward => bends_away,
+            }
     }
 
     /// A face's normals at two of its positions.

@@ -86,9 +86,7 @@ fn tangents(points: &[DVec2], is_ring: bool) -> Vec<DVec2> {
     let [start, end] = match () {
         () if is_ring => [between(last - 1, 0); 2],
         // A parabola through the first three points, and the last.
-        () if last > 1 => {
-            [slope(0) * 2.0 - tangents[0], slope(last - 1) * 2.0 - tangents[last - 2]]
-        }
+        () if last > 1 => [slope(0) * 2.0 - tangents[0], slope(last - 1) * 2.0 - tangents[last - 2]],
         () => [slope(0); 2],
     };
     tangents.insert(0, start);
@@ -199,7 +197,8 @@ mod tests {
     }
 
     fn farthest(points: &[DVec2], line: &[DVec2]) -> f64 {
-        let square = |point: &DVec2| line.windows(2).map(|ends| square_to(*point, [ends[0], ends[1]])).fold(f64::MAX, f64::min);
+        let square =
+            |point: &DVec2| line.windows(2).map(|ends| square_to(*point, [ends[0], ends[1]])).fold(f64::MAX, f64::min);
         points.iter().map(square).fold(0.0, f64::max).sqrt()
     }
 
@@ -218,7 +217,8 @@ mod tests {
 
     #[test]
     fn a_circle_of_many_points_is_a_few_curves_within_the_error() {
-        let circle: Vec<DVec2> = (0..180).map(|k| DVec2::from_angle(f64::from(k) / 180.0 * TAU) * 100.0 + 256.0).collect();
+        let circle: Vec<DVec2> =
+            (0..180).map(|k| DVec2::from_angle(f64::from(k) / 180.0 * TAU) * 100.0 + 256.0).collect();
         for (error_px, most) in [(0.5, 8), (0.1, 12), (0.05, 16)] {
             let steps = assert_within(&circle, true, error_px);
             assert!(steps.len() <= most, "{} steps at {error_px}", steps.len());
@@ -229,12 +229,16 @@ mod tests {
     #[test]
     fn straight_lines_stay_and_so_do_corners() {
         let corners = [[10.0, 10.0], [200.0, 10.0], [200.0, 90.0], [10.0, 90.0]].map(DVec2::from_array);
-        assert_eq!(fitted(&path(corners.to_vec(), false), 1.0).1, corners[1..].iter().map(|to| Step::Line(*to)).collect::<Vec<_>>());
+        assert_eq!(
+            fitted(&path(corners.to_vec(), false), 1.0).1,
+            corners[1..].iter().map(|to| Step::Line(*to)).collect::<Vec<_>>()
+        );
         assert_eq!(fitted(&path(corners.to_vec(), true), 1.0).1.len(), 4);
         let line: Vec<DVec2> = (0..50).map(|k| DVec2::new(3.0, 1.0) * f64::from(k)).collect();
         assert_eq!(fitted(&path(line.clone(), false), 1.0), (line[0], vec![Step::Line(line[49])]));
         // An arc between two corners.
-        let arc = (0..=40).map(|k| DVec2::new(100.0, 100.0) + DVec2::from_angle(f64::from(k) / 40.0 * TAU / 2.0) * 60.0);
+        let arc =
+            (0..=40).map(|k| DVec2::new(100.0, 100.0) + DVec2::from_angle(f64::from(k) / 40.0 * TAU / 2.0) * 60.0);
         let half_disc: Vec<DVec2> = arc.collect();
         let steps = assert_within(&half_disc, true, 0.2);
         assert!(steps.contains(&Step::Line(half_disc[0])), "{steps:?}");
@@ -247,9 +251,13 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 33) as f64 / f64::from(1u32 << 30) - 1.0
         };
-        let noisy: Vec<DVec2> = (0..300).map(|k| DVec2::new(f64::from(k), 40.0 + 10.0 * (f64::from(k) / 30.0).sin() + 0.3 * random())).collect();
-        let spiral: Vec<DVec2> = (0..400).map(|k| DVec2::from_angle(f64::from(k) * 0.1) * f64::from(k) * 0.5 + 256.0).collect();
-        let coarse: Vec<DVec2> = (0..12).map(|k| DVec2::from_angle(f64::from(k) / 12.0 * TAU) * 200.0 + 256.0).collect();
+        let noisy: Vec<DVec2> = (0..300)
+            .map(|k| DVec2::new(f64::from(k), 40.0 + 10.0 * (f64::from(k) / 30.0).sin() + 0.3 * random()))
+            .collect();
+        let spiral: Vec<DVec2> =
+            (0..400).map(|k| DVec2::from_angle(f64::from(k) * 0.1) * f64::from(k) * 0.5 + 256.0).collect();
+        let coarse: Vec<DVec2> =
+            (0..12).map(|k| DVec2::from_angle(f64::from(k) / 12.0 * TAU) * 200.0 + 256.0).collect();
         for error_px in [0.02, 0.1, 0.5, 2.0] {
             assert_within(&noisy, false, error_px);
             assert_within(&spiral, false, error_px);

@@ -106,6 +106,7 @@ pub(super) fn asked(settings: &LineSettings) -> ClassSet {
 /// contours only sharp edges are drawn as silhouette, as far as they are; what hides others is the same.
 pub(super) fn edge_features(
     scene: &Scene,
+    space: &Space,
     faces: &Faces,
     parts: &[Part<'_>],
     contours: Option<&Contours>,
@@ -135,11 +136,9 @@ pub(super) fn edge_features(
                 of_edge = of_edge.or(ClassSet::of(&[Class::Silhouette]));
             }
             let occludes = !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
-            let silhouette_parts = match contours.map(|contours| contours.parts[number].on_edge(list, edge)) {
-                Some(OnEdge::Parts(parts)) => Some(parts),
-                None | Some(OnEdge::ByFaces) => None,
-            };
-            let parts_by_class = parts_by_class(of_edge, silhouette_parts, settings.classes);
+            let on_edge =
+                contours.map_or(OnEdge::ByFaces, |contours| contours.parts[number].on_edge(space, faces, list, edge));
+            let parts_by_class = parts_by_class(of_edge, on_edge, settings.classes);
             if let Some(class) = parts_by_class.iter().filter_map(|(class, _)| *class).min() {
                 *counts.of(class) += 1;
             }
@@ -168,19 +167,18 @@ pub(super) fn edge_features(
     (features, counts)
 }
 
-/// From where to where an edge is drawn as which class. `silhouette` are the parts at which it is silhouette, where that is not
-/// decided by its faces.
-fn parts_by_class(
-    of_edge: ClassSet,
-    silhouette: Option<Vec<[f64; 2]>>,
-    wanted: ClassSet,
-) -> Vec<(Option<Class>, [f64; 2])> {
-    let Some(silhouette) = silhouette else { return vec![(of_edge.and(wanted).first(), [0.0, 1.0])] };
+/// From where to where an edge is drawn as which class, if as one.
+fn parts_by_class(of_edge: ClassSet, on_edge: OnEdge, wanted: ClassSet) -> Vec<(Option<Class>, [f64; 2])> {
     let drawn = |with: &[Class]| {
         let others = of_edge.classes().filter(|class| *class != Class::Silhouette);
         others.fold(ClassSet::of(with), |set, class| set.or(ClassSet::of(&[class]))).and(wanted).first()
     };
-    let (other, turned) = (drawn(&[]), drawn(&[Class::Silhouette]));
+    let other = drawn(&[]);
+    let (turned, silhouette) = match on_edge {
+        OnEdge::ByFaces => return vec![(of_edge.and(wanted).first(), [0.0, 1.0])],
+        OnEdge::Parts(parts) => (drawn(&[Class::Silhouette]), parts),
+        OnEdge::OfContour(parts) => (None, parts),
+    };
     let mut parts = Vec::new();
     let mut from = 0.0;
     for part in silhouette {

@@ -80,12 +80,19 @@ impl ContourLines<'_> {
                 is_visible: stretch.is_visible,
                 is_outline: stretch.is_outline,
                 ends_px: [image.at(stretch.from), image.at(stretch.to)],
-                edge: None,
+                edge: self.edge_in_file(&self.contours.pieces[*piece]),
                 angle_degrees: None,
                 object: self.contours.pieces[*piece].part,
             }));
         }
         segments
+    }
+
+    /// The edge on which a piece lies, by its vertices in the file.
+    fn edge_in_file(&self, piece: &Piece) -> Option<[u32; 2]> {
+        let edges = self.parts[piece.part as usize].edges.get();
+        let ends = edges.list().positions()[piece.on_edge? as usize];
+        Some(ends.map(|position| edges.mesh().file_vertices[position as usize]))
     }
 
     fn decide(&self, number: usize) -> Option<Decided> {
@@ -97,7 +104,7 @@ impl ContourLines<'_> {
         }
         let whole = |stretches| Some(Decided { piece: number, image, stretches });
         let [from, to] = inside;
-        if piece.is_inside {
+        if self.contours.is_inside(piece) {
             return whole(vec![Stretch { from, to, is_visible: false, is_outline: false }]);
         }
         let places = lines.places(&image, inside, self.cuts(piece, &image, inside));
@@ -106,9 +113,8 @@ impl ContourLines<'_> {
             let probe = self.probe(piece, &image, (place[0] + place[1]) * 0.5);
             let is_visible = self.is_seen(&probe);
             let touch_px = image.touch_px(lines.space);
-            let is_outline = lines.finds_outline
-                && is_visible
-                && lines.faces.cover(lines.space, &probe, touch_px) != [true; 2];
+            let is_outline =
+                lines.finds_outline && is_visible && lines.faces.cover(lines.space, &probe, touch_px) != [true; 2];
             match stretches.last_mut() {
                 Some(last) if last.is_visible == is_visible && last.is_outline == is_outline => last.to = place[1],
                 _ => stretches.push(Stretch { from: place[0], to: place[1], is_visible, is_outline }),
@@ -179,11 +185,23 @@ impl ContourLines<'_> {
         let space = self.lines.space;
         let plane = space.to_eye(start).cross(normal);
         let start_px = space.project(start).0;
-        let mut best = (f64::NEG_INFINITY, start, piece.edges[0]);
-        for is_towards in [true, false] {
-            let (mut face, mut came) = (piece.face, NONE);
+        let surface = &self.contours.parts[piece.part as usize].surface;
+        let list = self.parts[piece.part as usize].edges.get().list();
+        let near = self.contours.parts[piece.part as usize].longest_side(self.lines.faces, piece.face);
+        let to_eye = space.to_eye(start);
+        // From inside a face both ways, from an edge into both its faces.
+        let ways = match piece.on_edge {
+            None => [(piece.face, NONE, 1.0), (piece.face, NONE, -1.0)],
+            Some(edge) => {
+                let faces = list.faces(edge);
+                [(faces[0], edge, 1.0), (faces[faces.len() - 1], edge, 1.0)]
+            }
+        };
+        let mut best = (if piece.on_edge.is_some() { 0.0 } else { f64::NEG_INFINITY }, start, piece.edges[0]);
+        for (mut face, mut came, way) in ways {
             for _ in 0..MOST_FACES {
-                let Some(exit) = self.exit(piece, face, came, [start, plane], is_towards) else { break };
+                let Some(exit) = self.exit(piece, face, came, [start, plane], to_eye * way) else { break };
+                let is_towards = to_eye.dot(exit.point - start) > 0.0;
                 if -exit.point.z < space.near {
                     break;
                 }
@@ -193,13 +211,12 @@ impl ContourLines<'_> {
                 }
                 // Towards the eye the surface that is meant shows its front, if it bends away; else its back.
                 let is_on_its_side = (exit.towards > 0.0) == (is_towards == piece.bends_away);
-                let surface = &self.contours.parts[piece.part as usize].surface;
-                if !is_on_its_side || surface.is_sharp[exit.edge as usize] {
+                let is_near = exit.point.distance(start) < near;
+                if (!is_near && !is_on_its_side) || surface.is_sharp[exit.edge as usize] {
                     break;
                 }
-                let list = self.parts[piece.part as usize].edges.get().list();
                 let Some(next) = list.faces(exit.edge).iter().find(|other| **other != face) else { break };
-                if self.agrees(piece.part, *next) {
+                if !is_near && self.agrees(piece.part, *next) {
                     break;
                 }
                 (face, came) = (*next, exit.edge);
@@ -211,18 +228,16 @@ impl ContourLines<'_> {
     /// Whether a face's side and its smooth normals agree.
     fn agrees(&self, part: u32, face: u32) -> bool {
         let part = &self.contours.parts[part as usize];
-        let [a, b, c] = part.corners(self.lines.faces, face);
-        let is_front = (b - a).cross(c - a).dot(self.lines.space.to_eye(a)) > 0.0;
+        let is_front = part.is_front_face(self.lines.space, self.lines.faces, face);
         part.of_face(face).iter().all(|towards| (*towards >= 0.0) == is_front)
     }
 
-    /// Where a plane through a point leaves a face by another side than it came in, towards the eye or away from it.
-    fn exit(&self, piece: &Piece, face: u32, came: u32, [point, plane]: [DVec3; 2], is_towards: bool) -> Option<Exit> {
+    /// Where a plane through a point leaves a face by another side than it came in, the farther along a direction.
+    fn exit(&self, piece: &Piece, face: u32, came: u32, [point, plane]: [DVec3; 2], way: DVec3) -> Option<Exit> {
         let part = &self.contours.parts[piece.part as usize];
         let corners = part.corners(self.lines.faces, face);
         let values = part.of_face(face);
         let heights = corners.map(|corner| plane.dot(corner - point));
-        let to_eye = self.lines.space.to_eye(point);
         let exits = (0..3).filter_map(|side| {
             let next = (side + 1) % 3;
             let edge = part.surface.sides[face as usize][side];
@@ -233,8 +248,7 @@ impl ContourLines<'_> {
             let towards = values[side] + (values[next] - values[side]) * share;
             Some(Exit { point: between(corners[side], corners[next], share), edge, towards })
         });
-        let along = |exit: &Exit| to_eye.dot(exit.point) * if is_towards { 1.0 } else { -1.0 };
-        exits.max_by(|a, b| along(a).total_cmp(&along(b)))
+        exits.max_by(|a, b| way.dot(a.point).total_cmp(&way.dot(b.point)))
     }
 
     /// Calls `visit` with each face that hides a probe and how far before it that face is, until it returns true.

@@ -340,7 +340,14 @@ impl<'a> Lines<'a> {
 
     /// Adds where a line's image that lies on this one begins and ends and where both are equally near, and where a nearer one
     /// at which a surface ends crosses or touches it.
-    pub(super) fn add_crossings(&self, image: &Image, other: &Image, touch_px: f64, occludes: bool, cuts: &mut Vec<f64>) {
+    pub(super) fn add_crossings(
+        &self,
+        image: &Image,
+        other: &Image,
+        touch_px: f64,
+        occludes: bool,
+        cuts: &mut Vec<f64>,
+    ) {
         let along = image.b - image.a;
         let length = along.length();
         let (c, d) = (along.perp_dot(other.a - image.a) / length, along.perp_dot(other.b - image.a) / length);
