@@ -178,9 +178,10 @@ impl PartSurface {
             // The same numbers in the same order from either face.
             let [low, high] = if triangle[side] < triangle[next] { [side, next] } else { [next, side] };
             let share = zero([values[low], values[high]]);
+            let edge = self.surface.sides[face as usize][side];
             let point = between(corners[low], corners[high], share);
             let normal = normals[low] + (normals[high] - normals[low]) * share;
-            (self.surface.sides[face as usize][side], point, space.direction(normal))
+            (edge, point, space.direction(normal))
         });
         let (first, second) = (crossings.next()?, crossings.next()?);
         let (along, across) = (corners[1] - corners[0], corners[2] - corners[0]);

@@ -8,7 +8,7 @@ use super::VisibleLines;
 use super::chain::{LinePath, chain};
 use super::curves::{Step, fitted};
 use super::drawing::{Drawing, DrawnLayer, GHOST_OPACITY};
-use super::svg::{SvgSettings, mixed, written, written_points};
+use super::svg::{SvgSettings, mixed, written_point, written_points};
 use crate::error::{Error, Result};
 use crate::scene::{Background, Color};
 use glam::DVec2;
@@ -135,7 +135,7 @@ fn write_path(settings: &SvgSettings, path: &LinePath, content: &mut Content) {
     let numbers = |point: &[String; 2]| [0, 1].map(|axis| point[axis].parse::<f32>().unwrap_or(0.0));
     if let Some(error_px) = settings.fit_px {
         let (first, steps) = fitted(path, error_px);
-        let at = |point: DVec2| numbers(&written(point));
+        let at = |point: DVec2| numbers(&written_point(point));
         let [x, y] = at(first);
         content.move_to(x, y);
         for step in steps {

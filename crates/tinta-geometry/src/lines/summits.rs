@@ -3,11 +3,12 @@
 //! A point of a smooth contour lies inside a face, which the eye may see from behind: then the faces beside it, between it and the
 //! polygons' own silhouette, hide it, though the surface that is meant would not. So the point is not asked itself. The plane
 //! through the eye, the point and the smooth normal there cuts the faces in a line; on it the *summit* is asked, the place that lies
-//! farthest out, in the picture, along the normal. The search for it goes both ways from the point, over faces whose side
-//! and smooth normals disagree: one of n . v at its corners has another sign than the face. It ends behind the first face on which
-//! they agree, at a sharp edge, and where n . v changes its sign, that is at another contour. The point is
-//! seen if no face hides the summit, by the rule of all other lines. All faces that hide it cut that plane, too, so that none of those
-//! passed on the way can.
+//! farthest out, in the picture, along the normal. The search for it goes both ways from the point: for the length of one edge, and
+//! on until a face's side and its smooth normals agree, all n . v at its corners having the face's sign, or until n . v along the line changes
+//! its sign, that is at another contour; a sharp edge always ends it. The point is seen if no face hides the summit, by the
+//! rule of all other lines. All faces that hide it cut that plane, too, so that none of those passed on the way can.
+//!
+//! A piece on a sharp edge, at which only the smooth normals turn away, is asked likewise, from the edge into both its faces.
 //!
 //! Where the surface bends towards the eye on the normal's side, the same holds with the normal turned round: such a place is seen
 //! only from a surface's inner side. On a shell that encloses something it is hidden without being asked.

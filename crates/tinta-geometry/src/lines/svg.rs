@@ -12,7 +12,7 @@ pub(super) use settings::mixed;
 pub use settings::{Hidden, SvgSettings};
 pub(super) use text::decimal;
 #[cfg(feature = "pdf")]
-pub(super) use text::{written, written_points};
+pub(super) use text::{written_point, written_points};
 
 use super::VisibleLines;
 use super::chain::{LinePath, chain};

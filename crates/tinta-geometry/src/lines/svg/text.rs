@@ -56,21 +56,21 @@ pub(super) fn path_data(points_px: &[DVec2], is_closed: bool, keep_all: bool) ->
 }
 
 /// A point as it is written.
-pub(in crate::lines) fn written(point_px: DVec2) -> [String; 2] {
+pub(in crate::lines) fn written_point(point_px: DVec2) -> [String; 2] {
     point_px.to_array().map(number)
 }
 
 /// A path of lines and curves as path data.
 pub(super) fn curve_data((first, steps): &(DVec2, Vec<Step>), is_closed: bool) -> String {
-    let mut data = format!("M{}", written(*first).join(" "));
+    let mut data = format!("M{}", written_point(*first).join(" "));
     for (index, step) in steps.iter().enumerate() {
         match step {
             // Closing the path draws it.
             Step::Line(to) if is_closed && index == steps.len() - 1 && to == first => {}
-            Step::Line(to) => data.push_str(&format!("L{}", written(*to).join(" "))),
+            Step::Line(to) => data.push_str(&format!("L{}", written_point(*to).join(" "))),
             Step::Curve(points) => {
                 data.push('C');
-                data.push_str(&points.map(|point| written(point).join(" ")).join(" "));
+                data.push_str(&points.map(|point| written_point(point).join(" ")).join(" "));
             }
         }
     }
