@@ -83,11 +83,13 @@ fn tangents(points: &[DVec2], is_ring: bool) -> Vec<DVec2> {
         (slope(before) * k + slope(after) * h) / (h + k)
     };
     let mut tangents: Vec<DVec2> = (1..last).map(|at| between(at - 1, at)).collect();
-    let [start, end] = match () {
-        () if is_ring => [between(last - 1, 0); 2],
+    let [start, end] = if is_ring {
+        [between(last - 1, 0); 2]
+    } else if last > 1 {
         // A parabola through the first three points, and the last.
-        () if last > 1 => [slope(0) * 2.0 - tangents[0], slope(last - 1) * 2.0 - tangents[last - 2]],
-        () => [slope(0); 2],
+        [slope(0) * 2.0 - tangents[0], slope(last - 1) * 2.0 - tangents[last - 2]]
+    } else {
+        [slope(0); 2]
     };
     tangents.insert(0, start);
     tangents.push(end);
