@@ -117,6 +117,9 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--page", "A4", "--width-mm", "90"], &["--page", "--width-mm"]);
     refuse(&["--page", "A4", "--margin", "105"], &["--margin 105mm", "105 millimetres"]);
     refuse(&["--margin", "10mm"], &["--margin", "--page A4"]);
+    refuse(&["--fit-curves", "0"], &["--fit-curves 0", "0.01 to 100"]);
+    refuse(&["--fit-curves", "0.5", "--provenance"], &["--fit-curves", "--provenance"]);
+    refuse(&["--silhouette", "round"], &["--silhouette", "exact, smooth"]);
 }
 
 #[test]
@@ -212,4 +215,31 @@ fn only_lines_have_outlines_and_millimetres() {
         "96",
     ]);
     assert!(std::fs::read_to_string(&svg).unwrap().contains(r#"id="visible-outline""#));
+}
+
+#[test]
+fn smooth_silhouettes_say_where_they_break_and_lines_are_written_as_curves() {
+    let folder = Folder::new();
+    let [polylines, curves, pdf] = ["a.svg", "b.svg", "c.pdf"].map(|name| folder.path(name));
+    let drawn = |out: &str, options: &[&str]| {
+        made(&[&["render", "builtin:bust", "-o", out, "--silhouette", "smooth", "--size", "128"], options].concat())
+    };
+    let record: serde_json::Value = serde_json::from_slice(&drawn(&polylines, &["--json"])).unwrap();
+    assert_eq!(record["style"]["silhouette"], "smooth");
+    for count in ["crossings", "cusps", "inconsistencies"] {
+        assert!(record["changes"][count].is_u64(), "{count}");
+    }
+    let exact = made(&["render", "builtin:bust", "-o", &folder.path("d.svg"), "--size", "128", "--json"]);
+    let exact: serde_json::Value = serde_json::from_slice(&exact).unwrap();
+    assert!(exact.get("changes").is_none());
+    drawn(&curves, &["--fit-curves", "0.5"]);
+    drawn(&pdf, &["--fit-curves", "0.5"]);
+    let [straight, curved] = [&polylines, &curves].map(|path| std::fs::read_to_string(path).unwrap());
+    let count = |text: &str, what: char| {
+        text.split(" d=\"").skip(1).map(|path| path.split('"').next().unwrap().matches(what).count()).sum::<usize>()
+    };
+    assert_eq!(count(&straight, 'C'), 0);
+    assert!(count(&curved, 'C') > 20, "{}", count(&curved, 'C'));
+    assert!(curved.len() < straight.len(), "{} {}", curved.len(), straight.len());
+    assert!(std::fs::read(&pdf).unwrap().windows(3).any(|word| word == b" c\n"));
 }

@@ -106,6 +106,7 @@ impl Reference {
             crease_angle: CreaseAngle::from_degrees(SOFT_CREASE_DEGREES)?,
             finds_hidden: false,
             finds_outline: false,
+            counts_changes: false,
             ..settings.clone()
         };
         let limit = settings.crease_angle.degrees();

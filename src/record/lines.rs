@@ -3,7 +3,7 @@
 use super::{CameraRecord, ModelRecord};
 use crate::edges::ClassCounts;
 use crate::error::{Error, Result};
-use crate::lines::{LinePath, LineSettings, LineTimes, SvgSettings, VisibleLines};
+use crate::lines::{LinePath, LineSettings, LineTimes, SvgSettings, VisibilityChanges, VisibleLines};
 use crate::mesh::LoadOptions;
 use crate::scene::{Scene, Size};
 use crate::settings::HasSettings;
@@ -34,6 +34,9 @@ pub struct LinesRecord {
     pub camera: CameraRecord,
     /// How many edges there are of each class, each counted in its first one.
     pub edges: ClassCounts,
+    /// Where along smooth silhouettes what is seen begins and ends; absent with others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub changes: Option<VisibilityChanges>,
     /// Pieces of lines, and what they were chained to.
     pub counts: LineCounts,
     /// Reading the models and making meshes of them.

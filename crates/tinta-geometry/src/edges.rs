@@ -23,12 +23,14 @@ mod cones;
 mod mesh_edges;
 mod orientation;
 mod silhouette;
+mod smooth;
 
 pub use classes::{Class, ClassCounts, ClassSet, Classes, CreaseAngle};
 pub use cones::NormalCones;
 pub use mesh_edges::MeshEdges;
 pub use orientation::{Eye, Side, side_of_face};
 pub use silhouette::{SilhouetteRule, Silhouettes};
+pub use smooth::{Shell, SmoothSurface};
 
 use crate::mesh::Mesh;
 use crate::threads::threads_for;

@@ -26,6 +26,10 @@
 
 mod cast;
 mod chain;
+mod changes;
+pub mod closed_forms;
+mod contours;
+mod curves;
 mod drawing;
 mod faces;
 mod features;
@@ -47,14 +51,20 @@ mod pyramid;
 mod raster;
 mod search;
 mod simplify;
+#[cfg(test)]
+mod smooth_tests;
 mod space;
 mod specks;
 mod strokes;
+mod summits;
 mod svg;
+mod turns;
 mod visibility;
 
 pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
+pub use changes::VisibilityChanges;
+pub use curves::{Step, fitted};
 pub use drawing::{DrawnLayer, GHOST_OPACITY, drawn_layers};
 pub use forms::FormSettings;
 pub use layers::{ClassColors, ClassWidths, Layer, OfLayers};
@@ -72,8 +82,9 @@ use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Scene, Size};
-use crate::settings::{HasSettings, Kind, Setting, Table, Value as _, within};
+use crate::settings::{HasSettings, Setting, Table, Value as _, within};
 use crate::threads::both;
+use contours::Contours;
 use faces::Faces;
 use features::{Edges, MendedEdges, Part};
 use glam::DVec2;
@@ -82,7 +93,25 @@ use serde::Serialize;
 use space::Space;
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock};
+use summits::ContourLines;
 use visibility::Lines;
+
+/// Where a silhouette runs.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Contour {
+    /// Along edges between a face seen from the front and one that is not.
+    #[default]
+    Exact,
+    /// Through the faces, where the smooth surface they stand for turns away; along sharp edges as with [`Contour::Exact`].
+    Smooth,
+}
+
+impl Contour {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("exact", Self::Exact), ("smooth", Self::Smooth)];
+}
+
+crate::choices!(Contour);
 
 /// Which lines are wanted.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,6 +121,9 @@ pub struct LineSettings {
     pub classes: ClassSet,
     /// From which angle between faces an edge is a crease. Default 30 degrees; more find fewer lines.
     pub crease_angle: CreaseAngle,
+    /// Where silhouettes run. Default along the mesh's own edges, which is what the faces show; smooth ones are what a curved
+    /// surface that the faces stand for would show.
+    pub silhouette: Contour,
     /// Whether hidden parts are found too. Default yes; without them [`VisibleLines::segments`] has what is seen alone, and no time
     /// is spent on what lies behind.
     pub finds_hidden: bool,
@@ -100,6 +132,9 @@ pub struct LineSettings {
     pub finds_outline: bool,
     /// How strong form lines must be, where their classes are wanted.
     pub forms: FormSettings,
+    /// Whether it is counted where silhouettes begin and end to be seen, and why, for [`VisibleLines::changes`]. Default no; then hidden
+    /// parts are found, too.
+    pub counts_changes: bool,
 }
 
 impl Default for LineSettings {
@@ -114,9 +149,11 @@ impl Default for LineSettings {
                 Class::Intersection,
             ]),
             crease_angle: CreaseAngle::of_drawings(),
+            silhouette: Contour::Exact,
             finds_hidden: true,
             finds_outline: false,
             forms: FormSettings::default(),
+            counts_changes: false,
         }
     }
 }
@@ -135,23 +172,31 @@ impl LineSettings {
         Self { crease_angle: CreaseAngle::default(), ..Self::default() }
     }
 
+    /// Whether smooth contours are drawn.
+    fn has_smooth_contours(&self) -> bool {
+        self.silhouette == Contour::Smooth && self.classes.contains(Class::Silhouette)
+    }
+
     /// The settings, for a table of something that has lines in it.
     pub fn settings() -> Vec<Setting<Self>> {
-        // There for who draws both: inking has the other rule too.
+        // There for who draws both: inking has the listing's rule too, and no smooth one.
         let silhouette = Setting::of(
             "silhouette",
             "RULE",
-            Kind::Choice(vec!["exact"]),
+            Contour::kind(),
             SilhouetteRule::HELP,
-            |_: &Self| SilhouetteRule::Exact.text(),
-            |_, text| match SilhouetteRule::parse(text)? {
-                SilhouetteRule::Exact => Ok(()),
-                SilhouetteRule::Published => Err(Error::value(
+            |lines: &Self| lines.silhouette.text(),
+            |lines, text| match (Contour::parse(text), SilhouetteRule::parse(text)) {
+                (Err(_), Ok(_)) => Err(Error::value(
                     "silhouette",
-                    "paper",
-                    "style lines finds silhouettes exactly; leave it out, or draw --style inking into a .png",
+                    text,
+                    "style lines finds silhouettes exactly or smooth; leave it out, or draw --style inking into a .png",
                 )
                 .into()),
+                (contour, _) => {
+                    lines.silhouette = contour?;
+                    Ok(())
+                }
             },
         );
         let edges = vec![
@@ -177,7 +222,7 @@ pub struct LineSegment {
     /// bit for bit the same end there.
     pub ends_px: [DVec2; 2],
     /// The mesh edge it is part of: two vertices by their 0-based numbers in the file; `None` where faces intersect, and for form
-    /// lines.
+    /// lines and smooth contours, which run through faces.
     pub edge: Option<[u32; 2]>,
     /// The angle between its two faces' normals, degrees; `None` for an edge without exactly two faces with area.
     pub angle_degrees: Option<f64>,
@@ -198,10 +243,12 @@ pub struct VisibleLines {
     /// The picture's size.
     pub size: Size,
     /// All pieces with any length inside the picture and between the near and the far plane, in a stable order: by
-    /// object, then edge, then along it; then intersections, then form lines by object and face.
+    /// object, then edge, then along it; then intersections, then form lines, then smooth contours, by object and face.
     pub segments: Vec<LineSegment>,
     /// How many edges there are of each class, each counted in its first one.
     pub edges: ClassCounts,
+    /// Where along silhouettes what is seen begins and ends, if that was asked for.
+    pub changes: Option<VisibilityChanges>,
     /// How it went.
     pub times: LineTimes,
 }
@@ -242,6 +289,13 @@ impl VisibleLines {
         }
         settings.forms.check()?;
         let has_forms = !settings.classes.and(ClassSet::FORMS).is_empty();
+        let with_hidden;
+        let settings = if settings.counts_changes && !settings.finds_hidden {
+            with_hidden = LineSettings { finds_hidden: true, ..settings.clone() };
+            &with_hidden
+        } else {
+            settings
+        };
         let clock = Instant::now();
         let space = Space::of(scene);
         let unmended: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
@@ -270,7 +324,10 @@ impl VisibleLines {
         progress.go_on()?;
 
         let clock = Instant::now();
-        let (mut lines, mut edges) = features::edge_features(scene, &faces, &parts, settings);
+        let contours = (settings.has_smooth_contours() || settings.counts_changes)
+            .then(|| Contours::new(scene, &space, &faces, &parts, settings.crease_angle));
+        let drawn_contours = contours.as_ref().filter(|_| settings.has_smooth_contours());
+        let (mut lines, mut edges) = features::edge_features(scene, &space, &faces, &parts, drawn_contours, settings);
         let silhouette_ms = milliseconds_since(clock);
         progress.go_on()?;
 
@@ -287,11 +344,24 @@ impl VisibleLines {
         }
         lines.extend(features::near_plane_features(&space, &faces));
         progress.go_on()?;
-        let segments = Lines::new(&space, &faces, &lines, &piercings, pyramid.as_ref(), settings).segments(progress);
+        let lines = Lines::new(&space, &faces, &lines, &piercings, pyramid.as_ref(), settings);
+        let mut segments = lines.segments(progress);
+        let mut changes = None;
+        if let Some(contours) = &contours {
+            let contour_lines = ContourLines { lines: &lines, contours, parts: &parts };
+            if settings.has_smooth_contours() {
+                edges.silhouette += contours.pieces.len();
+                let decided = contour_lines.decided(progress);
+                segments.extend(contour_lines.segments(&decided));
+                changes = settings.counts_changes.then(|| contour_lines.changes(&decided));
+            } else {
+                changes = Some(contour_lines.changes_of_edges(&segments));
+            }
+        }
         progress.go_on()?;
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms };
-        Ok(Self { size: scene.size, segments, edges, times })
+        Ok(Self { size: scene.size, segments, edges, changes, times })
     }
 
     /// Refuses lines that no drawing can hold: not finite, or outside the picture.

@@ -89,6 +89,10 @@ pub const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
 /// a surface may end, and those it shares with a face that is not edge-on are silhouette. One too many costs a ray.
 pub const EDGE_ON: f64 = 1e-9;
 
+/// Distance between a face's unit normal and those of the smooth surface at its corners up to which the face is flat: what six
+/// printed digits leave of it, and far below any angle that is drawn.
+pub const FLAT: f64 = 1e-6;
+
 /// Sine of the angle to straight across a line below which a face's side runs across it: a point moved aside from the line then
 /// stays on that side, which hides what is on either face at it.
 pub const ACROSS: f64 = 1e-9;

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::process::Command;
 
 /// Most crates that may be resolved for this one, itself not counted.
-const MOST_CRATES: usize = 40;
+const MOST_CRATES: usize = 42;
 
 #[test]
 fn it_draws_an_svg() {

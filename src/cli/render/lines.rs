@@ -10,7 +10,7 @@ use std::str::FromStr;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 use tinta::lines::{
-    Hidden, LineSettings, Progress as LineProgress, Raster, chain, pdf_of_paths, raster_of_paths, svg_of_paths,
+    Contour, Hidden, LineSettings, Progress as LineProgress, Raster, chain, pdf_of_paths, raster_of_paths, svg_of_paths,
 };
 use tinta::picture::PictureFormat;
 use tinta::preset::Options;
@@ -132,7 +132,9 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
     let finds_outline = format == Format::Json || asked.tells_outline();
     // What is neither drawn nor counted is not looked for.
     let finds_hidden = format == Format::Json || asked.hidden != Hidden::None || arguments.run.json;
-    let settings = LineSettings { finds_outline, finds_hidden, ..arguments.styles.line_settings(&arguments.forms)? };
+    let asked_lines = arguments.styles.line_settings(&arguments.forms)?;
+    let counts_changes = arguments.run.json && asked_lines.silhouette == Contour::Smooth;
+    let settings = LineSettings { finds_outline, finds_hidden, counts_changes, ..asked_lines };
     let start = Instant::now();
     let (meshes, files) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
@@ -185,6 +187,7 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
         size: scene.size,
         camera: CameraRecord::new(&scene),
         edges: lines.edges,
+        changes: lines.changes,
         counts,
         load_ms,
         times: lines.times,
@@ -277,7 +280,7 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format) -> Result<(
         }
         Format::Picture => {
             let is_given = |name: &str| arguments.lines.options.contains_key(name);
-            let names = ["provenance", "page", "width-mm", "dpi", "margin", "pen"];
+            let names = ["provenance", "page", "width-mm", "dpi", "margin", "pen", "fit-curves"];
             refuse_given(
                 &names.map(|name| (name, is_given(name))),
                 "a picture has pixels and no paper; leave it out, or write a .svg",

@@ -1,6 +1,8 @@
 //! A mesh's edges with what is kept between views: the list, its classes, the faces' planes, the hierarchy.
 
-use super::{Class, ClassSet, Classes, CreaseAngle, EdgeList, Eye, NormalCones, SilhouetteRule, Silhouettes};
+use super::{
+    Class, ClassSet, Classes, CreaseAngle, EdgeList, Eye, NormalCones, SilhouetteRule, Silhouettes, SmoothSurface,
+};
 use crate::mesh::Mesh;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -13,13 +15,22 @@ pub struct MeshEdges {
     cones: OnceLock<NormalCones>,
     /// For the settings last asked for.
     classes: Mutex<Option<(ClassSet, Arc<Classes>)>>,
+    /// For the angle last asked for.
+    smooth: Mutex<Option<Arc<SmoothSurface>>>,
 }
 
 impl MeshEdges {
     /// Builds the list; everything else is made when first asked for.
     pub fn new(mesh: Arc<Mesh>) -> Self {
         let list = EdgeList::new(&mesh);
-        Self { mesh, list, silhouettes: OnceLock::new(), cones: OnceLock::new(), classes: Mutex::new(None) }
+        Self {
+            mesh,
+            list,
+            silhouettes: OnceLock::new(),
+            cones: OnceLock::new(),
+            classes: Mutex::new(None),
+            smooth: Mutex::new(None),
+        }
     }
 
     /// The mesh.
@@ -41,6 +52,19 @@ impl MeshEdges {
                 let classes = Arc::new(Classes::new(&self.mesh, &self.list, crease_angle, wanted));
                 *kept = Some((wanted, classes.clone()));
                 classes
+            }
+        }
+    }
+
+    /// The smooth surface that the faces stand for, sharp at creases of this angle; the last one asked for is kept.
+    pub fn smooth(&self, crease_angle: CreaseAngle) -> Arc<SmoothSurface> {
+        let mut kept = self.smooth.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*kept {
+            Some(smooth) if smooth.crease_angle == crease_angle => smooth.clone(),
+            _ => {
+                let smooth = Arc::new(SmoothSurface::new(&self.mesh, &self.list, crease_angle));
+                *kept = Some(smooth.clone());
+                smooth
             }
         }
     }

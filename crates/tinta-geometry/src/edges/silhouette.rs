@@ -5,8 +5,9 @@
 
 use super::classes::corners;
 use super::{EdgeList, Eye, Incidence, Side, side_of_face};
+use crate::error::Error;
 use crate::mesh::{Mesh, triangle_normal};
-use crate::settings::Setting;
+use crate::settings::{Setting, Value as _};
 use crate::threads::{filled, in_parallel, ranges, threads_for};
 use glam::{DVec3, Vec3, Vec4};
 use serde::Serialize;
@@ -29,14 +30,24 @@ impl SilhouetteRule {
     pub const ALL: [(&'static str, Self); 2] = [("paper", Self::Published), ("exact", Self::Exact)];
 
     /// What the setting does.
-    pub const HELP: &'static str = "Find silhouettes with one view vector for all edges (paper) or exactly (exact)";
+    pub const HELP: &'static str = "Find silhouettes with one view vector for all edges (paper), exactly (exact), or in style lines \
+                                    where the curved surface that the faces stand for turns away (smooth)";
 
     /// What help says of its default.
     pub const SAID_DEFAULT: &'static str = "paper; style lines: exact";
 
     /// The setting of a style that has both.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
-        Setting::field("silhouette", "RULE", Self::HELP, field)
+        let set = move |of: &mut T, text: &str| {
+            if text == "smooth" {
+                let problem = "only style lines finds smooth contours; choose exact, or write a .svg";
+                return Err(Error::value("silhouette", text, problem).into());
+            }
+            *field(of) = Self::parse(text)?;
+            Ok(())
+        };
+        let text = move |of: &T| field(&mut of.clone()).text();
+        Setting::of("silhouette", "RULE", Self::kind(), Self::HELP, text, set)
             .printed("D, Inking: one view vector for all edges")
             .said(Self::SAID_DEFAULT)
     }

@@ -177,7 +177,7 @@ impl Faces {
     /// On which sides of a line at a point a face is between it and the eye: the point lies clearly behind the face's plane,
     /// its image, moved to that side by as little as one likes, in the face's, and where the ray passes the face is not nearer
     /// than the near plane. The image lies on the face's rim if it is within `tie` file units of it: then the side decides.
-    fn hides(&self, space: &Space, face: u32, probe: &Probe, tie: f64) -> [bool; 2] {
+    pub(super) fn hides(&self, space: &Space, face: u32, probe: &Probe, tie: f64) -> [bool; 2] {
         const NEITHER: [bool; 2] = [false; 2];
         let numbers = self.triangles[face as usize];
         let own_ends = match probe.own {

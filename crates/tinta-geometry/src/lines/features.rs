@@ -1,6 +1,7 @@
 //! The lines of a scene before their visibility is known: edges by class, places where surfaces end, intersections.
 
 use super::LineSettings;
+use super::contours::{Contours, OnEdge, between};
 use super::faces::{Faces, Own, near_crossing};
 use super::intersections::Intersection;
 use super::mend::Mended;
@@ -97,14 +98,18 @@ const OCCLUDING: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, 
 
 /// The classes of a mesh's edges that have to be known for some settings.
 pub(super) fn asked(settings: &LineSettings) -> ClassSet {
-    settings.classes.or(OCCLUDING).and(ClassSet::EDGES)
+    let of_contours = if settings.has_smooth_contours() { ClassSet::of(&[Class::Crease]) } else { ClassSet::default() };
+    settings.classes.or(OCCLUDING).or(of_contours).and(ClassSet::EDGES)
 }
 
-/// The edges of all parts that are wanted or hide others, in a stable order, and how many are wanted of each class.
+/// The edges of all parts that are wanted or hide others, in a stable order, and how many are wanted of each class. With smooth
+/// contours only sharp edges are drawn as silhouette, as far as they are; what hides others is the same.
 pub(super) fn edge_features(
     scene: &Scene,
+    space: &Space,
     faces: &Faces,
     parts: &[Part<'_>],
+    contours: Option<&Contours>,
     settings: &LineSettings,
 ) -> (Vec<Feature>, ClassCounts) {
     let mut features = Vec::new();
@@ -130,31 +135,63 @@ pub(super) fn edge_features(
             if silhouette.binary_search(&edge).is_ok() || is_beside_edge_on() {
                 of_edge = of_edge.or(ClassSet::of(&[Class::Silhouette]));
             }
-            let class = of_edge.and(settings.classes).first();
-            if let Some(class) = class {
+            let occludes = !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
+            let on_edge =
+                contours.map_or(OnEdge::ByFaces, |contours| contours.parts[number].on_edge(space, faces, list, edge));
+            let parts_by_class = parts_by_class(of_edge, on_edge, settings.classes);
+            if let Some(class) = parts_by_class.iter().filter_map(|(class, _)| *class).min() {
                 *counts.of(class) += 1;
             }
-            let occludes = !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
-            if class.is_none() && !occludes {
-                continue;
+            for (class, [from, to]) in parts_by_class {
+                if class.is_none() && !occludes {
+                    continue;
+                }
+                let ends = list.positions()[edge as usize];
+                let [low, high] = ends.map(|position| faces.positions[(position + first_position) as usize]);
+                features.push(Feature {
+                    class,
+                    occludes,
+                    object: number as u32,
+                    own: Own::Edge(ends.map(|position| position + first_position)),
+                    ends: [from, to].map(|share| between(low, high, share)),
+                    weld: faces.weld(first_position),
+                    planes: planes_of(faces, list.faces(edge), number_of),
+                    plane: plane_of(faces, list.faces(edge), number_of),
+                    edge: Some(ends.map(|position| mesh.file_vertices[position as usize])),
+                    angle_degrees: angle(mesh, list, edge),
+                });
             }
-            let ends = list.positions()[edge as usize];
-            features.push(Feature {
-                class,
-                occludes,
-                object: number as u32,
-                own: Own::Edge(ends.map(|position| position + first_position)),
-                ends: ends.map(|position| faces.positions[(position + first_position) as usize]),
-                weld: faces.weld(first_position),
-                planes: planes_of(faces, list.faces(edge), number_of),
-                plane: plane_of(faces, list.faces(edge), number_of),
-                edge: Some(ends.map(|position| mesh.file_vertices[position as usize])),
-                angle_degrees: angle(mesh, list, edge),
-            });
         }
         first_position += mesh.positions.len() as u32;
     }
     (features, counts)
+}
+
+/// From where to where an edge is drawn as which class, if as one.
+fn parts_by_class(of_edge: ClassSet, on_edge: OnEdge, wanted: ClassSet) -> Vec<(Option<Class>, [f64; 2])> {
+    let drawn = |with: &[Class]| {
+        let others = of_edge.classes().filter(|class| *class != Class::Silhouette);
+        others.fold(ClassSet::of(with), |set, class| set.or(ClassSet::of(&[class]))).and(wanted).first()
+    };
+    let other = drawn(&[]);
+    let (turned, silhouette) = match on_edge {
+        OnEdge::ByFaces => return vec![(of_edge.and(wanted).first(), [0.0, 1.0])],
+        OnEdge::Parts(parts) => (drawn(&[Class::Silhouette]), parts),
+        OnEdge::OfContour(parts) => (None, parts),
+    };
+    let mut parts = Vec::new();
+    let mut from = 0.0;
+    for part in silhouette {
+        if part[0] > from {
+            parts.push((other, [from, part[0]]));
+        }
+        parts.push((turned, part));
+        from = part[1];
+    }
+    if from < 1.0 {
+        parts.push((other, [from, 1.0]));
+    }
+    parts
 }
 
 /// The planes of the first two faces at an edge.

@@ -50,7 +50,7 @@ impl Lines<'_> {
 
 impl Image {
     /// Where another line's image crosses or touches this one, or lies on it and ends, in places of this one.
-    fn meetings(&self, other: &Self, touch_px: f64) -> impl Iterator<Item = f64> + use<> {
+    pub(super) fn meetings(&self, other: &Self, touch_px: f64) -> impl Iterator<Item = f64> + use<> {
         let along = self.b - self.a;
         let length = along.length();
         let (c, d) = (along.perp_dot(other.a - self.a) / length, along.perp_dot(other.b - self.a) / length);
@@ -64,7 +64,7 @@ impl Image {
 impl Faces {
     /// On which sides of a line at a point something is drawn, at any depth, if the point moves to that side by as little as
     /// one likes. A side of a face within `touch_px` of the point counts as going through it.
-    fn cover(&self, space: &Space, probe: &Probe, touch_px: f64) -> [bool; 2] {
+    pub(super) fn cover(&self, space: &Space, probe: &Probe, touch_px: f64) -> [bool; 2] {
         let column =
             Box3::new((probe.px - touch_px).extend(f64::NEG_INFINITY), (probe.px + touch_px).extend(f64::INFINITY));
         let touch = touch_px / space.px_per_unit(-probe.view.z);

@@ -287,7 +287,13 @@ mod tests {
             object: 0,
         };
         let size = Size { width: 600, height: 400 };
-        VisibleLines { size, segments: vec![segment], edges: ClassCounts::default(), times: LineTimes::default() }
+        VisibleLines {
+            size,
+            segments: vec![segment],
+            edges: ClassCounts::default(),
+            changes: None,
+            times: LineTimes::default(),
+        }
     }
 
     fn page(lines: &VisibleLines, size: PageSize, margin: f64) -> Page {

@@ -6,10 +6,12 @@
 
 use super::VisibleLines;
 use super::chain::{LinePath, chain};
+use super::curves::{Step, fitted};
 use super::drawing::{Drawing, DrawnLayer, GHOST_OPACITY};
-use super::svg::{SvgSettings, mixed, written_points};
+use super::svg::{SvgSettings, mixed, written_point, written_points};
 use crate::error::{Error, Result};
 use crate::scene::{Background, Color};
+use glam::DVec2;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, TextStr};
 
@@ -129,14 +131,34 @@ fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, number: usize, content
 }
 
 fn write_path(settings: &SvgSettings, path: &LinePath, content: &mut Content) {
-    let points = written_points(&settings.points_of(path), path.is_closed, settings.has_provenance);
-    for (index, point) in points.iter().enumerate() {
-        // The very numbers of the SVG.
-        let [x, y] = [0, 1].map(|axis| point[axis].parse().unwrap_or(0.0));
-        match index {
-            0 => content.move_to(x, y),
-            _ => content.line_to(x, y),
-        };
+    // The very numbers of the SVG.
+    let numbers = |point: &[String; 2]| [0, 1].map(|axis| point[axis].parse::<f32>().unwrap_or(0.0));
+    if let Some(error_px) = settings.fit_px {
+        let (first, steps) = fitted(path, error_px);
+        let at = |point: DVec2| numbers(&written_point(point));
+        let [x, y] = at(first);
+        content.move_to(x, y);
+        for step in steps {
+            match step {
+                Step::Line(to) => {
+                    let [x, y] = at(to);
+                    content.line_to(x, y)
+                }
+                Step::Curve(points) => {
+                    let [[x1, y1], [x2, y2], [x3, y3]] = points.map(at);
+                    content.cubic_to(x1, y1, x2, y2, x3, y3)
+                }
+            };
+        }
+    } else {
+        let points = written_points(&settings.points_of(path), path.is_closed, settings.has_provenance);
+        for (index, point) in points.iter().enumerate() {
+            let [x, y] = numbers(point);
+            match index {
+                0 => content.move_to(x, y),
+                _ => content.line_to(x, y),
+            };
+        }
     }
     if path.is_closed {
         content.close_and_stroke()

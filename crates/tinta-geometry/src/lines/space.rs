@@ -72,6 +72,20 @@ impl Space {
         self.rotation * (world - self.eye)
     }
 
+    /// A direction of the world in the eye's space.
+    pub(super) fn direction(&self, world: DVec3) -> DVec3 {
+        self.rotation * world
+    }
+
+    /// The direction in which the image of a point moves with it, of any length.
+    pub(super) fn image_direction(&self, view: DVec3, direction: DVec3) -> DVec2 {
+        let flipped = DVec2::new(direction.x, -direction.y);
+        match self.lens {
+            Lens::Perspective { .. } => flipped - DVec2::new(view.x, -view.y) * (direction.z / view.z),
+            Lens::Parallel { .. } => flipped,
+        }
+    }
+
     /// A point in front of the eye in the picture: pixels from the upper left, y down, and its key.
     pub(super) fn project(&self, view: DVec3) -> (DVec2, f64) {
         let flipped = DVec2::new(view.x, -view.y);

@@ -52,7 +52,7 @@ impl VisibleLines {
     }
 
     fn clone_without_segments(&self) -> Self {
-        Self { size: self.size, segments: Vec::new(), edges: self.edges, times: self.times }
+        Self { size: self.size, segments: Vec::new(), edges: self.edges, changes: self.changes, times: self.times }
     }
 }
 

@@ -87,6 +87,7 @@ mod tests {
             size: Size { width: 100, height: 100 },
             segments: vec![segment(20.0, true), segment(60.0, false)],
             edges: Default::default(),
+            changes: None,
             times: LineTimes::default(),
         }
     }

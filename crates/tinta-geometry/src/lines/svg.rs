@@ -12,10 +12,11 @@ pub(super) use settings::mixed;
 pub use settings::{Hidden, SvgSettings};
 pub(super) use text::decimal;
 #[cfg(feature = "pdf")]
-pub(super) use text::written_points;
+pub(super) use text::{written_point, written_points};
 
 use super::VisibleLines;
 use super::chain::{LinePath, chain};
+use super::curves::fitted;
 use super::drawing::{Drawing, DrawnLayer, GHOST_OPACITY};
 use super::page::PAGE_DECIMALS;
 use crate::error::Result;
@@ -23,7 +24,7 @@ use crate::markup::escaped;
 use crate::markup::recipe_element;
 use crate::scene::Background;
 use std::fmt::Write;
-use text::{hexadecimal, number, path_data};
+use text::{curve_data, hexadecimal, number, path_data};
 
 /// The lines as an SVG file, without spurs and specks.
 ///
@@ -114,8 +115,11 @@ fn write_path(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut Str
     if drawing.settings.has_provenance {
         write_provenance(drawing, class, path, out);
     }
-    let points = drawing.settings.points_of(path);
-    let _ = writeln!(out, r#" d="{}"/>"#, path_data(&points, path.is_closed, drawing.settings.has_provenance));
+    let data = match drawing.settings.fit_px {
+        Some(error_px) => curve_data(&fitted(path, error_px), path.is_closed),
+        None => path_data(&drawing.settings.points_of(path), path.is_closed, drawing.settings.has_provenance),
+    };
+    let _ = writeln!(out, r#" d="{data}"/>"#);
 }
 
 /// Class, object, and for each piece of the path its mesh edge and angle, or `-`.

@@ -36,7 +36,7 @@ pub(super) struct Lines<'a> {
     /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
     pub(super) beside: LineTree,
     pub(super) shortest_px: f64,
-    finds_outline: bool,
+    pub(super) finds_outline: bool,
     pub(super) finds_hidden: bool,
 }
 
@@ -340,7 +340,14 @@ impl<'a> Lines<'a> {
 
     /// Adds where a line's image that lies on this one begins and ends and where both are equally near, and where a nearer one
     /// at which a surface ends crosses or touches it.
-    fn add_crossings(&self, image: &Image, other: &Image, touch_px: f64, occludes: bool, cuts: &mut Vec<f64>) {
+    pub(super) fn add_crossings(
+        &self,
+        image: &Image,
+        other: &Image,
+        touch_px: f64,
+        occludes: bool,
+        cuts: &mut Vec<f64>,
+    ) {
         let along = image.b - image.a;
         let length = along.length();
         let (c, d) = (along.perp_dot(other.a - image.a) / length, along.perp_dot(other.b - image.a) / length);
@@ -367,7 +374,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Where a line passes through a face, if it does.
-    fn piercing(&self, [from, to]: [DVec3; 2], face: u32) -> Option<DVec3> {
+    pub(super) fn piercing(&self, [from, to]: [DVec3; 2], face: u32) -> Option<DVec3> {
         let [a, b, c] = self.faces.corners(face);
         let normal = (b - a).cross(c - a);
         let (start, end) = (normal.dot(from - a), normal.dot(to - a));

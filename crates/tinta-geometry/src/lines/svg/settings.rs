@@ -2,6 +2,7 @@
 
 use crate::edges::Class;
 use crate::error::{Error, Result};
+use crate::lines::curves::FIT_PX;
 use crate::lines::layers::{ClassColors, ClassWidths, Layer};
 use crate::lines::length::{LINE_WIDTH, LINE_WIDTH_RANGE, LINE_WIDTH_SAID, Length, Millimetres, Units};
 use crate::lines::page::{PageSize, Paper};
@@ -29,6 +30,9 @@ pub struct SvgSettings {
     /// Strokes and branches that end free and are shorter than this are left out unless that would open a line; creases below
     /// eight times it, and at most eight widths where it is longer than one. Default the strokes' own width.
     pub min_length: Option<Length>,
+    /// How far lines may be from where they are, pixels, so that they can be written as cubic Bézier curves. Default not at all:
+    /// polylines.
+    pub fit_px: Option<f64>,
     /// A rectangle behind everything, or nothing. Default white.
     pub background: Background,
     /// How large it is on paper. Default left to the program that shows it.
@@ -53,6 +57,7 @@ impl Default for SvgSettings {
             line_width: None,
             class_widths: ClassWidths::default(),
             min_length: None,
+            fit_px: None,
             background: Background::Color(WHITE),
             page_size: PageSize::Unset,
             margin: Millimetres(15.0),
@@ -152,6 +157,16 @@ impl SvgSettings {
             )
             .range(0.0, 20.0, 1)
             .said("the stroke's own width, of creases 8 widths; into .json 0"),
+            Setting::open_field(
+                "fit-curves",
+                "PX",
+                UNSET,
+                "Write lines as cubic Bézier curves, which may be so far from them in pixels of --size; corners and straight lines \
+                 stay",
+                |svg: &mut Self| &mut svg.fit_px,
+            )
+            .range(*FIT_PX.start(), *FIT_PX.end(), 2)
+            .said("none, lines are straight from point to point"),
             width.open(UNSET).said("none, sizes are in pixels"),
             dpi.open(UNSET).said("none, sizes are in pixels"),
             paper.open(UNSET).said("none, sizes are in pixels"),
@@ -228,6 +243,15 @@ impl SvgSettings {
             length.check_unit("min-length", has_paper)?;
             if !(length.number() >= 0.0 && length.number().is_finite()) {
                 return Err(Error::value("min-length", length, "a length is a number, 0 or more"));
+            }
+        }
+        if let Some(error) = self.fit_px {
+            if !FIT_PX.contains(&error) {
+                let problem = format!("the error of curves is a number from {} to {}", FIT_PX.start(), FIT_PX.end());
+                return Err(Error::value("fit-curves", error, problem));
+            }
+            if self.has_provenance {
+                return Err(Error::setting("fit-curves", "--provenance keeps every point; leave out one of the two"));
             }
         }
         if self.margin != Self::default().margin && !matches!(self.page_size, PageSize::Paper(_)) {

@@ -1,5 +1,6 @@
 //! The words of an SVG file: numbers, colours, and texts that XML can hold.
 
+use crate::lines::curves::Step;
 use crate::scene::Color;
 use glam::DVec2;
 
@@ -54,6 +55,31 @@ pub(super) fn path_data(points_px: &[DVec2], is_closed: bool, keep_all: bool) ->
     data
 }
 
+/// A point as it is written.
+pub(in crate::lines) fn written_point(point_px: DVec2) -> [String; 2] {
+    point_px.to_array().map(number)
+}
+
+/// A path of lines and curves as path data.
+pub(super) fn curve_data((first, steps): &(DVec2, Vec<Step>), is_closed: bool) -> String {
+    let mut data = format!("M{}", written_point(*first).join(" "));
+    for (index, step) in steps.iter().enumerate() {
+        match step {
+            // Closing the path draws it.
+            Step::Line(to) if is_closed && index == steps.len() - 1 && to == first => {}
+            Step::Line(to) => data.push_str(&format!("L{}", written_point(*to).join(" "))),
+            Step::Curve(points) => {
+                data.push('C');
+                data.push_str(&points.map(|point| written_point(point).join(" ")).join(" "));
+            }
+        }
+    }
+    if is_closed {
+        data.push('Z');
+    }
+    data
+}
+
 /// A colour as #rrggbb.
 pub(super) fn hexadecimal(Color(channels): Color) -> String {
     let [red, green, blue] = channels.map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8);
@@ -91,6 +117,14 @@ mod tests {
         assert_eq!(path_data(&points, false, true), "M1 2L3 4 3 4 5 6");
         let dot = [[1.0, 2.0], [1.0001, 2.0]].map(DVec2::from_array);
         assert_eq!(path_data(&dot, false, false), "M1 2L1 2");
+    }
+
+    #[test]
+    fn curves_and_lines_follow_one_another() {
+        let [a, b, c] = [[1.0, 2.0], [3.0, 4.0], [5.0, 6.25]].map(DVec2::from_array);
+        let steps = vec![Step::Curve([b, b, c]), Step::Line(a)];
+        assert_eq!(curve_data(&(a, steps.clone()), true), "M1 2C3 4 3 4 5 6.25Z");
+        assert_eq!(curve_data(&(a, steps), false), "M1 2C3 4 3 4 5 6.25L1 2");
     }
 
     #[test]

@@ -1,0 +1,210 @@
+//! The smooth surface that a mesh's faces stand for, as far as contours ask: a normal for each corner, sharp edges apart.
+//!
+//! In: a [`Mesh`], its [`EdgeList`] and the crease angle. Out: [`SmoothSurface`]. Around a position all faces that hang together
+//! over edges that are not sharp share one unit normal in f64: a face weighs in with the sine of its angle there over the
+//! lengths of its sides there (Max 1999: exact on a sphere), where a side counts at least a tenth of its face's longest one, so that
+//! no needle decides for its neighbours. Sharp are creases, boundaries, edges of three faces or more, and edges whose faces are wound
+//! against each other. A file's own normals are not asked: they say how to shade.
+
+use super::{Class, ClassSet, Classes, CreaseAngle, EdgeList, Incidence};
+use crate::mesh::{Mesh, NONE};
+use crate::threads::{filled, threads_for};
+use glam::DVec3;
+
+/// Normals of a mesh as a smooth surface between its sharp edges.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmoothSurface {
+    /// The angle above which edges are sharp.
+    pub crease_angle: CreaseAngle,
+    /// Unit normals; zero where faces around a position cancel each other out or have no area.
+    pub normals: Vec<DVec3>,
+    /// Each normal's position in the mesh.
+    pub normal_positions: Vec<u32>,
+    /// Each face corner's normal.
+    pub corner_normals: Vec<[u32; 3]>,
+    /// Each face's edges, from each corner to the next; [`NONE`] for a face without edges.
+    pub sides: Vec<[u32; 3]>,
+    /// For each edge whether the surface may bend or end there.
+    pub is_sharp: Vec<bool>,
+    /// Of each face how its shell is closed.
+    pub shells: Vec<Shell>,
+    /// Of each position the shell it belongs to, by a number; of several one.
+    pub position_shells: Vec<u32>,
+}
+
+/// What the faces that hang together are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Shell {
+    /// They have an open rim, an edge of three faces, or are wound against each other somewhere.
+    Open,
+    /// They enclose something, their fronts outside.
+    Outward,
+    /// They enclose something, their fronts inside.
+    Inward,
+}
+
+/// Least length of a face's side as a share of its longest one, in the weights of normals.
+const LEAST_SIDE: f64 = 0.1;
+
+/// Volume of a closed shell, as a share of the volumes it is summed from, up to which it encloses nothing but rounding.
+const NO_VOLUME: f64 = 1e-9;
+
+impl SmoothSurface {
+    /// Computes the normals; `edges` is the mesh's own list.
+    pub fn new(mesh: &Mesh, edges: &EdgeList, crease_angle: CreaseAngle) -> Self {
+        let classes = Classes::new(mesh, edges, crease_angle, ClassSet::of(&[Class::Crease]));
+        let mut is_sharp: Vec<bool> =
+            edges.incidence().iter().map(|incidence| *incidence != Incidence::Inner).collect();
+        for edge in classes.marked {
+            is_sharp[edge as usize] = true;
+        }
+        let sides = sides(mesh, edges);
+        let (normals, normal_positions, corner_normals) = normals(mesh, edges, &is_sharp);
+        let (shells, position_shells) = shells(mesh, edges);
+        Self { crease_angle, normals, normal_positions, corner_normals, sides, is_sharp, shells, position_shells }
+    }
+}
+
+/// Each face's edges.
+fn sides(mesh: &Mesh, edges: &EdgeList) -> Vec<[u32; 3]> {
+    let mut sides = vec![[NONE; 3]; mesh.triangles.len()];
+    for (edge, ends) in edges.positions().iter().enumerate() {
+        for face in edges.faces(edge as u32) {
+            if let Some(side) = side_of(&mesh.triangles[*face as usize], *ends) {
+                sides[*face as usize][side] = edge as u32;
+            }
+        }
+    }
+    sides
+}
+
+/// Which side of a face runs between two positions, in either direction.
+fn side_of(triangle: &[u32; 3], [a, b]: [u32; 2]) -> Option<usize> {
+    (0..3).find(|side| {
+        let ends = [triangle[*side], triangle[(side + 1) % 3]];
+        ends == [a, b] || ends == [b, a]
+    })
+}
+
+/// The normals, their positions, and each corner's normal.
+fn normals(mesh: &Mesh, edges: &EdgeList, is_sharp: &[bool]) -> (Vec<DVec3>, Vec<u32>, Vec<[u32; 3]>) {
+    let triangles = &mesh.triangles;
+    let mut groups = Groups::new(triangles.len() * 3);
+    for (edge, ends) in edges.positions().iter().enumerate() {
+        let &[first, second] = edges.faces(edge as u32) else { continue };
+        if is_sharp[edge] {
+            continue;
+        }
+        for end in ends {
+            let corner = |face: u32| {
+                let corner = triangles[face as usize].iter().position(|position| position == end);
+                corner.map(|corner| face * 3 + corner as u32)
+            };
+            if let (Some(first), Some(second)) = (corner(first), corner(second)) {
+                groups.unite(first, second);
+            }
+        }
+    }
+    let weighted = filled(triangles.len(), threads_for(triangles.len()), [DVec3::ZERO; 3], |face| {
+        weighted_normals(triangles[face].map(|position| mesh.positions[position as usize]))
+    });
+    let mut numbers = vec![NONE; triangles.len() * 3];
+    let (mut sums, mut positions): (Vec<DVec3>, Vec<u32>) = (Vec::new(), Vec::new());
+    let mut corners = vec![[NONE; 3]; triangles.len()];
+    for (corner, position) in triangles.as_flattened().iter().enumerate() {
+        let root = groups.root(corner as u32) as usize;
+        if numbers[root] == NONE {
+            numbers[root] = sums.len() as u32;
+            sums.push(DVec3::ZERO);
+            positions.push(*position);
+        }
+        sums[numbers[root] as usize] += weighted[corner / 3][corner % 3];
+        corners[corner / 3][corner % 3] = numbers[root];
+    }
+    let unit = |sum: DVec3| (sum / sum.abs().max_element()).try_normalize().unwrap_or(DVec3::ZERO);
+    (sums.into_iter().map(unit).collect(), positions, corners)
+}
+
+/// A face's normal at each of its corners with its weight there.
+fn weighted_normals(corners: [DVec3; 3]) -> [DVec3; 3] {
+    let [a, b, c] = corners;
+    let lengths = [b - a, c - b, a - c].map(DVec3::length);
+    let longest = lengths[0].max(lengths[1]).max(lengths[2]);
+    // Scaled first, so that neither tiny nor huge faces lose their normal to rounding alone.
+    let normal = ((b - a) / longest).cross((c - a) / longest);
+    let side = |index: usize| (lengths[index] / longest).max(LEAST_SIDE);
+    let weight = |next: usize, previous: usize| 1.0 / (side(next) * side(previous) * longest).powi(2);
+    let weights = [weight(0, 2), weight(1, 0), weight(2, 1)];
+    let is_one = normal.is_finite() && weights.iter().all(|weight| weight.is_finite());
+    if is_one { weights.map(|weight| normal * weight) } else { [DVec3::ZERO; 3] }
+}
+
+/// How the shell of each face is closed, and the shell of each position.
+fn shells(mesh: &Mesh, edges: &EdgeList) -> (Vec<Shell>, Vec<u32>) {
+    let count = mesh.triangles.len();
+    let mut groups = Groups::new(count);
+    let mut is_open = vec![false; count];
+    for edge in 0..edges.len() as u32 {
+        let faces = edges.faces(edge);
+        match (edges.incidence()[edge as usize], faces) {
+            (Incidence::Inner, &[first, second]) => groups.unite(first, second),
+            _ => faces.iter().for_each(|face| is_open[*face as usize] = true),
+        }
+    }
+    let (low, high) = mesh.bounds();
+    let (centre, scale) = (low * 0.5 + high * 0.5, (high * 0.5 - low * 0.5).max_element().max(f64::MIN_POSITIVE));
+    let mut volumes = vec![[0.0f64; 2]; count];
+    let mut shell_is_open = vec![false; count];
+    for (face, triangle) in mesh.triangles.iter().enumerate() {
+        let root = groups.root(face as u32) as usize;
+        let [a, b, c] = triangle.map(|position| (mesh.positions[position as usize] - centre) / scale);
+        let volume = a.dot(b.cross(c));
+        volumes[root][0] += volume;
+        volumes[root][1] += volume.abs();
+        shell_is_open[root] |= is_open[face];
+    }
+    let mut shell = |face: usize| {
+        let root = groups.root(face as u32) as usize;
+        let [volume, sum] = volumes[root];
+        match volume {
+            _ if shell_is_open[root] || volume.abs() <= NO_VOLUME * sum => Shell::Open,
+            volume if volume > 0.0 => Shell::Outward,
+            _ => Shell::Inward,
+        }
+    };
+    let shells = (0..count).map(&mut shell).collect();
+    let mut position_shells = vec![NONE; mesh.positions.len()];
+    for (face, triangle) in mesh.triangles.iter().enumerate() {
+        let number = groups.root(face as u32);
+        triangle.iter().for_each(|position| position_shells[*position as usize] = number);
+    }
+    (shells, position_shells)
+}
+
+/// Numbers in groups (union-find).
+struct Groups {
+    parents: Vec<u32>,
+}
+
+impl Groups {
+    fn new(count: usize) -> Self {
+        Self { parents: (0..count as u32).collect() }
+    }
+
+    /// The lowest number of a group.
+    fn root(&mut self, mut number: u32) -> u32 {
+        while self.parents[number as usize] != number {
+            let above = self.parents[self.parents[number as usize] as usize];
+            self.parents[number as usize] = above;
+            number = above;
+        }
+        number
+    }
+
+    fn unite(&mut self, first: u32, second: u32) {
+        let (first, second) = (self.root(first), self.root(second));
+        let (root, other) = (first.min(second), first.max(second));
+        self.parents[other as usize] = root;
+    }
+}
