@@ -42,7 +42,7 @@ impl ContextLock {
     }
 
     /// Whether a context of this screen is at work.
-    #[cfg(test)]
+    #[cfg(all(test, unix, not(target_os = "macos")))]
     pub(super) fn is_locked(&'static self) -> bool {
         self.0.try_lock().is_err()
     }
