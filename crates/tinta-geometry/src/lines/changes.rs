@@ -18,7 +18,7 @@ use super::turns::{Link, REACH};
 use crate::edges::Class;
 use glam::{DVec2, DVec3};
 use serde::Serialize;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// How often along silhouettes what is seen begins or ends, by reason.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -89,7 +89,7 @@ impl ContourLines<'_> {
         let cusps = self.cusps();
         let features: HashMap<(u32, Option<[u32; 2]>), usize> =
             self.lines.features.iter().enumerate().map(|(index, of)| ((of.object, of.edge), index)).collect();
-        let mut meetings: HashMap<(u32, [u64; 2]), Vec<usize>> = HashMap::new();
+        let mut meetings: BTreeMap<(u32, [u64; 2]), Vec<usize>> = BTreeMap::new();
         for (index, segment) in segments.iter().enumerate() {
             for end in segment.ends_px {
                 meetings.entry((segment.object, bits(end))).or_default().push(index);
@@ -105,9 +105,7 @@ impl ContourLines<'_> {
             })
             .collect();
         let mut changes = VisibilityChanges::default();
-        let mut places: Vec<(&(u32, [u64; 2]), &Vec<usize>)> = meetings.iter().collect();
-        places.sort_unstable();
-        for (_, meeting) in places {
+        for meeting in meetings.values() {
             let seen = meeting.iter().filter(|index| segments[**index].is_visible).count();
             let hidden: Vec<usize> = meeting.iter().copied().filter(|index| !segments[*index].is_visible).collect();
             let is_smooth = meeting.iter().all(|index| smooth[*index].is_some());

