@@ -240,7 +240,7 @@ fn finish(curves: &[Curve], title: &str, sizes: &str, file: &str) {
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench").join(file);
     std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
-    plot(curves, title, sizes, &path).expect("the plot can be drawn");
+    plot(curves, [title, sizes, "milliseconds a frame"], &path).expect("the plot can be drawn");
     println!("  plot: {}", path.display());
 }
 

@@ -36,6 +36,7 @@ mod progress;
 mod provenance;
 mod render;
 mod session;
+mod signals;
 mod standard_input;
 mod standard_output;
 #[cfg(feature = "measuring")]

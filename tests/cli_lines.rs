@@ -1,6 +1,8 @@
 //! `tinta render` into .svg and .json as a user meets it.
 
 use crate::cli::{Folder, refused_in_one_line, tinta};
+use crate::support::growth::FAMILIES;
+use std::path::Path;
 
 fn made(arguments: &[&str]) -> Vec<u8> {
     let output = tinta(arguments);
@@ -242,4 +244,96 @@ fn smooth_silhouettes_say_where_they_break_and_lines_are_written_as_curves() {
     assert!(count(&curved, 'C') > 20, "{}", count(&curved, 'C'));
     assert!(curved.len() < straight.len(), "{} {}", curved.len(), straight.len());
     assert!(std::fs::read(&pdf).unwrap().windows(3).any(|word| word == b" c\n"));
+}
+
+/// A model whose lines take a while, as an OBJ file's text.
+fn slow_model(triangles: usize) -> String {
+    let hair = FAMILIES.iter().find(|family| family.name == "hair").unwrap();
+    let shape = (hair.make)(triangles);
+    let vertices = shape.positions.iter().map(|point| format!("v {} {} {}\n", point.x, point.y, point.z));
+    let faces = shape.triangles.iter().map(|[a, b, c]| format!("f {} {} {}\n", a + 1, b + 1, c + 1));
+    vertices.chain(faces).collect()
+}
+
+#[test]
+fn lines_that_are_not_found_in_time_end_with_a_sentence_and_no_file() {
+    let folder = Folder::new();
+    for name in ["a.svg", "a.pdf", "a.json", "a.png"] {
+        let out = folder.path(name);
+        for more in [&[][..], &["--partial"]] {
+            let words = ["render", "builtin:gear", "-o", &out, "--style", "lines", "--within", "1e-6"];
+            refused_in_one_line(&[&words[..], more].concat(), &["not done within 0.000001 s", "more time"]);
+        }
+        assert!(!Path::new(&out).exists(), "{out}");
+    }
+    let of = |out: &str, more: &[&str], words: &[&str]| {
+        refused_in_one_line(&[&["render", "builtin:gear", "-o", &folder.path(out)][..], more].concat(), words);
+    };
+    of("a.svg", &["--within", "0"], &["--within", "above 0"]);
+    of("a.svg", &["--partial"], &["--within"]);
+    of("a.png", &["--style", "ink", "--within", "5"], &["--within", "exact lines"]);
+    of("a.jpg", &["--style", "lines", "--within", "5", "--partial"], &["--partial", ".svg"]);
+}
+
+#[test]
+fn what_is_done_in_time_is_the_same_as_without_a_limit() {
+    let folder = Folder::new();
+    for name in ["a.svg", "a.json", "a.png"] {
+        let drawn = |more: &[&str]| {
+            let out = folder.path(name);
+            made(&[&["render", "builtin:gear", "-o", &out, "--style", "lines", "--size", "96x64"][..], more].concat());
+            std::fs::read(out).unwrap()
+        };
+        assert_eq!(drawn(&["--within", "3600", "--partial"]), drawn(&[]), "{name}");
+    }
+}
+
+#[test]
+fn a_part_is_written_where_it_is_asked_for_and_says_so() {
+    let folder = Folder::new();
+    let model = folder.file("hair.obj", slow_model(300).as_bytes());
+    for name in ["a.svg", "a.json", "a.png"] {
+        let out = folder.path(name);
+        // However fast the machine is, one of these times is over in the midst of it.
+        let mut seconds = 0.01;
+        let said = loop {
+            let within = format!("{seconds:.4}");
+            let output = tinta(&["render", &model, "-o", &out, "--style", "lines", "--within", &within, "--partial"]);
+            let said = String::from_utf8_lossy(&output.stderr).into_owned();
+            match output.status.code() {
+                Some(0) => break said,
+                Some(2) => assert!(said.contains("not done within") && !Path::new(&out).exists(), "{said}"),
+                code => panic!("{code:?}: {said}"),
+            }
+            seconds *= 1.3;
+        };
+        assert!(said.contains("partial: the time was over before"), "{name}: {said}");
+        let bytes = std::fs::read(&out).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        assert!(text.contains("partial: the time was over before") && !text.contains("tinta again"), "{name}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_the_search_for_lines_with_a_sentence_and_no_file() {
+    use std::io::Write;
+    use std::process::{Command, Stdio};
+    let folder = Folder::new();
+    let out = folder.path("a.svg");
+    let mut process = Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .args(["render", "-", "-o", &out, "--hidden", "dashed"])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // More than a pipe holds: when it is written the program reads, and takes signals.
+    let model = slow_model(3_000);
+    assert!(model.len() > 200_000);
+    process.stdin.take().unwrap().write_all(model.as_bytes()).unwrap();
+    assert!(Command::new("kill").args(["-s", "INT", &process.id().to_string()]).status().unwrap().success());
+    let output = process.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!((output.status.code(), said.trim_end()), (Some(130), "tinta: stopped by a signal; nothing was written"));
+    assert!(!Path::new(&out).exists());
 }

@@ -341,6 +341,14 @@ fn touch(one: [DVec3; 3], [a, b, c]: [DVec3; 3], shared: &[DVec3]) -> bool {
     one.iter().any(near)
 }
 
+/// Asserts that what is said to be seen of a scene is what rays see.
+pub fn assert_as_rays_see(scene: &Scene, what: &str) {
+    let found = published_lines(scene);
+    let agreement = Brute::new(scene, &found).compare(&found, &mut Random::seeded(1));
+    let is_right = agreement.longest_wrong_px <= 0.05 && agreement.wrong_px <= 1e-3 * agreement.length_px;
+    assert!(is_right && agreement.segments > 20, "{what}: {agreement:?}");
+}
+
 fn check(kind: u32, seed: u64) -> Agreement {
     let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
     (0..10).for_each(|_| {

@@ -303,11 +303,11 @@ fn distance(segment: &LineSegment, px: DVec2) -> f64 {
 }
 
 impl Found {
-    fn is_right(&self) -> bool {
+    pub fn is_right(&self) -> bool {
         self.missing.is_empty() && self.invented.is_empty() && self.doubled.is_empty()
     }
 
-    fn summary(&self) -> String {
+    pub fn summary(&self) -> String {
         let first = |list: &[String]| list.first().cloned().unwrap_or_default();
         format!(
             "{} samples, {} drawn; {} missing ({}), {} invented ({}), {} doubled ({})",

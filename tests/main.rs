@@ -46,6 +46,7 @@ mod licences;
 mod lines_brute;
 mod lines_degenerate;
 mod lines_families;
+mod lines_growth;
 mod lines_inking;
 mod lines_invariance;
 mod lines_outline;

@@ -1,5 +1,7 @@
 //! What the integration tests share: scenes, renderers, and comparing pictures so that a failure can be looked at.
 
+pub mod growth;
+
 use glam::DVec3;
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -24,7 +24,14 @@ pub fn segment(class: Class, is_visible: bool, a: [f64; 2], b: [f64; 2]) -> Line
 
 pub fn lines(segments: Vec<LineSegment>) -> VisibleLines {
     let size = Size { width: 120, height: 80 };
-    VisibleLines { size, segments, edges: ClassCounts::default(), changes: None, times: LineTimes::default() }
+    VisibleLines {
+        size,
+        segments,
+        edges: ClassCounts::default(),
+        changes: None,
+        undecided: 0,
+        times: LineTimes::default(),
+    }
 }
 
 /// A square of silhouettes from shuffled pieces, a crease through it with a hidden part, an intersection.

@@ -5,7 +5,6 @@
 //! written down at once.
 
 mod argv;
-mod signals;
 mod staging;
 #[cfg(test)]
 mod tests;
@@ -13,9 +12,9 @@ mod worker;
 mod worker_process;
 
 use super::progress::Progress;
+use super::signals::Stop;
 use super::standard_input;
 use super::{Verdict, plain, print, print_json, say};
-use signals::Stop;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};

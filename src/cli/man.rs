@@ -60,20 +60,18 @@ const ENVIRONMENT: [(&str, &str); 3] = [
 const WITHOUT_OPENGL: [&str; 4] = ["edges", "textures", "completions", "man"];
 
 /// What the exit code says.
-const EXIT_CODES: [(&str, &str); 3] = [
+const EXIT_CODES: [(&str, &str); 4] = [
     ("0", "Done."),
     (
         "1",
         "A check found a difference: pictures that should be equal differ, a case did not end as it must, or a job of a batch failed.",
     ),
     ("2", "Not done; one sentence on standard error says why."),
+    ("130 and 143", "Stopped by Ctrl-C or SIGTERM: exact lines are not written; of a batch jobs are left to do."),
 ];
 
 /// Further ones of `tinta batch`.
-const EXIT_CODES_OF_BATCH: [(&str, &str); 2] = [
-    ("75", "Another run is working on the same slice; try again later."),
-    ("130 and 143", "Stopped by Ctrl-C or SIGTERM with jobs left to do."),
-];
+const EXIT_CODES_OF_BATCH: [(&str, &str); 1] = [("75", "Another run is working on the same slice; try again later.")];
 
 fn pages() -> Vec<Page> {
     let mut whole = super::help::whole().disable_help_subcommand(true);

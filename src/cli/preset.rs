@@ -42,7 +42,7 @@ pub(super) struct LookArguments {
 }
 
 /// Options that say what is done with a picture, not which picture it is: they are in no preset and no recipe.
-const OF_ONE_RUN: [&str; 20] = [
+const OF_ONE_RUN: [&str; 22] = [
     "camera",
     "dump",
     "explain",
@@ -54,6 +54,7 @@ const OF_ONE_RUN: [&str; 20] = [
     "merge",
     "no-recipe",
     "output",
+    "partial",
     "preset",
     "quick",
     "resume",
@@ -63,6 +64,7 @@ const OF_ONE_RUN: [&str; 20] = [
     "suite",
     "tolerance",
     "verify",
+    "within",
 ];
 
 /// What a command line gives, its preset's options among it.

@@ -137,9 +137,23 @@ struct RunArguments {
     #[arg(long, hide_short_help = true, conflicts_with = "json")]
     explain: bool,
 
+    /// End after this time with a sentence and no file, where exact lines are not found by then [default: no limit]
+    #[arg(long, hide_short_help = true, value_name = "SECONDS", value_parser = seconds)]
+    within: Option<f64>,
+
+    /// With --within, write the lines that are certain by then, into a file that says that it is a part [default: off]
+    #[arg(long, hide_short_help = true, requires = "within")]
+    partial: bool,
+
     /// Write GL's buffers after every step of the published plan into this folder, as RGBA PNG [default: off]
     #[arg(long, hide_short_help = true, value_name = "DIR")]
     dump: Option<PathBuf>,
+}
+
+/// A time that may pass.
+fn seconds(text: &str) -> std::result::Result<f64, String> {
+    let seconds = text.parse().ok().filter(|seconds: &f64| *seconds > 0.0 && seconds.is_finite());
+    seconds.ok_or_else(|| "write seconds, a number above 0: 5".to_owned())
 }
 
 /// Frames drawn before measuring: the driver compiles in the first and settles in the second.
@@ -165,7 +179,13 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
 fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Result<Verdict> {
     if let Some(format) = lines::format(arguments)? {
         arguments.prune.refuse()?;
-        return lines::run(arguments, options, format, &session.model_cache).map(|()| Verdict::Good);
+        return lines::run(arguments, options, format, &session.model_cache);
+    }
+    if arguments.run.within.is_some() {
+        return Err(Error::setting(
+            "within",
+            "only exact lines can end before they are done; leave it out, or write a .svg",
+        ));
     }
     arguments.lines.refuse("only style lines has this; leave it out, or write a .svg")?;
     if let Some(target) = arguments.animation.target(&arguments.output, arguments.scene.is_transparent())? {

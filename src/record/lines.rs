@@ -37,6 +37,8 @@ pub struct LinesRecord {
     /// Where along smooth silhouettes what is seen begins and ends; absent with others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changes: Option<VisibilityChanges>,
+    /// How many lines are missing because the time was over.
+    pub undecided: usize,
     /// Pieces of lines, and what they were chained to.
     pub counts: LineCounts,
     /// Reading the models and making meshes of them.
@@ -109,7 +111,8 @@ struct SegmentRecord {
     object: u32,
 }
 
-/// All lines as one JSON object: `size`, `camera`, and `segments`, one a line of the text; pixels, y down.
+/// All lines as one JSON object: `size`, `camera`, and `segments`, one a line of the text; pixels, y down. Of a part also
+/// `partial`, a sentence, and `undecided`, how many lines are missing.
 ///
 /// # Errors
 ///
@@ -117,6 +120,9 @@ struct SegmentRecord {
 pub fn lines_json(lines: &VisibleLines, scene: &Scene) -> Result<String> {
     lines.check()?;
     let mut text = format!("{{\"size\": {},\n", json(&lines.size)?);
+    if let Some(note) = lines.partial_note() {
+        let _ = writeln!(text, "\"partial\": {},\n\"undecided\": {},", json(&note)?, lines.undecided);
+    }
     let _ = write!(text, "\"camera\": {},\n\"segments\": [", json(&CameraRecord::new(scene))?);
     for (index, segment) in lines.segments.iter().enumerate() {
         let [a, b] = segment.ends_px.map(|end| end.to_array());

@@ -2,6 +2,7 @@
 //!
 //! Boxes are f32, rounded outwards: they only say what may overlap, f64 decides.
 
+use crate::threads::{cores, in_chunks};
 use glam::{DVec3, Vec3A};
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
@@ -9,6 +10,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+use std::cell::Cell;
 
 /// An axis-aligned box.
 #[derive(Debug, Clone, Copy)]
@@ -100,7 +102,8 @@ impl BoxTree {
     /// Builds the hierarchy over boxes in time n log n, and returns it with the boxes' numbers in its own order: it speaks of
     /// things by their places in that order, so that whoever keeps them in it has neighbours together.
     pub(crate) fn new(boxes: &[Box3]) -> (Self, Vec<u32>) {
-        let mut groups: Vec<Bvh2> = groups(boxes).into_iter().map(|numbers| built(boxes, numbers)).collect();
+        let groups = groups(boxes);
+        let mut groups = in_chunks(groups.len(), 1, cores(), |range| built(boxes, &groups[range.start]));
         let mut nodes = if groups.len() == 1 { groups.swap_remove(0) } else { joined(&groups) };
         nodes.parents = Vec::new();
         let order = std::mem::take(&mut nodes.primitive_indices);
@@ -211,22 +214,79 @@ impl BoxTree {
         if nodes.is_empty() || !nodes[0].aabb().intersect_aabb(&query.0) {
             return false;
         }
-        let mut open = Vec::with_capacity(64);
-        open.extend(is_other(0).then_some(0));
+        let mut open = Stack::default();
+        if is_other(0) {
+            open.push(0);
+        }
+        let (mut steps, mut is_found) = (0, false);
         while let Some(index) = open.pop() {
             let node = &nodes[index as usize];
+            steps += 1;
             if node.is_leaf() {
+                steps += u64::from(node.prim_count);
                 if visit(node) {
-                    return true;
+                    is_found = true;
+                    break;
                 }
             } else {
-                let children = [node.first_index, node.first_index + 1];
-                let overlaps = |child: &u32| nodes[*child as usize].aabb().intersect_aabb(&query.0) && is_other(*child);
-                open.extend(children.into_iter().filter(overlaps));
+                for child in [node.first_index, node.first_index + 1] {
+                    if nodes[child as usize].aabb().intersect_aabb(&query.0) && is_other(child) {
+                        open.push(child);
+                    }
+                }
             }
         }
-        false
+        STEPS.set(STEPS.get().wrapping_add(steps));
+        is_found
     }
+}
+
+/// Numbers of nodes, the first of them without memory of their own.
+struct Stack {
+    few: [u32; 64],
+    count: usize,
+    more: Vec<u32>,
+}
+
+impl Default for Stack {
+    fn default() -> Self {
+        Self { few: [0; 64], count: 0, more: Vec::new() }
+    }
+}
+
+impl Stack {
+    fn push(&mut self, node: u32) {
+        match self.few.get_mut(self.count) {
+            Some(place) => {
+                *place = node;
+                self.count += 1;
+            }
+            None => self.more.push(node),
+        }
+    }
+
+    fn pop(&mut self) -> Option<u32> {
+        self.more.pop().or_else(|| {
+            self.count = self.count.checked_sub(1)?;
+            Some(self.few[self.count])
+        })
+    }
+}
+
+thread_local! {
+    static STEPS: Cell<u64> = const { Cell::new(0) };
+}
+
+/// How many boxes this thread has looked at, in all hierarchies.
+pub(crate) fn steps() -> u64 {
+    STEPS.get()
+}
+
+/// What work on this thread returns, with the boxes it has looked at.
+pub(crate) fn counting_steps<T>(work: impl FnOnce() -> T) -> (T, u64) {
+    let before = steps();
+    let result = work();
+    (result, steps().wrapping_sub(before))
 }
 
 /// A node's family; none where there are no families.
@@ -263,7 +323,7 @@ fn groups(boxes: &[Box3]) -> Vec<Vec<u32>> {
 }
 
 /// The hierarchy of some of the things.
-fn built(boxes: &[Box3], numbers: Vec<u32>) -> Bvh2 {
+fn built(boxes: &[Box3], numbers: &[u32]) -> Bvh2 {
     let own: Vec<Box3> = numbers.iter().map(|number| boxes[*number as usize]).collect();
     let mut nodes = hierarchy(&own);
     collapse(&mut nodes, LARGEST_LEAF, STEP_COST);

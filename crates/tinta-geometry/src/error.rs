@@ -121,7 +121,9 @@ pub enum Error {
     #[error("the drawing was cancelled; ask for it again")]
     Cancelled,
     /// The work takes longer than it was given.
-    #[error("not done within {seconds} s; give it more time, or ask for less")]
+    #[error(
+        "not done within {seconds} s; give it more time, ask for less, or for the part that is certain by then (partial)"
+    )]
     OutOfTime {
         /// The time it was given, seconds.
         seconds: f64,

@@ -24,6 +24,7 @@
 //! # }
 //! ```
 
+mod beside;
 mod cast;
 mod chain;
 mod changes;
@@ -31,6 +32,7 @@ pub mod closed_forms;
 mod contours;
 mod curves;
 mod drawing;
+mod face_image;
 mod faces;
 mod features;
 mod forms;
@@ -72,7 +74,7 @@ pub use length::{Length, Millimetres, Units, line_width};
 pub use page::{PageSize, Paper, Sheet, Turn};
 #[cfg(feature = "pdf")]
 pub use pdf::{pdf, pdf_of_paths};
-pub use progress::Progress;
+pub use progress::{Phase, Progress};
 pub use raster::{Raster, raster, raster_of_paths};
 pub use strokes::{Polyline, Strokes, strokes};
 pub use svg::{Hidden, SvgSettings, svg, svg_of_paths};
@@ -249,11 +251,14 @@ pub struct VisibleLines {
     pub edges: ClassCounts,
     /// Where along silhouettes what is seen begins and ends, if that was asked for.
     pub changes: Option<VisibilityChanges>,
+    /// How many lines are missing because the time was over before they were decided: none but after
+    /// [`Progress::within_or_part`]. What is there is as in the whole.
+    pub undecided: usize,
     /// How it went.
     pub times: LineTimes,
 }
 
-/// Milliseconds of the clock.
+/// Milliseconds of the clock, and what they went by.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct LineTimes {
     /// Mending, edge list, classes that do not depend on the view, the faces' hierarchy.
@@ -262,6 +267,8 @@ pub struct LineTimes {
     pub silhouette_ms: f64,
     /// Intersections, cuts and rays.
     pub visibility_ms: f64,
+    /// Boxes of faces, lines and groups of them that were looked at for that: the same on every machine for the same scene.
+    pub compared: u64,
 }
 
 impl VisibleLines {
@@ -278,7 +285,8 @@ impl VisibleLines {
     ///
     /// # Errors
     ///
-    /// As there, [`Error::Cancelled`] after [`Progress::cancel`], and [`Error::OutOfTime`] after [`Progress::within`].
+    /// As there, [`Error::Cancelled`] after [`Progress::cancel`], and [`Error::OutOfTime`] after [`Progress::within`] and, while
+    /// nothing is certain, after [`Progress::within_or_part`].
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
         if settings.classes.is_empty() {
             return Err(Error::setting("classes", "name at least one class of lines"));
@@ -334,34 +342,47 @@ impl VisibleLines {
         let clock = Instant::now();
         let pyramid = Pyramid::new(&space, &faces);
         let hides = pyramid.as_ref().filter(|_| !settings.finds_hidden);
-        let (intersections, piercings) = intersections::intersections(&space, &faces, hides);
+        let intersections = intersections::intersections(&space, &faces, hides, progress);
+        progress.go_on()?;
+        let mut compared = intersections.compared;
         if settings.classes.contains(Class::Intersection) {
-            edges.intersection = intersections.len();
-            lines.extend(features::intersection_features(&faces, &parts, &intersections));
+            edges.intersection = intersections.lines.len();
+            lines.extend(features::intersection_features(&faces, &parts, &intersections.lines));
         }
         if has_forms {
             lines.extend(forms::form_features(scene, &space, &faces, &parts, settings, &mut edges));
         }
         lines.extend(features::near_plane_features(&space, &faces));
+        let found = Lines::new(&space, &faces, &lines, &intersections.piercings, pyramid.as_ref(), settings);
+        drop(intersections);
         progress.go_on()?;
-        let lines = Lines::new(&space, &faces, &lines, &piercings, pyramid.as_ref(), settings);
-        let mut segments = lines.segments(progress);
+        let (mut segments, steps) = found.segments(progress);
+        compared += steps;
+        let undecided = progress.undecided()?;
         let mut changes = None;
         if let Some(contours) = &contours {
-            let contour_lines = ContourLines { lines: &lines, contours, parts: &parts };
+            let contour_lines = ContourLines { lines: &found, contours, parts: &parts };
             if settings.has_smooth_contours() {
                 edges.silhouette += contours.pieces.len();
                 let decided = contour_lines.decided(progress);
+                // A part of smooth contours is none.
+                progress.go_on()?;
                 segments.extend(contour_lines.segments(&decided));
                 changes = settings.counts_changes.then(|| contour_lines.changes(&decided));
             } else {
+                progress.go_on()?;
                 changes = Some(contour_lines.changes_of_edges(&segments));
             }
         }
-        progress.go_on()?;
         let visibility_ms = milliseconds_since(clock);
-        let times = LineTimes { topology_ms, silhouette_ms, visibility_ms };
-        Ok(Self { size: scene.size, segments, edges, changes, times })
+        let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };
+        Ok(Self { size: scene.size, segments, edges, changes, undecided, times })
+    }
+
+    /// What files say of lines of which some are missing, see [`VisibleLines::undecided`].
+    pub fn partial_note(&self) -> Option<String> {
+        let lines = if self.undecided == 1 { "1 line was" } else { &format!("{} lines were", self.undecided) };
+        (self.undecided > 0).then(|| format!("partial: the time was over before {lines} decided"))
     }
 
     /// Refuses lines that no drawing can hold: not finite, or outside the picture.

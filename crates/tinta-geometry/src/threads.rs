@@ -97,13 +97,50 @@ pub fn in_chunks<T: Send + Sync>(
     threads: usize,
     work: impl Fn(std::ops::Range<usize>) -> T + Sync,
 ) -> Vec<T> {
+    in_strides(count, length, threads, |_| 1, work)
+}
+
+/// As [`in_chunks`], taking pieces from all over the whole, so that what is done at any time stands for what is not.
+pub fn spread_chunks<T: Send + Sync>(
+    count: usize,
+    length: usize,
+    threads: usize,
+    work: impl Fn(std::ops::Range<usize>) -> T + Sync,
+) -> Vec<T> {
+    in_strides(count, length, threads, stride, work)
+}
+
+/// A step that leads through all of so many places, each once, and is about their golden section: so neighbours come far apart.
+fn stride(count: usize) -> usize {
+    let divisor = |mut a: usize, mut b: usize| {
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    };
+    let first = (count as f64 * 0.618) as usize;
+    (first.max(1)..).find(|step| divisor(*step, count) <= 1).unwrap_or(1)
+}
+
+fn in_strides<T: Send + Sync>(
+    count: usize,
+    length: usize,
+    threads: usize,
+    stride: impl Fn(usize) -> usize,
+    work: impl Fn(std::ops::Range<usize>) -> T + Sync,
+) -> Vec<T> {
     let pieces = ranges(count, count.div_ceil(length.max(1)));
+    let stride = stride(pieces.len());
     let next = AtomicUsize::new(0);
     let results: Vec<OnceLock<T>> = pieces.iter().map(|_| OnceLock::new()).collect();
     let take = || {
         loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(piece) = pieces.get(index) else { return };
+            let turn = next.fetch_add(1, Ordering::Relaxed);
+            if turn >= pieces.len() {
+                return;
+            }
+            let index = (turn as u128 * stride as u128 % pieces.len() as u128) as usize;
+            let piece = &pieces[index];
             // Each index is taken once, so that nothing was there.
             let _ = results[index].set(work(piece.clone()));
         }
@@ -129,4 +166,34 @@ pub fn both<A, B: Send>(first: impl FnOnce() -> A, second: impl Fn() -> B + Sync
         }
         Err(_) => (first(), second()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spread_chunks_are_all_taken_once_and_returned_in_order() {
+        for count in [0, 1, 2, 7, 64, 100, 1000] {
+            let taken = AtomicUsize::new(0);
+            let chunks = spread_chunks(count, 3, 2, |range| {
+                taken.fetch_add(range.len(), Ordering::Relaxed);
+                range
+            });
+            assert_eq!(taken.into_inner(), count);
+            assert_eq!(chunks.into_iter().flatten().collect::<Vec<usize>>(), (0..count).collect::<Vec<usize>>());
+        }
+    }
+
+    #[test]
+    fn what_is_taken_first_is_from_all_over_the_whole() {
+        let order = Mutex::new(Vec::new());
+        spread_chunks(1000, 1, 1, |range| order.lock().unwrap().push(range.start));
+        let order = order.into_inner().unwrap();
+        // Of the first tenth of the turns some are in every tenth of the whole.
+        for tenth in 0..10 {
+            let count = order[..100].iter().filter(|place| **place / 100 == tenth).count();
+            assert!((5..=20).contains(&count), "{count} in tenth {tenth}");
+        }
+    }
 }

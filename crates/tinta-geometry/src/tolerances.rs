@@ -79,6 +79,10 @@ pub const TIE: f64 = 2e-11;
 /// error.
 pub const TOUCH: f64 = 1e-7;
 
+/// Distance along a line from a corner in which it ends, as a share of the picture's larger side, up to which a face with that
+/// corner hides it that does from there on: by the rule for contact alone it would be seen again beside the corner.
+pub const NEAR_CORNER: f64 = 4e-5;
+
 /// Length, as a share of the picture's larger side, below which a line or a piece of one is a point: an edge seen end-on.
 pub const SHORTEST_LINE: f64 = 1e-7;
 

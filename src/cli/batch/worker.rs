@@ -4,9 +4,10 @@
 use super::super::measure;
 use super::super::preset::{Given, parse};
 use super::super::session::Session;
+use super::super::signals;
 use super::super::{Command, Stop, Verdict, compare, messages, render};
+use super::argv::argv;
 use super::staging::{self, StagedFolder};
-use super::{argv::argv, signals};
 use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

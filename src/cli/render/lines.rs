@@ -1,8 +1,11 @@
 //! `tinta render` of exact lines, into an SVG, PDF, JSON or picture's file. No OpenGL is opened.
 
+use super::super::messages::is_captured;
 use super::super::model_cache::ModelCache;
 use super::super::models::load_with_files;
 use super::super::progress::Progress;
+use super::super::signals::Stop;
+use super::super::{Verdict, say};
 use super::{Arguments, keep, model_records};
 use crate::choice::meant_or;
 use std::path::Path;
@@ -10,9 +13,10 @@ use std::str::FromStr;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 use tinta::lines::{
-    Contour, Hidden, LineSettings, Progress as LineProgress, Raster, chain, pdf_of_paths, raster_of_paths, svg_of_paths,
+    Contour, Hidden, LineSettings, Phase, Progress as LineProgress, Raster, chain, pdf_of_paths, raster_of_paths,
+    svg_of_paths,
 };
-use tinta::picture::PictureFormat;
+use tinta::picture::{Note, PictureFormat};
 use tinta::preset::Options;
 use tinta::record::{CameraRecord, LineCounts, LinesRecord, LinesStyle, ModelRecord, lines_json};
 use tinta::renderer::milliseconds_since;
@@ -123,9 +127,17 @@ fn is_of_a_picture(extension: &str) -> bool {
 }
 
 /// Finds the lines and writes them.
-pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, model_cache: &ModelCache) -> Result<()> {
+pub(super) fn run(
+    arguments: &Arguments,
+    options: &Options,
+    format: Format,
+    model_cache: &ModelCache,
+) -> Result<Verdict> {
     check_output(arguments, format)?;
     refuse_what_lines_have_not(arguments, format)?;
+    let progress = progress(arguments)?;
+    // A job of a batch leaves signals to its run.
+    let stop = (!is_captured()).then(Stop::on_signals);
     let asked = svg_settings(arguments, None)?;
     asked.check()?;
     // A file of all pieces says of each; a drawing is cut only where that shows.
@@ -139,14 +151,21 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
     let (meshes, files) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, &arguments.scene_settings()?)?;
-    let lines = find(&scene, &settings)?;
+    let lines = match find(&scene, &settings, &progress, stop.as_ref()) {
+        Err(Error::Cancelled) => return Ok(stopped(stop.as_ref())),
+        found => found?,
+    };
+    let note = lines.partial_note();
+    if let Some(note) = &note {
+        say(&format!("tinta: {}: {note}", arguments.output));
+    }
     if !lines.segments.iter().any(|segment| segment.is_visible) {
-        super::super::say(
-            "tinta: no line of these classes is visible in this picture; see --classes, --eye and --target",
-        );
+        say("tinta: no line of these classes is visible in this picture; see --classes, --eye and --target");
     }
 
     let recipe = match format {
+        // What there is of a part depends on the machine: nothing makes it again.
+        _ if note.is_some() => None,
         Format::Svg | Format::Pdf | Format::Picture => {
             let files = keep::files(arguments, &scene, &files, None);
             keep::recipe(arguments, options, scene.size, files, None)
@@ -160,6 +179,9 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
     let is_chained = format != Format::Json || arguments.run.json;
     let paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
     let counts = LineCounts::new(&lines, &paths);
+    if stop.as_ref().is_some_and(Stop::is_asked) {
+        return Ok(stopped(stop.as_ref()));
+    }
     let write = |bytes: Vec<u8>| TextTarget::check(&arguments.output)?.write_bytes(&bytes);
     match format {
         Format::Svg => write(svg_of_paths(&lines, paths, &drawn)?.into_bytes())?,
@@ -168,12 +190,14 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
         Format::Picture => {
             let Raster { size, pixels } = raster_of_paths(&lines, paths, &drawn)?;
             let target = Target::check(&arguments.output, arguments.scene.is_transparent())?;
-            target.write_with(&Picture { size, pixels }, recipe.as_ref().and_then(Recipe::note).as_ref())?;
+            let said = note.map(|text| Note { keyword: "Comment", text });
+            let said = said.or_else(|| recipe.as_ref().and_then(Recipe::note));
+            target.write_with(&Picture { size, pixels }, said.as_ref())?;
         }
     }
     let lines_ms = milliseconds_since(start);
     if !arguments.run.json {
-        return Ok(());
+        return Ok(Verdict::Good);
     }
     let models = model_records(&scene, arguments.models.len());
     super::super::print_json(&LinesRecord {
@@ -188,11 +212,26 @@ pub(super) fn run(arguments: &Arguments, options: &Options, format: Format, mode
         camera: CameraRecord::new(&scene),
         edges: lines.edges,
         changes: lines.changes,
+        undecided: lines.undecided,
         counts,
         load_ms,
         times: lines.times,
         lines_ms,
     })
+    .map(|()| Verdict::Good)
+}
+
+/// The time that the lines may take, from now on.
+fn progress(arguments: &Arguments) -> Result<LineProgress> {
+    let Some(seconds) = arguments.run.within else { return Ok(LineProgress::default()) };
+    let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
+    Ok(if arguments.run.partial { LineProgress::within_or_part(limit) } else { LineProgress::within(limit) })
+}
+
+/// What a signal has ended.
+fn stopped(stop: Option<&Stop>) -> Verdict {
+    say("tinta: stopped by a signal; nothing was written");
+    Verdict::Stopped { signal: stop.map_or(0, Stop::signal) }
 }
 
 /// Writes nothing yet: checks that the file can be written.
@@ -207,9 +246,8 @@ fn check_output(arguments: &Arguments, format: Format) -> Result<()> {
 const GLANCE: Duration = Duration::from_millis(200);
 
 /// Finds the lines, on a thread of its own so that this one can say how far it is.
-fn find(scene: &Scene, settings: &LineSettings) -> Result<VisibleLines> {
-    let state = LineProgress::default();
-    let work = || VisibleLines::with_progress(scene, settings, &state);
+fn find(scene: &Scene, settings: &LineSettings, progress: &LineProgress, stop: Option<&Stop>) -> Result<VisibleLines> {
+    let work = || VisibleLines::with_progress(scene, settings, progress);
     std::thread::scope(|scope| {
         let (sender, receiver) = std::sync::mpsc::channel();
         let start = std::thread::Builder::new().spawn_scoped(scope, move || {
@@ -217,23 +255,38 @@ fn find(scene: &Scene, settings: &LineSettings) -> Result<VisibleLines> {
             let _ = sender.send(work());
         });
         if start.is_err() {
-            return VisibleLines::of(scene, settings);
+            return VisibleLines::with_progress(scene, settings, progress);
         }
-        let mut bar = None;
+        let mut bar: Option<(Phase, Progress)> = None;
         loop {
             match receiver.recv_timeout(GLANCE) {
                 Ok(lines) => return lines,
                 Err(RecvTimeoutError::Timeout) => {
-                    let (done, total) = state.state();
-                    let bar = bar.get_or_insert_with(|| Progress::new("finding lines", 0));
-                    // Until the lines are known there is nothing to count.
+                    if stop.is_some_and(Stop::is_asked) {
+                        progress.cancel();
+                    }
+                    let (phase, (done, total)) = (progress.phase(), progress.state());
+                    // Of each phase the time left is that of its own steps.
+                    let (_, bar) = match bar.take().filter(|(known, _)| *known == phase) {
+                        Some(known) => bar.insert(known),
+                        None => bar.insert((phase, Progress::new(word(phase), 0))),
+                    };
                     if total == 0 { bar.wait() } else { bar.set(done as u64, total as u64) }
                 }
                 // The thread has panicked; the scope passes that on.
-                Err(RecvTimeoutError::Disconnected) => return VisibleLines::of(scene, settings),
+                Err(RecvTimeoutError::Disconnected) => return VisibleLines::with_progress(scene, settings, progress),
             }
         }
     })
+}
+
+/// What is done in a phase.
+fn word(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Preparing => "preparing lines",
+        Phase::Intersections => "finding intersections",
+        Phase::Lines => "finding lines",
+    }
 }
 
 /// How the SVG is to be written. Its command has a name of its own for the output: the same drawing is the same bytes wherever
@@ -263,6 +316,13 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format) -> Result<(
             ("animate", arguments.animation.animate.is_some()),
         ],
         "style lines has no passes and no frames; leave it out, or name a picture such as drawing.png",
+    )?;
+    let holds_note = format != Format::Picture
+        || arguments.output == "-"
+        || PictureFormat::of(Path::new(&arguments.output)) == Some(PictureFormat::Png);
+    refuse_given(
+        &[("partial", run.partial && !holds_note)],
+        "this format has no place to say that the drawing is a part; write a .svg, .pdf, .json or .png",
     )?;
     refuse_given(
         &[("no-borders", arguments.styles.are_without_borders())],

@@ -28,6 +28,8 @@ const PEN_DASHES: [f64; 2] = [1.0 / 128.0, 1.0 / 170.0];
 /// What is to be written.
 pub(super) struct Drawing<'a> {
     pub segments: &'a [LineSegment],
+    /// What is said of lines that are a part.
+    pub note: Option<String>,
     pub settings: &'a SvgSettings,
     pub page: Page,
     /// From the lowest to the highest, without those that have no lines.
@@ -83,7 +85,7 @@ impl<'a> Drawing<'a> {
             (!drawn.paths.is_empty()).then_some(drawn)
         });
         let layers = layers.collect();
-        Ok(Self { segments: &lines.segments, settings, page, layers })
+        Ok(Self { segments: &lines.segments, note: lines.partial_note(), settings, page, layers })
     }
 }
 

@@ -64,6 +64,20 @@ pub(super) enum Own {
     Faces([u32; 2]),
 }
 
+impl Own {
+    /// The positions in which the line ends, as far as it ends in some: an intersection of faces with a common corner begins in that.
+    pub(super) fn corners(self, faces: &Faces) -> [u32; 2] {
+        match self {
+            Self::Edge(ends) => ends,
+            Self::Faces([first, second]) => {
+                let [first, second] = [first, second].map(|face| faces.triangles[face as usize]);
+                let common = first.into_iter().find(|corner| second.contains(corner) && first != second);
+                [common.unwrap_or(u32::MAX), u32::MAX]
+            }
+        }
+    }
+}
+
 /// Faces around one position from which on they are compared by their outer sides only: below, comparing all costs less.
 const HUB: u32 = 256;
 
@@ -333,7 +347,7 @@ pub(super) fn near_crossing(space: &Space, a: DVec3, b: DVec3) -> Option<DVec3> 
 }
 
 /// Threads for so many simple things.
-fn worth(count: usize) -> usize {
+pub(super) fn worth(count: usize) -> usize {
     const WORTH_A_THREAD: usize = 20_000;
     cores().min(count / WORTH_A_THREAD).max(1)
 }

@@ -80,16 +80,20 @@ impl Image {
         ((start < 0.0) != (end < 0.0)).then(|| start / (start - end))
     }
 
-    /// The directions, in radians between 0 and pi, that a line may have which touches this one at two places: from where to
-    /// where; and the same once more half a turn away where they reach over an end.
-    pub(super) fn directions(&self, touch_px: f64) -> [[f64; 2]; 2] {
+    /// The directions that a line may have which touches this one at two places, from where to where, as the third coordinate of
+    /// boxes; and the same once more half a turn away where they reach over an end. Of two lines one has what the other has then.
+    pub(super) fn directions(&self, touch_px: f64) -> impl Iterator<Item = [f64; 2]> + use<> {
         /// Far more than rounding turns a line by.
         const LEAST: f64 = 1e-6;
+        /// Pixels that a radian counts: lines apart by their directions are then apart in the hierarchy, too.
+        const PX: f64 = 1024.0;
         let along = self.b - self.a;
         let direction = along.y.atan2(along.x).rem_euclid(PI);
         let spread = (2.0 * touch_px / along.length() + LEAST).min(PI);
         let turned = if direction < PI * 0.5 { direction + PI } else { direction - PI };
-        [direction, turned].map(|direction| [direction - spread, direction + spread])
+        let reaches_over = direction < spread || direction + spread > PI;
+        let all = [Some(direction), reaches_over.then_some(turned)];
+        all.into_iter().flatten().map(move |direction| [(direction - spread) * PX, (direction + spread) * PX])
     }
 
     /// The pixel at a place from 0 to 1.
@@ -163,6 +167,14 @@ pub(super) struct LineTree {
 }
 
 impl LineParts {
+    /// Adds those of another.
+    pub(super) fn append(&mut self, other: Self) {
+        self.boxes.extend(other.boxes);
+        self.numbers.extend(other.numbers);
+        self.planes.extend(other.planes);
+        self.hubs.extend(other.hubs);
+    }
+
     /// Adds a part of a line.
     pub(super) fn add(&mut self, around: Box3, line: usize) {
         self.boxes.push(around);

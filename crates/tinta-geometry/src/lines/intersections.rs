@@ -6,10 +6,11 @@
 //! of the other lie on one another and do not intersect.
 
 use super::faces::Faces;
+use super::progress::{Phase, Progress};
 use super::pyramid::Pyramid;
 use super::space::Space;
-use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY};
-use crate::threads::{cores, in_chunks};
+use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY, counting_steps};
+use crate::threads::{cores, in_chunks, spread_chunks};
 use crate::tolerances::CONTACT;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
@@ -32,12 +33,24 @@ pub(super) struct Piercing {
     pub point: DVec3,
 }
 
-/// All intersections of a scene's faces, by their faces' numbers, and where edges pierce faces; of what a pyramid hides none.
+/// What faces that pass through one another have in common.
+#[derive(Default)]
+pub(super) struct Intersections {
+    /// By their faces' numbers.
+    pub lines: Vec<Intersection>,
+    pub piercings: Vec<Piercing>,
+    /// Boxes looked at.
+    pub compared: u64,
+}
+
+/// All intersections of a scene's faces and where edges pierce faces; of what a pyramid hides none. Not all where the work is to
+/// end before it is done.
 pub(super) fn intersections(
     space: &Space,
     faces: &Faces,
     pyramid: Option<&Pyramid>,
-) -> (Vec<Intersection>, Vec<Piercing>) {
+    progress: &Progress,
+) -> Intersections {
     let seen = pyramid.map(|pyramid| pyramid.seen(space, faces));
     let is_seen = |place: u32| seen.as_ref().is_none_or(|seen| seen[place as usize]);
     let image = |point: DVec3| space.project(point);
@@ -45,12 +58,19 @@ pub(super) fn intersections(
         let is_in_front = || ends.iter().all(|end| -end.z >= space.near);
         !pyramid.is_some_and(|pyramid| is_in_front() && pyramid.hides_line(ends.map(image)))
     };
-    const GROUPS: usize = 512;
-    let parts = in_chunks(faces.tree.group_count(), GROUPS, cores(), |groups| {
-        let mut found = Vec::new();
+    const GROUPS: usize = 64;
+    const PAIRS_A_GLANCE: u32 = 1024;
+    progress.begin(Phase::Intersections, faces.tree.group_count());
+    let in_groups = |groups: std::ops::Range<usize>| {
+        let count = groups.len();
+        let (mut found, mut pairs) = (Vec::new(), 0u32);
         // Pairs come leaf by leaf, and the places in a leaf follow one another.
         let mut plates: [Option<Plate>; LARGEST_LEAF as usize] = Default::default();
         faces.tree.pairs(groups, |first, second| {
+            pairs = pairs.wrapping_add(1);
+            if pairs % PAIRS_A_GLANCE == 0 && progress.is_over() {
+                return true;
+            }
             if !is_seen(first) || !is_seen(second) {
                 return false;
             }
@@ -62,25 +82,41 @@ pub(super) fn intersections(
             found.extend(meeting.filter(|meeting| is_open(meeting.ends)));
             false
         });
+        progress.advance(count);
         found
-    });
-    let mut found: Vec<Found> = parts.concat();
-    found.extend(around_hubs(space, faces));
-    found.sort_by_key(|found| found.faces.map(|face| faces.numbers[face as usize]));
+    };
+    let parts = spread_chunks(faces.tree.group_count(), GROUPS, cores(), |groups| counting_steps(|| in_groups(groups)));
+    let mut compared: u64 = parts.iter().map(|(_, steps)| steps).sum();
+    let mut found: Vec<Found> = Vec::with_capacity(parts.iter().map(|(found, _)| found.len()).sum());
+    parts.into_iter().for_each(|(some, _)| found.extend(some));
+    let (of_hubs, steps) = around_hubs(space, faces, progress);
+    compared += steps;
+    found.extend(of_hubs.into_iter().filter(|found| is_open(found.ends)));
+    if progress.is_over() {
+        return Intersections { compared, ..Intersections::default() };
+    }
+    // Two of one pair are the same.
+    found.sort_unstable_by_key(|found| found.faces.map(|face| faces.numbers[face as usize]));
     let piercings = found.iter().flat_map(|found| found.piercings).flatten().collect();
     let through = Through::new(space, faces, &found);
     let lines = found.iter().filter(|found| found.is_line && through.allows(found));
-    (lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect(), piercings)
+    let lines = lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect();
+    Intersections { lines, piercings, compared }
 }
 
-/// What faces around one hub have in common but for it: from the hub on, until a side opposite to it passes through a face.
-fn around_hubs(space: &Space, faces: &Faces) -> Vec<Found> {
-    let mut pairs = Vec::new();
+/// What faces around one hub have in common but for it: from the hub on, until a side opposite to it passes through a face. With
+/// how many boxes were looked at.
+fn around_hubs(space: &Space, faces: &Faces, progress: &Progress) -> (Vec<Found>, u64) {
+    const AT_ONCE: usize = 256;
+    if faces.hubs.is_empty() {
+        return (Vec::new(), 0);
+    }
     let spines = spines(faces);
-    for place in (0..faces.hubs.len() as u32).filter(|place| faces.hubs[*place as usize] != NO_FAMILY) {
+    let pairs_of = |place: u32| {
         let hub = faces.hubs[place as usize];
-        if spines.contains(&hub) {
-            continue;
+        let mut pairs = Vec::new();
+        if hub == NO_FAMILY || spines.contains(&hub) || progress.is_over() {
+            return pairs;
         }
         let opposite = faces.triangles[place as usize].into_iter().filter(|position| *position != hub);
         let images = opposite.map(|position| {
@@ -96,10 +132,21 @@ fn around_hubs(space: &Space, faces: &Faces) -> Vec<Found> {
             }
             false
         });
-    }
+        pairs
+    };
+    let parts = in_chunks(faces.hubs.len(), AT_ONCE, cores(), |range| {
+        counting_steps(|| range.flat_map(|place| pairs_of(place as u32)).collect::<Vec<[u32; 2]>>())
+    });
+    let compared = parts.iter().map(|(_, steps)| steps).sum();
+    let mut pairs: Vec<[u32; 2]> = parts.into_iter().flat_map(|(pairs, _)| pairs).collect();
     pairs.sort_unstable();
     pairs.dedup();
-    pairs.into_iter().filter_map(|[first, second]| Plate::new(space, faces, first).meet(space, faces, second)).collect()
+    let meeting = |pair: usize| {
+        let [first, second] = pairs[pair];
+        if progress.is_over() { None } else { Plate::new(space, faces, first).meet(space, faces, second) }
+    };
+    let found = in_chunks(pairs.len(), AT_ONCE, cores(), |range| range.filter_map(meeting).collect::<Vec<Found>>());
+    (found.into_iter().flatten().collect(), compared)
 }
 
 /// Hubs whose faces all have a second corner in common: an edge, and nothing else.

@@ -5,7 +5,7 @@
 //! that the [pyramid](super::pyramid) hides are left out, for what they hide is hidden anyway.
 
 use super::faces::Faces;
-use super::pyramid::Pyramid;
+use super::pyramid::{Pyramid, layers};
 use super::space::Space;
 use crate::bvh::{Box3, BoxTree, LeftOut};
 use crate::threads::{cores, in_chunks};
@@ -31,13 +31,7 @@ impl Occluders {
     /// The parts of the faces, or `None` where the faces themselves do.
     pub(super) fn new(space: &Space, faces: &Faces, pyramid: Option<&Pyramid>) -> Option<Self> {
         let boxes = faces.tree.boxes();
-        let area = |around: &Box3| {
-            let [low, high] = around.corners();
-            let (low, high) = (low.truncate().max(glam::DVec2::ZERO), high.truncate().min(space.size));
-            (high - low).max(glam::DVec2::ZERO).element_product()
-        };
-        let layers = boxes.iter().map(area).sum::<f64>() / space.size.element_product();
-        if layers < LAYERS {
+        if layers(space, boxes.iter()) < LAYERS {
             return None;
         }
         let longest = space.size.max_element() * LONGEST;
@@ -83,6 +77,9 @@ impl Occluders {
         if !faces.planes.is_empty() {
             let planes: Vec<u32> = places.iter().map(|place| faces.plane(faces.numbers[*place as usize])).collect();
             tree.set_planes(&planes);
+        }
+        if !faces.hubs.is_empty() {
+            tree.set_hubs(&places.iter().map(|place| faces.hubs[*place as usize]).collect::<Vec<u32>>());
         }
         Some(Self { tree, places })
     }

@@ -292,6 +292,7 @@ mod tests {
             segments: vec![segment],
             edges: ClassCounts::default(),
             changes: None,
+            undecided: 0,
             times: LineTimes::default(),
         }
     }

@@ -105,6 +105,9 @@ fn written(drawing: &Drawing<'_>, scale: f64) -> Vec<u8> {
     if !settings.command.is_empty() {
         information.subject(TextStr(&settings.command));
     }
+    if let Some(note) = &drawing.note {
+        information.keywords(TextStr(note));
+    }
     information.finish();
     pdf.finish()
 }

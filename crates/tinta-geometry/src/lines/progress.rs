@@ -1,8 +1,8 @@
-//! How far long work is, and when it is to end before it is done.
+//! How far long work is, when it is to end before it is done, and what becomes then of what is done.
 
 use crate::clock::Instant;
 use crate::error::{Error, Result};
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
 use std::time::Duration;
 
 /// How far the work is, for whoever watches from another thread, who may also ask for it to be given up.
@@ -26,10 +26,23 @@ use std::time::Duration;
 /// ```
 #[derive(Debug, Default)]
 pub struct Progress {
+    phase: AtomicU8,
     done: AtomicUsize,
     total: AtomicUsize,
     is_cancelled: AtomicBool,
     deadline: Option<Deadline>,
+    keeps_part: bool,
+}
+
+/// What work on lines is at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// Getting ready: edges, faces, hierarchies of them; nobody counts these.
+    Preparing,
+    /// Looking for places where faces pass through one another; groups of faces count.
+    Intersections,
+    /// Deciding what is seen of each line; lines count.
+    Lines,
 }
 
 #[derive(Debug)]
@@ -47,7 +60,23 @@ impl Progress {
         Self { deadline, ..Self::default() }
     }
 
-    /// Lines decided and lines in all; 0 and 0 until it is known how many there are.
+    /// Of work that then ends with what is done of it: lines that are decided stay, each as a whole, and
+    /// [`VisibleLines::undecided`](super::VisibleLines::undecided) says how many are missing. While no line is decided, it ends
+    /// with [`Error::OutOfTime`] nevertheless.
+    pub fn within_or_part(limit: Duration) -> Self {
+        Self { keeps_part: true, ..Self::within(limit) }
+    }
+
+    /// What the work is at.
+    pub fn phase(&self) -> Phase {
+        match self.phase.load(Ordering::Relaxed) {
+            0 => Phase::Preparing,
+            1 => Phase::Intersections,
+            _ => Phase::Lines,
+        }
+    }
+
+    /// How much of its phase is done, and how much there is to do: 0 and 0 while nobody counts.
     pub fn state(&self) -> (usize, usize) {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }
@@ -82,7 +111,20 @@ impl Progress {
         }
     }
 
-    pub(crate) fn begin(&self, total: usize) {
+    /// How many lines were not decided, of work that has ended.
+    pub(crate) fn undecided(&self) -> Result<usize> {
+        let (done, total) = self.state();
+        match total - done {
+            0 => Ok(0),
+            left if self.keeps_part && done > 0 && !self.is_cancelled() => Ok(left),
+            left => self.go_on().map(|()| left),
+        }
+    }
+
+    pub(crate) fn begin(&self, phase: Phase, total: usize) {
+        self.total.store(0, Ordering::Relaxed);
+        self.done.store(0, Ordering::Relaxed);
+        self.phase.store(phase as u8, Ordering::Relaxed);
         self.total.store(total, Ordering::Relaxed);
     }
 

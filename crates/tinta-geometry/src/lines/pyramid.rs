@@ -6,15 +6,29 @@
 //! behind one another most are done in a few steps. It decides nothing that is not clear: what it does not hide is looked at by
 //! the exact rules.
 
-use super::faces::Faces;
+use super::faces::{Faces, worth};
 use super::space::Space;
 use crate::bvh::Box3;
-use crate::threads::{cores, filled};
+use crate::threads::filled;
 use crate::tolerances::{CONTACT, TOUCH};
 use glam::DVec2;
 
 /// Cells along the picture's larger side, as a power of 2.
 const LEVELS: usize = 8;
+
+/// So few faces that cover the picture so seldom hide so little that the cells cost more than they spare.
+const FEW: usize = 10_000;
+const FEW_LAYERS: f64 = 4.0;
+
+/// How often boxes of pixels and keys cover the picture.
+pub(super) fn layers<'a>(space: &Space, boxes: impl Iterator<Item = &'a Box3>) -> f64 {
+    let area = |around: &Box3| {
+        let [low, high] = around.corners();
+        let (low, high) = (low.truncate().max(DVec2::ZERO), high.truncate().min(space.size));
+        (high - low).max(DVec2::ZERO).element_product()
+    };
+    boxes.map(area).sum::<f64>() / space.size.element_product()
+}
 
 /// The cells of the picture, each with the key beyond which all is hidden.
 pub(super) struct Pyramid {
@@ -111,6 +125,10 @@ impl Pyramid {
         };
         let boxes = faces.tree.boxes();
         let large: Vec<u32> = (0..boxes.len() as u32).filter(|place| is_large(&boxes[*place as usize])).collect();
+        let layers = layers(space, large.iter().map(|place| &boxes[*place as usize]));
+        if large.len() < FEW && layers < FEW_LAYERS {
+            return None;
+        }
         let mut plates: Vec<Plate> = large.iter().filter_map(|place| Plate::new(space, faces, *place)).collect();
         if plates.is_empty() {
             return None;
@@ -130,10 +148,11 @@ impl Pyramid {
     fn leave_out_what_lies_beside_the_picture(&mut self) {
         for level in 0..=LEVELS {
             let width = 1usize << (LEVELS - level);
-            for index in 0..width * width {
-                if self.rectangle(level, index % width, index / width).1.min_element() <= 0.0 {
-                    self.levels[level][index] = f64::NEG_INFINITY;
-                }
+            let cell = self.cell_px * (1u32 << level) as f64;
+            let [columns, rows] = self.size.to_array().map(|px| ((px / cell).ceil() as usize).min(width));
+            for (row, cells) in self.levels[level].chunks_mut(width).enumerate() {
+                let inside = if row < rows { columns } else { 0 };
+                cells[inside..].fill(f64::NEG_INFINITY);
             }
         }
     }
@@ -240,7 +259,7 @@ impl Pyramid {
     /// For each face whether anything of it may be seen.
     pub(super) fn seen(&self, space: &Space, faces: &Faces) -> Vec<bool> {
         let boxes = faces.tree.boxes();
-        filled(boxes.len(), cores(), false, |place| {
+        filled(boxes.len(), worth(boxes.len()), false, |place| {
             let [low, high] = boxes[place].corners();
             if !self.hides(low.truncate(), high.truncate(), low.z) {
                 let is_small = (high - low).truncate().max_element() <= 2.0 * self.cell_px;

@@ -7,12 +7,14 @@
 //! Which of both is decided by plain linear equations; all that is not sure is left to the exact rules, which would say the same.
 //! Before that the [pyramid](super::pyramid) says what single faces hide of whole parts.
 
+use super::beside::Beside;
+use super::face_image::FaceImage;
 use super::faces::{Faces, Own};
 use super::image::Image;
 use super::space::Space;
 use super::visibility::{Lines, PARTS_OF_PICTURE};
 use crate::bvh::Box3;
-use crate::tolerances::CONTACT;
+use crate::tolerances::{CONTACT, NEAR_CORNER};
 use glam::{DVec2, DVec3};
 
 /// Where a line is cut, and where it needs no look.
@@ -70,10 +72,10 @@ const PROBES: usize = 4;
 const ASKED: usize = 48;
 
 /// What a search looks for.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Sought {
-    /// What is nearer to the eye.
-    Nearer,
+#[derive(Clone, Copy)]
+pub(super) enum Sought<'a> {
+    /// What is nearer to the eye, among it these lines.
+    Nearer(&'a Beside),
     /// What is there at any depth.
     Any,
 }
@@ -85,12 +87,16 @@ struct Stretch {
     /// In the eye's space.
     view: [DVec3; 2],
     own: Own,
+    /// The positions in which the part begins and ends, as far as it ends in some.
+    corners: [u32; 2],
+    /// So near to such a corner what faces around it hide is hidden up to there, shares of the line.
+    near_corner: f64,
     line_length: f64,
     weld: f64,
     touch_px: f64,
     /// What rounding may move a point by, pixels.
     noise_px: f64,
-    sought: Sought,
+    is_nearer_sought: bool,
 }
 
 impl Lines<'_> {
@@ -101,13 +107,13 @@ impl Lines<'_> {
         index: usize,
         image: &Image,
         inside: [f64; 2],
-        sought: Sought,
+        sought: Sought<'_>,
         mut add: impl FnMut([f64; 2], usize, &mut Vec<f64>) -> bool,
     ) -> Cuts {
         let mut found = Cuts::default();
         let longest = self.space.size.max_element() / PARTS_OF_PICTURE;
         for part in image.parts(inside, longest) {
-            if self.pyramid_hides(image, part, sought) {
+            if self.pyramid_hides(image, part, sought) || self.one_hides(index, image, part, sought) {
                 found.hidden.push(part);
                 continue;
             }
@@ -128,18 +134,57 @@ impl Lines<'_> {
         found
     }
 
-    fn pyramid_hides(&self, image: &Image, part: [f64; 2], sought: Sought) -> bool {
+    fn pyramid_hides(&self, image: &Image, part: [f64; 2], sought: Sought<'_>) -> bool {
         let Some(pyramid) = self.pyramid else { return false };
         let [first, second] = part.map(|place| image.at(place));
         let (low, high) = (first.min(second), first.max(second));
         match sought {
-            Sought::Nearer => pyramid.hides(low, high, image.key(part[0]).min(image.key(part[1]))),
+            Sought::Nearer(_) => pyramid.hides(low, high, image.key(part[0]).min(image.key(part[1]))),
             Sought::Any => pyramid.covers(low, high),
         }
     }
 
+    /// Whether one face of those before the middle of a part hides all of it for sure. Asked where there are many.
+    fn one_hides(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought<'_>) -> bool {
+        if self.face_images.is_empty() || matches!(sought, Sought::Any) {
+            return false;
+        }
+        let feature = &self.features[index];
+        let stretch = self.stretch(index, image, part, sought);
+        let middle = (part[0] + part[1]) * 0.5;
+        let px = image.at(middle);
+        let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(image.key(middle)));
+        let (mut asked, mut is_hidden) = (0, false);
+        self.any_occluder(&column, feature.planes, |face| {
+            asked += 1;
+            is_hidden = self.hidden_ranges(face, &stretch)[0] == Some(part);
+            is_hidden || asked >= ASKED
+        });
+        is_hidden
+    }
+
+    fn stretch(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought<'_>) -> Stretch {
+        let feature = &self.features[index];
+        let corners = feature.own.corners(self.faces);
+        let is_at = |end: usize, px: DVec2| self.space.project(feature.ends[end]).0 == px;
+        let is_at_end = [part[0] == 0.0 && is_at(0, image.a), part[1] == 1.0 && is_at(1, image.b)];
+        Stretch {
+            part,
+            corners: [0, 1].map(|end| if is_at_end[end] { corners[end] } else { u32::MAX }),
+            near_corner: NEAR_CORNER * self.space.size.max_element() / image.length(),
+            px: part.map(|place| image.at(place)),
+            view: part.map(|place| self.space.point(image.at(place), image.key(place))),
+            own: feature.own,
+            line_length: feature.ends[0].distance(feature.ends[1]),
+            weld: feature.weld,
+            touch_px: image.touch_px(self.space),
+            noise_px: image.noise_px,
+            is_nearer_sought: matches!(sought, Sought::Nearer(_)),
+        }
+    }
+
     /// Finds what of a part faces hide for sure, and what they may hide.
-    fn sweep(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought, found: &mut Cuts) {
+    fn sweep(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought<'_>, found: &mut Cuts) {
         let feature = &self.features[index];
         let length = image.length();
         // What the pyramid hides of it, in pieces of about its cells.
@@ -150,20 +195,10 @@ impl Lines<'_> {
         }
         let touch_px = image.touch_px(self.space);
         let farthest = |part: [f64; 2]| match sought {
-            Sought::Nearer => image.key(part[0]).max(image.key(part[1])),
+            Sought::Nearer(_) => image.key(part[0]).max(image.key(part[1])),
             Sought::Any => f64::INFINITY,
         };
-        let stretch = |part: [f64; 2]| Stretch {
-            part,
-            px: part.map(|place| image.at(place)),
-            view: part.map(|place| self.space.point(image.at(place), image.key(place))),
-            own: feature.own,
-            line_length: feature.ends[0].distance(feature.ends[1]),
-            weld: feature.weld,
-            touch_px,
-            noise_px: image.noise_px,
-            sought,
-        };
+        let stretch = |part: [f64; 2]| self.stretch(index, image, part, sought);
         // Often one face or two hide nearly all.
         for _ in 0..PROBES {
             let open = gaps(part, &hidden);
@@ -175,7 +210,7 @@ impl Lines<'_> {
             let (mut asked, mut best) = (0, [middle; 2]);
             self.any_occluder(&column, feature.planes, |face| {
                 asked += 1;
-                let sure = self.faces.hidden_ranges(self.space, face, &stretch)[0];
+                let sure = self.hidden_ranges(face, &stretch)[0];
                 if let Some(sure) = sure.filter(|sure| sure[1] - sure[0] > best[1] - best[0]) {
                     best = sure;
                 }
@@ -188,20 +223,28 @@ impl Lines<'_> {
             hidden = united(hidden);
         }
         let mut maybe = Vec::new();
-        for gap in gaps(part, &hidden.clone()) {
+        for gap in gaps(part, &hidden) {
+            if (gap[1] - gap[0]) * length <= NEAR_CORNER * self.space.size.max_element() {
+                // It costs less to look at all there is.
+                maybe.push(gap);
+                continue;
+            }
             let stretch = stretch(gap);
             let farthest = farthest(gap);
             self.any_occluder(&image.part_box(gap, touch_px, [f64::NEG_INFINITY, farthest]), feature.planes, |face| {
-                let [sure, may] = self.faces.hidden_ranges(self.space, face, &stretch);
+                let [sure, may] = self.hidden_ranges(face, &stretch);
                 hidden.extend(sure);
                 maybe.extend(may);
                 false
             });
         }
-        if sought == Sought::Nearer && !self.finds_hidden {
+        if let Sought::Nearer(beside) = sought
+            && !self.finds_hidden
+            && !beside.are_none()
+        {
             for gap in gaps(part, &united(hidden.clone())) {
                 if (gap[1] - gap[0]) * length > self.shortest_px {
-                    self.behind_lines(index, image, gap, &mut hidden);
+                    self.behind_lines(index, image, beside, gap, &mut hidden);
                 }
             }
         }
@@ -211,9 +254,9 @@ impl Lines<'_> {
     }
 
     /// Adds what of a part lies in the picture on another line that is nearer for sure.
-    fn behind_lines(&self, index: usize, image: &Image, part: [f64; 2], hidden: &mut Vec<[f64; 2]>) {
+    fn behind_lines(&self, index: usize, image: &Image, beside: &Beside, part: [f64; 2], hidden: &mut Vec<[f64; 2]>) {
         let touch_px = image.touch_px(self.space);
-        self.beside.any(&image.part_box(part, touch_px, image.directions(touch_px)[0]), |other_index| {
+        self.any_beside(image, beside, part, |other_index| {
             let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
             if let Some(range) = image.overlap(&other, touch_px.max(other.touch_px(self.space))) {
                 let range = [range[0].max(part[0]), range[1].min(part[1])];
@@ -263,51 +306,72 @@ fn above_zero([from, to]: [f64; 2], [start, end]: [f64; 2]) -> Option<[f64; 2]> 
     }
 }
 
-impl Faces {
+impl Stretch {
+    /// A range that a face hides, up to where the line ends in one of its corners: there both touch, and nothing comes between.
+    fn up_to_corners(&self, mut range: [f64; 2], corners: [u32; 3]) -> [f64; 2] {
+        for (place, (end, corner)) in range.iter_mut().zip(self.part.iter().zip(&self.corners)) {
+            if (*place - *end).abs() <= self.near_corner && corners.contains(corner) {
+                *place = *end;
+            }
+        }
+        range
+    }
+}
+
+impl Lines<'_> {
     /// What of a part of a line a face hides for sure, on both sides, and what it may hide.
-    fn hidden_ranges(&self, space: &Space, face: u32, stretch: &Stretch) -> [Option<[f64; 2]>; 2] {
+    fn hidden_ranges(&self, face: u32, stretch: &Stretch) -> [Option<[f64; 2]>; 2] {
+        match self.face_images.get(face as usize) {
+            Some(image) => self.faces.hidden_ranges(self.space, face, image, stretch),
+            None => self.faces.hidden_ranges(self.space, face, &FaceImage::of(self.space, self.faces, face), stretch),
+        }
+    }
+}
+
+impl Faces {
+    fn hidden_ranges(&self, space: &Space, face: u32, image: &FaceImage, stretch: &Stretch) -> [Option<[f64; 2]>; 2] {
         const NOTHING: [Option<[f64; 2]>; 2] = [None; 2];
-        let numbers = self.triangles[face as usize];
+        let is_cut = !self.cut_by_near.is_empty() && self.cut_by_near.binary_search(&face).is_ok();
+        // How far inside of each side both ends are; most faces in the box of a part lie beside it.
+        let inside = [0, 1, 2].map(|side| stretch.px.map(|px| image.inside(side, px)));
+        let outside = -2.0 * stretch.touch_px - image.rounding_px;
+        let is_side = |side: usize| image.lengths_px[side] > 2.0 * stretch.touch_px;
+        if !is_cut && (0..3).any(|side| is_side(side) && inside[side][0].max(inside[side][1]) < outside) {
+            return NOTHING;
+        }
         let own_ends = match stretch.own {
             Own::Faces(own) if own.contains(&face) => return NOTHING,
-            Own::Faces(_) => [u32::MAX; 2],
+            Own::Faces(_) => stretch.corners,
             Own::Edge(ends) => ends,
         };
+        let numbers = self.triangles[face as usize];
         let is_own = numbers.map(|number| own_ends.contains(&number));
         if is_own.iter().filter(|is_own| **is_own).count() == 2 {
             return NOTHING;
         }
-        if !self.cut_by_near.is_empty() && self.cut_by_near.binary_search(&face).is_ok() {
+        if is_cut {
             return [None, Some(stretch.part)];
         }
-        let [a, b, c] = self.corners(face);
-        let images = [a, b, c].map(|corner| space.project(corner).0);
-        let area = (images[1] - images[0]).perp_dot(images[2] - images[0]);
-        let reach = images.iter().map(|px| px.abs().max_element()).fold(0.0, f64::max) * 1e-12;
         let [mut sure, mut may] = [Some(stretch.part); 2];
         for side in 0..3 {
-            let next = (side + 1) % 3;
-            let (from, along) = (images[side], images[next] - images[side]);
-            let length = along.length();
-            if length <= 2.0 * stretch.touch_px {
+            if !is_side(side) {
                 // No direction to speak of.
                 sure = None;
                 continue;
             }
-            let sign = area.signum() / length;
             // A side that begins where the line ends runs beside it as near as one likes.
-            let is_beside = stretch.sought == Sought::Nearer && (is_own[side] || is_own[next]);
-            let margin = if is_beside { 8.0 * stretch.noise_px } else { 2.0 * stretch.touch_px } + reach;
-            let inside = stretch.px.map(|px| along.perp_dot(px - from) * sign);
-            sure = clipped(sure, stretch.part, inside.map(|inside| inside - margin));
-            may = clipped(may, stretch.part, inside.map(|inside| inside + 2.0 * stretch.touch_px + reach));
+            let is_beside = stretch.is_nearer_sought && (is_own[side] || is_own[(side + 1) % 3]);
+            let margin = if is_beside { 8.0 * stretch.noise_px } else { 2.0 * stretch.touch_px } + image.rounding_px;
+            sure = clipped(sure, stretch.part, inside[side].map(|inside| inside - margin));
+            may = clipped(may, stretch.part, inside[side].map(|inside| inside - outside));
             if may.is_none() {
                 return NOTHING;
             }
         }
-        if stretch.sought == Sought::Any {
+        if !stretch.is_nearer_sought {
             return [sure, may];
         }
+        let [a, b, c] = self.corners(face);
         let normal = (b - a).cross(c - a);
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
         let touching = CONTACT * longest.min(stretch.line_length) + self.weld(numbers[0]).min(stretch.weld);
@@ -317,6 +381,9 @@ impl Faces {
         // Places along the line as places along its image.
         let depths = stretch.view.map(|view| if space.is_perspective() { -view.z } else { 1.0 });
         let place = |share: f64| {
+            if share == 1.0 {
+                return stretch.part[1];
+            }
             let far = share * depths[1];
             stretch.part[0] + (stretch.part[1] - stretch.part[0]) * (far / ((1.0 - share) * depths[0] + far))
         };
@@ -324,7 +391,7 @@ impl Faces {
             let behind = above_zero([0.0, 1.0], behind.map(|behind| behind - margin))?.map(place);
             common(range?, behind)
         };
-        [clip(sure, 2.0 * contact), clip(may, 0.5 * contact)]
+        [clip(sure, 2.0 * contact).map(|sure| stretch.up_to_corners(sure, numbers)), clip(may, 0.5 * contact)]
     }
 }
 

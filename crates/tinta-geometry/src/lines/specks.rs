@@ -12,14 +12,18 @@
 //! So what closes a line stays: an outline has no free end, and of its parts only such go that another way round closes.
 //! Nothing is left out because something else was: a long line never goes bit by bit.
 
+mod ways;
+
 use super::layers::Layer;
 use super::length::Units;
 use super::svg::SvgSettings;
 use super::{LineSegment, VisibleLines};
 use crate::bvh::{Box3, BoxTree};
 use crate::error::Result;
+use crate::threads::{cores, in_chunks};
 use crate::tolerances::JOINED_PX;
 use glam::DVec2;
+use ways::Ways;
 
 impl VisibleLines {
     /// The lines without spurs and specks as a drawing's settings ask: what is shorter than [`SvgSettings::min_length`].
@@ -52,7 +56,14 @@ impl VisibleLines {
     }
 
     fn clone_without_segments(&self) -> Self {
-        Self { size: self.size, segments: Vec::new(), edges: self.edges, changes: self.changes, times: self.times }
+        Self {
+            size: self.size,
+            segments: Vec::new(),
+            edges: self.edges,
+            changes: self.changes,
+            undecided: self.undecided,
+            times: self.times,
+        }
     }
 }
 
@@ -83,6 +94,15 @@ impl Stroke {
         }
     }
 
+    /// Its ends, or those of parts of it: the box of a long one that is aslant holds much else.
+    fn parts(&self) -> impl Iterator<Item = [DVec2; 2]> + use<> {
+        /// Pixels.
+        const LONGEST: f64 = 8.0;
+        let ([a, b], count) = (self.ends, (self.length / LONGEST).ceil().max(1.0));
+        let at = move |part: f64| if part == count { b } else { a + (b - a) * (part / count) };
+        (0..count as usize).map(move |part| [at(part as f64), at(part as f64 + 1.0)])
+    }
+
     /// Distance from a point.
     fn distance(&self, point: DVec2) -> f64 {
         let along = self.ends[1] - self.ends[0];
@@ -102,7 +122,7 @@ struct Strokes<'a> {
     /// The ends at each meeting.
     ends: Vec<Vec<u32>>,
     tree: BoxTree,
-    /// Strokes by their places in the tree.
+    /// Strokes by the places of their parts in the tree.
     order: Vec<u32>,
 }
 
@@ -112,13 +132,8 @@ struct Branch {
     length: f64,
 }
 
-/// How a place was reached: by how long a way, and from which other place along which stroke at last.
-#[derive(Clone, Copy)]
-struct Reached {
-    length: f64,
-    by: Option<(usize, usize)>,
-    is_done: bool,
-}
+/// Branches whose neighbours a thread looks at at once.
+const LOOKED_AT_ONCE: usize = 2048;
 
 /// Which length of a stroke is meant.
 type Least = fn(&Stroke) -> f64;
@@ -134,9 +149,12 @@ impl<'a> Strokes<'a> {
             group.iter().for_each(|end| meetings[*end] = ends.len());
             ends.push(group.iter().map(|end| *end as u32).collect());
         }
-        let boxes: Vec<Box3> =
-            strokes.iter().map(|stroke| Box3::around(stroke.ends.map(|end| end.extend(0.0)))).collect();
-        let (tree, order) = BoxTree::new(&boxes);
+        let mut parts: Vec<(Box3, u32)> = Vec::with_capacity(strokes.len());
+        for (number, stroke) in strokes.iter().enumerate() {
+            parts.extend(stroke.parts().map(|ends| (Box3::around(ends.map(|end| end.extend(0.0))), number as u32)));
+        }
+        let (tree, order) = BoxTree::new(&parts.iter().map(|(around, _)| *around).collect::<Vec<Box3>>());
+        let order = order.into_iter().map(|part| parts[part as usize].1).collect();
         Self { strokes, border, meetings, ends, tree, order }
     }
 
@@ -145,22 +163,26 @@ impl<'a> Strokes<'a> {
         let mut is_gone = vec![false; self.strokes.len()];
         let wholes = self.small_wholes();
         let barbs = self.barbs();
-        for branch in wholes.iter().chain(&barbs) {
-            if self.places_touched(branch).len() <= 1 {
-                branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
-            }
+        let loose: Vec<&Branch> = wholes.iter().chain(&barbs).collect();
+        let goes = in_chunks(loose.len(), LOOKED_AT_ONCE, cores(), |range| {
+            range.map(|branch| self.places_touched(loose[branch]).len() <= 1).collect::<Vec<bool>>()
+        });
+        for (branch, _) in loose.iter().zip(goes.concat()).filter(|(_, goes)| *goes) {
+            branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
         }
         let spans = self.spans();
         let is_side = |branch: &&Branch| branch.length < self.least(branch, |stroke| stroke.least_side);
         let mut sides: Vec<&Branch> = wholes.iter().filter(is_side).chain(&spans).collect();
         sides.sort_by(|a, b| a.length.total_cmp(&b.length));
         let mut is_needed = vec![false; self.strokes.len()];
+        let mut ways = Ways::new(self);
         for branch in sides {
             if branch.strokes.iter().any(|stroke| is_needed[*stroke] || is_gone[*stroke]) {
                 continue;
             }
             let &[from, to] = self.places_touched(branch).as_slice() else { continue };
-            if let Some(route) = self.route(branch, from, to, &is_gone) {
+            let may_use = |stroke: usize| !is_gone[stroke] && !branch.strokes.contains(&stroke);
+            if let Some(route) = ways.shortest(self, branch, [from, to], may_use) {
                 route.into_iter().for_each(|stroke| is_needed[stroke] = true);
                 branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
             }
@@ -249,98 +271,41 @@ impl<'a> Strokes<'a> {
         branches.filter(|(from, (_, to))| is_fork(to) && from < to).map(|(_, (branch, _))| branch).collect()
     }
 
-    /// The places at which a branch hangs on the rest, touches it or ends at the picture's border.
+    /// The places at which a branch hangs on the rest, touches it or ends at the picture's border; of more than two only three.
     fn places_touched(&self, branch: &Branch) -> Vec<DVec2> {
         let mut places: Vec<DVec2> = Vec::new();
-        let mut add = |place: DVec2| {
+        let add = |places: &mut Vec<DVec2>, place: DVec2| {
             if places.iter().all(|known| known.distance(place) > 2.0 * JOINED_PX) {
                 places.push(place);
             }
+            places.len() > 2
         };
         for &number in &branch.strokes {
             let stroke = &self.strokes[number];
             let is_on_border =
                 |end: &DVec2| end.min_element() <= JOINED_PX || (self.border - *end).min_element() <= JOINED_PX;
-            stroke.ends.into_iter().filter(is_on_border).for_each(&mut add);
-            self.near(stroke.ends, JOINED_PX, |other_number| {
-                if branch.strokes.contains(&other_number) {
-                    return;
-                }
-                let other = &self.strokes[other_number];
-                stroke.ends.into_iter().filter(|end| other.distance(*end) <= JOINED_PX).for_each(&mut add);
-                other.ends.into_iter().filter(|end| stroke.distance(*end) <= JOINED_PX).for_each(&mut add);
-            });
+            let are_many = stroke.ends.into_iter().filter(is_on_border).any(|end| add(&mut places, end));
+            let are_many = are_many
+                || self.any_near(stroke.ends, JOINED_PX, |other_number| {
+                    if branch.strokes.contains(&other_number) {
+                        return false;
+                    }
+                    let other = &self.strokes[other_number];
+                    let own = stroke.ends.into_iter().filter(|end| other.distance(*end) <= JOINED_PX);
+                    let others = other.ends.into_iter().filter(|end| stroke.distance(*end) <= JOINED_PX);
+                    own.chain(others).any(|end| add(&mut places, end))
+                });
+            if are_many {
+                break;
+            }
         }
         places
     }
 
-    /// The strokes of a way from one place to another beside a branch, as wide and also too short; `None` where there is none.
-    fn route(&self, branch: &Branch, from: DVec2, to: DVec2, is_gone: &[bool]) -> Option<Vec<usize>> {
-        let least = self.least(branch, |stroke| stroke.least_side);
-        let width = branch.strokes.iter().map(|stroke| self.strokes[*stroke].width).fold(0.0, f64::max);
-        let mut beside = Vec::new();
-        self.near([from, to], least, |number| {
-            if self.strokes[number].width >= width && !is_gone[number] && !branch.strokes.contains(&number) {
-                beside.push(number);
-            }
-        });
-        beside.sort_unstable();
-        // Places on each stroke, in their order along it: both places and all ends that touch it.
-        let ends = || beside.iter().flat_map(|number| self.strokes[*number].ends);
-        let mut points: Vec<DVec2> = vec![from, to];
-        points.extend(ends());
-        let ways: Vec<Vec<usize>> = beside
-            .iter()
-            .map(|number| {
-                let stroke = &self.strokes[*number];
-                let touches = |point: &usize| {
-                    let reach = if *point < 2 { 2.0 * JOINED_PX } else { JOINED_PX };
-                    stroke.distance(points[*point]) <= reach
-                };
-                let mut on_it: Vec<usize> = (0..points.len()).filter(touches).collect();
-                on_it.sort_by(|a, b| {
-                    let along = |point: &usize| points[*point].distance(stroke.ends[0]);
-                    along(a).total_cmp(&along(b)).then(a.cmp(b))
-                });
-                on_it
-            })
-            .collect();
-        // The shortest way, by Dijkstra.
-        let mut reached = vec![Reached { length: f64::INFINITY, by: None, is_done: false }; points.len()];
-        reached[0].length = 0.0;
-        loop {
-            let open = (0..points.len()).filter(|point| !reached[*point].is_done && reached[*point].length < least);
-            let here = open.min_by(|a, b| reached[*a].length.total_cmp(&reached[*b].length))?;
-            if here == 1 {
-                break;
-            }
-            reached[here].is_done = true;
-            for (way, on_it) in ways.iter().enumerate() {
-                let Some(place) = on_it.iter().position(|point| *point == here) else { continue };
-                let neighbours = [place.checked_sub(1), Some(place + 1)];
-                for next in neighbours.into_iter().flatten().filter_map(|place| on_it.get(place)) {
-                    let length = reached[here].length + points[here].distance(points[*next]);
-                    if length < reached[*next].length {
-                        reached[*next] = Reached { length, by: Some((here, way)), is_done: false };
-                    }
-                }
-            }
-        }
-        let mut route = Vec::new();
-        let mut place = 1;
-        while let Some((before, way)) = reached[place].by {
-            route.push(beside[way]);
-            place = before;
-        }
-        Some(route)
-    }
-
-    /// Calls `visit` with each stroke whose box comes so near to that of two points.
-    fn near(&self, [a, b]: [DVec2; 2], distance: f64, mut visit: impl FnMut(usize)) {
+    /// Calls `visit` with each stroke of which the box of a part comes so near to that of two points, perhaps several times, until
+    /// it returns true; returns whether it did.
+    fn any_near(&self, [a, b]: [DVec2; 2], distance: f64, mut visit: impl FnMut(usize) -> bool) -> bool {
         let query = Box3::new((a.min(b) - distance).extend(0.0), (a.max(b) + distance).extend(0.0));
-        self.tree.any(&query, |place| {
-            visit(self.order[place as usize] as usize);
-            false
-        });
+        self.tree.any(&query, |place| visit(self.order[place as usize] as usize))
     }
 }

@@ -88,6 +88,7 @@ mod tests {
             segments: vec![segment(20.0, true), segment(60.0, false)],
             edges: Default::default(),
             changes: None,
+            undecided: 0,
             times: LineTimes::default(),
         }
     }

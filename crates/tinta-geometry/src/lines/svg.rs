@@ -66,6 +66,7 @@ fn begin(drawing: &Drawing<'_>, out: &mut String) {
     };
     let [title, title_again] = ["title", "dc:title"].map(|name| element(name, &settings.title));
     let command = element("dc:description", &settings.command);
+    let note = element("dc:coverage", drawing.note.as_deref().unwrap_or_default());
     let recipe = recipe_element(&settings.recipe);
     let _ = write!(
         out,
@@ -75,7 +76,7 @@ fn begin(drawing: &Drawing<'_>, out: &mut String) {
 <rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#" xmlns:cc="http://creativecommons.org/ns#" xmlns:dc="http://purl.org/dc/elements/1.1/">
 <cc:Work rdf:about="">
 <dc:format>image/svg+xml</dc:format>
-{title_again}{command}</cc:Work>
+{title_again}{command}{note}</cc:Work>
 </rdf:RDF>
 {recipe}</metadata>
 "#

@@ -3,19 +3,23 @@
 //! Three questions use one rule, [`Image::overlap`]: which lines lie on one another in the picture. They are cut where one of
 //! them ends and where both are equally near; the nearest is drawn; of equally near ones, one.
 
+use super::beside::Beside;
+use super::face_image::FaceImage;
 use super::faces::{Faces, Own, Probe};
 use super::features::Feature;
 use super::image::{Image, LineParts, LineTree};
 use super::intersections::Piercing;
 use super::occluders::Occluders;
+use super::progress::Phase;
 use super::pyramid::Pyramid;
 use super::search::{Cuts, Sought};
 use super::space::Space;
 use super::{LineSegment, LineSettings, Progress};
-use crate::bvh::{Box3, LeftOut, NO_FAMILY};
-use crate::threads::{cores, in_chunks};
+use crate::bvh::{Box3, LeftOut, NO_FAMILY, counting_steps};
+use crate::threads::{cores, in_chunks, spread_chunks};
 use crate::tolerances::{CONTACT, SHORTEST_LINE};
 use glam::{DVec2, DVec3};
+use std::cell::LazyCell;
 use std::collections::HashMap;
 
 /// All lines with their images, ready to be decided one by one.
@@ -33,6 +37,8 @@ pub(super) struct Lines<'a> {
     pub(super) pyramid: Option<&'a Pyramid>,
     /// What hides others; `None` where the faces as they are do.
     occluders: Option<Occluders>,
+    /// The faces' images by their places, where each is asked for often; else they are made each time.
+    pub(super) face_images: Vec<FaceImage>,
     /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
     pub(super) beside: LineTree,
     pub(super) shortest_px: f64,
@@ -53,6 +59,9 @@ pub(super) struct Piece {
 /// ask for everything in its box.
 pub(super) const PARTS_OF_PICTURE: f64 = 16.0;
 
+/// Lines whose parts a thread finds at once.
+const MADE_AT_ONCE: usize = 4096;
+
 impl<'a> Lines<'a> {
     pub(super) fn new(
         space: &'a Space,
@@ -65,30 +74,43 @@ impl<'a> Lines<'a> {
         let &LineSettings { finds_outline, finds_hidden, .. } = settings;
         let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
         let side = space.size.max_element();
-        let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
         let hubs = hubs(features);
-        for (index, (feature, image)) in features.iter().zip(&images).enumerate() {
-            let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
-                continue;
-            };
-            let (touch_px, margin) = (image.touch_px(space), image.noise_px);
-            let ends = |part: [f64; 2]| part.map(|place| (image.at(place), image.key(place)));
-            for part in image.parts(range, side / PARTS_OF_PICTURE) {
-                let is_hidden = || pyramid.is_some_and(|pyramid| pyramid.hides_line(ends(part)));
-                // What is hidden for sure changes nothing where anything is seen; but for the outline at any depth.
-                let is_rim = feature.occludes && (finds_outline || !is_hidden());
-                let is_beside = feature.class.is_some() && (finds_hidden || !is_hidden());
-                if is_rim {
-                    let around = image.part_box(part, margin, part.map(|place| image.key(place)));
-                    rims.add_of_families(around, index, feature.plane, hub_of(&hubs, feature.own));
-                }
-                if is_beside {
-                    for directions in image.directions(touch_px) {
-                        beside.add(image.part_box(part, margin, directions), index);
+        let occluders = Occluders::new(space, faces, pyramid);
+        // Where much lies behind one another a box is asked for by many.
+        let rim_px = side / PARTS_OF_PICTURE / if occluders.is_some() { 4.0 } else { 1.0 };
+        let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
+            let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
+            for index in range {
+                let (feature, image) = (&features[index], images[index]);
+                let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
+                    continue;
+                };
+                let (touch_px, margin) = (image.touch_px(space), image.noise_px);
+                let ends = |part: [f64; 2]| part.map(|place| (image.at(place), image.key(place)));
+                for part in image.parts(range, side / PARTS_OF_PICTURE) {
+                    let is_hidden = LazyCell::new(|| pyramid.is_some_and(|pyramid| pyramid.hides_line(ends(part))));
+                    // What is hidden for sure changes nothing where anything is seen; but for the outline at any depth.
+                    let is_rim = feature.occludes && (finds_outline || !*is_hidden);
+                    let is_beside = feature.class.is_some() && (finds_hidden || !*is_hidden);
+                    for part in image.parts(part, rim_px).filter(|_| is_rim) {
+                        let around = image.part_box(part, margin, part.map(|place| image.key(place)));
+                        rims.add_of_families(around, index, feature.plane, hub_of(&hubs, feature.own));
+                    }
+                    if is_beside {
+                        for directions in image.directions(touch_px) {
+                            beside.add(image.part_box(part, margin, directions), index);
+                        }
                     }
                 }
             }
+            (rims, beside)
+        });
+        let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
+        for (some_rims, some_beside) in parts {
+            rims.append(some_rims);
+            beside.append(some_beside);
         }
+        let face_images = if occluders.is_some() { FaceImage::of_all(space, faces) } else { Vec::new() };
         let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
         for piercing in piercings {
             pierced.entry(piercing.edge).or_default().push(piercing.point);
@@ -101,7 +123,8 @@ impl<'a> Lines<'a> {
             piercings: pierced,
             rims: rims.tree(),
             pyramid,
-            occluders: Occluders::new(space, faces, pyramid),
+            occluders,
+            face_images,
             beside: beside.tree(),
             shortest_px: SHORTEST_LINE * side,
             finds_outline,
@@ -109,20 +132,29 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Every wanted line's pieces, in the lines' order.
-    pub(super) fn segments(&self, progress: &Progress) -> Vec<LineSegment> {
+    /// The wanted lines' pieces, in the lines' order; with how many boxes were looked at. Of all lines, unless the time is over
+    /// before: then of some, each as a whole.
+    pub(super) fn segments(&self, progress: &Progress) -> (Vec<LineSegment>, u64) {
         const LINES: usize = 64;
-        progress.begin(self.features.len());
-        let parts = in_chunks(self.features.len(), LINES, cores(), |range| {
-            let mut segments = Vec::new();
-            progress.advance(range.len());
-            if progress.is_over() {
-                return segments;
-            }
-            range.for_each(|index| self.add_segments(index, &mut segments));
-            segments
+        progress.begin(Phase::Lines, self.features.len());
+        // Not one after the other: what is left then takes as long as what is done, and a part is one of the whole picture.
+        let parts = spread_chunks(self.features.len(), LINES, cores(), |range| {
+            counting_steps(|| {
+                let mut segments = Vec::new();
+                for index in range {
+                    if progress.is_over() {
+                        break;
+                    }
+                    self.add_segments(index, &mut segments);
+                    progress.advance(1);
+                }
+                segments
+            })
         });
-        parts.concat()
+        let compared = parts.iter().map(|(_, steps)| steps).sum();
+        let mut segments = Vec::with_capacity(parts.iter().map(|(segments, _)| segments.len()).sum());
+        parts.into_iter().for_each(|(some, _)| segments.extend(some));
+        (segments, compared)
     }
 
     fn add_segments(&self, index: usize, segments: &mut Vec<LineSegment>) {
@@ -132,12 +164,13 @@ impl<'a> Lines<'a> {
         if image.length() * (inside[1] - inside[0]) <= self.shortest_px {
             return;
         }
-        let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, part, most, cuts);
-        let mut cuts = self.search(index, &image, inside, Sought::Nearer, add);
+        let beside = self.beside(index, &image, inside);
+        let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, &beside, part, most, cuts);
+        let mut cuts = self.search(index, &image, inside, Sought::Nearer(&beside), add);
         self.add_piercings(index, &image, &mut cuts);
         if self.finds_hidden {
             for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
-                self.add_beside(index, &image, part, usize::MAX, &mut cuts.places);
+                self.add_beside(index, &image, &beside, part, usize::MAX, &mut cuts.places);
             }
         }
         let mut pieces: Vec<Piece> = Vec::new();
@@ -148,7 +181,8 @@ impl<'a> Lines<'a> {
             if is_hidden && !self.finds_hidden {
                 continue;
             }
-            let Some(is_visible) = self.state(index, &image, (from + to) * 0.5, is_hidden, &cuts) else { continue };
+            let place = (from + to) * 0.5;
+            let Some(is_visible) = self.state(index, &image, &beside, place, is_hidden, &cuts) else { continue };
             match pieces.last_mut() {
                 Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
                 _ => pieces.push(Piece { from, to, is_visible, is_outline: false }),
@@ -187,9 +221,17 @@ impl<'a> Lines<'a> {
 
     /// Whether a line is seen at a place; `None` where it lies in space on another line that stands for both. Where faces hide it
     /// for sure only the latter is asked.
-    fn state(&self, index: usize, image: &Image, place: f64, is_hidden: bool, cuts: &Cuts) -> Option<bool> {
-        let probe = self.probe(index, image, place);
-        let is_nearest = self.is_nearest(index, image, probe.px, -probe.view.z)?;
+    fn state(
+        &self,
+        index: usize,
+        image: &Image,
+        beside: &Beside,
+        place: f64,
+        is_hidden: bool,
+        cuts: &Cuts,
+    ) -> Option<bool> {
+        let probe = LazyCell::new(|| self.probe(index, image, place));
+        let is_nearest = beside.are_none() || self.is_nearest(index, image, beside, probe.px, -probe.view.z)?;
         let leave_open = || {
             let planes = self.features[index].planes;
             self.faces.leave_open(self.space, &probe, |column, visit| self.any_occluder(column, planes, visit))
@@ -200,9 +242,13 @@ impl<'a> Lines<'a> {
     /// Calls `visit` with each face that may hide something and whose box overlaps, perhaps several times, until it returns true;
     /// without those in these planes, as far as whole groups are.
     pub(super) fn any_occluder(&self, query: &Box3, planes: [u32; 2], visit: impl FnMut(u32) -> bool) -> bool {
+        self.any_but(query, LeftOut::planes(planes), visit)
+    }
+
+    fn any_but(&self, query: &Box3, left_out: LeftOut, visit: impl FnMut(u32) -> bool) -> bool {
         match &self.occluders {
-            Some(occluders) => occluders.any_but(query, LeftOut::planes(planes), visit),
-            None => self.faces.tree.any_but(query, LeftOut::planes(planes), visit),
+            Some(occluders) => occluders.any_but(query, left_out, visit),
+            None => self.faces.tree.any_but(query, left_out, visit),
         }
     }
 
@@ -225,12 +271,11 @@ impl<'a> Lines<'a> {
 
     /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
     /// lies in space on another of an earlier class, or of the same and a lower number.
-    fn is_nearest(&self, index: usize, image: &Image, px: DVec2, depth: f64) -> Option<bool> {
+    fn is_nearest(&self, index: usize, image: &Image, beside: &Beside, px: DVec2, depth: f64) -> Option<bool> {
         let touch_px = image.touch_px(self.space);
-        let here = self.beside_box(image, px, touch_px);
         let (place, own_key) = (image.place_of(px), image.key(image.place_of(px)));
         let mut others: Vec<(f64, usize)> = Vec::new();
-        let is_behind = self.beside.any(&here, |other_index| {
+        let is_behind = self.any_beside(image, beside, [place; 2], |other_index| {
             let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
             let lies_on_it = image
                 .overlap(&other, touch_px.max(other.touch_px(self.space)))
@@ -269,12 +314,6 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Where to look for lines that lie on one at a pixel.
-    pub(super) fn beside_box(&self, image: &Image, px: DVec2, touch_px: f64) -> Box3 {
-        let [low, high] = image.directions(touch_px)[0];
-        Box3::new((px - touch_px).extend(low), (px + touch_px).extend(high))
-    }
-
     /// The distance below which two lines touch, file units.
     fn contact(&self, first: usize, second: usize) -> f64 {
         let [first, second] = [first, second].map(|index| &self.features[index]);
@@ -283,7 +322,15 @@ impl<'a> Lines<'a> {
     }
 
     /// Adds the places along a part of a line where what is seen of it may change; whether there are too many to look at all.
-    fn add_cuts(&self, index: usize, image: &Image, part: [f64; 2], most: usize, cuts: &mut Vec<f64>) -> bool {
+    fn add_cuts(
+        &self,
+        index: usize,
+        image: &Image,
+        beside: &Beside,
+        part: [f64; 2],
+        most: usize,
+        cuts: &mut Vec<f64>,
+    ) -> bool {
         let feature = &self.features[index];
         let touch_px = image.touch_px(self.space);
         let keys = part.map(|place| image.key(place));
@@ -291,8 +338,7 @@ impl<'a> Lines<'a> {
         let nearer = [f64::NEG_INFINITY, farthest + farthest.abs() * (2.0 * CONTACT)];
         let start = cuts.len();
         // Lines from one position cross nowhere else.
-        let hubs = if let Own::Edge(ends) = feature.own { ends } else { [NO_FAMILY; 2] };
-        let left_out = LeftOut { planes: feature.planes, hubs };
+        let left_out = LeftOut { planes: feature.planes, hubs: feature.own.corners(self.faces) };
         let are_too_many = self.rims.any_but(&image.part_box(part, touch_px, nearer), left_out, |other_index| {
             if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
                 let touch_px = touch_px.max(other.touch_px(self.space));
@@ -301,11 +347,12 @@ impl<'a> Lines<'a> {
             }
             cuts.len() - start > most
         });
-        if are_too_many || (!self.finds_hidden && self.add_beside(index, image, part, most, cuts)) {
+        if are_too_many || (!self.finds_hidden && self.add_beside(index, image, beside, part, most, cuts)) {
             return true;
         }
         let Own::Faces(own) = feature.own else { return false };
-        self.any_occluder(&image.part_box(part, touch_px, keys), feature.planes, |face| {
+        // Faces with the corner in which it begins it meets nowhere else.
+        self.any_but(&image.part_box(part, touch_px, keys), left_out, |face| {
             if own.contains(&face) {
                 return false;
             }
@@ -315,11 +362,18 @@ impl<'a> Lines<'a> {
     }
 
     /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many.
-    fn add_beside(&self, index: usize, image: &Image, part: [f64; 2], most: usize, cuts: &mut Vec<f64>) -> bool {
+    fn add_beside(
+        &self,
+        index: usize,
+        image: &Image,
+        beside: &Beside,
+        part: [f64; 2],
+        most: usize,
+        cuts: &mut Vec<f64>,
+    ) -> bool {
         let touch_px = image.touch_px(self.space);
         let mut count = 0;
-        // Lines that lie on this one have its direction.
-        self.beside.any(&image.part_box(part, touch_px, image.directions(touch_px)[0]), |other_index| {
+        self.any_beside(image, beside, part, |other_index| {
             if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
                 self.add_crossings(image, &other, touch_px.max(other.touch_px(self.space)), false, cuts);
                 count += 1;

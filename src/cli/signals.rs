@@ -1,4 +1,4 @@
-//! Signal handling: the first signal lets running jobs finish and be recorded; the second stops at once.
+//! Signal handling: the first signal lets work that takes a while end in good order, with its sentence; the second stops at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

@@ -1,0 +1,210 @@
+//! How the exact lines' time grows, counted in boxes looked at, never by a clock; the families that it is counted on against brute
+//! force; and lines that end before they are done.
+
+use crate::lines_brute::assert_as_rays_see;
+use crate::lines_sides::Sides;
+use crate::lines_support::{lines, lines_with, published_lines, scene_of, view};
+use crate::shapes::{Random, mesh};
+use crate::support::growth::{FAMILIES, Family};
+use crate::svg;
+use std::collections::HashSet;
+use std::time::Duration;
+use tinta::edges::Class;
+use tinta::lines::{LineSegment, LineSettings, Phase, Progress, SvgSettings, VisibleLines};
+use tinta::record::lines_json;
+use tinta::{Error, Scene};
+
+/// A family's scene of about so many triangles, as the benchmark sees it.
+fn scene(family: &Family, triangles: usize) -> Scene {
+    let shape = (family.make)(triangles);
+    scene_of(vec![mesh(shape.positions, shape.triangles)], view("30,20", false))
+}
+
+fn family(name: &str) -> &'static Family {
+    FAMILIES.iter().find(|family| family.name == name).unwrap()
+}
+
+/// Only what is seen, which is what most drawings ask for.
+fn seen(scene: &Scene) -> VisibleLines {
+    lines_with(scene, &LineSettings { finds_hidden: false, ..LineSettings::default() })
+}
+
+#[test]
+fn every_family_has_about_as_many_triangles_as_asked_and_corners_that_there_are() {
+    for family in &FAMILIES {
+        for wanted in [1_000, 5_000] {
+            let shape = (family.make)(wanted);
+            let count = shape.triangles.len();
+            assert!(
+                count * 4 > wanted * 3 && count * 3 < wanted * 4,
+                "{} ({}): {count} of {wanted}",
+                family.name,
+                family.what
+            );
+            let corners = shape.triangles.as_flattened();
+            assert!(corners.iter().all(|corner| (*corner as usize) < shape.positions.len()), "{}", family.name);
+        }
+    }
+}
+
+#[test]
+fn what_any_side_of_a_line_shows_is_drawn_of_every_family() {
+    let mut random = Random::seeded(26);
+    let mut failures = Vec::new();
+    for family in &FAMILIES {
+        let scene = scene(family, 200);
+        for found in [published_lines(&scene), seen_as_published(&scene)] {
+            let checked = Sides::new(&scene).check(&found, 400, &mut random);
+            if !checked.is_right() {
+                failures.push(format!("{}: {}", family.name, checked.summary()));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+fn seen_as_published(scene: &Scene) -> VisibleLines {
+    lines_with(scene, &LineSettings { finds_hidden: false, ..LineSettings::as_published() })
+}
+
+#[test]
+fn what_is_seen_of_families_without_flush_faces_is_what_rays_see() {
+    for name in ["soup", "confetti", "fan", "waffle", "hair"] {
+        assert_as_rays_see(&scene(family(name), 40), name);
+    }
+}
+
+#[test]
+fn without_hidden_lines_the_same_is_seen_of_every_family() {
+    for family in &FAMILIES {
+        let scene = scene(family, 300);
+        let visible = |lines: VisibleLines| -> f64 {
+            lines.segments.iter().filter(|segment| segment.is_visible).map(crate::lines_support::length).sum()
+        };
+        let (all, alone) = (visible(lines(&scene)), visible(seen(&scene)));
+        assert!((all - alone).abs() <= 1e-4 * all, "{}: {all} px and {alone} px", family.name);
+    }
+}
+
+/// Boxes looked at for each triangle and each piece that is seen.
+const MOST_BOXES: f64 = 1_500.0;
+
+#[test]
+fn time_grows_with_what_is_there_and_what_is_seen() {
+    let mut failures = Vec::new();
+    for family in &FAMILIES {
+        for triangles in [250, 1_000] {
+            let scene = scene(family, triangles);
+            let found = seen(&scene);
+            let each = found.times.compared as f64 / (scene.triangle_count() + found.segments.len()) as f64;
+            println!("{} of {triangles}: {each:.0} boxes each, {} pieces", family.name, found.segments.len());
+            // Around one corner everything lies in the same place.
+            let most = if family.name == "fan" { 10.0 * MOST_BOXES } else { MOST_BOXES };
+            if each > most {
+                failures.push(format!("{} of {triangles}: {each:.0} boxes for each triangle and piece", family.name));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+#[test]
+fn the_same_boxes_are_looked_at_every_time() {
+    let scene = scene(family("hair"), 200);
+    let compared = || seen(&scene).times.compared;
+    assert_eq!(compared(), compared());
+}
+
+/// Lines of a scene that takes a while, a part of them.
+fn part(scene: &Scene, settings: &LineSettings) -> VisibleLines {
+    // However fast the machine is, one of these times is over in the midst of it.
+    let mut milliseconds = 1.0;
+    loop {
+        let progress = Progress::within_or_part(Duration::from_secs_f64(milliseconds / 1e3));
+        match VisibleLines::with_progress(scene, settings, &progress) {
+            Ok(part) if part.undecided > 0 => return part,
+            Ok(_) => panic!("all was done within {milliseconds} ms, and nothing of it in less"),
+            Err(Error::OutOfTime { .. }) => milliseconds *= 1.2,
+            Err(error) => panic!("{error}"),
+        }
+    }
+}
+
+/// What a piece is of: a mesh edge, or an intersection by where its line runs.
+fn line_of(segment: &LineSegment) -> Option<(u32, [u32; 2])> {
+    segment.edge.map(|edge| (segment.object, edge))
+}
+
+#[test]
+fn a_part_has_some_lines_of_the_whole_and_each_of_them_whole() {
+    let scene = scene(family("hair"), 400);
+    for finds_hidden in [false, true] {
+        let settings = LineSettings { finds_hidden, ..LineSettings::default() };
+        let whole = VisibleLines::of(&scene, &settings).unwrap();
+        let part = part(&scene, &settings);
+        assert!(!part.segments.is_empty() && part.segments.len() < whole.segments.len());
+        let mut rest = whole.segments.iter();
+        for segment in &part.segments {
+            assert!(rest.any(|other| other == segment), "not in the whole, or not in its place: {segment:?}");
+        }
+        let there: HashSet<_> = part.segments.iter().filter_map(line_of).collect();
+        let of_them = |segment: &&LineSegment| line_of(segment).is_some_and(|line| there.contains(&line));
+        let count = |lines: &VisibleLines| lines.segments.iter().filter(of_them).count();
+        assert_eq!(count(&part), count(&whole), "a line of the part is not whole");
+    }
+}
+
+#[test]
+fn a_part_is_marked_in_every_file_and_a_whole_is_not() {
+    let scene = scene(family("soup"), 20);
+    let whole = svg::lines(vec![svg::segment(Class::Silhouette, true, [10.0, 10.0], [90.0, 50.0])]);
+    let part = VisibleLines { undecided: 3, ..whole.clone() };
+    let note = "partial: the time was over before 3 lines were decided";
+    assert_eq!((part.partial_note().as_deref(), whole.partial_note()), (Some(note), None));
+    let settings = SvgSettings::default();
+    let texts = |lines: &VisibleLines| {
+        let pdf = tinta::lines::pdf(lines, &settings).unwrap();
+        [
+            tinta::lines::svg(lines, &settings).unwrap(),
+            lines_json(lines, &scene).unwrap(),
+            String::from_utf8_lossy(&pdf).into_owned(),
+        ]
+    };
+    for text in texts(&part) {
+        assert!(text.contains(note), "{text}");
+    }
+    for text in texts(&whole) {
+        assert!(!text.contains("partial"), "{text}");
+    }
+    let json: serde_json::Value = serde_json::from_str(&texts(&part)[1]).unwrap();
+    assert_eq!((&json["partial"], &json["undecided"]), (&note.into(), &3.into()));
+}
+
+#[test]
+fn no_time_at_all_ends_with_a_sentence_even_where_a_part_would_do() {
+    let scene = scene(family("soup"), 20);
+    for progress in [Progress::within(Duration::ZERO), Progress::within_or_part(Duration::ZERO)] {
+        let ended = VisibleLines::with_progress(&scene, &LineSettings::default(), &progress);
+        assert!(matches!(ended, Err(Error::OutOfTime { .. })));
+    }
+    let enough = Progress::within_or_part(Duration::from_secs(3600));
+    let found = VisibleLines::with_progress(&scene, &LineSettings::default(), &enough).unwrap();
+    assert_eq!((found.undecided, &found.segments), (0, &lines(&scene).segments));
+}
+
+#[test]
+fn work_is_given_up_while_it_looks_for_intersections() {
+    let scene = scene(family("soup"), 1_500);
+    let progress = Progress::default();
+    let ended = std::thread::scope(|scope| {
+        let work = scope.spawn(|| VisibleLines::with_progress(&scene, &LineSettings::default(), &progress));
+        while progress.phase() == Phase::Preparing && !work.is_finished() {
+            std::thread::yield_now();
+        }
+        assert_eq!(progress.phase(), Phase::Intersections);
+        progress.cancel();
+        work.join().unwrap()
+    });
+    assert!(matches!(ended, Err(Error::Cancelled)));
+    assert_eq!(progress.phase(), Phase::Intersections, "it went on to the lines");
+}
