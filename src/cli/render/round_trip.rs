@@ -221,7 +221,7 @@ fn lines_of(arguments: &Arguments) -> (LineSettings, SvgSettings) {
 #[test]
 fn all_options_together_survive_too() {
     let file = picture_file();
-    let excluded = ["no-borders", "transparent", "eye", "dpi", "page", "ink-threshold", "pen"];
+    let excluded = ["no-borders", "transparent", "eye", "dpi", "page", "ink-threshold", "pen", "fit-curves"];
     let given: Vec<String> =
         samples(file.path()).iter().filter(|sample| !excluded.contains(&sample.name)).flat_map(Sample::words).collect();
     let mut fewest = usize::MAX;

@@ -404,7 +404,7 @@ mod tests {
                 let inside = (1..=40_000).map(|k| implicit(TORUS, point + way * (f64::from(k) / 40_000.0)));
                 let deepest = inside.fold(f64::INFINITY, f64::min);
                 // What is grazed by less is not to be told apart by steps.
-                if deepest < -1e-6 || deepest > 1e-9 || deepest >= 0.0 {
+                if !(-1e-6..0.0).contains(&deepest) {
                     assert_eq!(TORUS.is_seen(point, eye), deepest >= 0.0, "{point}: {deepest}");
                     hidden += u32::from(deepest < 0.0);
                 }
