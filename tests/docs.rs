@@ -199,7 +199,9 @@ fn cargo_fault(words: &[&str], manifest: &str, sources: &str) -> Option<String> 
     for pair in own.windows(2) {
         let [option, name] = [pair[0], pair[1]];
         let is_there = match option {
-            "--bench" => root().join(format!("benches/{name}.rs")).exists(),
+            "--bench" => ["benches", "crates/tinta-geometry/benches"]
+                .iter()
+                .any(|folder| root().join(format!("{folder}/{name}.rs")).exists()),
             "--example" => {
                 manifest.contains(&format!("name = \"{name}\"")) || root().join(format!("examples/{name}.rs")).exists()
             }
@@ -213,7 +215,7 @@ fn cargo_fault(words: &[&str], manifest: &str, sources: &str) -> Option<String> 
         }
     }
     // What `cargo test` is given besides is part of the names of tests.
-    let takes_value = ["--bench", "--example", "--test", "--bin", "--features"];
+    let takes_value = ["-p", "--bench", "--example", "--test", "--bin", "--features"];
     let filter = own.iter().enumerate().find(|(at, word)| {
         !word.starts_with('-') && *subcommand == "test" && (*at == 0 || !takes_value.contains(&own[at - 1]))
     });

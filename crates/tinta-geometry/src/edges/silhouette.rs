@@ -7,7 +7,7 @@ use super::classes::corners;
 use super::{EdgeList, Eye, Incidence, Side, side_of_face};
 use crate::error::Error;
 use crate::mesh::{Mesh, triangle_normal};
-use crate::settings::{Setting, Value as _};
+use crate::settings::{Problem, Setting, Value as _};
 use crate::threads::{filled, in_parallel, ranges, threads_for};
 use glam::{DVec3, Vec3, Vec4};
 use serde::Serialize;
@@ -43,7 +43,10 @@ impl SilhouetteRule {
                 let problem = "only style lines finds smooth contours; choose exact, or write a .svg";
                 return Err(Error::value("silhouette", text, problem).into());
             }
-            *field(of) = Self::parse(text)?;
+            *field(of) = Self::parse(text).map_err(|problem| match problem {
+                Problem::Text(problem) => Problem::Text(format!("{problem}; in style lines exact, smooth")),
+                refused => refused,
+            })?;
             Ok(())
         };
         let text = move |of: &T| field(&mut of.clone()).text();
