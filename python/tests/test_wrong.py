@@ -69,7 +69,7 @@ WRONG = [
     (lambda: tn.silhouette(V, (1, np.nan, 2), F), ValueError, r"eye: .* not finite"),
     (lambda: tn.edges(["builtin:gear", "builtin:ant"]), ValueError, r"mesh: edges\(\) takes one mesh, not 2"),
     (lambda: tn.render(V, F, style="three_pass"), ValueError, r"style three_pass: did you mean three-pass\?"),
-    (lambda: tn.render(V, F, stlye="ink"), ValueError, r"render has no option stlye; did you mean style\?"),
+    (lambda: tn.render(V, F, stylle="ink"), ValueError, r"render has no option stylle; did you mean style\?"),
     (lambda: tn.render(V, F, show="border", style="ink"), ValueError, r"show border: did you mean borders\?"),
     (lambda: tn.render(V, F, backend="ogl"), ValueError, r"backend ogl: did you mean egl\?"),
     (lambda: tn.render(V, F, look="technical"), ValueError, r"look technical: this look is of lines"),

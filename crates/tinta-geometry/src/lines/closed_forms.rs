@@ -13,7 +13,7 @@
 //! use tinta_geometry::{Scene, SceneSettings, VisibleLines};
 //!
 //! let sphere = ClosedForm::ellipsoid(1.0, 1.0, 1.0);
-//! let scene = Scene::new(vec![Arc::new(sphere.mesh(2_000, 0.0)?)], &SceneSettings::default())?;
+//! let scene = Scene::new(vec![Arc::new(sphere.mesh(10_000, 0.0)?)], &SceneSettings::default())?;
 //! let lines = VisibleLines::of(&scene, &LineSettings { silhouette: Contour::Smooth, ..LineSettings::default() })?;
 //!
 //! let error = distance(&lines, &sphere.visible_contour(&scene));
