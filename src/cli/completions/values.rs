@@ -64,7 +64,14 @@ fn offered(command: &str, option: &str) -> Vec<&'static str> {
                 of_table::<LineSettings>,
                 of_table::<SvgSettings>,
             ];
-            tables.iter().map(|table| table(option)).find(|names| !names.is_empty()).unwrap_or_default()
+            // Styles and lines have settings of one name that take different ones.
+            let mut names: Vec<&str> = Vec::new();
+            for name in tables.iter().flat_map(|table| table(option)) {
+                if !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+            names
         }
     }
 }
