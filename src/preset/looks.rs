@@ -18,7 +18,7 @@ pub struct Look {
 pub const LOOKS: [Look; 4] = [
     Look {
         name: "print",
-        about: "ink for paper at any size: even lines, two tones, the model's own colours",
+        about: "ink for paper at any size: even lines, three tones, the model's own colours",
         text: include_str!("../../presets/looks/print.toml"),
     },
     Look {

@@ -8,6 +8,7 @@
 //! exact on a sphere), which needs no arc cosine and, on a square, does not depend on how it is cut. Where only creases that last
 //! are to be split (`lasting.rs`), all other vertices are smooth throughout, and flat faces weigh in with their areas.
 
+mod even;
 mod lasting;
 
 use super::NONE;
@@ -43,6 +44,7 @@ pub(super) fn fill_missing(
     }
     let incidence = Incidence::new(positions.len(), triangles);
     let lasting = cos_beside.map(|_| Lasting::find(positions, triangles, face_normals, &incidence, cos_smooth));
+    let face_normals = lasting.as_ref().map_or(face_normals, |lasting| &lasting.face_normals);
     let is_smooth = |vertex: usize| lasting.as_ref().is_some_and(|lasting| !lasting.vertices[vertex]);
     let weighted = |corner: u32| match &lasting {
         None => weighted_normal(positions, triangles, corner),

@@ -1,16 +1,21 @@
 //! Creases that last: chains of edges at which faces differ by more than the smoothing angle and that go on for a while. On scans
 //! and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks.
 //!
-//! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, and for each triangle the area of the flat
-//! face it is part of. By it a face counts more than the chamfer beside it, which so bends from face to face and leaves them flat.
+//! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, the faces' normals without their
+//! bumps (`even.rs`), and for each triangle the area of the flat face it is part of. By it a face counts more than the chamfer beside
+//! it, which so bends from face to face and leaves them flat.
 
 use super::Incidence;
+use super::even::{Neighbours, even, is_small};
 use crate::threads::{in_parallel, threads_for};
 use glam::DVec3;
 
 /// How far a chain must reach to last, in shares of the diagonal of the model's box: farther than single edges of the scans and low
 /// models looked at, less far than the edges of their shortest chamfers.
 const LEAST_REACH: f64 = 0.04;
+
+/// The same for a chain between small faces only: scans have folds that lead nowhere and are longer.
+const LEAST_REACH_OF_SMALL: f64 = 0.15;
 
 /// The least cosine between triangles of one flat face: half a degree, as exported planes keep.
 const FLAT: f64 = 0.99996;
@@ -21,18 +26,20 @@ pub(super) struct Lasting {
     pub vertices: Vec<bool>,
     /// For each triangle the area of its flat face, in units of the model's own.
     pub areas: Vec<f64>,
+    /// Each triangle's unit normal, that of a small face evened out with its neighbours'.
+    pub face_normals: Vec<DVec3>,
 }
 
 impl Lasting {
     pub(super) fn find(
         positions: &[DVec3],
         triangles: &[[u32; 3]],
-        face_normals: &[DVec3],
+        given: &[DVec3],
         incidence: &Incidence,
         cos_smooth: f64,
     ) -> Self {
         let found = in_parallel(positions.len(), threads_for(triangles.len()), |vertices| {
-            let (mut sharp, mut flat, mut spokes) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut edges, mut spokes) = (Vec::new(), Vec::new());
             for vertex in vertices {
                 spokes.clear();
                 for &corner in incidence.corners(vertex) {
@@ -44,39 +51,55 @@ impl Lasting {
                 spokes.sort_unstable();
                 for pair in spokes.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
                     let [(far, face), (_, other)] = [pair[0], pair[1]];
-                    let cosine = face_normals[face as usize].dot(face_normals[other as usize]);
-                    if cosine < cos_smooth {
-                        sharp.push([vertex as u32, far]);
-                    } else if cosine > FLAT {
-                        flat.push([face, other]);
-                    }
+                    edges.push(Edge { ends: [vertex as u32, far], faces: [face, other] });
                 }
             }
-            [sharp, flat]
+            edges
         });
-        let mut chains = Sets::new(positions.len());
+        let edges = || found.iter().flatten();
+        let cosine = |normals: &[DVec3], edge: &Edge| {
+            let [face, other] = edge.faces.map(|face| normals[face as usize]);
+            face.dot(other)
+        };
         let mut faces = Sets::new(triangles.len());
-        for [sharp, flat] in &found {
-            sharp.iter().for_each(|[a, b]| chains.join(*a, *b));
-            flat.iter().for_each(|[a, b]| faces.join(*a, *b));
-        }
-        let sharp = || found.iter().flat_map(|[sharp, _]| sharp.as_flattened());
-        let mut boxes = vec![Span::NONE; positions.len()];
-        sharp().for_each(|end| boxes[chains.root(*end)].take(positions[*end as usize]));
-        let mut whole = Span::NONE;
-        positions.iter().for_each(|position| whole.take(*position));
-        let mut vertices = vec![false; positions.len()];
-        sharp().for_each(|end| {
-            vertices[*end as usize] = boxes[chains.root(*end)].diagonal() >= LEAST_REACH * whole.diagonal();
-        });
+        edges().filter(|edge| cosine(given, edge) > FLAT).for_each(|edge| faces.join(edge.faces));
         let mut areas = vec![0.0; triangles.len()];
         for (number, triangle) in triangles.iter().enumerate() {
             let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
             areas[faces.root(number as u32)] += (b - a).cross(c - a).length() * 0.5;
         }
-        let areas = (0..triangles.len() as u32).map(|number| areas[faces.root(number)]).collect();
-        Self { vertices, areas }
+        let areas: Vec<f64> = (0..triangles.len() as u32).map(|number| areas[faces.root(number)]).collect();
+        let mut whole = Span::NONE;
+        positions.iter().for_each(|position| whole.take(*position));
+        let neighbours = Neighbours::new(triangles.len(), edges().map(|edge| edge.faces));
+        let face_normals = even(given, &areas, &neighbours, whole.diagonal(), cos_smooth);
+        // Evening out also sharpens rounded rims, in zigzags: a crease is one before and after it.
+        let is_sharp = |edge: &&Edge| [&face_normals, given].iter().all(|of| cosine(of, edge) < cos_smooth);
+        let sharp = || edges().filter(is_sharp);
+        let mut chains = Sets::new(positions.len());
+        sharp().for_each(|edge| chains.join(edge.ends));
+        let mut boxes = vec![Span::NONE; positions.len()];
+        let mut least = vec![LEAST_REACH_OF_SMALL; positions.len()];
+        for edge in sharp() {
+            let chain = chains.root(edge.ends[0]);
+            edge.ends.iter().for_each(|end| boxes[chain].take(positions[*end as usize]));
+            if edge.faces.iter().any(|face| !is_small(areas[*face as usize], whole.diagonal())) {
+                least[chain] = LEAST_REACH;
+            }
+        }
+        let mut vertices = vec![false; positions.len()];
+        for end in sharp().flat_map(|edge| edge.ends) {
+            let chain = chains.root(end);
+            vertices[end as usize] = boxes[chain].diagonal() >= least[chain] * whole.diagonal();
+        }
+        Self { vertices, areas, face_normals }
     }
+}
+
+/// An edge of two faces.
+struct Edge {
+    ends: [u32; 2],
+    faces: [u32; 2],
 }
 
 /// Numbers joined into sets.
@@ -97,7 +120,7 @@ impl Sets {
         number as usize
     }
 
-    fn join(&mut self, a: u32, b: u32) {
+    fn join(&mut self, [a, b]: [u32; 2]) {
         let (a, b) = (self.root(a), self.root(b));
         self.parents[a.max(b)] = a.min(b) as u32;
     }
