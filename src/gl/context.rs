@@ -17,6 +17,8 @@ mod info;
 mod load;
 #[cfg(not(target_arch = "wasm32"))]
 mod osmesa;
+#[cfg(not(any(target_arch = "wasm32", target_os = "macos")))]
+mod pbuffer;
 #[cfg(any(target_os = "macos", test))]
 mod surface_framebuffer;
 #[cfg(all(unix, not(target_os = "macos")))]

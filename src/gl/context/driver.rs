@@ -83,7 +83,7 @@ impl Candidate {
         let mut candidates = Vec::new();
         #[cfg(windows)]
         if is_wanted(Backend::Wgl) {
-            let open = |version| wgl::WglContext::open(version).map(boxed);
+            let open = |version| wgl::open(version).map(boxed);
             candidates.push(Self::new("wgl", "WGL", &context_lock::OF_WGL, open));
         }
         #[cfg(target_os = "macos")]
@@ -96,7 +96,7 @@ impl Candidate {
             match egl::devices() {
                 Ok(devices) => candidates.extend(devices.into_iter().map(|device| {
                     let name = device.name.clone();
-                    let open = move |version| egl::EglContext::open(&device, version).map(boxed);
+                    let open = move |version| egl::open(&device, version).map(boxed);
                     Self::new("egl", &name, &context_lock::OF_EGL, open)
                 })),
                 Err(reason) => candidates.push(Self::new("egl", "EGL", &context_lock::OF_EGL, |_| Err(reason))),

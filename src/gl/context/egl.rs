@@ -1,18 +1,12 @@
 //! EGL on a device, without a window system, through glutin.
 
-use super::driver::{NotCurrent, Platform};
+use super::pbuffer::{Makes, Pbuffer};
 use crate::scene::Size;
-use glutin::api::egl::{config::Config, context::PossiblyCurrentContext, device, display::Display, surface::Surface};
-use glutin::config::{Api, AsRawConfig, ConfigSurfaceTypes, ConfigTemplateBuilder, GlConfig, RawConfig};
-use glutin::context::{
-    ContextApi, ContextAttributesBuilder, NotCurrentGlContext, PossiblyCurrentGlContext, Robustness, Version,
-};
-use glutin::display::{AsRawDisplay, GlDisplay, RawDisplay};
-use glutin::error::ErrorKind;
-use glutin::surface::{PbufferSurface, SurfaceAttributesBuilder};
+use glutin::api::egl::{device, display::Display};
+use glutin::config::{AsRawConfig, ConfigSurfaceTypes, RawConfig};
+use glutin::display::{AsRawDisplay, RawDisplay};
 use libloading::Library;
 use std::ffi::{CStr, c_void};
-use std::num::NonZeroU32;
 use std::sync::OnceLock;
 
 /// The library's names, in the order glutin tries them.
@@ -99,103 +93,33 @@ pub(super) fn devices() -> Result<Vec<Device>, String> {
         .collect())
 }
 
-/// A context with its pbuffer.
-pub(super) struct EglContext {
-    // Declared, and so dropped, before the display they belong to.
-    context: PossiblyCurrentContext,
-    surface: Surface<PbufferSurface>,
-    size: Size,
-    config: Config,
-    display: Display,
+/// A compatibility context of this version of OpenGL on this device with a surface of one pixel.
+pub(super) fn open(device: &Device, version: (u8, u8)) -> Result<Pbuffer<()>, String> {
+    // SAFETY: the device was given by EGL and no native display handle is passed.
+    let display = unsafe { Display::with_device(&device.device, None) }
+        .map_err(|error| format!("opening the display failed ({error})"))?;
+    let display = glutin::display::Display::Egl(display);
+    let makes = Makes { display, window: None, surfaces: ConfigSurfaceTypes::PBUFFER, hint: "" };
+    Pbuffer::open(makes, version, largest_surface, ())
 }
 
-impl EglContext {
-    /// A compatibility context of this version of OpenGL on this device with a surface of one pixel.
-    pub(super) fn open(device: &Device, (major, minor): (u8, u8)) -> Result<Self, String> {
-        let step = |what: &'static str| move |error: glutin::error::Error| format!("{what} failed ({error})");
-        // SAFETY: the device was given by EGL and no native display handle is passed.
-        let display = unsafe { Display::with_device(&device.device, None) }.map_err(step("opening the display"))?;
-        let template = ConfigTemplateBuilder::new()
-            .with_alpha_size(8)
-            .with_depth_size(24)
-            .with_stencil_size(0)
-            .with_surface_type(ConfigSurfaceTypes::PBUFFER)
-            .with_api(Api::OPENGL)
-            .build();
-        // SAFETY: the display is alive and the template names no native window.
-        let configs = unsafe { display.find_configs(template) }.map_err(step("asking for framebuffer formats"))?;
-        let config = configs
-            .filter(|config| config.alpha_size() == 8 && config.depth_size() >= 24 && !config.float_pixels())
-            .min_by_key(|config| (config.num_samples(), config.depth_size(), config.stencil_size()))
-            .ok_or("it has no off-screen format with 8 alpha and 24 depth bits")?;
-        let create = |robustness: Robustness| {
-            let api = ContextApi::OpenGl(Some(Version::new(major, minor)));
-            let attributes =
-                ContextAttributesBuilder::new().with_context_api(api).with_robustness(robustness).build(None);
-            // SAFETY: config and display belong together; no native window is involved.
-            unsafe { display.create_context(&config, &attributes) }
-        };
-        // One that says when it is lost where the driver has such, which software does not; else any.
-        let context = create(Robustness::RobustLoseContextOnReset)
-            .or_else(|_| create(Robustness::NotRobust))
-            .map_err(|error| format!("making a GL {major}.{minor} context failed ({error})"))?;
-        let size = Size { width: 1, height: 1 };
-        let surface = create_surface(&display, &config, size)?;
-        Ok(Self { context: context.treat_as_possibly_current(), surface, size, config, display })
-    }
-}
-
-impl Platform for EglContext {
-    fn resize(&mut self, size: Size) -> Result<(), String> {
-        if size != self.size {
-            self.surface = create_surface(&self.display, &self.config, size)?;
-            self.size = size;
-        }
-        Ok(())
-    }
-
-    fn make_current(&self) -> Result<(), NotCurrent> {
-        self.context.make_current(&self.surface).map_err(|error| NotCurrent {
-            is_lost: matches!(error.error_kind(), ErrorKind::ContextLost),
-            reason: format!("it cannot be made current ({error})"),
-        })
-    }
-
-    fn release(&self) {
-        // Fails only if the display is gone, and then there is nothing to release.
-        let _ = self.context.make_not_current_in_place();
-    }
-
-    fn proc_address(&self, name: &CStr) -> *const c_void {
-        self.display.get_proc_address(name)
-    }
-
-    fn largest_surface(&self) -> Size {
-        // Elsewhere displays and configs may be of other kinds; these are EGL's.
-        #[cfg_attr(not(windows), expect(irrefutable_let_patterns, reason = "EGL is all there is"))]
-        let (RawDisplay::Egl(display), RawConfig::Egl(config)) = (self.display.raw_display(), self.config.raw_config())
-        else {
-            return Size { width: u32::MAX, height: u32::MAX };
-        };
-        let limit = |attribute: u32| {
-            let mut value = 0;
-            // SAFETY: display and config are alive, and the attribute is one integer.
-            let known = unsafe {
-                self.display.egl().GetConfigAttrib(display.cast(), config.cast(), attribute as i32, &mut value)
-            };
-            // Some drivers leave it at 0 and mean "no limit of its own".
-            if known == 0 || value <= 0 { u32::MAX } else { value as u32 }
-        };
-        const MAX_PBUFFER_HEIGHT: u32 = 0x302A;
-        const MAX_PBUFFER_WIDTH: u32 = 0x302C;
-        Size { width: limit(MAX_PBUFFER_WIDTH), height: limit(MAX_PBUFFER_HEIGHT) }
-    }
-}
-
-fn create_surface(display: &Display, config: &Config, size: Size) -> Result<Surface<PbufferSurface>, String> {
-    let side = |pixels: u32| NonZeroU32::new(pixels).ok_or("a surface of no pixels");
-    let attributes = SurfaceAttributesBuilder::<PbufferSurface>::new().build(side(size.width)?, side(size.height)?);
-    // SAFETY: the config is the display's and was asked for with pbuffer support.
-    unsafe { display.create_pbuffer_surface(config, &attributes) }
-        .map_err(|error| format!("making an off-screen surface of {size} pixels failed ({error})"))
+/// What EGL says of the sides of pbuffers.
+fn largest_surface(display: &glutin::display::Display, config: &glutin::config::Config) -> Size {
+    // Elsewhere displays and configs may be of other kinds; these are EGL's.
+    #[cfg_attr(not(windows), expect(irrefutable_let_patterns, reason = "EGL is all there is"))]
+    let (glutin::display::Display::Egl(egl), RawDisplay::Egl(raw), RawConfig::Egl(config)) =
+        (display, display.raw_display(), config.raw_config())
+    else {
+        return Size { width: u32::MAX, height: u32::MAX };
+    };
+    let limit = |attribute: u32| {
+        let mut value = 0;
+        // SAFETY: display and config are alive, and the attribute is one integer.
+        let known = unsafe { egl.egl().GetConfigAttrib(raw.cast(), config.cast(), attribute as i32, &mut value) };
+        // Some drivers leave it at 0 and mean "no limit of its own".
+        if known == 0 || value <= 0 { u32::MAX } else { value as u32 }
+    };
+    const MAX_PBUFFER_HEIGHT: u32 = 0x302A;
+    const MAX_PBUFFER_WIDTH: u32 = 0x302C;
+    Size { width: limit(MAX_PBUFFER_WIDTH), height: limit(MAX_PBUFFER_HEIGHT) }
 }

@@ -123,7 +123,7 @@ fn two_screens_draw_the_same_at_once_for_long() {
 }
 
 /// EGL's context as macOS has one: without a surface that could be drawn into.
-struct WithoutSurface(egl::EglContext);
+struct WithoutSurface(super::pbuffer::Pbuffer<()>);
 
 impl Platform for WithoutSurface {
     fn resize(&mut self, _: Size) -> Result<(), String> {
@@ -163,7 +163,7 @@ fn a_framebuffer_object_in_the_place_of_a_surface_draws_the_same_but_for_lines_a
     let device = egl::devices().unwrap().remove(0);
     let context = {
         let _guard = OF_EGL.lock();
-        let platform = WithoutSurface(egl::EglContext::open(&device, VERSION).unwrap());
+        let platform = WithoutSurface(egl::open(&device, VERSION).unwrap());
         Context::load(Box::new(platform), "egl", device.name, None, &OF_EGL).unwrap()
     };
     assert_eq!(context.info(), open(Backend::Egl).info());
