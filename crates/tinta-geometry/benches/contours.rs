@@ -186,8 +186,8 @@ fn silhouettes(scene: &Scene, rule: &str) -> Result<VisibleLines> {
 
 fn turns(views: &str, models: &[String]) -> Result<()> {
     let views: usize = views.parse().ok().filter(|views| (1..=360).contains(views)).unwrap_or(360);
-    println!("| model | triangles | rule | drawn px | explained px a degree | flicker px a degree |");
-    println!("|---|---|---|---|---|---|");
+    println!("| model | triangles | rule | drawn px | flicker px a degree, within 1, 2, 4 and 8 px |");
+    println!("|---|---|---|---|---|");
     for (name, mesh) in meshes(models)? {
         let scene = Scene::new(vec![mesh.clone()], &SceneSettings::default())?;
         let cameras = scene.turntable(&CameraSettings::default(), 360)?;
@@ -197,7 +197,7 @@ fn turns(views: &str, models: &[String]) -> Result<()> {
                 let lines = silhouettes(&scene, rule)?;
                 Ok((scene, lines))
             };
-            let mut sum = [0.0; 3];
+            let mut sum = [0.0; 5];
             let mut known: Option<(usize, (Scene, VisibleLines))> = None;
             for place in 0..views {
                 let first = place * 360 / views;
@@ -206,16 +206,18 @@ fn turns(views: &str, models: &[String]) -> Result<()> {
                     _ => picture(first)?,
                 };
                 let after = picture(first + 1)?;
-                let Flicker { drawn_px, explained_px, unexplained_px } =
-                    flicker([(&before.0, &before.1), (&after.0, &after.1)]);
-                // Drawn is counted in both pictures.
-                let numbers = [drawn_px * 0.5, explained_px, unexplained_px];
-                sum.iter_mut().zip(numbers).for_each(|(sum, number)| *sum += number / views as f64);
+                let pair = [(&before.0, &before.1), (&after.0, &after.1)];
+                for (slot, near_px) in [1.0, 2.0, 4.0, 8.0].into_iter().enumerate() {
+                    let Flicker { drawn_px, unexplained_px, .. } = flicker(pair, near_px);
+                    sum[slot] += unexplained_px / views as f64;
+                    // Drawn is counted in both pictures, each time.
+                    sum[4] += drawn_px / (8 * views) as f64;
+                }
                 known = Some((first + 1, after));
             }
-            let [drawn, explained, flicker] = sum;
+            let [one, two, four, eight, drawn] = sum;
             let count = mesh.triangles.len();
-            println!("| {name} | {count} | {rule} | {drawn:.0} | {explained:.2} | {flicker:.2} |");
+            println!("| {name} | {count} | {rule} | {drawn:.0} | {one:.2}, {two:.2}, {four:.2}, {eight:.2} |");
         }
     }
     Ok(())

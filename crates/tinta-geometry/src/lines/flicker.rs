@@ -4,7 +4,7 @@
 //! and not in the other, [`Flicker`]. No rule of silhouettes takes part, and none is favoured: only what is drawn counts.
 //!
 //! A place of a drawn line, taken along with the model into the other picture, *stays* if a line is drawn there within
-//! [`STEADY_PX`]. A contour slides over its surface, but along the view: by one degree its image is off by the radius of the surface
+//! so many pixels of it as whoever asks says. A contour slides over its surface, but along the view: by one degree its image is off by the radius of the surface
 //! times 0.00015. What does not stay is *explained* if in the other picture a face of another object hides the place, or one
 //! of its own that is nearer to the eye by more than [`FAR_EDGES`] sides, or if the place leaves the picture. The rest is flicker.
 //!
@@ -20,9 +20,6 @@ use crate::mesh::Mesh;
 use crate::scene::Scene;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
-
-/// How far from its place in the other picture a line is the same one, pixels at 512 x 512.
-const STEADY_PX: f64 = 1.0;
 
 /// Places that are asked about are at most so far apart, pixels at 512 x 512.
 const STEP_PX: f64 = 1.0;
@@ -42,20 +39,21 @@ pub struct Flicker {
     pub unexplained_px: f64,
 }
 
-/// The flicker between two pictures, both ways: what vanishes and what appears.
-pub fn flicker(pictures: [(&Scene, &VisibleLines); 2]) -> Flicker {
+/// The flicker between two pictures, both ways: what vanishes and what appears. Lines are the same if they are no farther than `near_px`
+/// apart, pixels at 512 x 512: less also counts lines that move, more forgives what jumps.
+pub fn flicker(pictures: [(&Scene, &VisibleLines); 2], near_px: f64) -> Flicker {
     let mut all = Flicker::default();
     for [(_, from), (scene, to)] in [pictures, [pictures[1], pictures[0]]] {
-        add(from, scene, to, &mut all);
+        add(from, scene, to, near_px, &mut all);
     }
     all
 }
 
 /// Adds what of some lines is not in another picture.
-fn add(from: &VisibleLines, scene: &Scene, to: &VisibleLines, all: &mut Flicker) {
+fn add(from: &VisibleLines, scene: &Scene, to: &VisibleLines, near_px: f64, all: &mut Flicker) {
     let space = Space::of(scene);
     let px = space.size.max_element() / 512.0;
-    let drawn = Drawn::new(to, STEADY_PX * px);
+    let drawn = Drawn::new(to, near_px * px);
     let mut open: Vec<(u32, DVec3, f64)> = Vec::new();
     for segment in from.segments.iter().filter(|segment| segment.is_visible) {
         let [a, b] = segment.ends_world;
@@ -189,7 +187,7 @@ mod tests {
     }
 
     fn of_pictures([a, b]: &[(Scene, VisibleLines); 2]) -> Flicker {
-        flicker([(&a.0, &a.1), (&b.0, &b.1)])
+        flicker([(&a.0, &a.1), (&b.0, &b.1)], 1.0)
     }
 
     #[test]
@@ -245,7 +243,7 @@ mod tests {
         // Nothing is drawn there any more: half of that is right.
         let nothing = VisibleLines { segments: Vec::new(), ..second.1.clone() };
         let pictures = [(&first.0, &first.1), (&hidden, &nothing)];
-        let Flicker { drawn_px, explained_px, unexplained_px } = flicker(pictures);
+        let Flicker { drawn_px, explained_px, unexplained_px } = flicker(pictures, 1.0);
         assert!((drawn_px - explained_px - unexplained_px).abs() < 1e-6);
         assert!((explained_px - 0.5 * drawn_px).abs() < 0.02 * drawn_px, "{explained_px} of {drawn_px}");
     }
