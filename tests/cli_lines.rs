@@ -73,14 +73,9 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "suggestive, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
     refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
-    for options in [
-        &["--explain"][..],
-        &["--dump", "steps"],
-        &["--frames", "3"],
-        &["--turntable", "4"],
-        &["--animate"],
-        &["--show", "borders"],
-    ] {
+    for options in
+        [&["--explain"][..], &["--dump", "steps"], &["--frames", "3"], &["--animate"], &["--show", "borders"]]
+    {
         refuse(&svg, options, &[options[0], "style lines"]);
     }
     refuse(&svg, &["--no-borders"], &["--no-borders", "leave it out"]);

@@ -16,6 +16,7 @@ pub fn segment(class: Class, is_visible: bool, a: [f64; 2], b: [f64; 2]) -> Line
         is_visible,
         is_outline: false,
         ends_px: [a.into(), b.into()],
+        ends_world: [a, b].map(|[x, y]| glam::DVec3::new(x, y, 0.0)),
         edge,
         angle_degrees: edge.map(|_| 45.25),
         object: 0,

@@ -88,6 +88,54 @@ fn a_models_frames_are_walked_through() {
 }
 
 #[test]
+fn a_turn_of_lines_is_numbered_drawings_whose_paths_have_ids_that_stay() {
+    let folder = Folder::new();
+    let model = ["builtin:open-box", "--size", "96x80", "--turntable", "5"];
+    let record = render(&[&model[..], &["-o", &folder.path("a-%02d.svg"), "--json", "--hidden", "dashed"]].concat());
+    let ids = |number: usize| -> Vec<String> {
+        let text = std::fs::read_to_string(folder.path(&format!("a-{number:02}.svg"))).unwrap();
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let paths = document.descendants().filter(|node| node.has_tag_name("path"));
+        paths.map(|path| path.attribute("id").expect("every path has one").to_owned()).collect()
+    };
+    let mut all = std::collections::BTreeSet::new();
+    for number in 1..=5 {
+        let ids = ids(number);
+        let different: std::collections::BTreeSet<_> = ids.iter().cloned().collect();
+        assert_eq!(ids.len(), different.len(), "{ids:?}");
+        all.extend(different);
+    }
+    let record: serde_json::Value = serde_json::from_str(&record).unwrap();
+    assert_eq!((&record["frames"], &record["strokes"]), (&5.into(), &all.len().into()));
+    assert_eq!((&record["style"]["name"], &record["style"]["hidden"]), (&"lines".into(), &"dashed".into()));
+    let size = |number: usize| std::fs::metadata(folder.path(&format!("a-{number:02}.svg"))).unwrap().len();
+    assert_eq!(record["bytes"], (1..=5).map(size).sum::<u64>());
+    assert!(!std::path::Path::new(&folder.path("a-06.svg")).exists());
+    // The twelve edges of a box and what of them is behind its sides: seen or hidden, the same strokes.
+    assert!(all.len() < 24, "{all:?}");
+    render(&[&model[..], &["-o", &folder.path("%d.pdf")]].concat());
+    render(&[&model[..], &["-o", &folder.path("%d.png"), "--style", "lines"]].concat());
+    assert!(std::fs::read(folder.path("5.pdf")).unwrap().starts_with(b"%PDF"));
+    assert_eq!(image::open(folder.path("5.png")).unwrap().into_rgba8().dimensions(), (96, 80));
+    // Without a turn a drawing is one file, and its paths have no ids.
+    render(&["builtin:open-box", "-o", &folder.path("one.svg")]);
+    assert!(!std::fs::read_to_string(folder.path("one.svg")).unwrap().contains("stroke-1"));
+}
+
+#[test]
+fn what_makes_no_turn_of_lines_is_refused() {
+    let refused = |output: &str, options: &[&str], words: &[&str]| {
+        refused_in_one_line(&[&["render", "builtin:ant", "-o", output, "--turntable", "4"], options].concat(), words);
+    };
+    for output in ["a.svg", "a.pdf", "a.json", "%d.json"] {
+        refused(output, &[], &[output, "this names one drawing", "frame-%04d.svg"]);
+    }
+    refused("-", &["--style", "lines"], &["-: this names one drawing"]);
+    refused("no/such/%d.svg", &[], &["no/such/1.svg: the folder no/such does not exist"]);
+    refused("%d.svg", &["--page", "A4"], &["--page", "each view", "--width-mm"]);
+}
+
+#[test]
 fn what_makes_no_animation_is_refused() {
     let folder = Folder::new();
     let out = folder.path("a.gif");

@@ -12,12 +12,16 @@ pub struct NumberedName {
 }
 
 impl NumberedName {
-    /// Finds the first `%d` or `%0Nd` (N from 1 to 9) in the file name of a picture format; `None` without one.
+    /// Finds the first `%d` or `%0Nd` (N from 1 to 9) in the file name of a picture format or a drawing, `.svg` or `.pdf`; `None`
+    /// without one.
     ///
     /// Only there: a per cent sign that means nothing, in a folder's name or before anything else, stays what it is.
     pub fn parse(name: &str) -> Option<Self> {
         let file_name = Path::new(name).file_name()?.to_str()?;
-        PictureFormat::of(Path::new(name))?;
+        let is_drawing = |name: &str| [".svg", ".pdf"].iter().any(|end| name.to_ascii_lowercase().ends_with(end));
+        if PictureFormat::of(Path::new(name)).is_none() && !is_drawing(name) {
+            return None;
+        }
         let (folder, file_name) = name.split_at(name.rfind(file_name)?);
         let places = file_name.match_indices('%');
         places.into_iter().find_map(|(at, _)| {
@@ -59,6 +63,7 @@ mod tests {
         assert_eq!(name("a/%d.tga", 120), "a/120.tga");
         assert_eq!(name("50%/x%02d_100%.png", 123), "50%/x123_100%.png");
         assert_eq!(name("10%_%03d.png", 4), "10%_004.png");
+        assert_eq!([name("f-%04d.svg", 7), name("%d.PDF", 7)], ["f-0007.svg", "7.PDF"]);
     }
 
     #[test]

@@ -2,17 +2,19 @@
 //! docs/smooth.md has the commands and the numbers.
 
 use glam::DVec3;
+use std::collections::HashSet;
 use std::sync::Arc;
 use std::time::Instant;
-use tinta_geometry::edges::{Class, ClassSet};
+use tinta_geometry::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use tinta_geometry::lines::closed_forms::{ClosedForm, distance};
-use tinta_geometry::lines::{Contour, LineSettings, VisibilityChanges};
+use tinta_geometry::lines::{Contour, Flicker, LineSettings, VisibilityChanges, flicker};
 use tinta_geometry::{CameraSettings, LoadOptions, Mesh, Result, Scene, SceneSettings, View, VisibleLines, load};
 
-const USAGE: &str = "cargo bench -p tinta-geometry --bench contours -- truth | breaks [MODEL...] | times MODEL...
+const USAGE: &str = "cargo bench -p tinta-geometry --bench contours -- truth | breaks [MODEL...] | times MODEL... | flicker VIEWS [MODEL...]
   truth    Hausdorff distance from closed forms at 1,000, 10,000 and 100,000 triangles, with its order
   breaks   inconsistencies of visibility, mean of 26 views; of closed forms where no model is given
-  times    milliseconds to find the lines, one view, rounds in turn";
+  times    milliseconds to find the lines, one view, rounds in turn
+  flicker  what comes and goes per degree of a turn, pixels of silhouette: VIEWS places of it, a degree each; 360 are the whole";
 
 /// Pictures a model is seen in: the faces, edges and corners of a cube, turned a little so that no axis is looked along.
 fn views() -> Vec<DVec3> {
@@ -158,12 +160,76 @@ fn times(models: &[String]) -> Result<()> {
     Ok(())
 }
 
+/// Of each rule the silhouettes of a scene that are seen. The listing's rule has no lines of its own: its are those of all edges that
+/// it names, as far as they are seen.
+fn silhouettes(scene: &Scene, rule: &str) -> Result<VisibleLines> {
+    let silhouette = if rule == "smooth" { Contour::Smooth } else { Contour::Exact };
+    let only = LineSettings {
+        classes: ClassSet::of(&[Class::Silhouette]),
+        silhouette,
+        finds_hidden: false,
+        ..LineSettings::default()
+    };
+    if rule != "paper" {
+        return VisibleLines::of(scene, &only);
+    }
+    let classes = ClassSet::of(&[Class::Silhouette, Class::Crease]);
+    let all = LineSettings { classes, crease_angle: CreaseAngle::from_degrees(0.0)?, ..only };
+    let object = &scene.objects[0];
+    let (edges, rule) = (scene.edges(object), SilhouetteRule::Published);
+    let ends = |edge: &u32| edges.list().positions()[*edge as usize].map(|at| object.mesh.file_vertices[at as usize]);
+    let named: HashSet<[u32; 2]> = edges.silhouette(scene.eye(object, rule), rule).iter().map(ends).collect();
+    let mut lines = VisibleLines::of(scene, &all)?;
+    lines.segments.retain(|segment| segment.edge.is_some_and(|edge| named.contains(&edge)));
+    Ok(lines)
+}
+
+fn turns(views: &str, models: &[String]) -> Result<()> {
+    let views: usize = views.parse().ok().filter(|views| (1..=360).contains(views)).unwrap_or(360);
+    println!("| model | triangles | rule | drawn px | flicker px a degree, within 1, 2, 4 and 8 px |");
+    println!("|---|---|---|---|---|");
+    for (name, mesh) in meshes(models)? {
+        let scene = Scene::new(vec![mesh.clone()], &SceneSettings::default())?;
+        let cameras = scene.turntable(&CameraSettings::default(), 360)?;
+        for rule in ["paper", "exact", "smooth"] {
+            let picture = |view: usize| -> Result<(Scene, VisibleLines)> {
+                let scene = Scene { camera: cameras[view % 360], ..scene.clone() };
+                let lines = silhouettes(&scene, rule)?;
+                Ok((scene, lines))
+            };
+            let mut sum = [0.0; 5];
+            let mut known: Option<(usize, (Scene, VisibleLines))> = None;
+            for place in 0..views {
+                let first = place * 360 / views;
+                let before = match known.take() {
+                    Some((view, picture)) if view == first => picture,
+                    _ => picture(first)?,
+                };
+                let after = picture(first + 1)?;
+                let pair = [(&before.0, &before.1), (&after.0, &after.1)];
+                for (slot, near_px) in [1.0, 2.0, 4.0, 8.0].into_iter().enumerate() {
+                    let Flicker { drawn_px, unexplained_px, .. } = flicker(pair, near_px);
+                    sum[slot] += unexplained_px / views as f64;
+                    // Drawn is counted in both pictures, each time.
+                    sum[4] += drawn_px / (8 * views) as f64;
+                }
+                known = Some((first + 1, after));
+            }
+            let [one, two, four, eight, drawn] = sum;
+            let count = mesh.triangles.len();
+            println!("| {name} | {count} | {rule} | {drawn:.0} | {one:.2}, {two:.2}, {four:.2}, {eight:.2} |");
+        }
+    }
+    Ok(())
+}
+
 fn main() -> Result<()> {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
     match words.split_first().map(|(first, rest)| (first.as_str(), rest)) {
         Some(("truth", [])) => truth(),
         Some(("breaks", models)) => breaks(models),
         Some(("times", models @ [_, ..])) => times(models),
+        Some(("flicker", [views, models @ ..])) => turns(views, models),
         _ => {
             println!("{USAGE}");
             Ok(())

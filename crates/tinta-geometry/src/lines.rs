@@ -35,7 +35,9 @@ mod drawing;
 mod face_image;
 mod faces;
 mod features;
+mod flicker;
 mod forms;
+mod identity;
 mod image;
 mod intersections;
 mod layers;
@@ -68,7 +70,9 @@ pub use chain::{LinePath, chain};
 pub use changes::VisibilityChanges;
 pub use curves::{Step, fitted};
 pub use drawing::{DrawnLayer, GHOST_OPACITY, drawn_layers};
+pub use flicker::{Flicker, flicker};
 pub use forms::FormSettings;
+pub use identity::StrokeIds;
 pub use layers::{ClassColors, ClassWidths, Layer, OfLayers};
 pub use length::{Length, Millimetres, Units, line_width};
 pub use page::{PageSize, Paper, Sheet, Turn};
@@ -89,7 +93,7 @@ use crate::threads::both;
 use contours::Contours;
 use faces::Faces;
 use features::{Edges, MendedEdges, Part};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use pyramid::Pyramid;
 use serde::Serialize;
 use space::Space;
@@ -223,6 +227,8 @@ pub struct LineSegment {
     /// Where it begins and ends in the picture: pixels from the upper left corner, y down. Pieces that meet at a vertex have
     /// bit for bit the same end there.
     pub ends_px: [DVec2; 2],
+    /// The same ends in the world.
+    pub ends_world: [DVec3; 2],
     /// The mesh edge it is part of: two vertices by their 0-based numbers in the file; `None` where faces intersect, and for form
     /// lines and smooth contours, which run through faces.
     pub edge: Option<[u32; 2]>,

@@ -14,7 +14,9 @@ use tinta::renderer::milliseconds_since;
 use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings, Style};
 
 #[derive(clap::Args)]
-#[command(next_help_heading = "Animation, into FILE.gif, FILE.apng or numbered pictures such as frame-%04d.png")]
+#[command(
+    next_help_heading = "Animation, into FILE.gif, FILE.apng or numbered files such as frame-%04d.png; lines: frame-%04d.svg"
+)]
 pub(super) struct AnimationArguments {
     /// Draw N views of a full turn around the models [default: off]
     #[arg(long, value_name = "N", conflicts_with = "animate", value_parser = clap::value_parser!(u32).range(1..=10_000))]
@@ -33,7 +35,7 @@ pub(super) struct AnimationArguments {
 const TURN_MS: u32 = 2500;
 
 /// Views from which silhouettes are worth a hierarchy.
-const WORTH_PREPARING: u32 = 30;
+pub(super) const WORTH_PREPARING: u32 = 30;
 
 /// Quake 2 shows ten frames a second.
 const MODEL_FRAME_MS: u16 = 100;

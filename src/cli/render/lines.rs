@@ -1,5 +1,7 @@
 //! `tinta render` of exact lines, into an SVG, PDF, JSON or picture's file. No OpenGL is opened.
 
+mod turn;
+
 use super::super::messages::is_captured;
 use super::super::model_cache::ModelCache;
 use super::super::models::load_with_files;
@@ -13,8 +15,8 @@ use std::str::FromStr;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 use tinta::lines::{
-    Contour, Hidden, LineSettings, Phase, Progress as LineProgress, Raster, chain, pdf_of_paths, raster_of_paths,
-    svg_of_paths,
+    Contour, Hidden, LinePath, LineSettings, Phase, Progress as LineProgress, Raster, chain, pdf_of_paths,
+    raster_of_paths, svg_of_paths,
 };
 use tinta::picture::{Note, PictureFormat};
 use tinta::preset::Options;
@@ -133,20 +135,21 @@ pub(super) fn run(
     format: Format,
     model_cache: &ModelCache,
 ) -> Result<Verdict> {
-    check_output(arguments, format)?;
+    let views = arguments.animation.turntable;
+    match views {
+        Some(_) => check_output(arguments, &turn::names(&arguments.output, format)?.with(1), format)?,
+        None => check_output(arguments, &arguments.output, format)?,
+    }
     refuse_what_lines_have_not(arguments, format)?;
     let progress = progress(arguments)?;
     // A job of a batch leaves signals to its run.
     let stop = (!is_captured()).then(Stop::on_signals);
-    let asked = svg_settings(arguments, None)?;
-    asked.check()?;
-    // A file of all pieces says of each; a drawing is cut only where that shows.
-    let finds_outline = format == Format::Json || asked.tells_outline();
-    // What is neither drawn nor counted is not looked for.
-    let finds_hidden = format == Format::Json || asked.hidden != Hidden::None || arguments.run.json;
-    let asked_lines = arguments.styles.line_settings(&arguments.forms)?;
-    let counts_changes = arguments.run.json && asked_lines.silhouette == Contour::Smooth;
-    let settings = LineSettings { finds_outline, finds_hidden, counts_changes, ..asked_lines };
+    if let Some(views) = views {
+        return turn::run(arguments, format, views, model_cache, stop.as_ref());
+    }
+    let mut settings = asked_lines(arguments, format)?;
+    settings.finds_hidden |= arguments.run.json;
+    settings.counts_changes = arguments.run.json && settings.silhouette == Contour::Smooth;
     let start = Instant::now();
     let (meshes, files) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
@@ -179,22 +182,11 @@ pub(super) fn run(
     let is_chained = format != Format::Json || arguments.run.json;
     let paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
     let counts = LineCounts::new(&lines, &paths);
-    if stop.as_ref().is_some_and(Stop::is_asked) {
+    if is_stopped(stop.as_ref()) {
         return Ok(stopped(stop.as_ref()));
     }
-    let write = |bytes: Vec<u8>| TextTarget::check(&arguments.output)?.write_bytes(&bytes);
-    match format {
-        Format::Svg => write(svg_of_paths(&lines, paths, &drawn)?.into_bytes())?,
-        Format::Pdf => write(pdf_of_paths(&lines, paths, &drawn)?)?,
-        Format::Json => write(lines_json(&lines, &scene)?.into_bytes())?,
-        Format::Picture => {
-            let Raster { size, pixels } = raster_of_paths(&lines, paths, &drawn)?;
-            let target = Target::check(&arguments.output, arguments.scene.is_transparent())?;
-            let said = note.map(|text| Note { keyword: "Comment", text });
-            let said = said.or_else(|| recipe.as_ref().and_then(Recipe::note));
-            target.write_with(&Picture { size, pixels }, said.as_ref())?;
-        }
-    }
+    let said = note.map(comment).or_else(|| recipe.as_ref().and_then(Recipe::note));
+    write(arguments, format, &arguments.output, &scene, (&lines, paths), &drawn, said.as_ref())?;
     let lines_ms = milliseconds_since(start);
     if !arguments.run.json {
         return Ok(Verdict::Good);
@@ -221,6 +213,48 @@ pub(super) fn run(
     .map(|()| Verdict::Good)
 }
 
+/// The lines that a format needs: what is neither drawn nor told of is not looked for.
+fn asked_lines(arguments: &Arguments, format: Format) -> Result<LineSettings> {
+    let asked = svg_settings(arguments, None)?;
+    asked.check()?;
+    // A file of all pieces says of each; a drawing is cut only where that shows.
+    let finds_outline = format == Format::Json || asked.tells_outline();
+    let finds_hidden = format == Format::Json || asked.hidden != Hidden::None;
+    Ok(LineSettings { finds_outline, finds_hidden, ..arguments.styles.line_settings(&arguments.forms)? })
+}
+
+/// Writes a drawing; a picture with what is said in it.
+fn write(
+    arguments: &Arguments,
+    format: Format,
+    output: &str,
+    scene: &Scene,
+    (lines, paths): (&VisibleLines, Vec<LinePath>),
+    drawn: &SvgSettings,
+    said: Option<&Note>,
+) -> Result<()> {
+    let write = |bytes: Vec<u8>| TextTarget::check(output)?.write_bytes(&bytes);
+    match format {
+        Format::Svg => write(svg_of_paths(lines, paths, drawn)?.into_bytes()),
+        Format::Pdf => write(pdf_of_paths(lines, paths, drawn)?),
+        Format::Json => write(lines_json(lines, scene)?.into_bytes()),
+        Format::Picture => {
+            let Raster { size, pixels } = raster_of_paths(lines, paths, drawn)?;
+            let target = Target::check(output, arguments.scene.is_transparent())?;
+            target.write_with(&Picture { size, pixels }, said)
+        }
+    }
+}
+
+/// What a picture says of lines that are a part.
+fn comment(text: String) -> Note {
+    Note { keyword: "Comment", text }
+}
+
+fn is_stopped(stop: Option<&Stop>) -> bool {
+    stop.is_some_and(Stop::is_asked)
+}
+
 /// The time that the lines may take, from now on.
 fn progress(arguments: &Arguments) -> Result<LineProgress> {
     let Some(seconds) = arguments.run.within else { return Ok(LineProgress::default()) };
@@ -235,10 +269,10 @@ fn stopped(stop: Option<&Stop>) -> Verdict {
 }
 
 /// Writes nothing yet: checks that the file can be written.
-fn check_output(arguments: &Arguments, format: Format) -> Result<()> {
+fn check_output(arguments: &Arguments, output: &str, format: Format) -> Result<()> {
     match format {
-        Format::Picture => Target::check(&arguments.output, arguments.scene.is_transparent()).map(drop),
-        Format::Svg | Format::Pdf | Format::Json => TextTarget::check(&arguments.output).map(drop),
+        Format::Picture => Target::check(output, arguments.scene.is_transparent()).map(drop),
+        Format::Svg | Format::Pdf | Format::Json => TextTarget::check(output).map(drop),
     }
 }
 
@@ -312,10 +346,9 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format) -> Result<(
             ("dump", run.dump.is_some()),
             ("frames", run.frames != 1),
             ("show", arguments.styles.show != Show::Final),
-            ("turntable", arguments.animation.turntable.is_some()),
             ("animate", arguments.animation.animate.is_some()),
         ],
-        "style lines has no passes and no frames; leave it out, or name a picture such as drawing.png",
+        "style lines has no passes and no model's frames; leave it out, or name a picture such as drawing.png",
     )?;
     let holds_note = format != Format::Picture
         || arguments.output == "-"

@@ -66,7 +66,7 @@ fn first_hit(space: &Space, faces: &Faces, starts: &[u32], px: DVec2) -> Option<
 }
 
 /// Where a ray, given by two of its points, meets a face: the depth and the corners' weights.
-fn meet(space: &Space, corners: [DVec3; 3], [from, to]: [DVec3; 2]) -> Option<(f64, [f64; 3])> {
+pub(super) fn meet(space: &Space, corners: [DVec3; 3], [from, to]: [DVec3; 2]) -> Option<(f64, [f64; 3])> {
     let turns = [1, 2, 0].map(|first| space.turn(corners[first], corners[(first + 1) % 3], to).0);
     let is_inside = turns.iter().all(|turn| *turn >= 0.0) || turns.iter().all(|turn| *turn <= 0.0);
     let [a, b, c] = corners;

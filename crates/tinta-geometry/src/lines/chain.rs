@@ -27,6 +27,8 @@ pub struct LinePath {
     pub is_closed: bool,
     /// The pieces by their places among those chained: piece `k` goes from point `k` to the next.
     pub segments: Vec<usize>,
+    /// The stroke that it is in all frames of a turn, see [`super::StrokeIds`]; `None` for a drawing by itself.
+    pub stroke: Option<u32>,
 }
 
 impl LinePath {
@@ -72,6 +74,7 @@ const TRIED: usize = 4;
 struct End {
     object: u32,
     layer: Layer,
+    curve: u32,
     x: u64,
     y: u64,
     number: usize,
@@ -79,13 +82,19 @@ struct End {
 
 impl End {
     fn meets(&self, other: &Self) -> bool {
-        (self.object, self.layer, self.x, self.y) == (other.object, other.layer, other.x, other.y)
+        (self.object, self.layer, self.curve, self.x, self.y)
+            == (other.object, other.layer, other.curve, other.x, other.y)
     }
 }
 
 /// Joins pieces to paths, in the order of each path's first piece. Pieces without length are left out.
 pub fn chain(segments: &[LineSegment]) -> Vec<LinePath> {
-    let partners = partners(segments);
+    chain_curves(segments, |_| 0)
+}
+
+/// The same of pieces that belong to curves by their numbers: only those of one curve are joined.
+pub(super) fn chain_curves(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Vec<LinePath> {
+    let partners = partners(segments, curve);
     let mut is_drawn = vec![false; segments.len()];
     let mut paths = Vec::new();
     for first in 0..segments.len() {
@@ -105,14 +114,14 @@ fn position(segments: &[LineSegment], end: usize) -> DVec2 {
 }
 
 /// The end each end is joined with, or [`FREE`].
-fn partners(segments: &[LineSegment]) -> Vec<usize> {
+fn partners(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Vec<usize> {
     let mut ends = Vec::with_capacity(segments.len() * 2);
     for (index, segment) in segments.iter().enumerate().filter(|(_, segment)| has_length(segment)) {
         for (which, point) in segment.ends_px.iter().enumerate() {
             // Adding 0 makes -0 a 0, which is the same place.
             let [x, y] = [point.x, point.y].map(|value| (value + 0.0).to_bits());
             let layer = segment.layer();
-            ends.push(End { object: segment.object, layer, x, y, number: index * 2 + which });
+            ends.push(End { object: segment.object, layer, curve: curve(segment), x, y, number: index * 2 + which });
         }
     }
     ends.sort_unstable();
@@ -211,7 +220,7 @@ fn walk(segments: &[LineSegment], partners: &[usize], first: usize, is_drawn: &m
         points_px.pop();
     }
     let LineSegment { class, is_visible, is_outline, object, .. } = segments[first];
-    LinePath { class, is_visible, is_outline, object, points_px, is_closed, segments: pieces }
+    LinePath { class, is_visible, is_outline, object, points_px, is_closed, segments: pieces, stroke: None }
 }
 
 #[cfg(test)]
@@ -224,6 +233,7 @@ mod tests {
             is_visible: true,
             is_outline: false,
             ends_px: [a.into(), b.into()],
+            ends_world: [a, b].map(|[x, y]| glam::DVec3::new(x, y, 0.0)),
             edge: Some([0, 1]),
             angle_degrees: None,
             object: 0,

@@ -87,7 +87,7 @@ impl Part<'_> {
     }
 
     /// Whether an edge runs through the inside of a face that was split.
-    fn is_within_a_face(&self, edge: u32) -> bool {
+    pub(super) fn is_within_a_face(&self, edge: u32) -> bool {
         matches!(self.edges, Edges::Mended(_))
             && matches!(self.edges.get().list().faces(edge), &[first, second] if self.whole_face(first) == self.whole_face(second))
     }

@@ -15,6 +15,8 @@
 mod apparent;
 mod settings;
 #[cfg(test)]
+mod stiff_tests;
+#[cfg(test)]
 mod tests;
 mod trace;
 #[cfg(test)]

@@ -105,6 +105,11 @@ impl Image {
         }
     }
 
+    /// What lies at two places, in the world.
+    pub(super) fn ends_world(&self, space: &Space, places: [f64; 2]) -> [DVec3; 2] {
+        places.map(|place| space.world(space.point(self.at(place), self.key(place))))
+    }
+
     pub(super) fn key(&self, place: f64) -> f64 {
         self.keys[0] + (self.keys[1] - self.keys[0]) * place
     }

@@ -278,6 +278,7 @@ mod tests {
 
     fn line(a: [f64; 2], b: [f64; 2]) -> VisibleLines {
         let segment = LineSegment {
+            ends_world: [glam::DVec3::ZERO; 2],
             class: Class::Crease,
             is_visible: true,
             is_outline: false,

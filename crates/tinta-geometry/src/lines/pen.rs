@@ -186,6 +186,8 @@ pub(super) fn dashes(path: &LinePath, dash_px: f64, gap_px: f64) -> Vec<LinePath
         }
     }
     dashes.extend(dash.filter(|dash| dash.points_px.len() > 1));
+    // Of the stroke's dashes the first has its number: no two paths have the same.
+    dashes.iter_mut().skip(1).for_each(|dash| dash.stroke = None);
     dashes
 }
 
@@ -198,6 +200,7 @@ mod tests {
         let points_px: Vec<DVec2> = points.iter().map(|point| DVec2::from_array(*point)).collect();
         let segments = (0..points.len() - usize::from(!is_closed)).collect();
         LinePath {
+            stroke: None,
             class: Class::Crease,
             is_visible: true,
             is_outline: false,

@@ -86,6 +86,7 @@ mod tests {
     fn path(points: &[[f64; 2]], is_closed: bool) -> LinePath {
         let points_px = points.iter().map(|point| DVec2::from_array(*point)).collect();
         LinePath {
+            stroke: None,
             class: Class::Crease,
             is_visible: true,
             is_outline: false,

@@ -72,6 +72,11 @@ impl Space {
         self.rotation * (world - self.eye)
     }
 
+    /// A point of the eye's space in the world.
+    pub(super) fn world(&self, view: DVec3) -> DVec3 {
+        self.rotation.transpose() * view + self.eye
+    }
+
     /// A direction of the world in the eye's space.
     pub(super) fn direction(&self, world: DVec3) -> DVec3 {
         self.rotation * world

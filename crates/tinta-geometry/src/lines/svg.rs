@@ -113,6 +113,9 @@ fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, out: &mut String) {
 
 fn write_path(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut String) {
     out.push_str("<path");
+    if let Some(stroke) = path.stroke {
+        let _ = write!(out, r#" id="stroke-{stroke}""#);
+    }
     if drawing.settings.has_provenance {
         write_provenance(drawing, class, path, out);
     }

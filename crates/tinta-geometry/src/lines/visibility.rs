@@ -195,6 +195,7 @@ impl<'a> Lines<'a> {
                 is_visible: piece.is_visible,
                 is_outline: piece.is_outline,
                 ends_px: [image.at(piece.from), image.at(piece.to)],
+                ends_world: image.ends_world(self.space, [piece.from, piece.to]),
                 edge: feature.edge,
                 angle_degrees: feature.angle_degrees,
                 object: feature.object,

@@ -7,7 +7,7 @@ use crate::mesh::LoadOptions;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The lines of a class on a mesh, in its own space.
-fn traced(mesh: &Mesh, class: Class, eye: Eye, settings: &FormSettings) -> Vec<[DVec3; 2]> {
+pub(super) fn traced(mesh: &Mesh, class: Class, eye: Eye, settings: &FormSettings) -> Vec<[DVec3; 2]> {
     let settings = LineSettings { classes: ClassSet::of(&[class]), forms: settings.clone(), ..LineSettings::default() };
     let curvatures = Curvatures::new(mesh, &EdgeList::new(mesh), settings.forms.crease_angle, settings.forms.smoothing);
     let forms = Forms::new(mesh, &curvatures, eye, &settings);
@@ -20,11 +20,11 @@ fn traced(mesh: &Mesh, class: Class, eye: Eye, settings: &FormSettings) -> Vec<[
     found
 }
 
-fn raw() -> FormSettings {
+pub(super) fn raw() -> FormSettings {
     FormSettings { smoothing: 0.0, ..FormSettings::default() }
 }
 
-fn length(lines: &[[DVec3; 2]]) -> f64 {
+pub(super) fn length(lines: &[[DVec3; 2]]) -> f64 {
     lines.iter().map(|[from, to]| from.distance(*to)).sum()
 }
 
@@ -42,7 +42,7 @@ fn loose_ends(lines: &[[DVec3; 2]]) -> usize {
 
 /// Of a torus the curvature along the view and its growth towards the eye, times sines of the angle to the view as [`Radial`] has
 /// them, in a closed form.
-fn on_torus([large, small]: [f64; 2], [u, v]: [f64; 2], to_eye: DVec3) -> [f64; 2] {
+pub(super) fn on_torus([large, small]: [f64; 2], [u, v]: [f64; 2], to_eye: DVec3) -> [f64; 2] {
     let across = large + small * v.cos();
     let around = DVec3::new(-u.sin(), u.cos(), 0.0);
     let up = DVec3::new(-v.sin() * u.cos(), -v.sin() * u.sin(), v.cos());
@@ -57,7 +57,7 @@ fn on_torus([large, small]: [f64; 2], [u, v]: [f64; 2], to_eye: DVec3) -> [f64; 
 }
 
 /// The parameters of the point of a torus nearest to a point.
-fn parameters(large: f64, point: DVec3) -> [f64; 2] {
+pub(super) fn parameters(large: f64, point: DVec3) -> [f64; 2] {
     [point.y.atan2(point.x), point.z.atan2(point.truncate().length() - large)]
 }
 

@@ -1,0 +1,104 @@
+//! `tinta render --turntable` of exact lines: numbered drawings whose strokes keep their ids.
+
+use super::super::super::model_cache::ModelCache;
+use super::super::super::models::load_with_files;
+use super::super::super::signals::Stop;
+use super::super::super::{Verdict, print_json, say};
+use super::super::animate::WORTH_PREPARING;
+use super::super::{Arguments, model_records};
+use super::{Format, asked_lines, comment, find, is_stopped, progress, svg_settings, write};
+use serde_json::json;
+use std::path::Path;
+use std::time::Instant;
+use tinta::animation::NumberedName;
+use tinta::lines::StrokeIds;
+use tinta::record::{LinesStyle, Summary};
+use tinta::renderer::milliseconds_since;
+use tinta::{Error, Result, Scene};
+
+/// The names of the drawings.
+///
+/// # Errors
+///
+/// [`Error::File`] for a name that has no place for a number, or means no drawing.
+pub(super) fn names(output: &str, format: Format) -> Result<NumberedName> {
+    NumberedName::parse(output).filter(|_| format != Format::Json).ok_or_else(|| {
+        Error::output(output, "this names one drawing; a turn has numbered ones such as frame-%04d.svg, .pdf or .png")
+    })
+}
+
+/// Draws the views of a turn one after the other.
+pub(super) fn run(
+    arguments: &Arguments,
+    format: Format,
+    views: u32,
+    model_cache: &ModelCache,
+    stop: Option<&Stop>,
+) -> Result<Verdict> {
+    let whole = Instant::now();
+    let names = names(&arguments.output, format)?;
+    if arguments.lines.options.contains_key("page") {
+        let problem = "each view would fill the paper by itself, and the turn pulse; leave it out, or say --width-mm";
+        return Err(Error::setting("page", problem));
+    }
+    let settings = asked_lines(arguments, format)?;
+    let scene_settings = arguments.scene_settings()?;
+    let start = Instant::now();
+    let (meshes, _) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
+    let load_ms = milliseconds_since(start);
+    let scene = Scene::new(meshes, &scene_settings)?;
+    if views >= WORTH_PREPARING {
+        scene.prepare_for_many_views();
+    }
+    let drawn = svg_settings(arguments, None)?;
+    let mut ids = StrokeIds::new(&scene, &settings);
+    let (mut bytes, mut frame_ms) = (0, Vec::new());
+    for (number, camera) in (1..).zip(scene.turntable(&scene_settings.camera, views)?) {
+        let frame = Instant::now();
+        let scene = Scene { camera, ..scene.clone() };
+        let name = names.with(number);
+        let lines = match find(&scene, &settings, &progress(arguments)?, stop) {
+            Err(Error::Cancelled) => return Ok(stopped(stop, number - 1, views)),
+            found => found?,
+        };
+        let note = lines.partial_note();
+        if let Some(note) = &note {
+            say(&format!("tinta: {name}: {note}"));
+        }
+        let lines = lines.without_specks(&drawn)?;
+        let paths = ids.next(&scene, &lines);
+        if is_stopped(stop) {
+            return Ok(stopped(stop, number - 1, views));
+        }
+        let said = note.map(comment);
+        write(arguments, format, &name, &scene, (&lines, paths), &drawn, said.as_ref())?;
+        bytes += Path::new(&name).metadata().map_or(0, |metadata| metadata.len());
+        frame_ms.push(milliseconds_since(frame));
+    }
+    if ids.count() == 0 {
+        say("tinta: no line of these classes is visible in any view; see --classes, --eye and --target");
+    }
+    if !arguments.run.json {
+        return Ok(Verdict::Good);
+    }
+    print_json(&json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "models": model_records(&scene, arguments.models.len()),
+        "load": arguments.model.settings()?,
+        "style": LinesStyle { lines: settings, svg: Some(drawn) },
+        "size": scene.size,
+        "frames": views,
+        "strokes": ids.count(),
+        "bytes": bytes,
+        "load_ms": load_ms,
+        "frame_ms": Summary::new(frame_ms),
+        "whole_ms": milliseconds_since(whole),
+    }))
+    .map(|()| Verdict::Good)
+}
+
+/// What a signal has ended after some of the drawings.
+fn stopped(stop: Option<&Stop>, done: u32, views: u32) -> Verdict {
+    say(&format!("tinta: stopped by a signal; {done} of {views} drawings were written"));
+    Verdict::Stopped { signal: stop.map_or(0, Stop::signal) }
+}
