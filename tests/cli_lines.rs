@@ -226,6 +226,9 @@ fn smooth_silhouettes_say_where_they_break_and_lines_are_written_as_curves() {
     for count in ["crossings", "cusps", "inconsistencies"] {
         assert!(record["changes"][count].is_u64(), "{count}");
     }
+    let places = record["changes"]["places"].as_array().unwrap();
+    assert_eq!(places.len() as u64, record["changes"]["inconsistencies"]);
+    assert!(places.iter().all(|place| place["px"][1].is_f64() && place["kind"].is_string()), "{places:?}");
     let exact = made(&["render", "builtin:bust", "-o", &folder.path("d.svg"), "--size", "128", "--json"]);
     let exact: serde_json::Value = serde_json::from_slice(&exact).unwrap();
     assert!(exact.get("changes").is_none());

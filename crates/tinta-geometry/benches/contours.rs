@@ -6,11 +6,11 @@ use std::collections::HashSet;
 use std::sync::Arc;
 use std::time::Instant;
 use tinta_geometry::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
-use tinta_geometry::lines::closed_forms::{ClosedForm, distance};
+use tinta_geometry::lines::closed_forms::{ClosedForm, Patch, distance};
 use tinta_geometry::lines::{Contour, Flicker, LineSettings, VisibilityChanges, flicker};
 use tinta_geometry::{CameraSettings, LoadOptions, Mesh, Result, Scene, SceneSettings, View, VisibleLines, load};
 
-const USAGE: &str = "cargo bench -p tinta-geometry --bench contours -- truth | breaks [MODEL...] | times MODEL... | flicker VIEWS [MODEL...]
+const USAGE: &str = "cargo bench -p tinta-geometry --bench contours -- truth [SURFACE...] | breaks [MODEL...] | times MODEL... | flicker VIEWS [MODEL...]
   truth    Hausdorff distance from closed forms at 1,000, 10,000 and 100,000 triangles, with its order
   breaks   inconsistencies of visibility, mean of 26 views; of closed forms where no model is given
   times    milliseconds to find the lines, one view, rounds in turn
@@ -38,18 +38,25 @@ fn settings(silhouette: Contour) -> LineSettings {
     LineSettings { silhouette, ..LineSettings::default() }
 }
 
-fn forms() -> [(&'static str, ClosedForm); 3] {
+/// Hills that hide one another, and a saddle at the rim.
+const PATCH: Patch =
+    Patch { coefficients: [[0.1, 0.9, 0.0, -1.1], [-0.8, 0.2, 0.3, 0.0], [0.1, 0.0, -0.4, 0.2], [1.0, 0.1, 0.0, 0.0]] };
+
+fn forms() -> [(&'static str, ClosedForm); 5] {
     [
         ("sphere", ClosedForm::ellipsoid(1.0, 1.0, 1.0)),
         ("ellipsoid", ClosedForm::ellipsoid(1.0, 0.6, 1.4)),
         ("torus", ClosedForm::Torus { ring: 1.0, tube: 0.4 }),
+        ("superquadric", ClosedForm::Superquadric { half_axes: DVec3::new(1.0, 0.6, 1.4), power: 4 }),
+        ("patch", ClosedForm::Patch(PATCH)),
     ]
 }
 
-fn truth() -> Result<()> {
+fn truth(surfaces: &[String]) -> Result<()> {
     println!("| surface | mesh | rule | triangles | Hausdorff px, worst of 26 | median | mean distance px | order |");
     println!("|---|---|---|---|---|---|---|---|");
-    for (name, form) in forms() {
+    let is_asked = |name: &str| surfaces.is_empty() || surfaces.iter().any(|surface| surface == name);
+    for (name, form) in forms().into_iter().filter(|(name, _)| is_asked(name)) {
         for (kind, jitter) in [("regular", 0.0), ("irregular", 0.2)] {
             for (rule, silhouette) in RULES {
                 let mut before: Option<(f64, f64)> = None;
@@ -109,7 +116,7 @@ fn breaks(models: &[String]) -> Result<()> {
             for way in &views {
                 let settings = LineSettings { counts_changes: true, ..settings(silhouette) };
                 let lines = VisibleLines::of(&scene(&mesh, *way)?, &settings)?;
-                let VisibilityChanges { crossings, cusps, inconsistencies } = lines.changes.unwrap_or_default();
+                let VisibilityChanges { crossings, cusps, inconsistencies, .. } = lines.changes.unwrap_or_default();
                 let seen =
                     lines.segments.iter().filter(|segment| segment.is_visible && segment.class == Class::Silhouette);
                 let length: f64 = seen.map(|segment| segment.ends_px[0].distance(segment.ends_px[1])).sum();
@@ -226,7 +233,7 @@ fn turns(views: &str, models: &[String]) -> Result<()> {
 fn main() -> Result<()> {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
     match words.split_first().map(|(first, rest)| (first.as_str(), rest)) {
-        Some(("truth", [])) => truth(),
+        Some(("truth", surfaces)) => truth(surfaces),
         Some(("breaks", models)) => breaks(models),
         Some(("times", models @ [_, ..])) => times(models),
         Some(("flicker", [views, models @ ..])) => turns(views, models),

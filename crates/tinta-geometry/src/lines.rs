@@ -59,6 +59,8 @@ mod simplify;
 mod smooth_tests;
 mod space;
 mod specks;
+#[cfg(test)]
+mod stiff_tests;
 mod strokes;
 mod summits;
 mod svg;
@@ -67,7 +69,7 @@ mod visibility;
 
 pub use cast::{Hit, first_hits};
 pub use chain::{LinePath, chain};
-pub use changes::VisibilityChanges;
+pub use changes::{Inconsistency, InconsistencyKind, VisibilityChanges};
 pub use curves::{Step, fitted};
 pub use drawing::{DrawnLayer, GHOST_OPACITY, drawn_layers};
 pub use flicker::{Flicker, flicker};

@@ -21,7 +21,7 @@ use serde::Serialize;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// How often along silhouettes what is seen begins or ends, by reason.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct VisibilityChanges {
     /// Something nearer begins or ends to hide the line.
     pub crossings: usize,
@@ -29,20 +29,45 @@ pub struct VisibilityChanges {
     pub cusps: usize,
     /// For no such reason.
     pub inconsistencies: usize,
+    /// Where these are, each once.
+    pub places: Vec<Inconsistency>,
 }
 
+/// A place at which what is seen of a silhouette ends for no reason that a smooth surface has.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Inconsistency {
+    /// Pixels from the upper left corner, y down.
+    pub px: [f64; 2],
+    /// What is there instead of a reason.
+    pub kind: InconsistencyKind,
+}
+
+/// What is there where a silhouette ends for no reason.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum InconsistencyKind {
+    /// Faces within two edges hide the line, without a cusp there.
+    Near,
+    /// The contour turns from bending away to bending towards the eye, one of both for less than two edges.
+    Turn,
+}
+
+#[derive(Clone, Copy)]
 enum Reason {
     Crossing,
     Cusp,
-    None,
+    None(InconsistencyKind),
 }
 
 impl VisibilityChanges {
-    fn count(&mut self, reason: &Reason) {
+    fn count(&mut self, reason: Reason, px: DVec2) {
         match reason {
             Reason::Crossing => self.crossings += 1,
             Reason::Cusp => self.cusps += 1,
-            Reason::None => self.inconsistencies += 1,
+            Reason::None(kind) => {
+                self.inconsistencies += 1;
+                self.places.push(Inconsistency { px: px.to_array(), kind });
+            }
         }
     }
 }
@@ -51,8 +76,8 @@ impl VisibilityChanges {
 struct Cusps {
     /// In the eye's space, and how far they reach.
     places: Vec<(DVec3, f64)>,
-    /// The edges they lie on, each with its part.
-    edges: HashSet<(u32, u32)>,
+    /// Their numbers among the links.
+    links: HashSet<usize>,
 }
 
 impl ContourLines<'_> {
@@ -65,21 +90,23 @@ impl ContourLines<'_> {
             by_piece[decided.piece] = Some(decided);
             for pair in decided.stretches.windows(2).filter(|pair| pair[0].is_visible != pair[1].is_visible) {
                 let hidden = if pair[0].is_visible { pair[1] } else { pair[0] };
-                changes.count(&self.reason(decided, hidden, &cusps));
+                changes.count(self.reason(decided, hidden, &cusps), decided.image.at(pair[0].to));
             }
         }
-        for Link { part, edge, ends } in &self.contours.links {
+        for (number, Link { ends, .. }) in self.contours.links.iter().enumerate() {
             let [Some(first), Some(second)] = ends.map(|(piece, end)| at_end(by_piece[piece]?, end)) else { continue };
             if first.1.is_visible == second.1.is_visible {
                 continue;
             }
             let hidden = if first.1.is_visible { second } else { first };
             let [a, b] = ends.map(|(piece, _)| self.contours.pieces[piece].bends_away);
-            changes.count(&match a == b {
-                false if cusps.edges.contains(&(*part, *edge)) => Reason::Cusp,
-                false => Reason::None,
+            let reason = match a == b {
+                false if cusps.links.contains(&number) => Reason::Cusp,
+                false => Reason::None(InconsistencyKind::Turn),
                 true => self.reason(hidden.0, hidden.1, &cusps),
-            });
+            };
+            let place = if ends[0].1 == 0 { first.1.from } else { first.1.to };
+            changes.count(reason, first.0.image.at(place));
         }
         changes
     }
@@ -105,7 +132,7 @@ impl ContourLines<'_> {
             })
             .collect();
         let mut changes = VisibilityChanges::default();
-        for meeting in meetings.values() {
+        for ((_, place), meeting) in &meetings {
             let seen = meeting.iter().filter(|index| segments[**index].is_visible).count();
             let hidden: Vec<usize> = meeting.iter().copied().filter(|index| !segments[*index].is_visible).collect();
             let is_smooth = meeting.iter().all(|index| smooth[*index].is_some());
@@ -120,8 +147,9 @@ impl ContourLines<'_> {
                 Some(self.reason_of(&probe, segments[*index].object, longest, &cusps))
             });
             let reasons: Vec<Reason> = reasons.collect();
-            let found = reasons.iter().find(|reason| !matches!(reason, Reason::None));
-            changes.count(found.unwrap_or(&Reason::None));
+            let found = reasons.iter().find(|reason| !matches!(reason, Reason::None(_)));
+            let none = Reason::None(InconsistencyKind::Near);
+            changes.count(*found.unwrap_or(&none), DVec2::from_array(place.map(f64::from_bits)));
         }
         changes
     }
@@ -151,7 +179,7 @@ impl ContourLines<'_> {
         }
         let is_near =
             cusps.places.iter().any(|(place, reach)| place.distance(probe.view) <= reach.max(REACH * longest));
-        if is_near { Reason::Cusp } else { Reason::None }
+        if is_near { Reason::Cusp } else { Reason::None(InconsistencyKind::Near) }
     }
 
     /// Whether a face, by its place, hangs together with a probe's line nowhere.
@@ -201,15 +229,15 @@ impl ContourLines<'_> {
         for (number, piece) in pieces.iter().enumerate() {
             lengths[root(&mut runs, number)] += piece.ends[0].distance(piece.ends[1]);
         }
-        let mut cusps = Cusps { places: Vec::new(), edges: HashSet::new() };
-        for Link { part, edge, ends: [(a, end), (b, _)] } in &self.contours.links {
+        let mut cusps = Cusps { places: Vec::new(), links: HashSet::new() };
+        for (number, Link { part, ends: [(a, end), (b, _)] }) in self.contours.links.iter().enumerate() {
             let longest_side =
                 |piece: usize| self.contours.parts[*part as usize].longest_side(self.lines.faces, pieces[piece].face);
             let longest = longest_side(*a).max(longest_side(*b));
             let least = lengths[root(&mut runs, *a)].min(lengths[root(&mut runs, *b)]);
             if pieces[*a].bends_away != pieces[*b].bends_away && least > REACH * longest {
                 cusps.places.push((pieces[*a].ends[*end], REACH * longest));
-                cusps.edges.insert((*part, *edge));
+                cusps.links.insert(number);
             }
         }
         cusps

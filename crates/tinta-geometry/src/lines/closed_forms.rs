@@ -2,8 +2,8 @@
 //!
 //! In: a [`ClosedForm`] and a [`Scene`] of its mesh. Out: the visible contour of the surface itself, in pixels, by formulas of its own in
 //! f64: no face, no edge and none of the code that finds lines has a part in it. A ray that touches a torus has a double root
-//! there; what is left of its quartic is a quadratic, so that visibility is in closed form, too. An ellipsoid hides nothing of its own
-//! contour. [`distance`] says how far drawn lines are from it.
+//! there; what is left of its quartic is a quadratic, so that visibility is in closed form, too. Ellipsoids and superquadrics are convex and
+//! hide nothing of their own contour. A [`Patch`] has a quartic of its own. [`distance`] says how far drawn lines are from it.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {
@@ -22,6 +22,11 @@
 //! # }
 //! ```
 
+mod patch;
+mod superquadric;
+
+pub use patch::Patch;
+
 use super::VisibleLines;
 use super::space::Space;
 use crate::edges::{Class, Eye, SilhouetteRule};
@@ -31,9 +36,19 @@ use crate::scene::Scene;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// A closed surface around the origin.
+/// A surface around the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClosedForm {
+    /// A convex superquadric: where the sum of the coordinates, each over its half axis and to an even power, is 1. From the fourth power on
+    /// it is flat where its axes leave it.
+    Superquadric {
+        /// Along x, y and z.
+        half_axes: DVec3,
+        /// Even, at least 2.
+        power: u32,
+    },
+    /// A bicubic patch, open.
+    Patch(Patch),
     /// An ellipsoid with these half axes.
     Ellipsoid {
         /// Along x, y and z.
@@ -98,6 +113,17 @@ impl ClosedForm {
                 let (directions, faces) = cube_sphere(triangles, jitter, &mut random);
                 (directions.into_iter().map(|direction| direction * *half_axes).collect(), faces)
             }
+            Self::Superquadric { half_axes, power } => {
+                let (directions, faces) = cube_sphere(triangles, jitter, &mut random);
+                (
+                    directions
+                        .into_iter()
+                        .map(|direction| superquadric::unit_point(direction, *power) * *half_axes)
+                        .collect(),
+                    faces,
+                )
+            }
+            Self::Patch(patch) => patch.mesh(triangles, jitter, || random.next()),
             Self::Torus { ring, tube } => {
                 // Cells about as long as wide.
                 let slices = (triangles as f64 * 0.5 * (tube / ring)).sqrt().round().max(3.0) as u32;
@@ -128,6 +154,9 @@ impl ClosedForm {
         let (space, eye) = (Space::of(scene), scene.eye(object, SilhouetteRule::Exact));
         let px = |point: DVec3| space.project(space.view(point + object.offset)).0;
         let mut lines = Vec::new();
+        if let Self::Patch(patch) = self {
+            lines.extend(patch.visible_pieces(eye).into_iter().map(|ends| ends.map(px).to_vec()));
+        }
         for curve in self.contours(eye) {
             for [from, to] in visible_ranges(|place| self.is_seen(curve(place), eye)) {
                 let ends = [from, to];
@@ -156,7 +185,10 @@ impl ClosedForm {
                 };
                 vec![Box::new(point)]
             }
+            Self::Superquadric { half_axes, power } => vec![superquadric::contour(half_axes, power, eye)],
             Self::Torus { ring, tube } => torus_contours(ring, tube, eye),
+            // Not made of closed curves.
+            Self::Patch(_) => Vec::new(),
         }
     }
 
@@ -347,6 +379,7 @@ mod tests {
     use super::*;
 
     const TORUS: ClosedForm = ClosedForm::Torus { ring: 1.0, tube: 0.4 };
+    const SUPERQUADRIC: ClosedForm = ClosedForm::Superquadric { half_axes: DVec3::new(1.0, 0.6, 1.4), power: 4 };
 
     fn eyes() -> [Eye; 5] {
         [
@@ -363,6 +396,10 @@ mod tests {
     fn implicit(form: ClosedForm, point: DVec3) -> f64 {
         match form {
             ClosedForm::Ellipsoid { half_axes } => (point / half_axes).length_squared() - 1.0,
+            ClosedForm::Superquadric { half_axes, power } => {
+                (point / half_axes).to_array().iter().map(|number| number.powi(power as i32)).sum::<f64>() - 1.0
+            }
+            ClosedForm::Patch(_) => point.y,
             ClosedForm::Torus { ring, tube } => {
                 let flat = DVec2::new(point.x, point.z).length() - ring;
                 flat * flat + point.y * point.y - tube * tube
@@ -372,7 +409,7 @@ mod tests {
 
     #[test]
     fn contours_lie_on_the_surface_where_it_turns_away() {
-        for form in [TORUS, ClosedForm::ellipsoid(1.0, 0.6, 1.4)] {
+        for form in [TORUS, SUPERQUADRIC, ClosedForm::ellipsoid(1.0, 0.6, 1.4)] {
             for eye in eyes() {
                 let curves = form.contours(eye);
                 assert!(!curves.is_empty());
@@ -415,7 +452,7 @@ mod tests {
 
     #[test]
     fn meshes_are_closed_have_about_so_many_triangles_and_lie_on_the_surface() {
-        for form in [TORUS, ClosedForm::ellipsoid(1.0, 0.6, 1.4)] {
+        for form in [TORUS, SUPERQUADRIC, ClosedForm::ellipsoid(1.0, 0.6, 1.4)] {
             for (triangles, jitter) in [(1_000, 0.0), (10_000, 0.2)] {
                 let mesh = form.mesh(triangles, jitter).unwrap();
                 assert!(mesh.triangles.len().abs_diff(triangles) < triangles / 10, "{}", mesh.triangles.len());

@@ -25,7 +25,7 @@ use std::sync::Arc;
 /// The smooth contours of a scene, before their visibility is known.
 pub(super) struct Contours {
     pub parts: Vec<PartSurface>,
-    /// By object, then face; then those on edges.
+    /// By object, then face; then those on edges; then what is cut off from others at cusps.
     pub pieces: Vec<Piece>,
     /// Where they hang together.
     pub links: Vec<Link>,
@@ -56,6 +56,8 @@ pub(super) struct Piece {
     pub normals: [DVec3; 2],
     /// Whether the front's side of the piece is the nearer one: there the surface bends away from the eye on the normal's side.
     pub bends_away: bool,
+    /// What its own face says of that: how much n . v grows towards the eye there, times twice the face's area.
+    pub bend: f64,
     /// The sharp edge it lies on, if it does: one at which the smooth normals turn away, the faces do not.
     pub on_edge: Option<u32>,
 }
@@ -107,7 +109,7 @@ impl Contours {
             all.parts.push(part);
         }
         all.links = links(&all.parts, &all.pieces);
-        settle(&all.parts, &mut all.pieces, faces, &all.links);
+        settle(&all.parts, &mut all.pieces, faces, &mut all.links);
         all
     }
 
@@ -188,14 +190,15 @@ impl PartSurface {
         let normal = along.cross(across);
         // The direction in which n . v grows fastest, times the normal's square.
         let growth = across.cross(normal) * (values[1] - values[0]) + normal.cross(along) * (values[2] - values[0]);
-        let bends_away = growth.dot(space.to_eye((first.1 + second.1) * 0.5)) > 0.0;
+        let bend = growth.dot(space.to_eye((first.1 + second.1) * 0.5)) / normal.length();
         Some(Piece {
             part,
             face,
             edges: [first.0, second.0],
             ends: [first.1, second.1],
             normals: [first.2, second.2],
-            bends_away,
+            bends_away: bend > 0.0,
+            bend: if bend.is_finite() { bend } else { 0.0 },
             on_edge: None,
         })
     }
@@ -218,6 +221,7 @@ impl PartSurface {
             ends: [from, to].map(|share| between(low, high, share)),
             normals: [from, to].map(|share| space.direction(normal(first, share) + normal(second, share))),
             bends_away,
+            bend: 0.0,
             on_edge: Some(edge),
         };
         parts.into_iter().map(piece).collect()

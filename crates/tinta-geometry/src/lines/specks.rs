@@ -60,7 +60,7 @@ impl VisibleLines {
             size: self.size,
             segments: Vec::new(),
             edges: self.edges,
-            changes: self.changes,
+            changes: self.changes.clone(),
             undecided: self.undecided,
             times: self.times,
         }

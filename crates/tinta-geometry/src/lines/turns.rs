@@ -1,21 +1,21 @@
-//! On which side of the surface a smooth contour bends away, told by more than one face.
+//! On which side of the surface a smooth contour bends away, told by more than one face; and where that changes, at its cusps.
 //!
-//! In: the pieces of [`Contours`](super::contours::Contours), each with what its own face says. Out: the same, each with what most of the contour says within
-//! two edges of it, along it and either way. Linear n . v has slopes that are right only on average: where the contour runs along the
+//! In: the pieces of [`Contours`](super::contours::Contours), each with what its own face says. Out: the same, each with what the contour says in the mean within
+//! two edges of it, along it and either way; faces weigh in by their area. Between the middles of two pieces the mean is taken to be linear, so that a cusp has a
+//! place inside a piece, which is cut in two there. Linear n . v has slopes that are right only on average: where the contour runs along the
 //! view, single faces say now this, now that. What lasts for less than two edges is no cusp.
 
-use super::contours::{PartSurface, Piece};
+use super::contours::{PartSurface, Piece, between};
 use super::faces::Faces;
 use crate::edges::Shell;
 
 /// How far a piece is looked around for what its contour does, edges.
 pub(super) const REACH: f64 = 2.0;
 
-/// An edge with the two pieces that meet on it, and which end of each.
+/// Two pieces that meet, and which end of each; on an edge, or at a cusp inside a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
     pub part: u32,
-    pub edge: u32,
     pub ends: [(usize, usize); 2],
 }
 
@@ -29,44 +29,78 @@ pub(super) fn links(parts: &[PartSurface], pieces: &[Piece]) -> Vec<Link> {
     }
     ends.sort_unstable();
     let links = ends.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).filter_map(|ends| match ends {
-        [a, b] => Some(Link { part: a.0, edge: a.1, ends: [(a.2, a.3), (b.2, b.3)] }),
+        [a, b] => Some(Link { part: a.0, ends: [(a.2, a.3), (b.2, b.3)] }),
         _ => None,
     });
     links.collect()
 }
 
-/// Lets each piece bend as most of its contour around it does.
-pub(super) fn settle(parts: &[PartSurface], pieces: &mut [Piece], faces: &Faces, links: &[Link]) {
+/// Lets each piece bend as its contour around it does, and cuts those in two within which that changes.
+pub(super) fn settle(parts: &[PartSurface], pieces: &mut Vec<Piece>, faces: &Faces, links: &mut Vec<Link>) {
     let mut neighbours = vec![[None; 2]; pieces.len()];
-    for Link { ends: [first, second], .. } in links {
+    for Link { ends: [first, second], .. } in links.iter() {
         neighbours[first.0][first.1] = Some(*second);
         neighbours[second.0][second.1] = Some(*first);
     }
     let lengths: Vec<f64> = pieces.iter().map(|piece| piece.ends[0].distance(piece.ends[1])).collect();
-    let settled: Vec<(bool, bool)> = (0..pieces.len())
+    // Of each piece the mean around it, and whether its whole contour is shorter than that.
+    let means: Vec<(f64, bool)> = (0..pieces.len())
         .map(|number| {
-            let sign = |number: usize| if pieces[number].bends_away { 1.0 } else { -1.0 };
             let reach = REACH * parts[pieces[number].part as usize].longest_side(faces, pieces[number].face);
-            let (mut sum, mut is_short) = (sign(number) * lengths[number], true);
+            let (mut sum, mut length) = (pieces[number].bend * lengths[number], lengths[number]);
+            let mut is_short = true;
             for end in 0..2 {
                 let mut left = reach;
                 let mut next = neighbours[number][end];
                 while let Some((other, came)) = next.filter(|(other, _)| left > 0.0 && *other != number) {
-                    sum += sign(other) * lengths[other].min(left);
+                    sum += pieces[other].bend * lengths[other].min(left);
+                    length += lengths[other].min(left);
                     left -= lengths[other];
                     next = neighbours[other][came ^ 1];
                 }
                 is_short &= left > 0.0;
             }
-            (if sum == 0.0 { pieces[number].bends_away } else { sum > 0.0 }, is_short)
+            let own = if pieces[number].bends_away { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE };
+            (if sum == 0.0 { own } else { sum / length }, is_short)
         })
         .collect();
-    for (piece, (bends_away, is_short)) in pieces.iter_mut().zip(settled).filter(|(piece, _)| piece.on_edge.is_none()) {
+    for (piece, (mean, is_short)) in pieces.iter_mut().zip(&means).filter(|(piece, _)| piece.on_edge.is_none()) {
         let shell = parts[piece.part as usize].surface.shells[piece.face as usize];
         piece.bends_away = match (is_short, shell) {
-            (false, _) | (_, Shell::Open) => bends_away,
+            (false, _) | (_, Shell::Open) => *mean > 0.0,
             (true, Shell::Outward) => true,
             (true, Shell::Inward) => false,
         };
+    }
+    let mut is_cut = vec![false; pieces.len()];
+    for index in 0..links.len() {
+        let Link { part, ends: [first, second] } = links[index];
+        if pieces[first.0].bends_away == pieces[second.0].bends_away || means[first.0].1 || means[second.0].1 {
+            continue;
+        }
+        // The mean is that in the pieces' middles, and linear between.
+        let halves = [first, second].map(|(piece, _)| lengths[piece] * 0.5);
+        let [before, after] = [first, second].map(|(piece, _)| means[piece].0);
+        let zero = before / (before - after) * (halves[0] + halves[1]) - halves[0];
+        // The piece in which it changes, and how far from the edge.
+        let (near, far, depth) = if zero < 0.0 { (second, first, -zero) } else { (first, second, zero) };
+        let share = depth / lengths[far.0];
+        if !(share > 0.0 && share < 1.0) || is_cut[far.0] {
+            continue;
+        }
+        is_cut[far.0] = true;
+        let new = pieces.len();
+        let piece = &mut pieces[far.0];
+        let at = if far.1 == 0 { share } else { 1.0 - share };
+        let middle = between(piece.ends[0], piece.ends[1], at);
+        let normal = between(piece.normals[0], piece.normals[1], at);
+        let mut cut = *piece;
+        // The part at the edge is the new one.
+        (cut.ends[far.1 ^ 1], cut.normals[far.1 ^ 1]) = (middle, normal);
+        (piece.ends[far.1], piece.normals[far.1]) = (middle, normal);
+        cut.bends_away = !piece.bends_away;
+        pieces.push(cut);
+        links[index].ends = [near, (new, far.1)];
+        links.push(Link { part, ends: [(new, far.1 ^ 1), far] });
     }
 }
