@@ -81,7 +81,7 @@ impl Loader {
 }
 
 /// Steps in which a model is read.
-const STEPS_A_MODEL: usize = 3;
+const STEPS_A_MODEL: usize = 4;
 
 /// Reads models and puts them together; says what it does.
 fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> Result<LoadedModels> {
@@ -96,7 +96,8 @@ fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> 
             let (done, doing) = match step {
                 LoadStage::Reading => (0, "reading"),
                 LoadStage::Parsing => (1, "understanding"),
-                _ => (2, "joining the vertices of"),
+                LoadStage::Joining => (2, "joining the vertices of"),
+                _ => (3, "finding the normals of"),
             };
             let share = (STEPS_A_MODEL * index + done) as f32 / steps;
             stage(Stage { text: format!("{doing} {model}{size}{which}"), share });
@@ -134,9 +135,9 @@ mod tests {
         let models = [file, "builtin:ant".to_owned()];
         let loaded = scene_of(&models, &LoadOptions::default(), &|stage| stages.borrow_mut().push(stage)).unwrap();
         assert_eq!(loaded.scene.objects.len(), 2);
-        let shares: Vec<f32> = stages.borrow().iter().map(|stage| (stage.share * 7.0).round()).collect();
+        let shares: Vec<f32> = stages.borrow().iter().map(|stage| (stage.share * 9.0).round()).collect();
         // A built-in model is neither read from a disk nor understood.
-        assert_eq!(shares, [0.0, 1.0, 2.0, 5.0, 6.0]);
+        assert_eq!(shares, [0.0, 1.0, 2.0, 3.0, 6.0, 8.0]);
         assert!(stages.borrow()[1].text.contains("understanding") && stages.borrow()[1].text.contains("(1 of 2)"));
     }
 }

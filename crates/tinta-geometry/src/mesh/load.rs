@@ -243,8 +243,10 @@ pub enum LoadStage {
     Reading,
     /// They are understood.
     Parsing,
-    /// Vertices become one, faces that are none are dropped, normals are made.
+    /// Vertices become one, polygons triangles, faces that are none are dropped.
     Joining,
+    /// Normals are made, or those of the file taken over.
+    Normals,
 }
 
 /// As [`load`], for whoever shows how far it is: `watch` is told of each stage when it begins.
@@ -278,7 +280,7 @@ fn read_as_watched(bytes: &[u8], path: &str, options: &LoadOptions, watch: &dyn 
     let folder = Folder::of(path, options.allow_external);
     let soup = soup(bytes, path, options, &folder, &mut remarks)?;
     watch(LoadStage::Joining);
-    made(soup, path, options, remarks)
+    made(soup, path, options, remarks, watch)
 }
 
 /// Refuses what lies on a network, where nothing is read.
@@ -314,11 +316,17 @@ pub fn read_bytes(bytes: &[u8], name: &str, beside: &[(&str, &[u8])], options: &
     let mut soup = soup(bytes, name, options, &Folder::of_files(beside), &mut remarks)?;
     // Of what was not found here nothing is known of any disk.
     soup.materials.iter_mut().for_each(|material| material.texture = None);
-    made(soup, name, options, remarks)
+    made(soup, name, options, remarks, &|_| {})
 }
 
 /// The mesh of what was read.
-fn made(mut soup: Soup, path: &str, options: &LoadOptions, mut remarks: Vec<String>) -> Result<Loaded> {
+fn made(
+    mut soup: Soup,
+    path: &str,
+    options: &LoadOptions,
+    mut remarks: Vec<String>,
+    watch: &dyn Fn(LoadStage),
+) -> Result<Loaded> {
     if soup.frames.is_empty() {
         options.model_frame.check_still(path)?;
     }
@@ -328,7 +336,7 @@ fn made(mut soup: Soup, path: &str, options: &LoadOptions, mut remarks: Vec<Stri
     let frames = std::mem::take(&mut soup.frames);
     let files = std::mem::take(&mut soup.files);
     let may_lie = soup.may_lie && options.up_axis == UpAxis::Auto;
-    let mesh = soup.into_mesh(path, options)?;
+    let mesh = soup.into_mesh_watched(path, options, watch)?;
     if may_lie && lying::seems_to_lie(&mesh) {
         remarks.push(format!(
             "{path}: it may lie on its back, for its only flat end is at the lowest z; if so, --up-axis z stands it up"

@@ -5,7 +5,7 @@
 
 use super::normals::Splitting;
 use super::pieces::Pieces;
-use super::{Defects, LoadOptions, Material, Mesh, NONE, Normals, normals, weld};
+use super::{Defects, LoadOptions, LoadStage, Material, Mesh, NONE, Normals, normals, weld};
 use crate::error::{Error, Result};
 use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
 use crate::tolerances::LARGEST_COORDINATE;
@@ -98,7 +98,17 @@ impl Soup {
     }
 
     /// Makes the mesh. Fails if nothing is left to draw, or with `options.strict` if anything was wrong.
-    pub(super) fn into_mesh(mut self, name: &str, options: &LoadOptions) -> Result<Mesh> {
+    pub(super) fn into_mesh(self, name: &str, options: &LoadOptions) -> Result<Mesh> {
+        self.into_mesh_watched(name, options, &|_| {})
+    }
+
+    /// The same, for whoever wants to know when only the normals are left to be made.
+    pub(super) fn into_mesh_watched(
+        mut self,
+        name: &str,
+        options: &LoadOptions,
+        watch: &dyn Fn(LoadStage),
+    ) -> Result<Mesh> {
         for position in &mut self.positions {
             *position = options.up_axis.to_y_up(*position);
         }
@@ -144,6 +154,7 @@ impl Soup {
         if mesh.position_colors.len() != mesh.positions.len() {
             mesh.position_colors.clear();
         }
+        watch(LoadStage::Normals);
         mesh.take_normals(&self.normals, &pieces.face_normals, options);
         if options.strict && !mesh.defects.is_empty() {
             return Err(Error::Strict { path: name.into(), defects: mesh.defects.to_string() });
