@@ -31,7 +31,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         (triangles.len(), files(&positions, &triangles, folder.path())?)
     };
     println!("{count} triangles, medians of {rounds} rounds, ms");
-    println!("{:<12}{:>8}{:>9}{}{:>14}", "", "MB", "B/tri", COLUMNS.map(|name| format!("{name:>12}")).concat(), "read, MB/s");
+    println!(
+        "{:<12}{:>8}{:>9}{}{:>14}",
+        "",
+        "MB",
+        "B/tri",
+        COLUMNS.map(|name| format!("{name:>12}")).concat(),
+        "read, MB/s"
+    );
     let mut times = vec![[const { Vec::new() }; COLUMNS.len()]; files.len()];
     let mut bytes_a_triangle = vec![0; files.len()];
     for _ in 0..rounds {
