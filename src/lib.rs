@@ -69,7 +69,7 @@
 //! | styles and their buffers | [`styles`], [`Style`], [`Show`] |
 //! | a style of your own | [`plan`], and `examples/own_style.rs` |
 //! | contexts, drawing, timing | [`gl`], [`renderer`], [`Renderer`]; `drivers` checks a driver |
-//! | a view that is turned by hand | [`orbit`] |
+//! | a view that is turned by hand, and by keys | [`orbit`], [`keys`] |
 //! | pictures and animations | [`picture`], [`animation`] |
 //! | presets, and pictures that can be made again | [`preset`], [`recipe`] |
 //! | error against run time | [`measure`], [`report`], [`figures`], [`stress`] |
@@ -125,6 +125,7 @@ pub mod renderer;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod drivers;
 pub mod orbit;
+pub mod keys;
 #[cfg(feature = "animation")]
 pub mod animation;
 

@@ -186,6 +186,7 @@ fn with_outlines_there_are_the_same_lines_as_without() {
                         && (last.edge, last.object) == (segment.edge, segment.object) =>
                 {
                     last.ends_px[1] = segment.ends_px[1];
+                    last.ends_world[1] = segment.ends_world[1];
                     last.is_outline = segment.is_outline;
                 }
                 _ => joined.push(segment),

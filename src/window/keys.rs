@@ -1,143 +1,67 @@
-//! Keys: which event each makes, and the sheet that lists them.
+//! Keys: which event each makes.
 
 use super::event::{Side, ViewerEvent};
 use super::line_style::{LINES, LinesShown};
 use super::state::ViewerState;
+use crate::keys::{Action, action};
 use crate::styles::StyleName;
 use egui::{Key, Modifiers};
 
-/// What the key sheet says: keys, what they do.
-pub(super) fn sheet() -> impl Iterator<Item = (&'static str, String)> {
-    // Those after the ninth have no key.
-    let names: Vec<&str> = StyleName::ALL.iter().map(|(name, _)| *name).take(9).collect();
-    SHEET.iter().map(move |(keys, what)| (*keys, what.replace(STYLES, &names.join(", "))))
-}
-
-/// Stands for the styles' names.
-const STYLES: &str = "STYLES";
-
-const SHEET: &[(&str, &str)] = &[
-    ("drag", "turn the model"),
-    ("right drag, Shift drag", "move it"),
-    ("wheel, pinch", "nearer, farther"),
-    ("1 to 9", STYLES),
-    ("0", "lines: exact lines by themselves"),
-    ("E", "exact lines over the picture, or not"),
-    ("S", "one style; two with a divider to drag; two and their difference"),
-    ("O", "the other side: its style by number, its settings in the panel"),
-    ("B", "buffers: map, normals, depth, borders, tones, edge classes"),
-    ("Space", "panel with every setting"),
-    ("C", "coarser pictures while the model moves, or not"),
-    ("M", "time of each pass, error against the exact lines"),
-    ("R", "whole model, first view"),
-    ("F, Shift F", "from the front, from the back"),
-    ("L, Shift L", "from the left, from the right"),
-    ("T, Shift T", "from the top, from below"),
-    ("I", "from a corner (iso)"),
-    ("P", "perspective or parallel projection"),
-    ("arrows, Shift arrows", "turn, move"),
-    ("+ and -", "nearer, farther"),
-    ("[ and ]", "divider to the left, to the right"),
-    ("Ctrl S", "save the picture that is shown (PNG)"),
-    ("Ctrl L", "save the exact lines of this view (SVG)"),
-    ("Ctrl T", "save a turn around the model (GIF)"),
-    ("Ctrl P", "save style and settings (preset, TOML)"),
-    ("drop a file", "show that model; a preset (.toml): its style and settings"),
-    ("F11", "full screen"),
-    ("H", "this sheet"),
-    ("Esc", "close what is open: sheet, times, panel, full screen"),
-    ("Q", "quit"),
+/// What can be saved: what it is, and what the key that saves it does.
+pub(super) const SAVES: [(&str, Action); 4] = [
+    ("picture", Action::SavePicture),
+    ("lines", Action::SaveLines),
+    ("turn", Action::SaveTurn),
+    ("preset", Action::SavePreset),
 ];
-
-/// What can be saved: the key with Ctrl, what it is, the event.
-pub(super) const SAVES: [(Key, &str, ViewerEvent); 4] = [
-    (Key::S, "picture", ViewerEvent::SavePicture),
-    (Key::L, "lines", ViewerEvent::SaveLines),
-    (Key::T, "turn", ViewerEvent::SaveTurn),
-    (Key::P, "preset", ViewerEvent::SavePreset),
-];
-
-/// What the key sheet says of saving this.
-pub(super) fn about_saving(key: Key) -> String {
-    let keys = format!("Ctrl {}", key.name());
-    let what = SHEET.iter().find(|(listed, _)| *listed == keys).map_or("", |(_, what)| *what);
-    format!("{keys}: {what}")
-}
-
-/// What an arrow turns or moves by, shares of the picture's height.
-const STEP: f64 = 1.0 / 24.0;
-
-/// What + and - bring nearer by.
-const ZOOM_STEP: f64 = 1.25;
-
-/// What [ and ] move the divider by, share of the width.
-const DIVIDER_STEP: f64 = 0.05;
 
 /// The event of a key; `None` for a key that does nothing.
 pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Option<ViewerEvent> {
-    if modifiers.command {
-        let save = SAVES.iter().find(|(of_it, ..)| *of_it == key).map(|(_, _, event)| event.clone());
-        return save.or_else(|| (key == Key::Q).then_some(ViewerEvent::Quit));
-    }
-    let view =
-        |plain: &str, shifted: &str| Some(ViewerEvent::View(if modifiers.shift { shifted } else { plain }.to_owned()));
-    let arrow = |right: f64, down: f64| {
-        let step = [right * STEP, down * STEP];
-        Some(if modifiers.shift { ViewerEvent::Move(step) } else { ViewerEvent::Turn(step) })
-    };
-    let style = |number: usize| {
-        let (name, _) = StyleName::ALL.get(number)?;
-        Some(ViewerEvent::Style(state.active, (*name).to_owned()))
-    };
-    match key {
-        Key::Num1 => style(0),
-        Key::Num2 => style(1),
-        Key::Num3 => style(2),
-        Key::Num4 => style(3),
-        Key::Num5 => style(4),
-        Key::Num6 => style(5),
-        Key::Num7 => style(6),
-        Key::Num8 => style(7),
-        Key::Num9 => style(8),
-        Key::Num0 => Some(ViewerEvent::Style(state.active, LINES.to_owned())),
-        Key::E => Some(ViewerEvent::Overlay(state.active, state.lines_shown(state.active) != LinesShown::Over)),
-        Key::S => Some(ViewerEvent::NextLayout),
-        Key::O => Some(ViewerEvent::Choose(match state.active {
+    event_of(action(|name| Key::from_name(name) == Some(key), modifiers.shift, modifiers.command)?, state)
+}
+
+/// The event of what a key does; `None` where there is nothing to close.
+pub(super) fn event_of(action: Action, state: &ViewerState) -> Option<ViewerEvent> {
+    let style = |name: &str| ViewerEvent::Style(state.active, name.to_owned());
+    Some(match action {
+        Action::Turn(step) => ViewerEvent::Turn(step),
+        Action::Move(step) => ViewerEvent::Move(step),
+        Action::Zoom(factor) => ViewerEvent::Zoom(factor),
+        Action::Divide(by) => ViewerEvent::Divide(state.divider + by),
+        Action::View(name) => ViewerEvent::View(name.to_owned()),
+        Action::Style(number) => style(StyleName::ALL.get(number)?.0),
+        Action::Lines => style(LINES),
+        Action::Overlay => ViewerEvent::Overlay(state.active, state.lines_shown(state.active) != LinesShown::Over),
+        Action::Layout => ViewerEvent::NextLayout,
+        Action::OtherSide => ViewerEvent::Choose(match state.active {
             Side::Left if state.sides().len() > 1 => Side::Right,
             _ => Side::Left,
-        })),
-        Key::B => Some(ViewerEvent::NextBuffer),
-        Key::Space => Some(ViewerEvent::Panel),
-        Key::C => Some(ViewerEvent::Coarse(!state.is_coarse_while_moving)),
-        Key::M => Some(ViewerEvent::Price),
-        Key::R => Some(ViewerEvent::Reset),
-        Key::F => view("front", "back"),
-        Key::L => view("left", "right"),
-        Key::T => view("top", "bottom"),
-        Key::I => view("iso", "iso"),
-        Key::P => Some(ViewerEvent::Projection),
-        Key::H => Some(ViewerEvent::KeySheet),
-        Key::F11 => Some(ViewerEvent::FullScreen),
-        Key::Q => Some(ViewerEvent::Quit),
-        Key::Escape if state.has_key_sheet => Some(ViewerEvent::KeySheet),
-        Key::Escape if state.has_price => Some(ViewerEvent::Price),
-        Key::Escape if state.has_panel => Some(ViewerEvent::Panel),
-        Key::Escape if state.is_full_screen => Some(ViewerEvent::FullScreen),
-        Key::ArrowLeft => arrow(-1.0, 0.0),
-        Key::ArrowRight => arrow(1.0, 0.0),
-        Key::ArrowUp => arrow(0.0, -1.0),
-        Key::ArrowDown => arrow(0.0, 1.0),
-        Key::Plus | Key::Equals => Some(ViewerEvent::Zoom(ZOOM_STEP)),
-        Key::Minus => Some(ViewerEvent::Zoom(1.0 / ZOOM_STEP)),
-        Key::OpenBracket => Some(ViewerEvent::Divide(state.divider - DIVIDER_STEP)),
-        Key::CloseBracket => Some(ViewerEvent::Divide(state.divider + DIVIDER_STEP)),
-        _ => None,
-    }
+        }),
+        Action::Buffer => ViewerEvent::NextBuffer,
+        Action::Panel => ViewerEvent::Panel,
+        Action::Coarse => ViewerEvent::Coarse(!state.is_coarse_while_moving),
+        Action::Price => ViewerEvent::Price,
+        Action::Reset => ViewerEvent::Reset,
+        Action::Projection => ViewerEvent::Projection,
+        Action::SavePicture => ViewerEvent::SavePicture,
+        Action::SaveLines => ViewerEvent::SaveLines,
+        Action::SaveTurn => ViewerEvent::SaveTurn,
+        Action::SavePreset => ViewerEvent::SavePreset,
+        Action::FullScreen => ViewerEvent::FullScreen,
+        Action::KeySheet => ViewerEvent::KeySheet,
+        Action::Close if state.has_key_sheet => ViewerEvent::KeySheet,
+        Action::Close if state.has_price => ViewerEvent::Price,
+        Action::Close if state.has_panel => ViewerEvent::Panel,
+        Action::Close if state.is_full_screen => ViewerEvent::FullScreen,
+        Action::Close => return None,
+        Action::Quit => ViewerEvent::Quit,
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::keys::about;
 
     #[test]
     fn number_keys_are_the_styles_in_their_order() {
@@ -149,15 +73,24 @@ mod tests {
             state.update(made);
             assert_eq!((state.style(Side::Left).name(), &state.message), (name, &None));
         }
-        let (_, listed) = sheet().find(|(keys, _)| *keys == "1 to 9").unwrap();
-        let names: Vec<&str> = StyleName::ALL.iter().map(|(name, _)| *name).take(9).collect();
-        assert_eq!(listed, names.join(", "));
+    }
+
+    #[test]
+    fn every_key_of_the_table_is_known_to_the_window() {
+        for name in crate::keys::names() {
+            let key = Key::from_name(name).unwrap_or_else(|| panic!("{name} is no key"));
+            let is_done = [Modifiers::NONE, Modifiers::SHIFT, Modifiers::COMMAND].into_iter().any(|modifiers| {
+                let open = ViewerState { has_panel: true, ..ViewerState::default() };
+                event(key, modifiers, &open).is_some()
+            });
+            assert!(is_done, "{name} does nothing");
+        }
     }
 
     #[test]
     fn what_is_saved_is_in_the_key_sheet() {
-        for (key, what, _) in SAVES {
-            let about = about_saving(key);
+        for (what, action) in SAVES {
+            let about = about(action).unwrap();
             assert!(
                 about.contains(": save ") && about.contains(if what == "preset" { "settings" } else { what }),
                 "{about}"

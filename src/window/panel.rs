@@ -6,6 +6,7 @@ use super::keys;
 use super::line_style::{LINES, LinesShown};
 use super::viewer::Viewer;
 use super::widget::{self, Change};
+use crate::keys::about;
 use crate::preset::{LOOKS, SHIPPED};
 use crate::styles::{Origin, StyleName};
 use egui::{Color32, RichText, Ui};
@@ -73,9 +74,10 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
     }
     ui.horizontal(|ui| {
         ui.label("save");
-        for (key, what, event) in keys::SAVES {
-            if ui.button(what).on_hover_text(keys::about_saving(key)).clicked() {
-                events.push(event);
+        for (what, action) in keys::SAVES {
+            let button = ui.button(what);
+            if button.on_hover_text(about(action).unwrap_or_default()).clicked() {
+                events.extend(keys::event_of(action, state));
             }
         }
     });

@@ -287,7 +287,7 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
                 ui,
                 |ui| {
                     egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
-                        for (keys, what) in keys::sheet() {
+                        for (keys, what) in crate::keys::sheet(false) {
                             ui.strong(keys);
                             ui.label(what);
                             ui.end_row();

@@ -1,11 +1,10 @@
 // Pointers, wheel and keys on the stage: drags turn, two fingers zoom and move, keys are those of the window.
 
 import { element } from "./panel.js";
+import { key_action as actionOf } from "./tinta.js";
 
-/** What an arrow turns or moves by, a share of the picture's height; what + and - zoom by; what [ and ] move the divider by. */
-const STEP = 1 / 24;
-const ZOOM = 1.25;
-const DIVIDE = 5;
+/** What a notch of the wheel zooms by. */
+const NOTCH = 1.118;
 
 /** Connects a stage with what it changes. */
 export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf, keys, save }) {
@@ -50,35 +49,27 @@ export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf
     "wheel",
     (event) => {
       event.preventDefault();
-      changed(() => pane()?.zoom(ZOOM ** (-Math.sign(event.deltaY) / 2)));
+      changed(() => pane()?.zoom(NOTCH ** -Math.sign(event.deltaY)));
     },
     { passive: false },
   );
 
-  const arrow = (right, down) => (shift) => (shift ? pane()?.moveBy(right * STEP, down * STEP) : pane()?.turn(right * STEP, down * STEP));
-  const look = (plain, shifted) => (shift) => pane()?.look(shift ? shifted : plain);
-  const divide = (by) => () => (state().divider = Math.min(100, Math.max(0, state().divider + by)));
-  const actions = new Map([
-    ["arrowleft", ["turn; with Shift move", arrow(-1, 0)]],
-    ["arrowright", ["turn; with Shift move", arrow(1, 0)]],
-    ["arrowup", ["turn; with Shift move", arrow(0, -1)]],
-    ["arrowdown", ["turn; with Shift move", arrow(0, 1)]],
-    ["+", ["nearer", () => pane()?.zoom(ZOOM)]],
-    ["=", ["nearer", () => pane()?.zoom(ZOOM)]],
-    ["-", ["farther", () => pane()?.zoom(1 / ZOOM)]],
-    ["[", ["divider to the left", divide(-DIVIDE)]],
-    ["]", ["divider to the right", divide(DIVIDE)]],
-    ["r", ["whole model, first view", () => pane()?.reset()]],
-    ["f", ["from the front; with Shift from the back", look("front", "back")]],
-    ["l", ["from the left; with Shift from the right", look("left", "right")]],
-    ["t", ["from the top; with Shift from below", look("top", "bottom")]],
-    ["i", ["from a corner", look("iso", "iso")]],
-    ["p", ["perspective or parallel projection", () => pane()?.project()]],
-    ["o", ["the other side is the one that 1 to 9 and B change", () => (active = active === "left" ? "right" : "left")]],
-    ["b", ["next buffer", () => nextBuffer()]],
-    ["h", ["this sheet", () => keys.showModal()]],
-  ]);
-  tables.styles.forEach(({ name }, number) => actions.set(String(number + 1), [name, () => chooseStyle(active, name)]));
+  /** What each action of the table of keys does here. */
+  const actions = {
+    turn: ([right, down]) => pane()?.turn(right, down),
+    move: ([right, down]) => pane()?.moveBy(right, down),
+    zoom: (factor) => pane()?.zoom(factor),
+    divide: (by) => (state().divider = Math.min(100, Math.max(0, state().divider + by * 100))),
+    view: (name) => pane()?.look(name),
+    style: (number) => chooseStyle(active, tables.styles[number].name),
+    "other-side": () => (active = active === "left" ? "right" : "left"),
+    buffer: nextBuffer,
+    reset: () => pane()?.reset(),
+    projection: () => pane()?.project(),
+    "save-picture": () => save.png.click(),
+    "save-lines": () => save.svg.click(),
+    "key-sheet": () => keys.showModal(),
+  };
 
   function nextBuffer() {
     const side = state().sides[active];
@@ -88,27 +79,22 @@ export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf
   }
 
   keys.querySelector("dl").append(
-    ...[...actions].flatMap(([key, [about]]) => [
-      element("dt", {}, element("kbd", { textContent: key })),
-      element("dd", { textContent: about }),
-    ]),
-    ...[["Ctrl S", "save the picture (PNG)"], ["Ctrl L", "save the exact lines (SVG)"]].flatMap(([key, about]) => [
-      element("dt", {}, element("kbd", { textContent: key })),
-      element("dd", { textContent: about }),
+    ...tables.keys.flatMap(({ keys, what }) => [
+      element("dt", {}, element("kbd", { textContent: keys })),
+      element("dd", { textContent: what }),
     ]),
   );
   addEventListener("keydown", (event) => {
-    const key = event.key.toLowerCase();
-    if ((event.ctrlKey || event.metaKey) && ["s", "l"].includes(key)) {
-      event.preventDefault();
-      (key === "s" ? save.png : save.svg).click();
-      return;
-    }
+    const isHeld = event.ctrlKey || event.metaKey;
     const isField = event.target instanceof Element && event.target.closest("input, select, textarea, button, summary, pre, dialog");
-    const action = actions.get(key);
-    if (!action || isField || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.altKey || (isField && !isHeld)) return;
+    const found = JSON.parse(actionOf(event.key, event.shiftKey, isHeld));
+    const [name, value] = found instanceof Object ? Object.entries(found)[0] : [found];
+    // What only the window has is left to the browser.
+    if (!Object.hasOwn(actions, name)) return;
     event.preventDefault();
-    changed(() => action[1](event.shiftKey));
+    if (name.startsWith("save-")) actions[name]();
+    else changed(() => actions[name](value));
   });
   return () => active;
 }

@@ -3,13 +3,14 @@
 use crate::errors::unreadable;
 use serde_json::{Value, json};
 use tinta::glsl::es::{Stage, transcribed};
+use tinta::keys::{action, sheet};
 use tinta::mesh::BUILTINS;
 use tinta::settings::{HasSettings, Kind, Setting};
 use tinta::{SceneSettings, Style, StyleName};
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsError, JsValue};
 
-/// Every style with its settings, those of the scene, the built-in models: JSON.
+/// Every style with its settings, those of the scene, the built-in models, the sheet of keys: JSON.
 #[wasm_bindgen]
 pub fn tables() -> String {
     let styles: Vec<Value> = StyleName::ALL
@@ -26,7 +27,9 @@ pub fn tables() -> String {
     let of_scene: Vec<Value> =
         SceneSettings::table().of(Some(&scene)).into_iter().map(|setting| control(setting, &scene)).collect();
     let models: Vec<Value> = BUILTINS.iter().map(|model| json!({ "name": model.name, "what": model.what })).collect();
-    json!({ "version": env!("CARGO_PKG_VERSION"), "styles": styles, "scene": of_scene, "models": models }).to_string()
+    let keys: Vec<Value> = sheet(true).map(|(keys, what)| json!({ "keys": keys, "what": what })).collect();
+    json!({ "version": env!("CARGO_PKG_VERSION"), "styles": styles, "scene": of_scene, "models": models, "keys": keys })
+        .to_string()
 }
 
 /// A setting as a control needs it.
@@ -82,6 +85,13 @@ pub fn refusal(style: &str, name: &str, text: &str) -> Option<String> {
     let style = Style::named(style.parse().ok()?);
     let setting = Style::table().find(&style, name)?;
     setting.set(&mut style.clone(), text).err().map(|error| error.to_string())
+}
+
+/// What a key does, by its name as `KeyboardEvent.key` has it: JSON, an action's name, or an object of its name and value; `null` where
+/// it does nothing.
+#[wasm_bindgen]
+pub fn key_action(key: &str, has_shift: bool, has_ctrl: bool) -> String {
+    json!(action(|name| name.eq_ignore_ascii_case(key), has_shift, has_ctrl)).to_string()
 }
 
 /// Runs when the page is opened: a bug is told in the console, with its place.

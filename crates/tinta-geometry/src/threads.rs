@@ -89,6 +89,29 @@ pub fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(std::ops
     })
 }
 
+/// One list of what `work` makes of each piece of `0..count`, `each` items of every number; `None` where it is of any piece.
+///
+/// Each thread writes a list of its own, so that the system hands out its pages to all at once; the first has room for all.
+pub fn listed<T: Send>(
+    count: usize,
+    each: usize,
+    threads: usize,
+    work: impl Fn(std::ops::Range<usize>, &mut Vec<T>) -> Option<()> + Sync,
+) -> Option<Vec<T>> {
+    let lists = in_parallel(count, threads, |range| {
+        let room = if range.start == 0 { count } else { range.len() };
+        let mut list = Vec::new();
+        list.reserve_exact(room * each);
+        work(range, &mut list).map(|()| list)
+    });
+    let mut lists = lists.into_iter();
+    let mut all = lists.next().unwrap_or_else(|| Some(Vec::new()))?;
+    for list in lists {
+        all.append(&mut list?);
+    }
+    Some(all)
+}
+
 /// Does `work` for pieces of `length` of `0..count`, each thread taking the next piece when it has done one, and returns the
 /// results in order: for work whose pieces take very different times.
 pub fn in_chunks<T: Send + Sync>(
@@ -171,6 +194,23 @@ pub fn both<A, B: Send>(first: impl FnOnce() -> A, second: impl Fn() -> B + Sync
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_list_is_the_same_however_many_threads_make_it_and_none_where_one_of_them_gives_up() {
+        for threads in [1, 2, 3, 7] {
+            let twice = listed(10, 2, threads, |range, list| {
+                list.extend(range.flat_map(|number| [number, number]));
+                Some(())
+            });
+            assert_eq!(twice.unwrap(), [0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9]);
+            let given_up = listed(10, 1, threads, |range, list| {
+                list.push(1);
+                (!range.contains(&9)).then_some(())
+            });
+            assert_eq!(given_up, None);
+        }
+        assert_eq!(listed(0, 1, 2, |_, _: &mut Vec<u8>| None), Some(Vec::new()));
+    }
 
     #[test]
     fn spread_chunks_are_all_taken_once_and_returned_in_order() {

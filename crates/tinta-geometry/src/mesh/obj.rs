@@ -9,6 +9,7 @@
 mod agreement;
 mod lines;
 mod piece;
+mod quick;
 #[cfg(test)]
 mod twin;
 

@@ -4,7 +4,7 @@
 
 use super::soup::{Corner, Soup};
 use super::{NONE, triangle_normal, triangulate};
-use crate::threads::{in_parallel, sort_by, threads_for};
+use crate::threads::{in_parallel, threads_for};
 use earcut::Earcut;
 use glam::DVec3;
 
@@ -104,22 +104,10 @@ impl Pieces {
     }
 
     /// Drops triangles that repeat an earlier one with the same orientation; the opposite side is another triangle.
-    pub(super) fn drop_duplicates(&mut self) {
-        // A triangle turned so that its lowest vertex comes first, and its number, as one number.
-        let turned = |(index, [a, b, c]): (usize, [u32; 3])| {
-            let [a, b, c] = if a < b && a < c {
-                [a, b, c]
-            } else if b < c {
-                [b, c, a]
-            } else {
-                [c, a, b]
-            };
-            [a, b, c, index as u32].iter().fold(0, |number, part| number << 32 | u128::from(*part))
-        };
-        let mut order: Vec<u128> = self.triangles.iter().copied().enumerate().map(turned).collect();
-        sort_by(&mut order, threads_for(self.triangles.len()), u128::cmp);
-        let pairs = order.windows(2).filter(|pair| pair[0] >> 32 == pair[1] >> 32);
-        let mut repeated: Vec<u32> = pairs.map(|pair| pair[1] as u32).collect();
+    ///
+    /// Of `vertices` vertices in all.
+    pub(super) fn drop_duplicates(&mut self, vertices: usize) {
+        let mut repeated = repeated(&self.triangles, vertices);
         if repeated.is_empty() {
             return;
         }
@@ -133,6 +121,55 @@ impl Pieces {
         retain(&mut self.texture_coordinates, &keep);
         retain(&mut self.materials, &keep);
     }
+}
+
+/// A triangle turned so that its lowest vertex comes first.
+fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
+    if a < b && a < c {
+        [a, b, c]
+    } else if b < c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
+}
+
+/// The numbers of all triangles that repeat an earlier one, in no order.
+///
+/// Triangles are put in order by their lowest vertex alone, by counting, as few have the same; those few are sorted.
+fn repeated(triangles: &[[u32; 3]], vertices: usize) -> Vec<u32> {
+    // Where those of each vertex begin, once they are put there; before that, where they end.
+    let mut ends = vec![0u32; vertices + 1];
+    let lowest = |[a, b, c]: &[u32; 3]| *a.min(b).min(c) as usize;
+    triangles.iter().for_each(|triangle| ends[lowest(triangle)] += 1);
+    let mut end = 0;
+    for count in &mut ends {
+        end += *count;
+        *count = end;
+    }
+    let mut order = vec![0u32; triangles.len()];
+    for (number, triangle) in triangles.iter().enumerate().rev() {
+        let end = &mut ends[lowest(triangle)];
+        *end -= 1;
+        order[*end as usize] = number as u32;
+    }
+    let starts = ends;
+    let found = in_parallel(vertices, threads_for(triangles.len()), |range| {
+        let mut found = Vec::new();
+        let mut some: Vec<([u32; 3], u32)> = Vec::new();
+        for vertex in range {
+            let group = &order[starts[vertex] as usize..starts[vertex + 1] as usize];
+            if group.len() > 1 {
+                some.clear();
+                some.extend(group.iter().map(|number| (turned(triangles[*number as usize]), *number)));
+                some.sort_unstable();
+                let pairs = some.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+                found.extend(pairs.map(|pair| pair[1].1));
+            }
+        }
+        found
+    });
+    found.concat()
 }
 
 /// Where each polygon's corners begin, and where the last one's end; empty where all are triangles.
@@ -150,4 +187,37 @@ fn starts(soup: &Soup) -> Vec<u32> {
 fn retain<T>(items: &mut Vec<T>, keep: &[bool]) {
     let mut flags = keep.iter();
     items.retain(|_| flags.next().copied().unwrap_or(false));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::HashSet;
+
+    proptest! {
+        #[test]
+        fn triangles_that_come_again_are_those_a_set_has_seen(
+            triangles in prop::collection::vec(prop::array::uniform3(0u32..5), 0..200)
+        ) {
+            let is_sound = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+            let triangles: Vec<[u32; 3]> = triangles.into_iter().filter(is_sound).collect();
+            let mut seen = HashSet::new();
+            let expected: Vec<u32> =
+                (0..triangles.len()).filter(|i| !seen.insert(turned(triangles[*i]))).map(|i| i as u32).collect();
+            let mut found = repeated(&triangles, 5);
+            found.sort_unstable();
+            prop_assert_eq!(found, expected);
+        }
+    }
+
+    #[test]
+    fn a_turned_triangle_goes_the_same_way_round() {
+        for triangle in [[1, 2, 3], [3, 1, 2], [2, 3, 1]] {
+            assert_eq!(turned(triangle), [1, 2, 3]);
+        }
+        for triangle in [[1, 3, 2], [3, 2, 1], [2, 1, 3]] {
+            assert_eq!(turned(triangle), [1, 3, 2]);
+        }
+    }
 }

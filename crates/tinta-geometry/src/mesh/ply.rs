@@ -156,12 +156,27 @@ impl Contents {
         /// Corners for which there is room before a face is read.
         const LIST: usize = 1024;
         let with = |used: bool, index: u32| if used { index } else { NONE };
+        let is_list = |name: &str| name == "vertex_indices" || name == "vertex_index";
+        let is_first = soup.corners.is_empty() && soup.polygon_sizes.is_empty();
+        if is_first && element.properties.iter().any(|property| is_list(&property.name)) {
+            let corner = |index| Corner {
+                position: index,
+                normal: with(*has_normals, index),
+                texture: with(*has_texture, index),
+            };
+            // Indices may be negative in the file: these are no smaller than any count of vertices here.
+            if let Some(corners) = payload.triangles(element, (*vertices).min(i32::MAX as u32), corner) {
+                soup.corners = corners;
+                return Ok(());
+            }
+        }
+        soup.write_sizes();
         soup.polygon_sizes.reserve_exact(payload.at_most(element));
         for _ in 0..element.count {
             let start = soup.corners.len();
             let mut is_in_range = true;
             payload.element(element, |name, value| {
-                if name != "vertex_indices" && name != "vertex_index" {
+                if !is_list(name) {
                     return;
                 }
                 match value {
@@ -204,6 +219,7 @@ impl Contents {
         let Self { soup, vertices, has_normals, has_texture, .. } = self;
         let with = |used: bool, index: u32| if used { index } else { NONE };
         let mut is_full = false;
+        soup.write_sizes();
         for _ in 0..element.count {
             let mut strip = Strip::default();
             payload.element(element, |name, value| {
@@ -271,6 +287,45 @@ mod tests {
         assert_eq!(soup.positions[2], DVec3::new(1.0, 1.0, 0.5));
         assert_eq!(soup.polygon_sizes, [4]);
         assert_eq!(soup.defects.out_of_range_faces, 1);
+    }
+
+    #[test]
+    fn triangles_read_at_once_are_those_read_one_by_one() {
+        // With a colour behind each face none are read at once.
+        let file = |faces: &[(u8, [i32; 3])], has_color: bool| {
+            let color = if has_color { "property uchar red\n" } else { "" };
+            let mut file = format!(
+                "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
+                 property float z\nproperty float s\nproperty float t\nelement face {}\n\
+                 property list uchar int vertex_indices\n{color}element other 1\nproperty uchar a\nend_header\n",
+                faces.len()
+            )
+            .into_bytes();
+            file.extend([0u8; 4 * 20]);
+            for (count, corners) in faces {
+                file.push(*count);
+                file.extend(corners[..usize::from(*count)].iter().flat_map(|corner| corner.to_le_bytes()));
+                file.extend(has_color.then_some(7));
+            }
+            file.push(1);
+            read(&file, "t.ply").unwrap()
+        };
+        for (faces, kept, wrong) in [
+            (&[(3, [0, 1, 2]), (3, [3, 2, 1])][..], 2, [0, 0]),
+            (&[(3, [0, 1, 2]), (3, [3, 2, 4]), (3, [1, 2, 3])], 2, [1, 0]),
+            (&[(3, [0, 1, -1]), (3, [3, 2, 1])], 1, [1, 0]),
+            (&[(3, [0, 1, 2]), (2, [3, 2, 0]), (3, [1, 2, 3])], 2, [0, 1]),
+        ] {
+            let [at_once, one_by_one] = [false, true].map(|has_color| {
+                let soup = file(faces, has_color);
+                let corners: Vec<_> = soup.corners.iter().map(|own| [own.position, own.normal, own.texture]).collect();
+                assert_eq!(soup.defects.out_of_range_faces, wrong[0]);
+                assert_eq!(soup.defects.degenerate_triangles, wrong[1]);
+                (corners, soup.polygon_count())
+            });
+            assert_eq!(at_once, one_by_one);
+            assert_eq!(at_once.1, kept);
+        }
     }
 
     #[test]

@@ -79,6 +79,13 @@ impl Soup {
         if self.polygon_sizes.is_empty() { self.corners.len() / 3 } else { self.polygon_sizes.len() }
     }
 
+    /// Writes down that all polygons so far are triangles, where that was left out; others may follow then.
+    pub(super) fn write_sizes(&mut self) {
+        if self.polygon_sizes.is_empty() {
+            self.polygon_sizes = vec![3; self.corners.len() / 3];
+        }
+    }
+
     /// Refuses what would take more memory as a mesh than a file of `file_bytes` may: no exporter writes so few bytes for so
     /// many vertices and faces, but two bytes can name a polygon's corner.
     pub(super) fn check_memory(&self, file_bytes: usize, name: &str) -> Result<()> {
@@ -119,7 +126,7 @@ impl Soup {
         let used = self.used(&finite);
         let welded = self.welded(&used, options.weld, name)?;
         let mut pieces = Pieces::of(&self, &finite, &welded);
-        pieces.drop_duplicates();
+        pieces.drop_duplicates(self.positions.len());
         defects.degenerate_triangles += pieces.degenerate;
         defects.duplicate_triangles += pieces.duplicate;
         if pieces.triangles.is_empty() {

@@ -7,6 +7,7 @@ use crate::bytes::Bytes;
 use crate::error::{Error, Result};
 use crate::files::shown;
 use crate::limits::STL_LINE_BYTES;
+use crate::threads::{listed, threads_for};
 use glam::DVec3;
 use std::io::Cursor;
 
@@ -63,20 +64,22 @@ pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
 
 /// A binary file's facets, which are all there.
 fn binary(bytes: &[u8]) -> Soup {
-    let mut rest = Bytes(bytes.get(HEADER_BYTES..).unwrap_or_default());
     let count = facet_count(bytes).unwrap_or_default();
-    let mut soup = Soup::default();
-    soup.positions.reserve_exact(count * 3);
-    soup.corners.reserve_exact(count * 3);
-    for facet in rest.records(count, FACET_BYTES).into_iter().flatten() {
-        let mut facet = Bytes(facet);
-        let [_normal, corners @ ..]: [Option<[f32; 3]>; 4] = std::array::from_fn(|_| facet.floats());
-        for corner in corners {
-            soup.corners.push(Corner::at(soup.positions.len() as u32));
-            soup.positions.push(DVec3::from_array(corner.unwrap_or_default().map(f64::from)));
+    let facets = bytes.get(HEADER_BYTES..).and_then(|facets| facets.get(..count * FACET_BYTES)).unwrap_or_default();
+    let threads = threads_for(count);
+    let positions = listed(count, 3, threads, |range, positions| {
+        for facet in facets[range.start * FACET_BYTES..range.end * FACET_BYTES].chunks_exact(FACET_BYTES) {
+            let mut facet = Bytes(facet);
+            let [_normal, corners @ ..]: [Option<[f32; 3]>; 4] = std::array::from_fn(|_| facet.floats());
+            positions.extend(corners.map(|corner| DVec3::from_array(corner.unwrap_or_default().map(f64::from))));
         }
-    }
-    soup
+        Some(())
+    });
+    let corners = listed(count, 3, threads, |range, corners| {
+        corners.extend((range.start * 3..range.end * 3).map(|corner| Corner::at(corner as u32)));
+        Some(())
+    });
+    Soup { positions: positions.unwrap_or_default(), corners: corners.unwrap_or_default(), ..Soup::default() }
 }
 
 /// Text STL the way stl_io wants it: one named solid without facet normals, and without numbers that are not finite, whose

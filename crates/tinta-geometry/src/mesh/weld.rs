@@ -22,15 +22,17 @@ const SMALLEST_CELL: f64 = 1e-15;
 ///
 /// `distance` is in the points' units; 0 welds only equal points. Non-finite points stay alone.
 pub(super) fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
-    let mut representative: Vec<u32> = (0..points.len() as u32).collect();
+    // Equal points would be welded to the same, so that one of them is enough.
+    let mut representative = earlier_equals(points);
     let mut sweep: Vec<(f64, u32)> = points
         .iter()
         .enumerate()
-        .filter(|(_, point)| point.is_finite())
+        .filter(|(index, point)| representative[*index] as usize == *index && point.is_finite())
         .map(|(index, point)| (point.dot(SWEEP_DIRECTION), index as u32))
         .collect();
     // Ties go by index, so that the result does not depend on the sort.
-    sort_by(&mut sweep, threads_for(points.len()), |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let threads = threads_for(sweep.len());
+    sort_by(&mut sweep, threads, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let largest = sweep.first().map_or(0.0, |first| first.0.abs()).max(sweep.last().map_or(0.0, |last| last.0.abs()));
     let reach = distance * SWEEP_DIRECTION.length() + largest * SWEEP_ROUNDING;
     if pairs_within(&sweep, reach) > sweep.len() * PAIRS_A_POINT {
@@ -38,8 +40,37 @@ pub(super) fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
     } else {
         weld_by_sweep(points, &sweep, reach, distance, &mut representative);
     }
+    for index in 0..representative.len() {
+        // That of the equal point, which comes before it; else its own.
+        representative[index] = representative[representative[index] as usize];
+    }
     lowest_first(&mut representative);
     representative
+}
+
+/// For each point an earlier one that is equal to it, if one was found, which then has none itself; else it. Looked for among
+/// the latest only, as triangles that share a corner mostly follow one another; it makes no difference to what is welded.
+fn earlier_equals(points: &[DVec3]) -> Vec<u32> {
+    const SLOTS: usize = 1 << 16;
+    // Of the latest point that came to each slot the rest of its hash, and its number.
+    let mut slots = vec![(0u32, u32::MAX); SLOTS];
+    let mut equal = Vec::with_capacity(points.len());
+    for (number, point) in (0u32..).zip(points) {
+        // A zero has two signs.
+        let mixed = (*point + DVec3::ZERO).to_array().into_iter().fold(0u64, |hash, x| {
+            // 2^64 over the golden ratio.
+            (hash.rotate_left(29) ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        });
+        let (slot, rest) = (&mut slots[(mixed >> 48) as usize % SLOTS], (mixed >> 16) as u32);
+        // What is no number is equal to nothing.
+        if slot.0 == rest && slot.1 != u32::MAX && points[slot.1 as usize] == *point {
+            equal.push(slot.1);
+        } else {
+            *slot = (rest, number);
+            equal.push(number);
+        }
+    }
+    equal
 }
 
 /// How many pairs of points are no farther apart than `reach` along the sweep.
@@ -121,6 +152,30 @@ mod tests {
         let points = [DVec3::ZERO, DVec3::new(0.9e-3, 0.0, 0.0), DVec3::new(0.0, 1.1e-3, 0.0)];
         assert_eq!(weld(&points, 1e-3), [0, 0, 2]);
         assert_eq!(weld(&points, 0.5e-3), [0, 1, 2]);
+    }
+
+    #[test]
+    fn points_of_which_most_are_repeated_are_welded_as_if_each_were_swept() {
+        // Three times each, in clusters, zeros of both signs and what is not finite among them; then the same so far apart in the
+        // list that equal ones are not found at once.
+        let number = |i: i32, by: i32, of: i32| f64::from(i * by % of) * if i % 2 == 0 { -1e-3 } else { 1e-3 };
+        let some = (0..300).map(|i| DVec3::new(number(i, 31, 97), number(i, 17, 5), number(i, 7, 83)));
+        let mut points: Vec<DVec3> = some.flat_map(|point| [point, -(-point + 0.0), point]).collect();
+        points.extend([DVec3::NAN, DVec3::INFINITY, DVec3::NAN]);
+        let others: Vec<DVec3> = (0..1 << 20).map(|i| DVec3::new(9.0, f64::from(i), 0.0)).collect();
+        let thirds = [0, 1, 2].map(|third| points.iter().skip(third).step_by(3).copied().collect::<Vec<DVec3>>());
+        let apart = [&thirds[0][..], &others, &thirds[1], &others, &thirds[2]].concat();
+        let place = |index: usize| index / 3 + (index % 3) * (thirds[0].len() + others.len());
+        let found_at_once =
+            |points: &[DVec3]| earlier_equals(points).into_iter().zip(0..).filter(|(a, b)| a != b).count();
+        assert!(found_at_once(&points) >= 600);
+        assert!(found_at_once(&apart) < others.len() + 10, "the others are equal to one another, and nothing else");
+        for distance in [0.0, 1e-3, 0.02] {
+            let (near, far) = (weld(&points, distance), weld(&apart, distance));
+            for index in 0..points.len() {
+                assert_eq!(place(near[index] as usize), far[place(index)] as usize, "{index} at {distance}");
+            }
+        }
     }
 
     #[test]

@@ -52,6 +52,10 @@ impl<'a> Iterator for Lines<'a> {
 
 /// A line that goes on in the next one, without its backslash.
 fn continued(line: &str) -> Option<&str> {
+    // Nearly every line ends in a digit; only behind other than ASCII a backslash may hide.
+    if line.as_bytes().trim_ascii_end().last().is_some_and(|last| last.is_ascii() && *last != b'\\') {
+        return None;
+    }
     line.trim_end().strip_suffix('\\').filter(|text| !text.contains('#'))
 }
 

@@ -6,6 +6,7 @@
 use super::super::NONE;
 use super::super::soup::Corner;
 use super::lines::{Lines, plain, resolve};
+use super::quick;
 use glam::{DVec3, Vec2, Vec3};
 use std::ops::{Add, AddAssign};
 
@@ -24,11 +25,18 @@ impl Counts {
         let mut counts = Self::default();
         let mut lines = Lines::new(text);
         for line in lines.by_ref() {
-            match line.split_whitespace().next() {
-                Some("v") => counts.positions += 1,
-                Some("vt") => counts.textures += 1,
-                Some("vn") => counts.normals += 1,
-                _ => {}
+            // What most lines begin with says it without looking for the word's end.
+            match line.as_bytes() {
+                [b'f', ..] => {}
+                [b'v', b' ', ..] => counts.positions += 1,
+                [b'v', b't', b' ', ..] => counts.textures += 1,
+                [b'v', b'n', b' ', ..] => counts.normals += 1,
+                _ => match line.split_whitespace().next() {
+                    Some("v") => counts.positions += 1,
+                    Some("vt") => counts.textures += 1,
+                    Some("vn") => counts.normals += 1,
+                    _ => {}
+                },
             }
         }
         Self { lines: lines.number, ..counts }
@@ -109,6 +117,9 @@ impl Piece {
     }
 
     fn take(&mut self, line: &str, before: Counts) -> Result<(), &'static str> {
+        if self.take_quickly(line.as_bytes(), before) {
+            return Ok(());
+        }
         let text = line.trim_start();
         let Some(keyword) = text.split_whitespace().next() else { return Ok(()) };
         let rest = &text[keyword.len()..];
@@ -135,11 +146,49 @@ impl Piece {
         Ok(())
     }
 
+    /// Takes a line that is written as most are; whether it was one.
+    fn take_quickly(&mut self, line: &[u8], before: Counts) -> bool {
+        match line {
+            [b'v', b' ', rest @ ..] => {
+                let Some(point) = quick::vertex(rest) else { return false };
+                self.positions.push(point);
+            }
+            [b'f', b' ', rest @ ..] => {
+                let start = self.corners.len();
+                match quick::face(rest, self.so_far(before), &mut self.corners) {
+                    Some(count @ 3..) => self.end_face(count),
+                    _ => {
+                        self.corners.truncate(start);
+                        return false;
+                    }
+                }
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// How many positions, texture coordinates and normals there are up to here.
+    fn so_far(&self, before: Counts) -> [u32; 3] {
+        [
+            before.positions + self.positions.len() as u32,
+            before.textures + self.texture_coordinates.len() as u32,
+            before.normals + self.normals.len() as u32,
+        ]
+    }
+
+    /// Counts a face whose corners are noted.
+    fn end_face(&mut self, count: usize) {
+        if count != 3 || !self.polygon_sizes.is_empty() {
+            self.polygon_sizes.resize(self.polygons, 3);
+            self.polygon_sizes.push(count as u32);
+        }
+        self.polygons += 1;
+    }
+
     /// Notes a face's corners, or counts it where it has too few or one out of range.
     fn take_face(&mut self, text: &str, before: Counts) -> Result<(), &'static str> {
-        let positions = before.positions + self.positions.len() as u32;
-        let textures = before.textures + self.texture_coordinates.len() as u32;
-        let normals = before.normals + self.normals.len() as u32;
+        let [positions, textures, normals] = self.so_far(before);
         let start = self.corners.len();
         let mut is_in_range = true;
         for word in text.split_ascii_whitespace() {
@@ -159,11 +208,7 @@ impl Piece {
             *(if is_in_range { &mut self.degenerate_faces } else { &mut self.out_of_range_faces }) += 1;
             return Ok(());
         }
-        if count != 3 || !self.polygon_sizes.is_empty() {
-            self.polygon_sizes.resize(self.polygons, 3);
-            self.polygon_sizes.push(count as u32);
-        }
-        self.polygons += 1;
+        self.end_face(count);
         Ok(())
     }
 }
