@@ -30,6 +30,7 @@ use crate::plan::prune::{Pruning, prune};
 use crate::plan::{Draw, Geometry, LineDrawing, Plan, Program, Step};
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
+use crate::values::Rectangle;
 use drawer::{Canvas, Drawer, Frame};
 use serde::Serialize;
 use std::collections::HashMap;
@@ -253,7 +254,7 @@ impl Renderer {
         }
     }
 
-    /// Draws one triangle the way `style` will draw at this size, pruned or not, so that the driver compiles its shaders
+    /// Draws a few pixels of one triangle the way `style` will draw at this size, pruned or not, so that the driver compiles its shaders
     /// now: worth it while a large model is still being read on another thread.
     ///
     /// # Errors
@@ -272,12 +273,9 @@ impl Renderer {
         // What a triangle cannot be drawn with, a texture say, the models may have.
         let Ok(plan) = style.plan(&scene, show) else { return Ok(()) };
         // Only the shaders that will be drawn with.
-        let plan = pruning.map_or_else(|| plan.clone(), |pruning| prune(&plan, &scene, pruning).plan);
-        self.with_context(&scene, &plan, |frame| {
-            let tile = frame.tiles[0];
-            frame.all_steps(tile)?;
-            frame.read_back(tile).map(drop)
-        })
+        let mut plan = pruning.map_or_else(|| plan.clone(), |pruning| prune(&plan, &scene, pruning).plan);
+        confine(&mut plan, scene.size);
+        self.with_context(&scene, &plan, |frame| frame.all_steps(frame.tiles[0]))
     }
 
     /// Draws a scene in a style, without what cannot change the picture.
@@ -454,6 +452,23 @@ impl Renderer {
         self.choose_context(scene, plan)?;
         plan.check(scene).map_err(|flaw| Error::Plan { flaw: Box::new(flaw) })?;
         self.drawer().with_context(scene, plan, work)
+    }
+}
+
+/// Confines what a plan draws to a few pixels in the middle: whatever a driver makes for shaders and states it makes for these, and
+/// the other pixels would only be drawn again.
+fn confine(plan: &mut Plan, size: Size) {
+    const SIDE: u32 = 16;
+    let Size { width, height } = size.times(plan.supersample);
+    let (x, y) = (width.saturating_sub(SIDE) / 2, height.saturating_sub(SIDE) / 2);
+    let few = Rectangle { x, y, width: SIDE.min(width), height: SIDE.min(height) };
+    for pass in &mut plan.passes {
+        pass.scissor = Some(few);
+        for step in &mut pass.steps {
+            if let Step::Draw(draw) = step {
+                draw.scissor = None;
+            }
+        }
     }
 }
 

@@ -251,7 +251,14 @@ fn the_plan_is_explained_with_times() {
         "published",
     ]);
     let text = String::from_utf8(output.stdout).unwrap();
-    for words in ["pass 1: map", "copy the framebuffer", "evangelista/border.frag", "whole picture"] {
+    for words in [
+        "pass 1: map",
+        "copy the framebuffer",
+        "evangelista/border.frag",
+        "whole picture",
+        "joining vertices",
+        "first frame",
+    ] {
         assert!(text.contains(words), "{words}: {text}");
     }
 }

@@ -4,6 +4,7 @@ use super::models::read;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
+use tinta::mesh::LoadStage;
 use tinta::{LoadOptions, Mesh, Result};
 
 /// Reads models, and keeps them where there are many jobs.
@@ -31,6 +32,8 @@ pub(super) struct Model {
     pub mesh: Arc<Mesh>,
     pub files: Vec<PathBuf>,
     pub remarks: Vec<String>,
+    /// How long each stage of reading took, milliseconds.
+    pub stages: Vec<(LoadStage, f64)>,
     path: String,
     options: LoadOptions,
     stamps: Vec<Stamp>,
@@ -73,6 +76,7 @@ impl Models {
             mesh: Arc::new(loaded.mesh),
             files: loaded.files,
             remarks: loaded.remarks,
+            stages: loaded.stages,
             path: path.to_owned(),
             options: options.clone(),
             stamps,

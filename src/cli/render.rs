@@ -16,7 +16,7 @@ pub(super) use lines::is_of_lines;
 use super::Verdict;
 use super::inputs::Inputs;
 use super::model_cache::ModelCache;
-use super::models::load_with_files;
+use super::models::{ReadModels, load_models};
 use super::options::{
     CameraArguments, FormArguments, LineArguments, ModelArguments, SceneArguments, StyleArguments, ignored,
 };
@@ -24,7 +24,7 @@ use super::preset::Given;
 use super::session::Session;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use tinta::mesh::BUILTINS;
+use tinta::mesh::{BUILTINS, LoadStage};
 use tinta::picture::write_rgba_png;
 use tinta::plan::prune::Pruned;
 use tinta::plan::{Plan, Submission};
@@ -202,7 +202,7 @@ fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Resu
     make_dump_folder(arguments)?;
     let style = arguments.styles.style(arguments.style_name())?;
     let (ready, loaded) = ready(arguments, &arguments.scene_settings()?, &style, session);
-    let Loaded { scene, files, published, load_ms, plan_ms } = loaded?;
+    let Loaded { scene, files, published, load_ms, stages, arrays_ms, plan_ms } = loaded?;
     let Ready { renderer, context_ms, warm_up_ms } = ready?;
     let pruning = Instant::now();
     renderer.choose_context(&scene, &published)?;
@@ -238,6 +238,17 @@ fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Resu
         if let Some(pruning) = arguments.prune.pruning(renderer, arguments.run.frames) {
             text.push_str(&prune::explanation(renderer, &scene, &published, &pruning, frames)?);
         }
+        let start = [
+            stages.iter().map(|(stage, ms)| (stage_name(*stage), *ms)).collect(),
+            vec![
+                ("vertex arrays", arrays_ms),
+                ("context", context_ms),
+                ("shaders, meanwhile", warm_up_ms.unwrap_or_default()),
+                ("plan and pruning", plan_ms),
+                ("first frame", first_frame_ms),
+            ],
+        ];
+        text.push_str(&start_explanation(&start.concat()));
         return super::print(&text).map(|()| verdict);
     }
     let models = model_records(&scene, arguments.models.len());
@@ -344,6 +355,9 @@ struct Loaded {
     /// As the style has it.
     published: Plan,
     load_ms: f64,
+    /// Of reading, each stage's part, milliseconds.
+    stages: Vec<(LoadStage, f64)>,
+    arrays_ms: f64,
     plan_ms: f64,
 }
 
@@ -355,15 +369,18 @@ fn load_scene(
     model_cache: &ModelCache,
 ) -> Result<Loaded> {
     let start = Instant::now();
-    let (meshes, files) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
+    let ReadModels { meshes, files, stages } =
+        load_models(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, settings)?;
     // Known only now.
     pictures_of(&scene).keep(&arguments.output)?;
+    let start = Instant::now();
     scene.make_arrays();
+    let arrays_ms = milliseconds_since(start);
     let start = Instant::now();
     let published = arguments.plan(style, &scene)?;
-    Ok(Loaded { scene, files, published, load_ms, plan_ms: milliseconds_since(start) })
+    Ok(Loaded { scene, files, published, load_ms, stages, arrays_ms, plan_ms: milliseconds_since(start) })
 }
 
 /// The pictures on the models of a scene.
@@ -412,6 +429,23 @@ fn explanation(plan: &Plan, passes: &[PassTime], times: &Summary, frames: usize)
     let count = if frames == 1 { "1 frame".to_owned() } else { format!("the median of {frames} frames") };
     text.push_str(&format!("{:<20}{:>10.3}            with read-back, {count}\n", "whole picture", times.median));
     text
+}
+
+/// What a stage of reading is called.
+fn stage_name(stage: LoadStage) -> &'static str {
+    match stage {
+        LoadStage::Reading => "reading the file",
+        LoadStage::Parsing => "parsing",
+        LoadStage::Joining => "joining vertices",
+        LoadStage::Normals => "normals",
+        _ => "reading",
+    }
+}
+
+/// How long it took from the start to the first frame, part by part.
+fn start_explanation(parts: &[(&str, f64)]) -> String {
+    let rows: Vec<String> = parts.iter().map(|(name, ms)| format!("{name:<20}{ms:>10.3}\n")).collect();
+    format!("\n{:<20}{:>10}  the model is read while the context opens\n{}", "start", "ms", rows.concat())
 }
 
 fn after_help() -> String {

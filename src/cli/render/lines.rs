@@ -4,7 +4,7 @@ mod turn;
 
 use super::super::messages::is_captured;
 use super::super::model_cache::ModelCache;
-use super::super::models::load_with_files;
+use super::super::models::{ReadModels, load_models};
 use super::super::progress::Progress;
 use super::super::signals::Stop;
 use super::super::{Verdict, say};
@@ -151,7 +151,7 @@ pub(super) fn run(
     settings.finds_hidden |= arguments.run.json;
     settings.counts_changes = arguments.run.json && settings.silhouette == Contour::Smooth;
     let start = Instant::now();
-    let (meshes, files) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
+    let ReadModels { meshes, files, .. } = load_models(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, &arguments.scene_settings()?)?;
     let lines = match find(&scene, &settings, &progress, stop.as_ref()) {

@@ -5,6 +5,7 @@ use super::format::Format;
 #[cfg(feature = "gltf")]
 use super::gltf;
 use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, three_ds};
+use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
 use crate::files;
 use crate::limits::MODEL_BYTES;
@@ -12,6 +13,7 @@ use crate::settings::{HasSettings, Setting, Table, under};
 use crate::tolerances::{LARGEST_WELD, WELD};
 use glam::DVec3;
 use serde::{Serialize, Serializer};
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
@@ -222,6 +224,8 @@ pub struct Loaded {
     pub files: Vec<PathBuf>,
     /// Sentences about the file, each naming it: a format other than the name says, defects, missing materials, skins.
     pub remarks: Vec<String>,
+    /// What was done, in order, and how long each took, milliseconds.
+    pub stages: Vec<(LoadStage, f64)>,
 }
 
 /// Reads a model: an OBJ, PLY, STL, MD2, 3DS or glTF file.
@@ -236,7 +240,8 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
 }
 
 /// What is being done while a model is read, in this order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum LoadStage {
     /// Its bytes come from the disk.
@@ -256,11 +261,28 @@ pub enum LoadStage {
 /// Those of [`load`].
 pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
     check(options)?;
-    watch(LoadStage::Reading);
-    refuse_address(path)?;
-    let bytes = files::read(Path::new(path), MODEL_BYTES)
-        .map_err(|failure| failure.into_error(FileKind::Model, path, "a model file"))?;
-    read_as_watched(&bytes, path, options, watch)
+    timed(watch, |watch| {
+        watch(LoadStage::Reading);
+        refuse_address(path)?;
+        let bytes = files::read(Path::new(path), MODEL_BYTES)
+            .map_err(|failure| failure.into_error(FileKind::Model, path, "a model file"))?;
+        read_as_watched(&bytes, path, options, watch)
+    })
+}
+
+/// What `work` reads, with how long each stage took that it began.
+fn timed(watch: &dyn Fn(LoadStage), work: impl FnOnce(&dyn Fn(LoadStage)) -> Result<Loaded>) -> Result<Loaded> {
+    let begun = RefCell::new(Vec::new());
+    let mut loaded = work(&|stage| {
+        begun.borrow_mut().push((stage, Instant::now()));
+        watch(stage);
+    })?;
+    let (mut begun, mut end) = (begun.into_inner(), Instant::now());
+    while let Some((stage, start)) = begun.pop() {
+        loaded.stages.insert(0, (stage, end.duration_since(start).as_secs_f64() * 1e3));
+        end = start;
+    }
+    Ok(loaded)
 }
 
 /// Reads bytes as if they were those of the model file `path`: other files that they name are looked for beside that. So what
@@ -271,7 +293,7 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
 /// Those of [`load`].
 pub fn read_as(bytes: &[u8], path: &str, options: &LoadOptions) -> Result<Loaded> {
     check(options)?;
-    read_as_watched(bytes, path, options, &|_| {})
+    timed(&|_| {}, |watch| read_as_watched(bytes, path, options, watch))
 }
 
 fn read_as_watched(bytes: &[u8], path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
@@ -279,7 +301,6 @@ fn read_as_watched(bytes: &[u8], path: &str, options: &LoadOptions, watch: &dyn 
     watch(LoadStage::Parsing);
     let folder = Folder::of(path, options.allow_external);
     let soup = soup(bytes, path, options, &folder, &mut remarks)?;
-    watch(LoadStage::Joining);
     made(soup, path, options, remarks, watch)
 }
 
@@ -312,11 +333,14 @@ pub fn refuse_address(path: &str) -> Result<()> {
 /// Those of [`load`].
 pub fn read_bytes(bytes: &[u8], name: &str, beside: &[(&str, &[u8])], options: &LoadOptions) -> Result<Loaded> {
     check(options)?;
-    let mut remarks = Vec::new();
-    let mut soup = soup(bytes, name, options, &Folder::of_files(beside), &mut remarks)?;
-    // Of what was not found here nothing is known of any disk.
-    soup.materials.iter_mut().for_each(|material| material.texture = None);
-    made(soup, name, options, remarks, &|_| {})
+    timed(&|_| {}, |watch| {
+        let mut remarks = Vec::new();
+        watch(LoadStage::Parsing);
+        let mut soup = soup(bytes, name, options, &Folder::of_files(beside), &mut remarks)?;
+        // Of what was not found here nothing is known of any disk.
+        soup.materials.iter_mut().for_each(|material| material.texture = None);
+        made(soup, name, options, remarks, watch)
+    })
 }
 
 /// The mesh of what was read.
@@ -327,6 +351,7 @@ fn made(
     mut remarks: Vec<String>,
     watch: &dyn Fn(LoadStage),
 ) -> Result<Loaded> {
+    watch(LoadStage::Joining);
     if soup.frames.is_empty() {
         options.model_frame.check_still(path)?;
     }
@@ -347,7 +372,7 @@ fn made(
     if !others.is_empty() {
         remarks.push(format!("{path}: {others}"));
     }
-    Ok(Loaded { mesh, frames, files, remarks })
+    Ok(Loaded { mesh, frames, files, remarks, stages: Vec::new() })
 }
 
 pub(super) fn check(options: &LoadOptions) -> Result<()> {

@@ -1,7 +1,7 @@
 //! `tinta render --turntable` of exact lines: numbered drawings whose strokes keep their ids.
 
 use super::super::super::model_cache::ModelCache;
-use super::super::super::models::load_with_files;
+use super::super::super::models::{ReadModels, load_models};
 use super::super::super::signals::Stop;
 use super::super::super::{Verdict, print_json, say};
 use super::super::animate::WORTH_PREPARING;
@@ -44,7 +44,7 @@ pub(super) fn run(
     let settings = asked_lines(arguments, format)?;
     let scene_settings = arguments.scene_settings()?;
     let start = Instant::now();
-    let (meshes, _) = load_with_files(model_cache, &arguments.models, &arguments.model.settings()?)?;
+    let ReadModels { meshes, .. } = load_models(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, &scene_settings)?;
     if views >= WORTH_PREPARING {
