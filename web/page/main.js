@@ -76,6 +76,10 @@ function drawSide(name) {
     cost(name, `${side.style}: ${(performance.now() - start).toFixed(1)} ms a picture`);
     return undefined;
   } catch (problem) {
+    // What was drawn before is neither this style nor, soon, this view.
+    const canvas = at(name);
+    canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height);
+    cost(name, `${side.style}: not drawn`);
     return problem;
   }
 }

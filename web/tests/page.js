@@ -117,6 +117,18 @@ export async function testPage(tables) {
     assert(offset.parentElement.querySelector(".problem").textContent.length > 10, "a sentence says why");
   });
 
+  await test("a side that cannot be drawn is empty and says why, and comes back", async () => {
+    await change(at("model"), "bust");
+    await change(at("left-Style"), "three-pass");
+    const before = picture(at("left"));
+    await change(at("left-Style"), "sand");
+    assert(picture(at("left")).every((byte) => byte === 0), "nothing of the style before is left");
+    assert(/texture/.test(at("status").textContent), at("status").textContent);
+    await change(at("left-Style"), "three-pass");
+    assert(differing(before, picture(at("left")), 0) === 0, "it is drawn again");
+    assert(!/texture/.test(at("status").textContent), at("status").textContent);
+  });
+
   await test("a constant that is changed in a listing is drawn with, and taken back", async () => {
     await change(at("left-Style"), "three-pass");
     const before = picture(at("left"));
