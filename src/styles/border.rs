@@ -135,7 +135,7 @@ impl Border {
         if !self.detection_factor.is_finite() {
             return Err(Error::value("detection-factor", self.detection_factor, "it must be a finite number"));
         }
-        self.width.map_or(Ok(()), LineWidth::check)
+        self.width.map_or(Ok(()), |width| width.check("border-width"))
     }
 
     /// The fragment shader that holds the whole filter with its factor as a uniform, and its parts: for a style that draws more
@@ -235,7 +235,7 @@ impl Border {
         let mut uniforms = Self::published_uniforms(surface);
         uniforms.push(Uniform { name: "detectionFactor", value: Value::Float(self.detection_factor) });
         if self.width.is_some() || self.slope_threshold {
-            uniforms.push(reach(self.width_px(scene.size), scale, self.is_one_sided()));
+            uniforms.push(reach("reach", self.width_px(scene.size), scale, self.is_one_sided()));
         }
         if self.slope_threshold {
             let gap = [LEAST_GAP[0] * scale as f32, LEAST_GAP[1] * encoding.depth_step()];
@@ -256,8 +256,8 @@ pub(super) fn taps(width_px: Option<u32>, scale: u32, one_sided: bool) -> [u32; 
     }
 }
 
-/// `reach`: [`taps`] for a shader.
-pub(super) fn reach(width_px: Option<u32>, scale: u32, one_sided: bool) -> Uniform {
+/// [`taps`] for a shader.
+pub(super) fn reach(name: &'static str, width_px: Option<u32>, scale: u32, one_sided: bool) -> Uniform {
     let taps = taps(width_px, scale, one_sided);
-    Uniform { name: "reach", value: Value::Vec2(taps.map(|pixels| pixels as f32)) }
+    Uniform { name, value: Value::Vec2(taps.map(|pixels| pixels as f32)) }
 }

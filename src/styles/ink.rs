@@ -38,6 +38,8 @@ pub struct Ink {
     pub removes_specks: Option<bool>,
     /// Width of the lines. Default 2 pixels; more also joins what lies near each other.
     pub line_width: LineWidth,
+    /// Width of the lines that do not border on the background; `None` for that of all. Default none.
+    pub inner_width: Option<LineWidth>,
     /// The least step from one surface to another that is a line, in widths of a pixel. Default 1.5; more draws fewer lines.
     pub least_gap_px: f32,
     /// What is added to it for each unit of a surface's slope towards the eye, which the map knows less exactly the steeper.
@@ -109,6 +111,7 @@ impl Default for Ink {
             least_gap_px: 1.5,
             gap_per_slope: 0.3,
             line_width: LineWidth::Pixels(2),
+            inner_width: None,
             tone_light: None,
             tones: Tones::default(),
             cull_back_faces: false,
@@ -142,6 +145,14 @@ impl Ink {
             .ours("chamfers and many-sided prisms keep their edges");
         let image_space = vec![width.labelled("line width"), MapTarget::setting(|ink: &mut Self| &mut ink.map_target)];
         let own = vec![
+            Setting::open_field(
+                "inner-width",
+                "WIDTH",
+                "border",
+                "Width of the lines that do not border on the background, as --border-width has it; border: as wide as those",
+                |ink: &mut Self| &mut ink.inner_width,
+            )
+            .ours("all lines are as wide"),
             Setting::field(
                 "crease-by",
                 "WHAT",
@@ -244,7 +255,8 @@ impl Ink {
         if !self.is_inked && matches!(show, Show::Borders | Show::Map) {
             return Err(Error::setting("show", "there is no ink with --no-borders; leave out one of the two"));
         }
-        self.line_width.check()?;
+        self.line_width.check("border-width")?;
+        self.inner_width.map_or(Ok(()), |width| width.check("inner-width"))?;
         if self.tone_light.is_some_and(|light| !light.iter().all(|x| x.is_finite()) || light == [0.0; 3]) {
             return Err(Error::setting("tone-light", "a direction is three finite numbers, not all 0"));
         }
@@ -323,9 +335,10 @@ impl Ink {
     fn ink(&self, scene: &Scene, surface: Size) -> Draw {
         let float = |name, value: f64| Uniform { name, value: Value::Float(value as f32) };
         let (scale, width) = (self.supersample().factor(), self.line_width.pixels(scene.size));
+        let inner_width = self.inner_width.unwrap_or(self.line_width).pixels(scene.size);
         let least_gap = match self.crease_by {
             CreaseBy::Planes => self.least_gap_px,
-            CreaseBy::Normals => self.least_gap_px.max(LEAST_GAP_SHARE * width as f32),
+            CreaseBy::Normals => self.least_gap_px.max(LEAST_GAP_SHARE * inner_width as f32),
         };
         let gap = [least_gap * scale as f32, self.gap_per_slope];
         let mut uniforms = vec![
@@ -333,9 +346,10 @@ impl Ink {
             lens::footprint(scene, surface, self.depth_range(scene)),
             Uniform { name: "gapThreshold", value: Value::Vec2(gap) },
             float("creaseCosine", self.crease_angle.cosine),
-            reach(Some(width), scale, false),
+            reach("reach", Some(width), scale, false),
+            reach("innerReach", Some(inner_width), scale, false),
         ];
-        let [before, behind] = taps(Some(width), scale, false);
+        let [before, behind] = taps(Some(width.max(inner_width)), scale, false);
         let mut textures = vec![("planeMap", map_texture(self.map_target.target()))];
         let parts = match self.crease_by {
             CreaseBy::Planes => {

@@ -35,8 +35,8 @@ impl LineWidth {
         }
     }
 
-    /// Refuses what cannot be drawn.
-    pub(super) fn check(self) -> Result<()> {
+    /// Refuses what cannot be drawn, by the setting's name.
+    pub(super) fn check(self, name: &'static str) -> Result<()> {
         let is_drawable = match self {
             Self::Pixels(pixels) => (1..=WIDEST).contains(&pixels),
             Self::Percent(percent) => percent > 0.0 && percent <= LARGEST_PERCENT,
@@ -47,7 +47,7 @@ impl LineWidth {
                  draws wider lines"
             )
         };
-        if is_drawable { Ok(()) } else { Err(Error::value("border-width", self.text(), problem())) }
+        if is_drawable { Ok(()) } else { Err(Error::value(name, self.text(), problem())) }
     }
 }
 
@@ -90,11 +90,11 @@ mod tests {
     fn widths_are_read_as_they_are_written() {
         for text in ["3", "0.35%", "10%"] {
             let width = LineWidth::parse(text).unwrap();
-            assert!(width.check().is_ok(), "{text}");
+            assert!(width.check("border-width").is_ok(), "{text}");
             assert_eq!(width.text(), text);
         }
         for text in ["0", "65", "0%", "11%", "-1%"] {
-            assert!(LineWidth::parse(text).unwrap().check().is_err(), "{text}");
+            assert!(LineWidth::parse(text).unwrap().check("border-width").is_err(), "{text}");
         }
         for text in ["", "%", "nan%", "inf%", "1.5", "wide", "-1"] {
             assert!(LineWidth::parse(text).is_err(), "{text}");
