@@ -149,7 +149,7 @@ impl Ink {
                 "inner-width",
                 "WIDTH",
                 "border",
-                "Width of the lines that do not border on the background, as --border-width has it; border: as wide as those",
+                "Width of the lines that do not border on the background, in pixels or percent; border: as wide as those that do",
                 |ink: &mut Self| &mut ink.inner_width,
             )
             .ours("all lines are as wide"),
