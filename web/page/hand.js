@@ -87,7 +87,8 @@ export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf
   addEventListener("keydown", (event) => {
     const isHeld = event.ctrlKey || event.metaKey;
     const isField = event.target instanceof Element && event.target.closest("input, select, textarea, button, summary, pre, dialog");
-    if (event.altKey || (isField && !isHeld)) return;
+    // Elsewhere than on the picture Ctrl L is the address's, and Ctrl S the page's.
+    if (event.altKey || isField || (isHeld && event.target !== stage)) return;
     const found = JSON.parse(actionOf(event.key, event.shiftKey, isHeld));
     const [name, value] = found instanceof Object ? Object.entries(found)[0] : [found];
     // What only the window has is left to the browser.

@@ -180,15 +180,20 @@ function sideControls(name) {
     if (!problem) changed(() => (text === null ? delete side.settings[setting] : (side.settings[setting] = text)));
     return problem;
   };
-  const published = element("button", { type: "button", textContent: "All as published" });
+  const published = element("button", { type: "button", id: `${name}-published`, textContent: "All as published" });
   published.addEventListener("click", () => {
     side.settings = {};
     changed(() => sideControls(name));
   });
   const settings = element("details", {}, element("summary", { textContent: "Settings" }), published, ...panel(table.settings, side.settings, change));
-  settings.open = at(`${name}-side`).querySelector("details")?.open ?? false;
+  // What was open and what had the focus has them again.
+  const openings = (of) => [...of.querySelectorAll("details")].map((details) => [details.querySelector("summary").textContent, details]);
+  const before = new Map(openings(at(`${name}-side`)));
+  const focused = document.activeElement?.id;
+  for (const [heading, details] of [["Settings", settings], ...openings(settings)]) details.open = before.get(heading)?.open ?? false;
   const title = element("h2", { textContent: name === "left" ? "Left" : "Right" });
   at(`${name}-side`).replaceChildren(title, element("div", { className: "choices" }, style, show), element("p", { className: "cost" }), settings);
+  if (focused?.startsWith(`${name}-`)) at(focused)?.focus();
 }
 
 function chooseStyle(name, style) {

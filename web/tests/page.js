@@ -117,6 +117,20 @@ export async function testPage(tables) {
     assert(offset.parentElement.querySelector(".problem").textContent.length > 10, "a sentence says why");
   });
 
+  await test("a style that is chosen by the keyboard keeps the focus, and what was open", async () => {
+    const groups = () => [...at("left-side").querySelectorAll("details")];
+    groups().forEach((details) => (details.open = true));
+    at("left-Style").focus();
+    await change(at("left-Style"), "mrt");
+    assert(page.document.activeElement === at("left-Style"), "the new field has the focus");
+    assert(groups().filter((details) => details.open).length >= 3, "settings and groups that both styles have are open");
+    at("left-published").focus();
+    at("left-published").click();
+    await settled();
+    assert(page.document.activeElement === at("left-published"), "the button has it");
+    groups().forEach((details) => (details.open = false));
+  });
+
   await test("a side that cannot be drawn is empty and says why, and comes back", async () => {
     await change(at("model"), "bust");
     await change(at("left-Style"), "three-pass");
