@@ -37,6 +37,7 @@ pub mod clock;
 pub mod choice;
 #[doc(hidden)]
 pub mod files;
+mod memory;
 #[doc(hidden)]
 pub mod markup;
 #[doc(hidden)]

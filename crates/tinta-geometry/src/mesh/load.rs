@@ -9,6 +9,7 @@ use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
 use crate::files;
 use crate::limits::MODEL_BYTES;
+use crate::memory;
 use crate::settings::{HasSettings, Setting, Table, under};
 use crate::tolerances::{LARGEST_WELD, WELD};
 use glam::DVec3;
@@ -264,10 +265,25 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
     timed(watch, |watch| {
         watch(LoadStage::Reading);
         refuse_address(path)?;
+        check_free(path, memory::free())?;
         let bytes = files::read(Path::new(path), MODEL_BYTES)
             .map_err(|failure| failure.into_error(FileKind::Model, path, "a model file"))?;
-        read_as_watched(&bytes, path, options, watch)
+        let mut remarks = Vec::new();
+        let soup = parsed(&bytes, path, options, &mut remarks, watch)?;
+        // They are a fifth of what a mesh in the making takes.
+        drop(bytes);
+        made(soup, path, options, remarks, watch)
     })
+}
+
+/// Refuses a file whose bytes, and as many again for what is read of them, are more than is free: no format takes less.
+fn check_free(path: &str, free: Option<u64>) -> Result<()> {
+    let bytes = Path::new(path).metadata().map_or(0, |file| if file.is_file() { file.len() } else { 0 });
+    // What is too large in any case has a sentence of its own, which names the limit.
+    match memory::refusal(bytes.saturating_mul(2), free).filter(|_| bytes <= MODEL_BYTES) {
+        Some(problem) => Err(Error::model(path, problem)),
+        None => Ok(()),
+    }
 }
 
 /// What `work` reads, with how long each stage took that it began.
@@ -293,15 +309,23 @@ fn timed(watch: &dyn Fn(LoadStage), work: impl FnOnce(&dyn Fn(LoadStage)) -> Res
 /// Those of [`load`].
 pub fn read_as(bytes: &[u8], path: &str, options: &LoadOptions) -> Result<Loaded> {
     check(options)?;
-    timed(&|_| {}, |watch| read_as_watched(bytes, path, options, watch))
+    timed(&|_| {}, |watch| {
+        let mut remarks = Vec::new();
+        let soup = parsed(bytes, path, options, &mut remarks, watch)?;
+        made(soup, path, options, remarks, watch)
+    })
 }
 
-fn read_as_watched(bytes: &[u8], path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
-    let mut remarks = Vec::new();
+/// What is read of a file's bytes; other files that they name are looked for beside `path`.
+fn parsed(
+    bytes: &[u8],
+    path: &str,
+    options: &LoadOptions,
+    remarks: &mut Vec<String>,
+    watch: &dyn Fn(LoadStage),
+) -> Result<Soup> {
     watch(LoadStage::Parsing);
-    let folder = Folder::of(path, options.allow_external);
-    let soup = soup(bytes, path, options, &folder, &mut remarks)?;
-    made(soup, path, options, remarks, watch)
+    soup(bytes, path, options, &Folder::of(path, options.allow_external), remarks)
 }
 
 /// Refuses what lies on a network, where nothing is read.
@@ -459,6 +483,21 @@ fn soup(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_that_memory_does_not_hold_is_refused_before_it_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("large.stl");
+        // All holes: it takes no room on the disk.
+        std::fs::File::create(&path).unwrap().set_len(3 << 30).unwrap();
+        let path = path.to_str().unwrap();
+        let message = check_free(path, Some(1 << 30)).unwrap_err().to_string();
+        let sentence =
+            "large.stl: it takes 6.0 GiB of memory, and 1.0 GiB are free; close other programs, or make it smaller";
+        assert!(message.ends_with(sentence), "{message}");
+        assert!(check_free(path, Some(6 << 30)).is_ok() && check_free(path, None).is_ok());
+        assert!(check_free("no such file", Some(0)).is_ok(), "which has a sentence of its own");
+    }
 
     #[test]
     fn every_up_axis_turns_into_y_by_a_rotation() {

@@ -8,6 +8,7 @@ use super::pieces::Pieces;
 use super::{Defects, LoadOptions, LoadStage, Material, Mesh, NONE, Normals, normals, weld};
 use crate::error::{Error, Result};
 use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
+use crate::memory;
 use crate::tolerances::LARGEST_COORDINATE;
 use glam::{DVec3, Vec2, Vec3};
 use std::borrow::Cow;
@@ -67,10 +68,27 @@ impl Corner {
 pub(super) fn is_too_much(file_bytes: usize, vertices: usize, corners: usize, triangles: usize) -> bool {
     /// What a vertex, a corner and a triangle take at the moment when a mesh takes most, bytes.
     const BYTES: [usize; 3] = [80, 12, 90];
-    let needed =
-        [vertices, corners, triangles].into_iter().zip(BYTES).map(|(count, bytes)| count.saturating_mul(bytes));
     let most = file_bytes.saturating_mul(MEMORY_FACTOR).saturating_add(MEMORY_SLACK_BYTES);
-    needed.fold(0, usize::saturating_add) > most || triangles > TRIANGLES
+    sum(vertices, corners, triangles, BYTES) > most || triangles > TRIANGLES
+}
+
+/// Bytes of so many vertices, corners and triangles.
+fn sum(vertices: usize, corners: usize, triangles: usize, bytes: [usize; 3]) -> usize {
+    let of_each =
+        [vertices, corners, triangles].into_iter().zip(bytes).map(|(count, bytes)| count.saturating_mul(bytes));
+    of_each.fold(0, usize::saturating_add)
+}
+
+/// Refuses the mesh of a soup of so many vertices, corners and triangles where less memory is free.
+fn check_free(vertices: usize, corners: usize, triangles: usize, free: Option<u64>, name: &str) -> Result<()> {
+    /// What a vertex, a corner and a triangle take at that moment beside what is there by then, bytes: a little less than was counted.
+    const BYTES: [usize; 3] = [10, 0, 60];
+    let needed = sum(vertices, corners, triangles, BYTES) as u64;
+    // What is little fits as long as anything does.
+    match memory::refusal(needed, free).filter(|_| needed > MEMORY_SLACK_BYTES as u64) {
+        Some(problem) => Err(Error::model(name, problem)),
+        None => Ok(()),
+    }
 }
 
 impl Soup {
@@ -91,8 +109,9 @@ impl Soup {
     pub(super) fn check_memory(&self, file_bytes: usize, name: &str) -> Result<()> {
         let triangles = self.corners.len().saturating_sub(2 * self.polygon_count());
         let file_bytes = file_bytes.saturating_add(self.bytes_beside);
-        if !is_too_much(file_bytes, self.positions.len(), self.corners.len(), triangles) {
-            return Ok(());
+        let (vertices, corners) = (self.positions.len(), self.corners.len());
+        if !is_too_much(file_bytes, vertices, corners, triangles) {
+            return check_free(vertices, corners, triangles, memory::free(), name);
         }
         Err(Error::model(
             name,
@@ -294,6 +313,18 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
 mod tests {
     use super::*;
     use crate::mesh::UpAxis;
+
+    #[test]
+    fn a_mesh_that_memory_does_not_hold_is_refused_before_it_is_made() {
+        // 10 million triangles take 0.6 GiB beside the soup.
+        let check = |free| check_free(5_000_000, 30_000_000, 10_000_000, free, "a.obj");
+        let message = check(Some(500 << 20)).unwrap_err().to_string();
+        let sentence =
+            "a.obj: it takes 0.6 GiB of memory, and 0.5 GiB are free; close other programs, or make it smaller";
+        assert_eq!(message, sentence);
+        assert!(check(Some(800 << 20)).is_ok() && check(None).is_ok());
+        assert!(check_free(4, 12, 4, Some(0), "a.obj").is_ok(), "what is little is not looked at");
+    }
 
     fn square() -> Soup {
         let positions = vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];

@@ -1,0 +1,94 @@
+//! Memory that is free, so that what takes more ends in a sentence before the system swaps, or ends the process without one.
+
+use std::fs::read_to_string;
+
+/// Bytes that are free for this process without swapping, as the system and its control group have them; `None` where nobody says.
+///
+/// On Linux alone.
+pub(crate) fn free() -> Option<u64> {
+    let system = read_to_string("/proc/meminfo").ok().and_then(|text| free_of_system(&text));
+    let group = read_to_string("/proc/self/cgroup").ok().and_then(|text| free_of_group(&text));
+    match (system, group) {
+        (Some(system), Some(group)) => Some(system.min(group)),
+        (system, group) => system.or(group),
+    }
+}
+
+/// By `/proc/meminfo`.
+fn free_of_system(text: &str) -> Option<u64> {
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
+}
+
+/// What the limit of the control group leaves that `/proc/self/cgroup` names, of version 2, or of those above it the tightest.
+fn free_of_group(text: &str) -> Option<u64> {
+    let mut path = text.lines().find_map(|line| line.strip_prefix("0::"))?.trim_matches('/');
+    let mut least = None;
+    loop {
+        let file = |name: &str| read_to_string(format!("/sys/fs/cgroup/{path}/{name}")).ok();
+        let free = left(file("memory.max"), file("memory.current"), file("memory.stat"));
+        least = [least, free].into_iter().flatten().min();
+        path = match path.rsplit_once('/') {
+            Some((above, _)) => above,
+            None if path.is_empty() => return least,
+            None => "",
+        };
+    }
+}
+
+/// A limit less what is used, but for what is only kept of files and given up when memory is asked for.
+fn left(most: Option<String>, used: Option<String>, statistics: Option<String>) -> Option<u64> {
+    let number = |text: &str| text.trim().parse::<u64>().ok();
+    let (most, used) = (number(&most?)?, number(&used?)?);
+    let kept = statistics.as_deref().unwrap_or_default().lines().find_map(|line| line.strip_prefix("inactive_file "));
+    Some(most.saturating_sub(used.saturating_sub(kept.and_then(number).unwrap_or_default())))
+}
+
+/// A sentence where something takes more than is free; `None` where it may fit.
+pub(crate) fn refusal(needed: u64, free: Option<u64>) -> Option<String> {
+    let free = free.filter(|free| needed > *free)?;
+    let gib = |bytes: u64| format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30));
+    Some(format!(
+        "it takes {} of memory, and {} are free; close other programs, or make it smaller",
+        gib(needed),
+        gib(free)
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_free_is_read_as_the_system_writes_it() {
+        let text =
+            "MemTotal:       24576000 kB\nMemFree:          100 kB\nMemAvailable:   20000000 kB\nSwapFree: 9 kB\n";
+        assert_eq!(free_of_system(text), Some(20_480_000_000));
+        assert_eq!(free_of_system("MemTotal: 1 kB\n"), None);
+        assert_eq!(free_of_group("12:cpu:/a\n"), None, "of version 1");
+    }
+
+    #[test]
+    fn a_group_leaves_its_limit_less_what_cannot_be_given_up() {
+        let text = |text: &str| Some(text.to_owned());
+        let statistics = || text("anon 5\ninactive_file 300\nactive_file 9\n");
+        assert_eq!(left(text("1000\n"), text("700\n"), statistics()), Some(600));
+        assert_eq!(left(text("1000\n"), text("1200\n"), None), Some(0));
+        assert_eq!(left(text("max\n"), text("700\n"), statistics()), None, "without a limit");
+        assert_eq!(left(None, text("700\n"), statistics()), None);
+    }
+
+    #[test]
+    fn what_fits_is_not_refused_and_what_does_not_is_in_one_sentence() {
+        assert_eq!(refusal(5 << 30, Some(5 << 30)), None);
+        assert_eq!(refusal(u64::MAX, None), None, "where nobody says");
+        let sentence = "it takes 5.0 GiB of memory, and 1.5 GiB are free; close other programs, or make it smaller";
+        assert_eq!(refusal(5 << 30, Some(3 << 29)).as_deref(), Some(sentence));
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn some_memory_is_free_here() {
+        assert!(free().is_some_and(|free| free > 1 << 20));
+    }
+}
