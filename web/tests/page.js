@@ -118,6 +118,7 @@ export async function testPage(tables) {
   });
 
   await test("a style that is chosen by the keyboard keeps the focus, and what was open", async () => {
+    await change(at("left-Style"), "three-pass");
     const groups = () => [...at("left-side").querySelectorAll("details")];
     groups().forEach((details) => (details.open = true));
     at("left-Style").focus();
