@@ -273,6 +273,8 @@ function begin() {
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();
     say("This browser's WebGL was lost; the exact lines are shown until it is back.");
+    // Now, while nothing comes of it: whenever else it is collected, it deletes objects that the context it has again does not know.
+    pane?.free();
     pane = undefined;
     draw();
   });

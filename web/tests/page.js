@@ -258,7 +258,11 @@ export async function testPage(tables) {
 
   await test("the page fits 320 pixels and follows a new size", async () => {
     opening.frame.style.width = "320px";
-    await until(() => at("left").width <= 320 * page.devicePixelRatio, "a smaller picture");
+    const isSmall = () => at("left").width <= 320 * page.devicePixelRatio;
+    await until(isSmall, "a smaller picture").catch((problem) => {
+      const said = [at("status").textContent, page.document.visibilityState, at("left-side").querySelector(".cost").textContent];
+      throw new Error(`${problem.message}; ${at("left").width} px in ${stage.clientWidth}; ${said.join("; ")}; ${problems.join("; ")}`);
+    });
     const { scrollWidth, clientWidth } = page.document.documentElement;
     assert(scrollWidth <= clientWidth, `${scrollWidth} px in ${clientWidth}`);
   });
