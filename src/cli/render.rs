@@ -1,6 +1,7 @@
 //! `tinta render`: models to a picture.
 
 mod animate;
+mod explain;
 mod keep;
 mod lines;
 #[cfg(test)]
@@ -30,7 +31,7 @@ use tinta::plan::prune::Pruned;
 use tinta::plan::{Plan, Submission};
 use tinta::preset::Options;
 use tinta::record::{CameraRecord, ModelRecord, Record, Summary};
-use tinta::renderer::{PassTime, milliseconds_since};
+use tinta::renderer::milliseconds_since;
 use tinta::{Backend, Error, Renderer, Result, Scene, SceneSettings, Size, Style, StyleName, Target};
 
 /// Draw models into a picture, an animation or a line drawing
@@ -234,12 +235,12 @@ fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Resu
     let times = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?);
     let passes = renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?;
     if arguments.run.explain {
-        let mut text = explanation(&plan, &passes, &times, frames);
+        let mut text = explain::frames(&plan, &passes, &times, frames);
         if let Some(pruning) = arguments.prune.pruning(renderer, arguments.run.frames) {
             text.push_str(&prune::explanation(renderer, &scene, &published, &pruning, frames)?);
         }
         let start = [
-            stages.iter().map(|(stage, ms)| (stage_name(*stage), *ms)).collect(),
+            stages.iter().map(|(stage, ms)| (stage.name(), *ms)).collect(),
             vec![
                 ("vertex arrays", arrays_ms),
                 ("context", context_ms),
@@ -248,7 +249,7 @@ fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Resu
                 ("first frame", first_frame_ms),
             ],
         ];
-        text.push_str(&start_explanation(&start.concat()));
+        text.push_str(&explain::start(&start.concat()));
         return super::print(&text).map(|()| verdict);
     }
     let models = model_records(&scene, arguments.models.len());
@@ -417,35 +418,6 @@ fn make_dump_folder(arguments: &Arguments) -> Result<()> {
 
 fn model_records(scene: &Scene, models: usize) -> Vec<ModelRecord> {
     scene.objects[..models].iter().map(|object| ModelRecord::new(&object.mesh)).collect()
-}
-
-fn explanation(plan: &Plan, passes: &[PassTime], times: &Summary, frames: usize) -> String {
-    let mut text = plan.to_string();
-    text.push_str(&format!("\n{:<20}{:>10}{:>10}\n", "pass", "cpu ms", "gpu ms"));
-    for pass in passes {
-        let device = pass.gpu_ms.map_or("-".to_owned(), |ms| format!("{ms:.3}"));
-        text.push_str(&format!("{:<20}{:>10.3}{:>10}\n", pass.name, pass.cpu_ms, device));
-    }
-    let count = if frames == 1 { "1 frame".to_owned() } else { format!("the median of {frames} frames") };
-    text.push_str(&format!("{:<20}{:>10.3}            with read-back, {count}\n", "whole picture", times.median));
-    text
-}
-
-/// What a stage of reading is called.
-fn stage_name(stage: LoadStage) -> &'static str {
-    match stage {
-        LoadStage::Reading => "reading the file",
-        LoadStage::Parsing => "parsing",
-        LoadStage::Joining => "joining vertices",
-        LoadStage::Normals => "normals",
-        _ => "reading",
-    }
-}
-
-/// How long it took from the start to the first frame, part by part.
-fn start_explanation(parts: &[(&str, f64)]) -> String {
-    let rows: Vec<String> = parts.iter().map(|(name, ms)| format!("{name:<20}{ms:>10.3}\n")).collect();
-    format!("\n{:<20}{:>10}  the model is read while the context opens\n{}", "start", "ms", rows.concat())
 }
 
 fn after_help() -> String {

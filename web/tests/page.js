@@ -97,6 +97,8 @@ export async function testPage(tables) {
     assert(listed.includes("Ctrl S") && !listed.includes("Ctrl T"), listed.join());
     const pressed = new page.KeyboardEvent("keydown", { key: "t", ctrlKey: true, bubbles: true, cancelable: true });
     assert(stage.dispatchEvent(pressed), "Ctrl T is the browser's");
+    const elsewhere = new page.KeyboardEvent("keydown", { key: "l", ctrlKey: true, bubbles: true, cancelable: true });
+    assert(page.document.body.dispatchEvent(elsewhere), "and so is Ctrl L where the picture has no focus");
     await key("h");
     assert(at("keys").open, "H opens it");
     at("keys").close();

@@ -10,11 +10,10 @@
 mod big;
 
 use big::{Counting, files, peak, sphere};
-use std::cell::RefCell;
 use std::path::Path;
 use std::time::Instant;
-use tinta_geometry::LoadOptions;
-use tinta_geometry::mesh::{LoadStage, VertexArrays, load_watched};
+use tinta_geometry::mesh::{LoadStage, VertexArrays};
+use tinta_geometry::{LoadOptions, load};
 
 #[global_allocator]
 static COUNTING: Counting = Counting;
@@ -62,16 +61,8 @@ fn one(path: &Path) -> tinta_geometry::Result<[f64; COLUMNS.len()]> {
     let (bytes, plain) = timed(|| std::fs::read(path).unwrap_or_default());
     let (copy, copied) = timed(|| bytes.clone());
     drop((bytes, copy));
-    let started = RefCell::new(Vec::new());
-    let loaded = load_watched(&path.to_string_lossy(), &LoadOptions::default(), &|stage| {
-        started.borrow_mut().push((stage, Instant::now()));
-    })?;
-    let (end, started) = (Instant::now(), started.into_inner());
-    let took = |stage| {
-        let place = started.iter().position(|(other, _)| *other == stage);
-        let ends = place.and_then(|place| started.get(place + 1)).map_or(end, |(_, next)| *next);
-        place.map_or(0.0, |place| (ends - started[place].1).as_secs_f64() * 1e3)
-    };
+    let loaded = load(&path.to_string_lossy(), &LoadOptions::default())?;
+    let took = |stage| loaded.stages.iter().find(|(other, _)| *other == stage).map_or(0.0, |(_, ms)| *ms);
     let stages = [LoadStage::Reading, LoadStage::Parsing, LoadStage::Joining, LoadStage::Normals].map(took);
     let (arrays, made) = timed(|| VertexArrays::new(&loaded.mesh, 1.0));
     let (_, arrays_copied) = timed(|| (arrays.vertices.clone(), arrays.indices.clone()));

@@ -1,5 +1,7 @@
 //! Memory that is free, so that what takes more ends in a sentence before the system swaps, or ends the process without one.
 
+use crate::error::{Error, Result};
+use crate::limits::MEMORY_SLACK_BYTES;
 use std::fs::read_to_string;
 
 /// Bytes that are free for this process without swapping, as the system and its control group have them; `None` where nobody says.
@@ -40,19 +42,28 @@ fn free_of_group(text: &str) -> Option<u64> {
 fn left(most: Option<String>, used: Option<String>, statistics: Option<String>) -> Option<u64> {
     let number = |text: &str| text.trim().parse::<u64>().ok();
     let (most, used) = (number(&most?)?, number(&used?)?);
-    let kept = statistics.as_deref().unwrap_or_default().lines().find_map(|line| line.strip_prefix("inactive_file "));
-    Some(most.saturating_sub(used.saturating_sub(kept.and_then(number).unwrap_or_default())))
+    let kept = |line: &str| {
+        let of_files = ["inactive_file ", "active_file "].into_iter().find_map(|name| line.strip_prefix(name));
+        of_files.and_then(number).unwrap_or_default()
+    };
+    let kept: u64 = statistics.as_deref().unwrap_or_default().lines().map(kept).sum();
+    Some(most.saturating_sub(used.saturating_sub(kept)))
 }
 
-/// A sentence where something takes more than is free; `None` where it may fit.
-pub(crate) fn refusal(needed: u64, free: Option<u64>) -> Option<String> {
-    let free = free.filter(|free| needed > *free)?;
+/// Refuses a model that takes so many bytes more than there are; what is little fits as long as anything does.
+///
+/// # Errors
+///
+/// [`Error::File`] with both numbers.
+pub(crate) fn check(name: &str, needed: u64, free: Option<u64>) -> Result<()> {
+    let Some(free) = free.filter(|free| needed > *free && needed > MEMORY_SLACK_BYTES as u64) else { return Ok(()) };
     let gib = |bytes: u64| format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30));
-    Some(format!(
+    let problem = format!(
         "it takes {} of memory, and {} are free; close other programs, or make it smaller",
         gib(needed),
         gib(free)
-    ))
+    );
+    Err(Error::model(name, problem))
 }
 
 #[cfg(test)]
@@ -72,18 +83,21 @@ mod tests {
     fn a_group_leaves_its_limit_less_what_cannot_be_given_up() {
         let text = |text: &str| Some(text.to_owned());
         let statistics = || text("anon 5\ninactive_file 300\nactive_file 9\n");
-        assert_eq!(left(text("1000\n"), text("700\n"), statistics()), Some(600));
+        assert_eq!(left(text("1000\n"), text("700\n"), statistics()), Some(609));
         assert_eq!(left(text("1000\n"), text("1200\n"), None), Some(0));
         assert_eq!(left(text("max\n"), text("700\n"), statistics()), None, "without a limit");
         assert_eq!(left(None, text("700\n"), statistics()), None);
     }
 
     #[test]
-    fn what_fits_is_not_refused_and_what_does_not_is_in_one_sentence() {
-        assert_eq!(refusal(5 << 30, Some(5 << 30)), None);
-        assert_eq!(refusal(u64::MAX, None), None, "where nobody says");
-        let sentence = "it takes 5.0 GiB of memory, and 1.5 GiB are free; close other programs, or make it smaller";
-        assert_eq!(refusal(5 << 30, Some(3 << 29)).as_deref(), Some(sentence));
+    fn what_fits_or_is_little_is_not_refused_and_what_does_not_is_in_one_sentence() {
+        assert!(check("a.obj", 5 << 30, Some(5 << 30)).is_ok());
+        assert!(check("a.obj", u64::MAX, None).is_ok(), "where nobody says");
+        assert!(check("a.obj", 64 << 20, Some(0)).is_ok());
+        let message = check("a.obj", 5 << 30, Some(3 << 29)).unwrap_err().to_string();
+        let sentence =
+            "a.obj: it takes 5.0 GiB of memory, and 1.5 GiB are free; close other programs, or make it smaller";
+        assert_eq!(message, sentence);
     }
 
     #[cfg(target_os = "linux")]

@@ -241,8 +241,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
 }
 
 /// What is being done while a model is read, in this order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LoadStage {
     /// Its bytes come from the disk.
@@ -253,6 +252,18 @@ pub enum LoadStage {
     Joining,
     /// Normals are made, or those of the file taken over.
     Normals,
+}
+
+impl LoadStage {
+    /// What it does, in words.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Reading => "reading the file",
+            Self::Parsing => "parsing",
+            Self::Joining => "joining vertices",
+            Self::Normals => "normals",
+        }
+    }
 }
 
 /// As [`load`], for whoever shows how far it is: `watch` is told of each stage when it begins.
@@ -280,10 +291,7 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
 fn check_free(path: &str, free: Option<u64>) -> Result<()> {
     let bytes = Path::new(path).metadata().map_or(0, |file| if file.is_file() { file.len() } else { 0 });
     // What is too large in any case has a sentence of its own, which names the limit.
-    match memory::refusal(bytes.saturating_mul(2), free).filter(|_| bytes <= MODEL_BYTES) {
-        Some(problem) => Err(Error::model(path, problem)),
-        None => Ok(()),
-    }
+    if bytes > MODEL_BYTES { Ok(()) } else { memory::check(path, bytes.saturating_mul(2), free) }
 }
 
 /// What `work` reads, with how long each stage took that it began.

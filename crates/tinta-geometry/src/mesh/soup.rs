@@ -83,12 +83,7 @@ fn sum(vertices: usize, corners: usize, triangles: usize, bytes: [usize; 3]) -> 
 fn check_free(vertices: usize, corners: usize, triangles: usize, free: Option<u64>, name: &str) -> Result<()> {
     /// What a vertex, a corner and a triangle take at that moment beside what is there by then, bytes: a little less than was counted.
     const BYTES: [usize; 3] = [10, 0, 60];
-    let needed = sum(vertices, corners, triangles, BYTES) as u64;
-    // What is little fits as long as anything does.
-    match memory::refusal(needed, free).filter(|_| needed > MEMORY_SLACK_BYTES as u64) {
-        Some(problem) => Err(Error::model(name, problem)),
-        None => Ok(()),
-    }
+    memory::check(name, sum(vertices, corners, triangles, BYTES) as u64, free)
 }
 
 impl Soup {
