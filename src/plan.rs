@@ -37,7 +37,7 @@ pub(crate) use target::DEPTH_COPIES;
 pub use target::{Attachment, Attachments, Drawn, Format, SettingValue, Target};
 pub use tiles::{Tile, TileLimits};
 
-use crate::mesh::Part;
+use crate::mesh::{Part, VertexArrays};
 use crate::picture::Picture;
 use crate::scene::{Rectangle, Size};
 use std::sync::Arc;
@@ -222,8 +222,17 @@ pub struct EdgeRun {
     pub name: &'static str,
     /// Red, green, blue, alpha.
     pub color: [f32; 4],
-    /// Both ends of each, as indices into the object's [`crate::mesh::VertexArrays::vertices`].
+    /// Both ends of each, as indices into [`EdgeRun::vertices`].
     pub ends: Vec<[u32; 2]>,
+    /// Vertices of its own, for lines that run through faces, like [`crate::mesh::VertexArrays::vertices`]; `None` for those of the object.
+    pub own_vertices: Option<Vec<[f32; 6]>>,
+}
+
+impl EdgeRun {
+    /// What its ends number, given the object's arrays.
+    pub fn vertices<'a>(&'a self, arrays: &'a VertexArrays) -> &'a [[f32; 6]] {
+        self.own_vertices.as_ref().unwrap_or(&arrays.vertices)
+    }
 }
 
 /// What of an edge is drawn.

@@ -5,8 +5,10 @@ use crate::shapes::Random;
 use crate::support::{BACKENDS, failure_folder, public_models, renderer, skip};
 use crate::svg::rendered;
 use std::sync::Arc;
+use tinta::camera::{CameraSettings, View};
 use tinta::compare::{Agreement, InkMask};
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
+use tinta::lines::closed_forms::ClosedForm;
 use tinta::lines::{Length, svg};
 use tinta::styles::{Inking, PaintMode};
 use tinta::{
@@ -79,6 +81,23 @@ fn no_outline_that_gl_draws_of_flat_faces_along_an_axis_is_missing() {
     check_outlines(12);
 }
 
+#[test]
+fn smooth_silhouettes_of_closed_forms_are_those_of_the_exact_lines() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let forms =
+        [("ellipsoid", ClosedForm::ellipsoid(1.0, 0.6, 1.4)), ("torus", ClosedForm::Torus { ring: 1.0, tube: 0.4 })];
+    for (name, form) in forms {
+        for jitter in [0.0, 0.2] {
+            let view = View { azimuth_degrees: 30.0, elevation_degrees: 40.0 };
+            let camera = CameraSettings { view, ..CameraSettings::default() };
+            let settings = SceneSettings { camera, ..SceneSettings::default() };
+            let scene = Scene::new(vec![Arc::new(form.mesh(10_000, jitter).unwrap())], &settings).unwrap();
+            let [of_svg, of_gl] = shares_by(&mut renderer, &scene, name, SilhouetteRule::Smooth);
+            assert!(of_svg >= SHARE && of_gl >= SHARE, "{name} {jitter}: {of_svg} of the SVG's ink, {of_gl} of GL's");
+        }
+    }
+}
+
 /// The same scene of meshes that GL can shade.
 fn with_normals(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
@@ -97,10 +116,13 @@ fn shares(renderer: &mut Renderer, path: &str) -> [f64; 2] {
 }
 
 fn shares_of(renderer: &mut Renderer, scene: &Scene, name: &str) -> [f64; 2] {
-    let inking =
-        Inking { classes: CLASSES, silhouette: SilhouetteRule::Exact, paint: PaintMode::None, ..Inking::default() };
+    shares_by(renderer, scene, name, SilhouetteRule::Exact)
+}
+
+fn shares_by(renderer: &mut Renderer, scene: &Scene, name: &str, silhouette: SilhouetteRule) -> [f64; 2] {
+    let inking = Inking { classes: CLASSES, silhouette, paint: PaintMode::None, ..Inking::default() };
     let of_gl = renderer.render(scene, &Style::Inking(inking)).unwrap();
-    let settings = LineSettings { classes: CLASSES, ..LineSettings::as_published() };
+    let settings = LineSettings { classes: CLASSES, silhouette, ..LineSettings::as_published() };
     let lines = VisibleLines::of(scene, &settings).unwrap();
     // GL leaves nothing out.
     let all = SvgSettings { min_length: Some(Length::Px(0.0)), ..SvgSettings::default() };

@@ -32,6 +32,7 @@ fn ink_and_paint_are_the_same_bytes_by_every_way_to_hand_vertices_over() {
         Inking { is_smooth: false, silhouette: SilhouetteRule::Exact, writes_depth: false, ..base() },
         Inking { paint: PaintMode::None, line_drawing: LineDrawing::Quads, line_width_px: 3.0, ..base() },
         Inking { paint: PaintMode::Flat, has_joints: false, ..base() },
+        Inking { silhouette: SilhouetteRule::Smooth, ..base() },
         Inking { paint: PaintMode::FlatShaded, ramp_row: RampRow::Own, ..base() },
         Inking { paint: PaintMode::Gouraud, is_inked: false, ..base() },
         Inking { light: LightOn::VertexShader, ramp_row: RampRow::Object, cull_back_faces: true, ..base() },

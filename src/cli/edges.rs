@@ -4,7 +4,7 @@ use super::model_cache::ModelCache;
 use super::models::load_meshes;
 use super::options::{CameraArguments, Chosen, ModelArguments, Selection};
 use std::time::Instant;
-use tinta::edges::{Class, ClassSet, Classes, NormalCones, Silhouettes};
+use tinta::edges::{Class, ClassSet, Classes, NormalCones, SilhouetteRule, Silhouettes};
 use tinta::record::{CameraRecord, EdgeRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
 use tinta::settings::Setting;
@@ -51,6 +51,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let style = Style::with_options(StyleName::Inking, &arguments.crease.options)?;
     let Inking { crease_angle, silhouette: rule, .. } =
         if let Style::Inking(inking) = style { inking } else { Inking::default() };
+    if rule == SilhouetteRule::Smooth {
+        let problem = "smooth silhouettes run through faces, not along edges; choose paper or exact, or draw them";
+        return Err(Error::value("silhouette", rule, problem));
+    }
     let start = Instant::now();
     let mut meshes =
         load_meshes(&ModelCache::for_one(), std::slice::from_ref(&arguments.model), &arguments.options.settings()?)?;

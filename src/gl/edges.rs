@@ -23,6 +23,8 @@ pub(super) struct EdgeIndices {
     indices: Vec<Vec<u32>>,
     /// All of them.
     buffer: Buffer,
+    /// The vertices of each run that has its own.
+    own_vertices: Vec<Option<Buffer>>,
 }
 
 impl EdgeIndices {
@@ -33,7 +35,10 @@ impl EdgeIndices {
         };
         let indices: Vec<Vec<u32>> = runs.iter().map(ends).collect();
         let buffer = Buffer::new(gl, glow::ELEMENT_ARRAY_BUFFER, bytemuck::cast_slice(&indices.concat()))?;
-        Ok(Self { runs: runs.clone(), indices, buffer })
+        let own = |vertices: &Vec<[f32; 6]>| Buffer::new(gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(vertices));
+        let own_vertices =
+            runs.iter().map(|run| run.own_vertices.as_ref().map(own).transpose()).collect::<Result<_>>()?;
+        Ok(Self { runs: runs.clone(), indices, buffer, own_vertices })
     }
 }
 
@@ -75,7 +80,8 @@ impl Resources {
         for (number, (run, indices)) in runs.iter().zip(&edges.indices).enumerate() {
             let object = scene.objects.get(run.object).ok_or_else(of_another_scene)?;
             let buffers = self.find_mesh(&object.mesh).ok_or_else(of_another_scene)?;
-            if run.ends.as_flattened().iter().any(|end| *end as usize >= buffers.vertex_count) {
+            let vertex_count = run.own_vertices.as_ref().map_or(buffers.vertex_count, Vec::len);
+            if run.ends.as_flattened().iter().any(|end| *end as usize >= vertex_count) {
                 return Err(of_another_scene());
             }
             // SAFETY: the context is current.
@@ -84,7 +90,14 @@ impl Resources {
                 self.gl.legacy.color(run.color);
             }
             if self.submission == Submission::Buffers {
-                buffers.bind(&self.gl, None);
+                match &edges.own_vertices[number] {
+                    None => buffers.bind(&self.gl, None),
+                    Some(vertices) => {
+                        vertices.bind();
+                        // SAFETY: the context is current and the bound buffer holds interleaved positions and normals.
+                        unsafe { self.gl.legacy.position_and_normal_arrays() };
+                    }
+                }
                 edges.buffer.bind();
                 // SAFETY: the context is current; the run lies within the bound index buffer and its indices, asked above,
                 // within the bound vertex buffer.
@@ -93,7 +106,7 @@ impl Resources {
                     self.gl.legacy.draw_elements(&self.gl.glow, mode, indices.len() as i32, first_byte);
                 }
             } else {
-                let places = Places::Positions(&scene.arrays(object).vertices);
+                let places = Places::Positions(run.vertices(scene.arrays(object)));
                 let content = Content::Edges {
                     mesh: Same::as_this(&object.mesh),
                     unit: scene.radius,
@@ -137,7 +150,7 @@ impl Resources {
             let arrays = scene.arrays(object);
             let clip_from_object = scene.clip_from_view() * scene.view_from_object(object, arrays.centre);
             let in_clip_space = |vertex: &u32| {
-                let [x, y, z, ..] = *arrays.vertices.get(*vertex as usize)?;
+                let [x, y, z, ..] = *run.vertices(arrays).get(*vertex as usize)?;
                 Some(clip_from_object * Vec3::new(x, y, z).extend(1.0))
             };
             let ends = run.ends.iter().filter_map(|[a, b]| Some([in_clip_space(a)?, in_clip_space(b)?]));

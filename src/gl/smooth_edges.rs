@@ -102,7 +102,7 @@ impl Resources {
             let arrays = scene.arrays(object);
             let clip_from_object = scene.clip_from_view() * scene.view_from_object(object, arrays.centre);
             let in_clip_space = |vertex: u32| {
-                let [x, y, z, ..] = *arrays.vertices.get(vertex as usize)?;
+                let [x, y, z, ..] = *run.vertices(arrays).get(vertex as usize)?;
                 Some(clip_from_object * Vec3::new(x, y, z).extend(1.0))
             };
             let corners = match mark {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Instant;
 use tinta_geometry::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use tinta_geometry::lines::closed_forms::{ClosedForm, Patch, distance};
-use tinta_geometry::lines::{Contour, Flicker, LineSettings, VisibilityChanges, flicker};
+use tinta_geometry::lines::{Flicker, LineSettings, VisibilityChanges, flicker};
 use tinta_geometry::{CameraSettings, LoadOptions, Mesh, Result, Scene, SceneSettings, View, VisibleLines, load};
 
 const USAGE: &str = "cargo bench -p tinta-geometry --bench contours -- truth [SURFACE...] | breaks [MODEL...] | times MODEL... | flicker VIEWS [MODEL...]
@@ -32,9 +32,9 @@ fn scene(mesh: &Arc<Mesh>, way: DVec3) -> Result<Scene> {
     Scene::new(vec![mesh.clone()], &SceneSettings { camera, ..SceneSettings::default() })
 }
 
-const RULES: [(&str, Contour); 2] = [("exact", Contour::Exact), ("smooth", Contour::Smooth)];
+const RULES: [(&str, Contour); 2] = [("exact", SilhouetteRule::Exact), ("smooth", SilhouetteRule::Smooth)];
 
-fn settings(silhouette: Contour) -> LineSettings {
+fn settings(silhouette: SilhouetteRule) -> LineSettings {
     LineSettings { silhouette, ..LineSettings::default() }
 }
 
@@ -170,7 +170,7 @@ fn times(models: &[String]) -> Result<()> {
 /// Of each rule the silhouettes of a scene that are seen. The listing's rule has no lines of its own: its are those of all edges that
 /// it names, as far as they are seen.
 fn silhouettes(scene: &Scene, rule: &str) -> Result<VisibleLines> {
-    let silhouette = if rule == "smooth" { Contour::Smooth } else { Contour::Exact };
+    let silhouette = if rule == "smooth" { SilhouetteRule::Smooth } else { SilhouetteRule::Exact };
     let only = LineSettings {
         classes: ClassSet::of(&[Class::Silhouette]),
         silhouette,

@@ -54,6 +54,7 @@ mod progress;
 mod pyramid;
 mod raster;
 mod search;
+mod silhouettes;
 mod simplify;
 #[cfg(test)]
 mod smooth_tests;
@@ -82,6 +83,7 @@ pub use page::{PageSize, Paper, Sheet, Turn};
 pub use pdf::{pdf, pdf_of_paths};
 pub use progress::{Phase, Progress};
 pub use raster::{Raster, raster, raster_of_paths};
+pub use silhouettes::{SmoothSilhouette, smooth_silhouettes};
 pub use strokes::{Polyline, Strokes, strokes};
 pub use svg::{Hidden, SvgSettings, svg, svg_of_paths};
 
@@ -104,23 +106,6 @@ use std::sync::{Arc, LazyLock};
 use summits::ContourLines;
 use visibility::Lines;
 
-/// Where a silhouette runs.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Contour {
-    /// Along edges between a face seen from the front and one that is not.
-    #[default]
-    Exact,
-    /// Through the faces, where the smooth surface they stand for turns away; along sharp edges as with [`Contour::Exact`].
-    Smooth,
-}
-
-impl Contour {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("exact", Self::Exact), ("smooth", Self::Smooth)];
-}
-
-crate::choices!(Contour);
-
 /// Which lines are wanted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineSettings {
@@ -129,9 +114,9 @@ pub struct LineSettings {
     pub classes: ClassSet,
     /// From which angle between faces an edge is a crease. Default 30 degrees; more find fewer lines.
     pub crease_angle: CreaseAngle,
-    /// Where silhouettes run. Default along the mesh's own edges, which is what the faces show; smooth ones are what a curved
-    /// surface that the faces stand for would show.
-    pub silhouette: Contour,
+    /// Where silhouettes run: exact ones, the default, are what the faces show; smooth ones are what a curved surface that the faces stand
+    /// for would show. The listing's rule is refused: it knows no exact lines.
+    pub silhouette: SilhouetteRule,
     /// Whether hidden parts are found too. Default yes; without them [`VisibleLines::segments`] has what is seen alone, and no time
     /// is spent on what lies behind.
     pub finds_hidden: bool,
@@ -157,7 +142,7 @@ impl Default for LineSettings {
                 Class::Intersection,
             ]),
             crease_angle: CreaseAngle::of_drawings(),
-            silhouette: Contour::Exact,
+            silhouette: SilhouetteRule::Exact,
             finds_hidden: true,
             finds_outline: false,
             forms: FormSettings::default(),
@@ -182,39 +167,26 @@ impl LineSettings {
 
     /// Whether smooth contours are drawn.
     fn has_smooth_contours(&self) -> bool {
-        self.silhouette == Contour::Smooth && self.classes.contains(Class::Silhouette)
+        self.silhouette == SilhouetteRule::Smooth && self.classes.contains(Class::Silhouette)
     }
 
     /// The settings, for a table of something that has lines in it.
     pub fn settings() -> Vec<Setting<Self>> {
-        // There for who draws both: inking has the listing's rule too, and no smooth one.
-        let silhouette = Setting::of(
-            "silhouette",
-            "RULE",
-            Contour::kind(),
-            SilhouetteRule::HELP,
-            |lines: &Self| lines.silhouette.text(),
-            |lines, text| match (Contour::parse(text), SilhouetteRule::parse(text)) {
-                (Err(_), Ok(_)) => Err(Error::value(
-                    "silhouette",
-                    text,
-                    "style lines finds silhouettes exactly or smooth; leave it out, or draw --style inking into a .png",
-                )
-                .into()),
-                (contour, _) => {
-                    lines.silhouette = contour?;
-                    Ok(())
-                }
-            },
-        );
         let edges = vec![
             ClassSet::setting(ClassSet::ALL, |lines: &mut Self| &mut lines.classes),
             CreaseAngle::setting(|lines: &mut Self| &mut lines.crease_angle),
-            silhouette.said(SilhouetteRule::SAID_DEFAULT),
+            SilhouetteRule::setting(|lines: &mut Self| &mut lines.silhouette)
+                .refusing(|lines| not_published(lines.silhouette)),
         ];
         let forms = within(FormSettings::settings(), |lines: &mut Self| Some(&mut lines.forms));
         edges.into_iter().chain(forms).collect()
     }
+}
+
+/// Refuses the listing's rule.
+fn not_published(rule: SilhouetteRule) -> Result<()> {
+    let problem = "style lines finds silhouettes exactly or smooth; leave it out, or draw --style inking into a .png";
+    if rule == SilhouetteRule::Published { Err(Error::value("silhouette", rule.text(), problem)) } else { Ok(()) }
 }
 
 /// A piece of a line of one class that is seen or hidden as a whole.
@@ -303,6 +275,7 @@ impl VisibleLines {
         if scene.triangle_count().max(all_positions) > u32::MAX as usize / 4 {
             return Err(Error::setting("copies", "the scene has too many faces to find its lines; ask for fewer"));
         }
+        not_published(settings.silhouette)?;
         settings.forms.check()?;
         let has_forms = !settings.classes.and(ClassSet::FORMS).is_empty();
         let with_hidden;
@@ -340,8 +313,10 @@ impl VisibleLines {
         progress.go_on()?;
 
         let clock = Instant::now();
-        let contours = (settings.has_smooth_contours() || settings.counts_changes)
-            .then(|| Contours::new(scene, &space, &faces, &parts, settings.crease_angle));
+        let contours = (settings.has_smooth_contours() || settings.counts_changes).then(|| {
+            let is_cut = !faces.cut_by_near.is_empty();
+            Contours::new(scene, &space, &faces.positions, is_cut, &parts, settings.crease_angle)
+        });
         let drawn_contours = contours.as_ref().filter(|_| settings.has_smooth_contours());
         let (mut lines, mut edges) = features::edge_features(scene, &space, &faces, &parts, drawn_contours, settings);
         let silhouette_ms = milliseconds_since(clock);

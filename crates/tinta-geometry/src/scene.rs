@@ -352,7 +352,9 @@ impl Scene {
     /// Where an object is seen from, in its mesh's own coordinates; for the listing's rule always the camera's axis.
     pub fn eye(&self, object: &Object, rule: SilhouetteRule) -> Eye {
         match (rule, self.camera.projection) {
-            (SilhouetteRule::Exact, Projection::Perspective { .. }) => Eye::Point(self.camera.eye - object.offset),
+            (SilhouetteRule::Exact | SilhouetteRule::Smooth, Projection::Perspective { .. }) => {
+                Eye::Point(self.camera.eye - object.offset)
+            }
             _ => Eye::Direction(self.camera.backward()),
         }
     }

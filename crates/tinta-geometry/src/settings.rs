@@ -368,6 +368,17 @@ impl<T: Clone + 'static> Setting<T> {
         self
     }
 
+    /// With values that this owner of it cannot have, each refused with a reason.
+    #[must_use]
+    pub fn refusing(mut self, check: fn(&T) -> Result<()>) -> Self {
+        let set = self.set;
+        self.set = Box::new(move |of, text| {
+            set(of, text)?;
+            Ok(check(of)?)
+        });
+        self
+    }
+
     /// As one of the few that most people need: the short help (`-h`) lists it.
     #[must_use]
     pub fn common(mut self) -> Self {

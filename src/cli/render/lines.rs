@@ -14,9 +14,10 @@ use std::path::Path;
 use std::str::FromStr;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
+use tinta::edges::SilhouetteRule;
 use tinta::lines::{
-    Contour, Hidden, LinePath, LineSettings, Phase, Progress as LineProgress, Raster, chain, pdf_of_paths,
-    raster_of_paths, svg_of_paths,
+    Hidden, LinePath, LineSettings, Phase, Progress as LineProgress, Raster, chain, pdf_of_paths, raster_of_paths,
+    svg_of_paths,
 };
 use tinta::picture::{Note, PictureFormat};
 use tinta::preset::Options;
@@ -149,7 +150,7 @@ pub(super) fn run(
     }
     let mut settings = asked_lines(arguments, format)?;
     settings.finds_hidden |= arguments.run.json;
-    settings.counts_changes = arguments.run.json && settings.silhouette == Contour::Smooth;
+    settings.counts_changes = arguments.run.json && settings.silhouette == SilhouetteRule::Smooth;
     let start = Instant::now();
     let ReadModels { meshes, files, .. } = load_models(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);

@@ -133,7 +133,7 @@ impl NormalCones {
         let local = silhouettes.local_eye(eye, rule);
         let exactly = |face: u32| silhouettes.is_front_exactly(mesh, face as usize, eye);
         let mut found = match rule {
-            SilhouetteRule::Exact => self.search::<true>(&local, local.error, exactly),
+            SilhouetteRule::Exact | SilhouetteRule::Smooth => self.search::<true>(&local, local.error, exactly),
             // The listing's bound is to be cleared beside the error.
             SilhouetteRule::Published => self.search::<false>(&local, local.error + PUBLISHED_CLEAR, exactly),
         };

@@ -93,10 +93,20 @@ impl MeshEdges {
         eye: Eye,
         rule: SilhouetteRule,
     ) -> Vec<(Class, Vec<u32>)> {
-        let classes = self.classes(crease_angle, wanted);
         let silhouette = if wanted.contains(Class::Silhouette) { self.silhouette(eye, rule) } else { Vec::new() };
+        self.chosen_with(wanted, crease_angle, &silhouette)
+    }
+
+    /// As [`MeshEdges::chosen`], the silhouette edges being these, ascending.
+    pub fn chosen_with(
+        &self,
+        wanted: ClassSet,
+        crease_angle: CreaseAngle,
+        silhouette: &[u32],
+    ) -> Vec<(Class, Vec<u32>)> {
+        let classes = self.classes(crease_angle, wanted);
         let mut lists: Vec<(Class, Vec<u32>)> = Class::ALL.into_iter().map(|(_, class)| (class, Vec::new())).collect();
-        for edge in &silhouette {
+        for edge in silhouette {
             // A silhouette edge has two faces, so it is neither boundary nor non-manifold, which come before.
             lists[Class::Silhouette as usize].1.push(*edge);
         }

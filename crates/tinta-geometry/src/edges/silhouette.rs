@@ -5,9 +5,8 @@
 
 use super::classes::corners;
 use super::{EdgeList, Eye, Incidence, Side, side_of_face};
-use crate::error::Error;
 use crate::mesh::{Mesh, triangle_normal};
-use crate::settings::{Problem, Setting, Value as _};
+use crate::settings::Setting;
 use crate::threads::{filled, in_parallel, ranges, threads_for};
 use glam::{DVec3, Vec3, Vec4};
 use serde::Serialize;
@@ -23,36 +22,27 @@ pub enum SilhouetteRule {
     Published,
     /// One face's front is seen and the other's is not, by exact arithmetic.
     Exact,
+    /// Where the curved surface that the faces stand for turns away: through the faces, and along edges only where they are sharp,
+    /// see [`crate::lines::smooth_silhouettes`]. Asked for edges alone it is [`SilhouetteRule::Exact`].
+    Smooth,
 }
 
 impl SilhouetteRule {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("paper", Self::Published), ("exact", Self::Exact)];
+    /// All of them, as the user writes them.
+    pub const ALL: [(&'static str, Self); 3] =
+        [("paper", Self::Published), ("exact", Self::Exact), ("smooth", Self::Smooth)];
 
-    /// What the setting does.
-    pub const HELP: &'static str = "Find silhouettes with one view vector for all edges (paper), exactly (exact), or in style lines \
-                                    where the curved surface that the faces stand for turns away (smooth)";
-
-    /// What help says of its default.
-    pub const SAID_DEFAULT: &'static str = "paper; style lines: exact";
-
-    /// The setting of a style that has both.
+    /// The setting of a style.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
-        let set = move |of: &mut T, text: &str| {
-            if text == "smooth" {
-                let problem = "only style lines finds smooth contours; choose exact, or write a .svg";
-                return Err(Error::value("silhouette", text, problem).into());
-            }
-            *field(of) = Self::parse(text).map_err(|problem| match problem {
-                Problem::Text(problem) => Problem::Text(format!("{problem}; in style lines exact, smooth")),
-                refused => refused,
-            })?;
-            Ok(())
-        };
-        let text = move |of: &T| field(&mut of.clone()).text();
-        Setting::of("silhouette", "RULE", Self::kind(), Self::HELP, text, set)
-            .printed("D, Inking: one view vector for all edges")
-            .said(Self::SAID_DEFAULT)
+        Setting::field(
+            "silhouette",
+            "RULE",
+            "Find silhouettes with one view vector for all edges (paper), exactly (exact), or where the curved surface that the \
+             faces stand for turns away (smooth)",
+            field,
+        )
+        .printed("D, Inking: one view vector for all edges")
+        .said("paper; style lines: exact")
     }
 }
 
@@ -131,7 +121,7 @@ impl Silhouettes {
     pub(super) fn local_eye(&self, eye: Eye, rule: SilhouetteRule) -> LocalEye {
         let local = self.frame.eye(eye);
         match rule {
-            SilhouetteRule::Exact => local,
+            SilhouetteRule::Exact | SilhouetteRule::Smooth => local,
             SilhouetteRule::Published => {
                 let axis = local.homogeneous.truncate().normalize_or_zero();
                 LocalEye { homogeneous: axis.extend(0.0), error: PLANE_ERROR * axis.abs().element_sum() }
@@ -158,7 +148,7 @@ impl Silhouettes {
         let faces = &edges.faces;
         // Every face once, then every edge: a face is shared by three.
         let parts = match rule {
-            SilhouetteRule::Exact => {
+            SilhouetteRule::Exact | SilhouetteRule::Smooth => {
                 let fronts = filled(self.planes.len(), threads, 0u8, |face| {
                     let exactly = || self.is_front_exactly(mesh, face, eye);
                     u8::from(is_front(self.planes[face], &local).unwrap_or_else(exactly))
@@ -182,7 +172,7 @@ impl Silhouettes {
             }
         };
         let mut found = parts.concat();
-        if rule == SilhouetteRule::Exact && !self.reversed.is_empty() {
+        if rule != SilhouetteRule::Published && !self.reversed.is_empty() {
             found.retain(|edge| self.reversed.binary_search(edge).is_err());
             self.add_reversed(mesh, edges, eye, rule, &mut found);
         }
@@ -208,7 +198,9 @@ impl Silhouettes {
         let is_silhouette = |edge: &u32| {
             let [first, second] = edges.faces[*edge as usize];
             match rule {
-                SilhouetteRule::Exact => (side(first) == Side::Front) != (side(second) == Side::Back),
+                SilhouetteRule::Exact | SilhouetteRule::Smooth => {
+                    (side(first) == Side::Front) != (side(second) == Side::Back)
+                }
                 SilhouetteRule::Published => is_published_silhouette(along_view(first), along_view(second)),
             }
         };

@@ -45,7 +45,8 @@ pub fn first_hits(scene: &Scene) -> Vec<Option<Hit>> {
     rows.concat()
 }
 
-fn first_hit(space: &Space, faces: &Faces, starts: &[u32], px: DVec2) -> Option<Hit> {
+/// What the ray through a place in the picture meets first; `starts` are the objects' first faces among all.
+pub(super) fn first_hit(space: &Space, faces: &Faces, starts: &[u32], px: DVec2) -> Option<Hit> {
     let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(f64::INFINITY));
     let ray = space.ray(px);
     let mut first: Option<(f64, u32, [f64; 3])> = None;

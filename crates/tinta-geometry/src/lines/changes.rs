@@ -161,7 +161,7 @@ impl ContourLines<'_> {
         self.reason_of(
             &probe,
             piece.part,
-            self.contours.parts[piece.part as usize].longest_side(self.lines.faces, piece.face),
+            self.contours.parts[piece.part as usize].longest_side(&self.lines.faces.positions, piece.face),
             cusps,
         )
     }
@@ -204,7 +204,7 @@ impl ContourLines<'_> {
         if part.surface.is_sharp[edge] {
             return None;
         }
-        let sides = list.faces(edge as u32).iter().map(|face| part.longest_side(self.lines.faces, *face));
+        let sides = list.faces(edge as u32).iter().map(|face| part.longest_side(&self.lines.faces.positions, *face));
         Some(sides.fold(0.0, f64::max))
     }
 
@@ -231,8 +231,9 @@ impl ContourLines<'_> {
         }
         let mut cusps = Cusps { places: Vec::new(), links: HashSet::new() };
         for (number, Link { part, ends: [(a, end), (b, _)] }) in self.contours.links.iter().enumerate() {
-            let longest_side =
-                |piece: usize| self.contours.parts[*part as usize].longest_side(self.lines.faces, pieces[piece].face);
+            let longest_side = |piece: usize| {
+                self.contours.parts[*part as usize].longest_side(&self.lines.faces.positions, pieces[piece].face)
+            };
             let longest = longest_side(*a).max(longest_side(*b));
             let least = lengths[root(&mut runs, *a)].min(lengths[root(&mut runs, *b)]);
             if pieces[*a].bends_away != pieces[*b].bends_away && least > REACH * longest {

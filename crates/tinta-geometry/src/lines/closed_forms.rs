@@ -9,12 +9,13 @@
 //! # fn main() -> tinta_geometry::Result<()> {
 //! use std::sync::Arc;
 //! use tinta_geometry::lines::closed_forms::{ClosedForm, distance};
-//! use tinta_geometry::lines::{Contour, LineSettings};
+//! use tinta_geometry::edges::SilhouetteRule;
+//! use tinta_geometry::lines::LineSettings;
 //! use tinta_geometry::{Scene, SceneSettings, VisibleLines};
 //!
 //! let sphere = ClosedForm::ellipsoid(1.0, 1.0, 1.0);
 //! let scene = Scene::new(vec![Arc::new(sphere.mesh(10_000, 0.0)?)], &SceneSettings::default())?;
-//! let lines = VisibleLines::of(&scene, &LineSettings { silhouette: Contour::Smooth, ..LineSettings::default() })?;
+//! let lines = VisibleLines::of(&scene, &LineSettings { silhouette: SilhouetteRule::Smooth, ..LineSettings::default() })?;
 //!
 //! let error = distance(&lines, &sphere.visible_contour(&scene));
 //! assert!(error.hausdorff_px() < 0.5, "{error:?}");

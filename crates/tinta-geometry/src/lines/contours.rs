@@ -10,7 +10,6 @@
 //! At a sharp edge both its faces have normals of their own. It is silhouette along those parts where one side is front and the
 //! other is not; where a smooth contour ends on it, such a part begins. Between flat faces that is the rule of polygons.
 
-use super::faces::Faces;
 use super::features::Part;
 use super::space::Space;
 use super::turns::{Link, links, settle};
@@ -62,6 +61,14 @@ pub(super) struct Piece {
     pub on_edge: Option<u32>,
 }
 
+/// Where a cut through a face leaves it.
+pub(super) struct Exit {
+    pub point: DVec3,
+    pub edge: u32,
+    /// n . v there.
+    pub towards: f64,
+}
+
 /// How the smooth rule sees an edge.
 pub(super) enum OnEdge {
     /// By its faces, as the exact rule does.
@@ -76,11 +83,12 @@ pub(super) enum OnEdge {
 const CHUNK: usize = 8192;
 
 impl Contours {
-    /// Finds them.
+    /// Finds them; `positions` are those of all parts in the eye's space; the near plane may cut faces open.
     pub(super) fn new(
         scene: &Scene,
         space: &Space,
-        faces: &Faces,
+        positions: &[DVec3],
+        is_cut_by_near: bool,
         parts: &[Part<'_>],
         crease_angle: CreaseAngle,
     ) -> Self {
@@ -96,20 +104,20 @@ impl Contours {
             });
             let (low, high) = mesh.bounds();
             let is_within = |eye: DVec3| eye.cmpge(low).all() && eye.cmple(high).all();
-            let sees_inside = !faces.cut_by_near.is_empty() || matches!(eye, Eye::Point(eye) if is_within(eye));
+            let sees_inside = is_cut_by_near || matches!(eye, Eye::Point(eye) if is_within(eye));
             let part = PartSurface { surface, mesh, towards, first_position, sees_inside };
             let chunks = in_chunks(part.mesh.triangles.len(), CHUNK, cores(), |range| {
-                range.filter_map(|face| part.piece(space, faces, number as u32, face as u32)).collect::<Vec<_>>()
+                range.filter_map(|face| part.piece(space, positions, number as u32, face as u32)).collect::<Vec<_>>()
             });
             chunks.into_iter().for_each(|chunk| all.pieces.extend(chunk));
             let list = edges.list();
             let sharp = (0..list.len() as u32).filter(|edge| part.surface.is_sharp[*edge as usize]);
-            all.pieces.extend(sharp.flat_map(|edge| part.pieces_on_edge(space, faces, list, number as u32, edge)));
+            all.pieces.extend(sharp.flat_map(|edge| part.pieces_on_edge(space, positions, list, number as u32, edge)));
             first_position += part.mesh.positions.len() as u32;
             all.parts.push(part);
         }
         all.links = links(&all.parts, &all.pieces);
-        settle(&all.parts, &mut all.pieces, faces, &mut all.links);
+        settle(&all.parts, &mut all.pieces, positions, &mut all.links);
         all
     }
 
@@ -155,25 +163,25 @@ impl PartSurface {
     }
 
     /// A face's corners in the eye's space.
-    pub(super) fn corners(&self, faces: &Faces, face: u32) -> [DVec3; 3] {
-        self.mesh.triangles[face as usize].map(|position| faces.positions[(position + self.first_position) as usize])
+    pub(super) fn corners(&self, positions: &[DVec3], face: u32) -> [DVec3; 3] {
+        self.mesh.triangles[face as usize].map(|position| positions[(position + self.first_position) as usize])
     }
 
     /// A face's longest side.
-    pub(super) fn longest_side(&self, faces: &Faces, face: u32) -> f64 {
-        let [a, b, c] = self.corners(faces, face);
+    pub(super) fn longest_side(&self, positions: &[DVec3], face: u32) -> f64 {
+        let [a, b, c] = self.corners(positions, face);
         a.distance(b).max(b.distance(c)).max(c.distance(a))
     }
 
     /// The piece of contour inside a face, if there is one.
-    fn piece(&self, space: &Space, faces: &Faces, part: u32, face: u32) -> Option<Piece> {
+    fn piece(&self, space: &Space, positions: &[DVec3], part: u32, face: u32) -> Option<Piece> {
         let values = self.of_face(face);
         let fronts = values.map(is_front);
         if fronts == [true; 3] || fronts == [false; 3] || self.surface.sides[face as usize] == [NONE; 3] {
             return None;
         }
         let triangle = self.mesh.triangles[face as usize];
-        let corners = self.corners(faces, face);
+        let corners = self.corners(positions, face);
         let normals = self.surface.corner_normals[face as usize].map(|normal| self.surface.normals[normal as usize]);
         let mut crossings = (0..3).filter(|side| fronts[*side] != fronts[(side + 1) % 3]).map(|side| {
             let next = (side + 1) % 3;
@@ -204,16 +212,16 @@ impl PartSurface {
     }
 
     /// The parts of a sharp edge at which its smooth normals turn away but its faces do not.
-    fn pieces_on_edge(&self, space: &Space, faces: &Faces, list: &EdgeList, part: u32, edge: u32) -> Vec<Piece> {
-        let OnEdge::OfContour(parts) = self.on_edge(space, faces, list, edge) else { return Vec::new() };
+    fn pieces_on_edge(&self, space: &Space, positions: &[DVec3], list: &EdgeList, part: u32, edge: u32) -> Vec<Piece> {
+        let OnEdge::OfContour(parts) = self.on_edge(space, positions, list, edge) else { return Vec::new() };
         let &[first, second] = list.faces(edge) else { return Vec::new() };
         let ends = list.positions()[edge as usize];
-        let [low, high] = ends.map(|position| faces.positions[(position + self.first_position) as usize]);
+        let [low, high] = ends.map(|position| positions[(position + self.first_position) as usize]);
         let normal = |face: u32, share: f64| {
             let [low, high] = self.at_ends(face, ends).map(|normal| self.surface.normals[normal as usize]);
             between(low, high, share)
         };
-        let bends_away = self.is_convex(faces, [first, second]);
+        let bends_away = self.is_convex(positions, [first, second]);
         let piece = |[from, to]: [f64; 2]| Piece {
             part,
             face: first,
@@ -227,14 +235,39 @@ impl PartSurface {
         parts.into_iter().map(piece).collect()
     }
 
+    /// Where a plane through a point leaves a face by another side than it came in, the farther along a direction.
+    pub(super) fn exit(
+        &self,
+        positions: &[DVec3],
+        face: u32,
+        came: u32,
+        [point, plane]: [DVec3; 2],
+        way: DVec3,
+    ) -> Option<Exit> {
+        let corners = self.corners(positions, face);
+        let values = self.of_face(face);
+        let heights = corners.map(|corner| plane.dot(corner - point));
+        let exits = (0..3).filter_map(|side| {
+            let next = (side + 1) % 3;
+            let edge = self.surface.sides[face as usize][side];
+            if edge == came || edge == NONE || (heights[side] >= 0.0) == (heights[next] >= 0.0) {
+                return None;
+            }
+            let share = heights[side] / (heights[side] - heights[next]);
+            let towards = values[side] + (values[next] - values[side]) * share;
+            Some(Exit { point: between(corners[side], corners[next], share), edge, towards })
+        });
+        exits.max_by(|a, b| way.dot(a.point).total_cmp(&way.dot(b.point)))
+    }
+
     /// Whether the eye sees a face's front.
-    pub(super) fn is_front_face(&self, space: &Space, faces: &Faces, face: u32) -> bool {
-        let [a, b, c] = self.corners(faces, face);
+    pub(super) fn is_front_face(&self, space: &Space, positions: &[DVec3], face: u32) -> bool {
+        let [a, b, c] = self.corners(positions, face);
         (b - a).cross(c - a).dot(space.to_eye(a)) > 0.0
     }
 
     /// Where an edge is silhouette.
-    pub(super) fn on_edge(&self, space: &Space, faces: &Faces, list: &EdgeList, edge: u32) -> OnEdge {
+    pub(super) fn on_edge(&self, space: &Space, positions: &[DVec3], list: &EdgeList, edge: u32) -> OnEdge {
         if list.incidence()[edge as usize] != Incidence::Inner {
             return OnEdge::ByFaces;
         }
@@ -257,16 +290,16 @@ impl PartSurface {
         let parts = places.windows(2).filter(|part| part[0] < part[1] && differs((part[0] + part[1]) * 0.5));
         let parts = parts.map(|part| [part[0], part[1]]).collect();
         // Where one does not see the bend from outside, the edge is what else it is.
-        match self.is_front_face(space, faces, first) == self.is_front_face(space, faces, second) {
+        match self.is_front_face(space, positions, first) == self.is_front_face(space, positions, second) {
             false => OnEdge::Parts(parts),
-            true if self.encloses(first, self.is_convex(faces, [first, second])) => OnEdge::Parts(Vec::new()),
+            true if self.encloses(first, self.is_convex(positions, [first, second])) => OnEdge::Parts(Vec::new()),
             true => OnEdge::OfContour(parts),
         }
     }
 
     /// Whether a second face lies behind a first.
-    fn is_convex(&self, faces: &Faces, of: [u32; 2]) -> bool {
-        let [[a, b, c], other] = of.map(|face| self.corners(faces, face));
+    fn is_convex(&self, positions: &[DVec3], of: [u32; 2]) -> bool {
+        let [[a, b, c], other] = of.map(|face| self.corners(positions, face));
         (b - a).cross(c - a).dot((other[0] + other[1] + other[2]) / 3.0 - a) < 0.0
     }
 

@@ -136,8 +136,9 @@ pub(super) fn edge_features(
                 of_edge = of_edge.or(ClassSet::of(&[Class::Silhouette]));
             }
             let occludes = !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
-            let on_edge =
-                contours.map_or(OnEdge::ByFaces, |contours| contours.parts[number].on_edge(space, faces, list, edge));
+            let on_edge = contours.map_or(OnEdge::ByFaces, |contours| {
+                contours.parts[number].on_edge(space, &faces.positions, list, edge)
+            });
             let parts_by_class = parts_by_class(of_edge, on_edge, settings.classes);
             if let Some(class) = parts_by_class.iter().filter_map(|(class, _)| *class).min() {
                 *counts.of(class) += 1;

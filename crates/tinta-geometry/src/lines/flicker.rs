@@ -163,9 +163,9 @@ impl<'a> Drawn<'a> {
 mod tests {
     use super::*;
     use crate::camera::CameraSettings;
-    use crate::edges::{Class, ClassSet};
+    use crate::edges::{Class, ClassSet, SilhouetteRule};
+    use crate::lines::LineSettings;
     use crate::lines::closed_forms::ClosedForm;
-    use crate::lines::{Contour, LineSettings};
     use crate::mesh::LoadOptions;
     use crate::scene::SceneSettings;
     use std::sync::Arc;
@@ -175,7 +175,7 @@ mod tests {
     }
 
     /// Two pictures a degree apart, somewhere in a turn, and their silhouettes.
-    fn a_degree(scene: &Scene, at: usize, silhouette: Contour) -> [(Scene, VisibleLines); 2] {
+    fn a_degree(scene: &Scene, at: usize, silhouette: SilhouetteRule) -> [(Scene, VisibleLines); 2] {
         let cameras = scene.turntable(&CameraSettings::default(), 360).unwrap();
         let classes = ClassSet::of(&[Class::Silhouette]);
         let settings = LineSettings { classes, silhouette, finds_hidden: false, ..LineSettings::default() };
@@ -196,7 +196,7 @@ mod tests {
             let ball = of(vec![ClosedForm::ellipsoid(1.0, 1.0, 1.0).mesh(10_000, jitter).unwrap()]);
             for at in [0, 77, 200] {
                 let Flicker { drawn_px, explained_px, unexplained_px } =
-                    of_pictures(&a_degree(&ball, at, Contour::Smooth));
+                    of_pictures(&a_degree(&ball, at, SilhouetteRule::Smooth));
                 assert!(drawn_px > 2000.0);
                 assert_eq!([explained_px, unexplained_px], [0.0; 2], "jitter {jitter} at {at}");
             }
@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn what_is_left_out_of_one_picture_is_flicker_by_its_length() {
         let ball = of(vec![ClosedForm::ellipsoid(1.0, 1.0, 1.0).mesh(10_000, 0.0).unwrap()]);
-        let mut pictures = a_degree(&ball, 10, Contour::Smooth);
+        let mut pictures = a_degree(&ball, 10, SilhouetteRule::Smooth);
         let is_out = |px: DVec2| px.x > 300.0;
         let middle = |ends: [DVec2; 2]| (ends[0] + ends[1]) * 0.5;
         let left_out: f64 = pictures[1]
@@ -230,7 +230,7 @@ mod tests {
         // A sheet before a ball hides half of it in the second picture.
         let ball = || ClosedForm::ellipsoid(1.0, 1.0, 1.0).mesh(10_000, 0.0).unwrap();
         let scene = of(vec![ball()]);
-        let [first, second] = a_degree(&scene, 0, Contour::Smooth);
+        let [first, second] = a_degree(&scene, 0, SilhouetteRule::Smooth);
         let eye = second.0.camera.eye;
         let (ahead, up) = ((second.0.camera.target - eye).normalize(), second.0.camera.up);
         let right = ahead.cross(up).normalize();

@@ -2,16 +2,16 @@
 //! little of a surface is left.
 
 use super::closed_forms::{ClosedForm, distance};
-use super::{Contour, LineSegment, LineSettings, VisibleLines, chain, first_hits};
+use super::{LineSegment, LineSettings, VisibleLines, chain, first_hits};
 use crate::camera::{CameraSettings, View};
-use crate::edges::{Class, ClassSet};
+use crate::edges::{Class, ClassSet, SilhouetteRule};
 use crate::mesh::{LoadOptions, Mesh, load};
 use crate::scene::{Scene, SceneSettings};
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;
 
 pub(super) fn smooth() -> LineSettings {
-    LineSettings { silhouette: Contour::Smooth, counts_changes: true, ..LineSettings::default() }
+    LineSettings { silhouette: SilhouetteRule::Smooth, counts_changes: true, ..LineSettings::default() }
 }
 
 pub(super) fn camera(azimuth_degrees: f64, elevation_degrees: f64) -> CameraSettings {
@@ -111,16 +111,16 @@ fn polygons_with_flat_faces_have_the_same_lines_by_either_rule() {
             for parallel in [false, true] {
                 let scene = scene(mesh.clone(), CameraSettings { parallel, ..camera(azimuth, elevation) });
                 let with = |silhouette| LineSettings { crease_angle, silhouette, ..LineSettings::default() };
-                let [exact, round] = [Contour::Exact, Contour::Smooth].map(|rule| sorted(found(&scene, &with(rule))));
+                let [exact, round] =
+                    [SilhouetteRule::Exact, SilhouetteRule::Smooth].map(|rule| sorted(found(&scene, &with(rule))));
                 assert_eq!(exact, round, "{azimuth},{elevation} {parallel}");
             }
         }
     }
 }
 
-#[test]
-fn a_cylinder_has_two_straight_contours_that_end_on_its_rims() {
-    let count = 24u32;
+/// A closed cylinder with so many sides.
+pub(super) fn cylinder(count: u32) -> Mesh {
     let ring = |y: f64| {
         (0..count).map(move |k| {
             let angle = f64::from(k) / f64::from(count) * std::f64::consts::TAU;
@@ -135,7 +135,12 @@ fn a_cylinder_has_two_straight_contours_that_end_on_its_rims() {
         triangles.extend([[a, a + count, b], [b, a + count, b + count]]);
         triangles.extend([[2 * count, a, b], [2 * count + 1, b + count, a + count]]);
     }
-    let lines = found(&scene(of_triangles(positions, &triangles), camera(11.0, 20.0)), &smooth());
+    of_triangles(positions, &triangles)
+}
+
+#[test]
+fn a_cylinder_has_two_straight_contours_that_end_on_its_rims() {
+    let lines = found(&scene(cylinder(24), camera(11.0, 20.0)), &smooth());
     let only =
         |segment: &&LineSegment| segment.class == Class::Silhouette && segment.is_visible && segment.edge.is_none();
     let contours: Vec<LineSegment> = lines.segments.iter().filter(only).cloned().collect();

@@ -1,10 +1,10 @@
 //! Smooth contours where it is hard to be right: closed forms with flat places and rims, all cusps of a torus, noise, normals that are
 //! wrong, and shapes that are mostly flat.
 
+use super::LineSettings;
 use super::closed_forms::{ClosedForm, ContourDistance, Patch, distance};
 use super::smooth_tests::{camera, found, of_triangles, scene, smooth};
-use super::{Contour, LineSettings};
-use crate::edges::Class;
+use crate::edges::{Class, SilhouetteRule};
 use crate::mesh::{LoadOptions, Mesh, load};
 use glam::{DVec3, Vec3};
 use std::io::Write;
@@ -99,7 +99,7 @@ fn a_machine_part_keeps_its_creases() {
             let seen = segments.iter().filter(|of| of.is_visible && of.class == Class::Crease);
             seen.map(|of| of.ends_px[0].distance(of.ends_px[1])).sum()
         };
-        let [exact, round] = [Contour::Exact, Contour::Smooth].map(creases);
+        let [exact, round] = [SilhouetteRule::Exact, SilhouetteRule::Smooth].map(creases);
         assert!((exact - round).abs() <= 0.01 * exact, "{azimuth},{elevation}: {exact} {round} px");
     }
 }

@@ -49,7 +49,7 @@ pub(super) struct Decided {
 }
 
 /// Most faces that the search for a summit passes in one direction: far more than lie between a contour and a silhouette.
-const MOST_FACES: usize = 64;
+pub(super) const MOST_FACES: usize = 64;
 
 /// Contours decided by a thread at once.
 const CHUNK: usize = 32;
@@ -187,9 +187,9 @@ impl ContourLines<'_> {
         let space = self.lines.space;
         let plane = space.to_eye(start).cross(normal);
         let start_px = space.project(start).0;
-        let surface = &self.contours.parts[piece.part as usize].surface;
+        let part = &self.contours.parts[piece.part as usize];
         let list = self.parts[piece.part as usize].edges.get().list();
-        let near = self.contours.parts[piece.part as usize].longest_side(self.lines.faces, piece.face);
+        let near = part.longest_side(&self.lines.faces.positions, piece.face);
         let to_eye = space.to_eye(start);
         // From inside a face both ways, from an edge into both its faces.
         let ways = match piece.on_edge {
@@ -202,7 +202,8 @@ impl ContourLines<'_> {
         let mut best = (if piece.on_edge.is_some() { 0.0 } else { f64::NEG_INFINITY }, start, piece.edges[0]);
         for (mut face, mut came, way) in ways {
             for _ in 0..MOST_FACES {
-                let Some(exit) = self.exit(piece, face, came, [start, plane], to_eye * way) else { break };
+                let positions = &self.lines.faces.positions;
+                let Some(exit) = part.exit(positions, face, came, [start, plane], to_eye * way) else { break };
                 let is_towards = to_eye.dot(exit.point - start) > 0.0;
                 if -exit.point.z < space.near {
                     break;
@@ -214,7 +215,7 @@ impl ContourLines<'_> {
                 // Towards the eye the surface that is meant shows its front, if it bends away; else its back.
                 let is_on_its_side = (exit.towards > 0.0) == (is_towards == piece.bends_away);
                 let is_near = exit.point.distance(start) < near;
-                if (!is_near && !is_on_its_side) || surface.is_sharp[exit.edge as usize] {
+                if (!is_near && !is_on_its_side) || part.surface.is_sharp[exit.edge as usize] {
                     break;
                 }
                 let Some(next) = list.faces(exit.edge).iter().find(|other| **other != face) else { break };
@@ -230,27 +231,8 @@ impl ContourLines<'_> {
     /// Whether a face's side and its smooth normals agree.
     fn agrees(&self, part: u32, face: u32) -> bool {
         let part = &self.contours.parts[part as usize];
-        let is_front = part.is_front_face(self.lines.space, self.lines.faces, face);
+        let is_front = part.is_front_face(self.lines.space, &self.lines.faces.positions, face);
         part.of_face(face).iter().all(|towards| (*towards >= 0.0) == is_front)
-    }
-
-    /// Where a plane through a point leaves a face by another side than it came in, the farther along a direction.
-    fn exit(&self, piece: &Piece, face: u32, came: u32, [point, plane]: [DVec3; 2], way: DVec3) -> Option<Exit> {
-        let part = &self.contours.parts[piece.part as usize];
-        let corners = part.corners(self.lines.faces, face);
-        let values = part.of_face(face);
-        let heights = corners.map(|corner| plane.dot(corner - point));
-        let exits = (0..3).filter_map(|side| {
-            let next = (side + 1) % 3;
-            let edge = part.surface.sides[face as usize][side];
-            if edge == came || edge == NONE || (heights[side] >= 0.0) == (heights[next] >= 0.0) {
-                return None;
-            }
-            let share = heights[side] / (heights[side] - heights[next]);
-            let towards = values[side] + (values[next] - values[side]) * share;
-            Some(Exit { point: between(corners[side], corners[next], share), edge, towards })
-        });
-        exits.max_by(|a, b| way.dot(a.point).total_cmp(&way.dot(b.point)))
     }
 
     /// Calls `visit` with each face that hides a probe and how far before it that face is, until it returns true.
@@ -269,12 +251,4 @@ impl ContourLines<'_> {
             visit(face, (-probe.view.z - depth) * slant)
         })
     }
-}
-
-/// Where a cut through a face leaves it.
-struct Exit {
-    point: DVec3,
-    edge: u32,
-    /// n . v there.
-    towards: f64,
 }

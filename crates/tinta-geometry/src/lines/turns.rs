@@ -6,8 +6,8 @@
 //! view, single faces say now this, now that. What lasts for less than two edges is no cusp.
 
 use super::contours::{PartSurface, Piece, between};
-use super::faces::Faces;
 use crate::edges::Shell;
+use glam::DVec3;
 
 /// How far a piece is looked around for what its contour does, edges.
 pub(super) const REACH: f64 = 2.0;
@@ -36,7 +36,7 @@ pub(super) fn links(parts: &[PartSurface], pieces: &[Piece]) -> Vec<Link> {
 }
 
 /// Lets each piece bend as its contour around it does, and cuts those in two within which that changes.
-pub(super) fn settle(parts: &[PartSurface], pieces: &mut Vec<Piece>, faces: &Faces, links: &mut Vec<Link>) {
+pub(super) fn settle(parts: &[PartSurface], pieces: &mut Vec<Piece>, positions: &[DVec3], links: &mut Vec<Link>) {
     let mut neighbours = vec![[None; 2]; pieces.len()];
     for Link { ends: [first, second], .. } in links.iter() {
         neighbours[first.0][first.1] = Some(*second);
@@ -46,7 +46,7 @@ pub(super) fn settle(parts: &[PartSurface], pieces: &mut Vec<Piece>, faces: &Fac
     // Of each piece the mean around it, and whether its whole contour is shorter than that.
     let means: Vec<(f64, bool)> = (0..pieces.len())
         .map(|number| {
-            let reach = REACH * parts[pieces[number].part as usize].longest_side(faces, pieces[number].face);
+            let reach = REACH * parts[pieces[number].part as usize].longest_side(positions, pieces[number].face);
             let (mut sum, mut length) = (pieces[number].bend * lengths[number], lengths[number]);
             let mut is_short = true;
             for end in 0..2 {

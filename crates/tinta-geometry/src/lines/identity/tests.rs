@@ -1,8 +1,8 @@
 use super::*;
 use crate::camera::CameraSettings;
-use crate::edges::ClassCounts;
+use crate::edges::{ClassCounts, SilhouetteRule};
 use crate::lines::closed_forms::ClosedForm;
-use crate::lines::{Contour, LineTimes, SvgSettings, svg_of_paths};
+use crate::lines::{LineTimes, SvgSettings, svg_of_paths};
 use crate::mesh::{LoadOptions, Mesh};
 use crate::scene::{SceneSettings, Size};
 use glam::DVec2;
@@ -60,7 +60,7 @@ fn the_twelve_edges_of_a_cube_keep_their_numbers_over_a_turn() {
 #[test]
 fn the_outline_of_a_sphere_is_one_stroke_for_the_whole_turn() {
     let ball = scene(ClosedForm::ellipsoid(1.0, 1.0, 1.0).mesh(2_000, 0.0).unwrap());
-    let settings = LineSettings { silhouette: Contour::Smooth, finds_hidden: false, ..LineSettings::default() };
+    let settings = LineSettings { silhouette: SilhouetteRule::Smooth, finds_hidden: false, ..LineSettings::default() };
     for views in [6, 36, 90] {
         for (_, paths) in turn(&ball, &settings, views) {
             let ids: Vec<_> = paths.iter().map(|path| (path.stroke, path.is_closed)).collect();
@@ -133,7 +133,7 @@ fn what_slides_is_gone_when_it_is_not_seen_and_the_longer_of_two_gives_its_numbe
 #[test]
 fn the_strokes_of_a_torus_are_few_over_a_turn_and_the_same_in_every_run() {
     let torus = scene(ClosedForm::Torus { ring: 1.0, tube: 0.4 }.mesh(10_000, 0.0).unwrap());
-    let settings = LineSettings { silhouette: Contour::Smooth, finds_hidden: false, ..LineSettings::default() };
+    let settings = LineSettings { silhouette: SilhouetteRule::Smooth, finds_hidden: false, ..LineSettings::default() };
     let numbers = || -> Vec<Vec<Option<u32>>> {
         let of = |(_, paths): (VisibleLines, Vec<LinePath>)| paths.iter().map(|path| path.stroke).collect();
         turn(&torus, &settings, 72).into_iter().map(of).collect()
