@@ -32,7 +32,7 @@ fn scene(mesh: &Arc<Mesh>, way: DVec3) -> Result<Scene> {
     Scene::new(vec![mesh.clone()], &SceneSettings { camera, ..SceneSettings::default() })
 }
 
-const RULES: [(&str, Contour); 2] = [("exact", SilhouetteRule::Exact), ("smooth", SilhouetteRule::Smooth)];
+const RULES: [(&str, SilhouetteRule); 2] = [("exact", SilhouetteRule::Exact), ("smooth", SilhouetteRule::Smooth)];
 
 fn settings(silhouette: SilhouetteRule) -> LineSettings {
     LineSettings { silhouette, ..LineSettings::default() }
