@@ -1,7 +1,9 @@
-//! The models that need no file: `builtin:bust` and friends, made by the program in `models/`.
+//! The models that need no file: `builtin:bust` and friends, made by the program in `models/`, and meshes of surfaces in closed form.
 
 use crate::choice::nearest;
 use crate::error::{Error, Result};
+use glam::DVec3;
+use tinta_geometry::lines::closed_forms::{ClosedForm, Patch};
 use tinta_geometry::mesh::{LoadOptions, LoadStage, Loaded, read_bytes};
 
 /// A built-in model.
@@ -11,57 +13,128 @@ pub struct Builtin {
     pub name: &'static str,
     /// What it shows, for help pages.
     pub what: &'static str,
-    /// The model's file.
-    model: &'static [u8],
-    /// Files that it names.
-    beside: &'static [(&'static str, &'static [u8])],
+    source: Source,
+}
+
+/// What a built-in model is made of.
+#[derive(Debug, Clone, Copy)]
+enum Source {
+    /// The model's file, and those that it names.
+    File(&'static [u8], &'static [(&'static str, &'static [u8])]),
+    /// A surface, of which any number of triangles can be had.
+    Surface(ClosedForm),
+}
+
+/// Triangles of a surface whose name says no number.
+const TRIANGLES: usize = 10_000;
+
+/// Least and most triangles of a surface.
+const SURFACE_TRIANGLES: [usize; 2] = [100, 4_000_000];
+
+impl Builtin {
+    /// The surface that its meshes stand for, if they are of one.
+    pub fn closed_form(&self) -> Option<ClosedForm> {
+        if let Source::Surface(form) = self.source { Some(form) } else { None }
+    }
+}
+
+/// A built-in model by the name a user gives: `builtin:NAME`, for a surface also `builtin:NAME:TRIANGLES`.
+#[derive(Debug, Clone, Copy)]
+pub struct Named {
+    /// Which.
+    pub builtin: Builtin,
+    /// About so many triangles, for a surface.
+    pub triangles: usize,
 }
 
 /// All built-in models.
-pub const BUILTINS: [Builtin; 5] = [
+pub const BUILTINS: [Builtin; 10] = [
     Builtin {
         name: "bust",
         what: "a portrait bust",
-        model: include_bytes!("../models/bust.obj"),
-        beside: &[("bust.mtl", include_bytes!("../models/bust.mtl"))],
+        source: Source::File(
+            include_bytes!("../models/bust.obj"),
+            &[("bust.mtl", include_bytes!("../models/bust.mtl"))],
+        ),
     },
     Builtin {
         name: "open-box",
         what: "a box without its lid",
-        model: include_bytes!("../models/open-box.obj"),
-        beside: &[],
+        source: Source::File(include_bytes!("../models/open-box.obj"), &[]),
     },
     Builtin {
         name: "ant",
         what: "an ant",
-        model: include_bytes!("../models/ant.obj"),
-        beside: &[("ant.mtl", include_bytes!("../models/ant.mtl"))],
+        source: Source::File(include_bytes!("../models/ant.obj"), &[("ant.mtl", include_bytes!("../models/ant.mtl"))]),
     },
     Builtin {
         name: "gear",
         what: "a gear wheel",
-        model: include_bytes!("../models/gear.obj"),
-        beside: &[("gear.mtl", include_bytes!("../models/gear.mtl"))],
+        source: Source::File(
+            include_bytes!("../models/gear.obj"),
+            &[("gear.mtl", include_bytes!("../models/gear.mtl"))],
+        ),
     },
     Builtin {
         name: "soldier",
         what: "a toy soldier with a skin, from Quake 2's format",
-        model: include_bytes!("../models/soldier.md2"),
-        beside: &[("soldier.pcx", include_bytes!("../models/soldier.pcx"))],
+        source: Source::File(
+            include_bytes!("../models/soldier.md2"),
+            &[("soldier.pcx", include_bytes!("../models/soldier.pcx"))],
+        ),
+    },
+    Builtin {
+        name: "sphere",
+        what: "a sphere of 10,000 triangles; sphere:500 of about 500, as all of these",
+        source: Source::Surface(ClosedForm::Ellipsoid { half_axes: DVec3::ONE }),
+    },
+    Builtin {
+        name: "ellipsoid",
+        what: "an ellipsoid",
+        source: Source::Surface(ClosedForm::Ellipsoid { half_axes: DVec3::new(1.0, 0.6, 1.4) }),
+    },
+    Builtin { name: "torus", what: "a torus", source: Source::Surface(ClosedForm::Torus { ring: 1.0, tube: 0.4 }) },
+    Builtin {
+        name: "superquadric",
+        what: "a box with round edges",
+        source: Source::Surface(ClosedForm::Superquadric { half_axes: DVec3::new(1.0, 0.6, 1.4), power: 4 }),
+    },
+    Builtin {
+        name: "patch",
+        what: "hills on a bicubic patch",
+        source: Source::Surface(ClosedForm::Patch(Patch::HILLS)),
     },
 ];
 
-/// The built-in model a name stands for; `None` if the name is a path, an error if it names none.
-pub(crate) fn find(name: &str) -> Option<Result<Builtin>> {
+/// The built-in model a name stands for; `None` if the name is a path.
+///
+/// # Errors
+///
+/// [`Error::File`] if it names none, or a number of triangles that cannot be had.
+pub fn builtin(name: &str) -> Option<Result<Named>> {
     let short = name.strip_prefix("builtin:")?;
+    let (short, count) = short.split_once(':').map_or((short, None), |(short, count)| (short, Some(count)));
     let found = BUILTINS.into_iter().find(|builtin| builtin.name == short);
-    Some(found.ok_or_else(|| {
+    let Some(builtin) = found else {
         let choice = match nearest(short, &BUILTINS.map(|builtin| builtin.name)) {
             Some(meant) => format!("did you mean builtin:{meant}?"),
             None => format!("choose one of {}", BUILTINS.map(|builtin| format!("builtin:{}", builtin.name)).join(", ")),
         };
-        Error::model(name, format!("there is no such built-in model; {choice}"))
-    }))
+        return Some(Err(Error::model(name, format!("there is no such built-in model; {choice}"))));
+    };
+    let [least, most] = SURFACE_TRIANGLES;
+    let triangles =
+        count.map_or(Some(TRIANGLES), |count| count.parse().ok().filter(|count| (least..=most).contains(count)));
+    Some(match (builtin.source, triangles) {
+        (Source::File(..), _) if count.is_some() => {
+            Err(Error::model(name, format!("this model has one number of triangles; write builtin:{short}")))
+        }
+        (_, Some(triangles)) => Ok(Named { builtin, triangles }),
+        (_, None) => Err(Error::model(
+            name,
+            format!("a surface is made of {least} to {most} triangles; write for example builtin:{short}:{TRIANGLES}"),
+        )),
+    })
 }
 
 /// Reads a model: `builtin:NAME`, or an OBJ, PLY, STL, MD2, 3DS or glTF file.
@@ -79,11 +152,17 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
 ///
 /// Those of [`load`].
 pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)) -> Result<Loaded> {
-    match find(path) {
+    match builtin(path) {
         Some(model) => {
             let model = model?;
             watch(LoadStage::Joining);
-            read_bytes(model.model, path, model.beside, options)
+            match model.builtin.source {
+                Source::File(file, beside) => read_bytes(file, path, beside, options),
+                Source::Surface(form) => {
+                    let mesh = form.mesh_with(model.triangles, 0.0, options)?;
+                    Ok(Loaded { mesh, frames: Vec::new(), files: Vec::new(), remarks: Vec::new(), stages: Vec::new() })
+                }
+            }
         }
         None => tinta_geometry::mesh::load_watched(path, options, watch),
     }

@@ -23,18 +23,22 @@ mod ink;
 mod reference;
 mod row;
 #[cfg(feature = "measuring")]
+mod drawn;
+#[cfg(feature = "measuring")]
 mod run;
 #[cfg(feature = "measuring")]
 mod shading;
 #[cfg(feature = "measuring")]
 mod tones;
 
+#[cfg(feature = "measuring")]
+pub use drawn::measure_lines;
 pub use error_picture::error_picture;
 pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
 #[cfg(feature = "judging")]
 pub(crate) use reference::samples_of;
 pub use reference::{Reference, SOFT_CREASE_DEGREES, Sample};
-pub use row::{LineError, PassRow, Row, RunTime, ToneError};
+pub use row::{Against, LineError, PassRow, Row, RunTime, ToneError};
 #[cfg(feature = "measuring")]
 pub(crate) use run::shading_of;
 #[cfg(feature = "measuring")]

@@ -14,6 +14,7 @@
 mod answer;
 mod canvas;
 mod columns;
+mod convergence;
 mod html;
 mod labels;
 mod log;
@@ -24,6 +25,7 @@ mod settings;
 
 pub use crate::record::ROWS_FILE;
 pub use columns::{Column, columns};
+pub use convergence::{Curve, curves};
 pub use html::html;
 pub use log::{RowLog, read_rows, rows_of_bytes};
 pub use plot::{Shape, plot};
@@ -113,6 +115,13 @@ pub fn write(folder: &Path, rows: &[Row], info: &ReportInfo) -> Result<()> {
             if let Some(svg) = plot(&points(&machine.rows, measure), measure, Shape::Wide, &subtitle)? {
                 staged.push(stage(&format!("plot-{name}{suffix}.svg"), &svg)?);
             }
+        }
+    }
+    for machine in machines.iter().take(1) {
+        let curves = curves(&machine.rows);
+        for surface in convergence::surfaces(&curves) {
+            let svg = convergence::plot(&curves, surface, Shape::Wide)?;
+            staged.push(stage(&format!("plot-convergence-{surface}.svg"), &svg)?);
         }
     }
     staged.push(stage("report.html", &html(rows, info)?)?);

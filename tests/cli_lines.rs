@@ -73,9 +73,14 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "suggestive, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
     refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
-    for options in
-        [&["--explain"][..], &["--dump", "steps"], &["--frames", "3"], &["--animate"], &["--show", "borders"]]
-    {
+    for options in [
+        &["--explain", "--turntable", "2"][..],
+        &["--heal", "3"],
+        &["--dump", "steps"],
+        &["--frames", "3"],
+        &["--animate"],
+        &["--show", "borders"],
+    ] {
         refuse(&svg, options, &[options[0], "style lines"]);
     }
     refuse(&svg, &["--no-borders"], &["--no-borders", "leave it out"]);
@@ -242,6 +247,30 @@ fn smooth_silhouettes_say_where_they_break_and_lines_are_written_as_curves() {
     assert!(count(&curved, 'C') > 20, "{}", count(&curved, 'C'));
     assert!(curved.len() < straight.len(), "{} {}", curved.len(), straight.len());
     assert!(std::fs::read(&pdf).unwrap().windows(3).any(|word| word == b" c\n"));
+}
+
+#[test]
+fn explained_lines_are_a_text_of_what_there_is_and_gaps_are_said() {
+    let folder = Folder::new();
+    let out = folder.path("a.svg");
+    let base = ["render", "builtin:bust", "-o", &out, "--silhouette", "smooth", "--view", "0,35", "--size", "160"];
+    let said = String::from_utf8(made(&[&base[..], &["--explain"]].concat())).unwrap();
+    let record: serde_json::Value = serde_json::from_slice(&made(&[&base[..], &["--json"]].concat())).unwrap();
+    let breaks = record["changes"]["inconsistencies"].as_u64().unwrap();
+    assert!(said.contains(&format!("{breaks} times for no reason")), "{said}");
+    assert_eq!(said.lines().filter(|line| line.starts_with("  at ")).count() as u64, breaks);
+    let edges = record["edges"]["crease"].as_u64().unwrap().to_string();
+    let crease = said.lines().find(|line| line.starts_with("crease")).unwrap();
+    assert_eq!(crease.split_whitespace().nth(1), Some(edges.as_str()));
+    for part in ["seen px", "read", "edges, hierarchy", "silhouettes", "visibility", "join and write"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    let output = crate::cli::tinta(&[&base[..], &["--heal", "12", "--json"]].concat());
+    let healed: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(record.get("healed").is_none() && healed["healed"]["gaps"].as_u64().unwrap() > 0);
+    assert_eq!(healed["changes"], record["changes"], "counted is what was found");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("gaps of smooth silhouettes were joined"), "{said}");
 }
 
 /// A model whose lines take a while, as an OBJ file's text.

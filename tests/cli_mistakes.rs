@@ -205,7 +205,7 @@ const MISTAKES: [(&str, &str); 75] = [
     ("render builtin:gaer -o out.png", "builtin:gaer: there is no such built-in model; did you mean builtin:gear?"),
     (
         "render builtin:cow -o out.png",
-        "builtin:cow: there is no such built-in model; choose one of builtin:bust, builtin:open-box, builtin:ant, builtin:gear, builtin:soldier",
+        "builtin:cow: there is no such built-in model; choose one of builtin:bust, builtin:open-box, builtin:ant, builtin:gear, builtin:soldier, builtin:sphere, builtin:ellipsoid, builtin:torus, builtin:superquadric, builtin:patch",
     ),
     (
         "render - -o out.png",

@@ -58,6 +58,7 @@ mod lines_sides;
 mod lines_specks;
 mod lines_support;
 mod measure;
+mod measure_smooth;
 mod mrt;
 mod output;
 mod output_killed;

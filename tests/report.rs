@@ -17,6 +17,7 @@ pub const NASTY: &str = "\"a\", <b>&amp;</b> '\u{1}' ]]> </script>, é\n.obj";
 pub fn row(machine: &str, model: &str, options: &str, median_ms: f64, f1: f64) -> Row {
     let style = options.split_whitespace().nth(1).unwrap().to_owned();
     let lines = LineError {
+        against: tinta::measure::Against::Lines,
         tolerance_px: 2.0,
         ink_from: 64,
         ignored_creases_degrees: [20.0, 66.4],

@@ -30,6 +30,7 @@ pub fn lines(segments: Vec<LineSegment>) -> VisibleLines {
         segments,
         edges: ClassCounts::default(),
         changes: None,
+        healed: None,
         undecided: 0,
         times: LineTimes::default(),
     }

@@ -15,7 +15,13 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tinta::camera;
-use tinta::measure::{MeasureSettings, MeasureStep, Measured, Row, Setting, Subject, frames_a_turn, measure, turns};
+use tinta::edges::SilhouetteRule;
+use tinta::lines::closed_forms::ClosedForm;
+use tinta::measure::{
+    Against, MeasureSettings, MeasureStep, Measured, Row, Setting, Subject, frames_a_turn, measure, measure_lines,
+    turns,
+};
+use tinta::mesh::{BUILTINS, builtin};
 use tinta::renderer::milliseconds_since;
 use tinta::report::{ReportInfo, ReportPicture, RowLog, read_rows};
 use tinta::settings::{HasSettings, Kind};
@@ -25,8 +31,13 @@ use tinta::{Backend, Error, LoadOptions, Renderer, Result, Scene, SceneSettings,
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input, each measured by itself
-    #[arg(value_name = "MODEL", required_unless_present_any = ["suite", "merge"])]
+    #[arg(value_name = "MODEL", required_unless_present_any = ["suite", "merge", "against"])]
     models: Vec<String>,
+
+    /// What lines are compared with: the exact lines of the models (lines), or the true contour of smooth surfaces (smooth), whose
+    /// models are built-in ones, by default all of them with about 1,000, 10,000 and 100,000 triangles [default: lines]
+    #[arg(long, value_name = "WHAT", conflicts_with_all = ["suite", "merge"])]
+    against: Option<Against>,
 
     /// Set of built-in models: papers (bust, ant), solids (gear, open box), all
     #[arg(long, value_name = "SUITE", value_parser = parse_suite)]
@@ -104,6 +115,12 @@ fn parse_suite(text: &str) -> std::result::Result<Suite, String> {
 /// Timed frames of a setting.
 const FRAMES: [usize; 2] = [21, 7];
 
+/// Times that exact lines are found to be timed.
+const FRAMES_OF_LINES: usize = 3;
+
+/// Triangles of the surfaces' meshes, where none are named.
+const SURFACE_TRIANGLES: [usize; 3] = [1_000, 10_000, 100_000];
+
 /// Settings whose frames are timed in turns.
 const SETTINGS_IN_TURN: usize = 8;
 
@@ -138,19 +155,29 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
     };
     how.check()?;
     let of_scene = scene_options(given.words.iter().cloned());
+    let against = arguments.against.unwrap_or_default();
     let mut settings = settings(&arguments.styles, arguments.quick)?;
+    if against == Against::Smooth && settings.iter().any(|setting| matches!(setting.style, Style::Inking(_))) {
+        settings.extend(of_words(&["--style=inking", "--silhouette=smooth"].map(str::to_owned))?);
+    }
     // A preset's style is measured beside the others, unless it is one of them.
     if let Some(setting) = of_words(&given.setting)?.filter(|own| settings.iter().all(|other| other.style != own.style))
     {
         settings.push(setting);
     }
     settings.iter_mut().for_each(|setting| setting.options.push_str(&of_scene));
-    let models: Vec<&str> = match arguments.suite {
-        Some(suite) => suite.iter().copied().chain(arguments.models.iter().map(String::as_str)).collect(),
-        None => arguments.models.iter().map(String::as_str).collect(),
-    };
+    let named = arguments.models.iter().map(String::as_str);
+    let surfaces = if against == Against::Smooth && arguments.models.is_empty() { all_surfaces() } else { Vec::new() };
+    let models: Vec<&str> = arguments
+        .suite
+        .unwrap_or_default()
+        .iter()
+        .copied()
+        .chain(named)
+        .chain(surfaces.iter().map(String::as_str))
+        .collect();
     session.renderer(arguments.backend)?;
-    let groups = groups(arguments, &models, &session.model_cache)?;
+    let groups = groups(arguments, against, &models, &session.model_cache)?;
     let renderer = session.renderer(arguments.backend)?;
     let expected = expected(renderer, &groups, settings.len(), how.frames)?;
     let seconds: f64 = expected.iter().copied().map(Steps::total).sum();
@@ -160,7 +187,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
         true => RowLog::resume(&arguments.output)?,
         false => (RowLog::create(&arguments.output)?, Vec::new()),
     };
-    refuse_other_terms(arguments, &rows, &how)?;
+    refuse_other_terms(arguments, against, &rows, &how)?;
     super::say(&format!(
         "tinta: {}, {}, {}, {} each: about {}{}",
         counted(settings.len(), "setting"),
@@ -174,7 +201,10 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
     let mut pictures = Vec::new();
     for (number, group) in groups.into_iter().enumerate() {
         let [reference, errors, turn] = KINDS.map(|kind| number * KINDS.len() + kind);
-        let subject = Subject::new(&group.model, group.scene, group.load_ms)?;
+        let subject = match &group.surface {
+            None => Subject::new(&group.model, group.scene, group.load_ms)?,
+            Some(surface) => Subject::of_surface(&group.model, group.scene, surface, group.load_ms)?,
+        };
         progress.step(reference);
         let is_known = |setting: &Setting| {
             let Size { width, height } = subject.scene.size;
@@ -201,12 +231,16 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
             let (measured, left_out) = measure(renderer, &subject, some, &how, step)?;
             progress.skip(turn, left_out.len() * turns(how.frames));
             left_out.iter().for_each(|reason| super::say(&format!("tinta: {reason}")));
-            for Measured { row, drawing, error_picture } in measured {
-                log.append(&row)?;
-                if let Some(picture) = error_picture.filter(|_| is_shown(&row)) {
-                    pictures.push(error_page(&arguments.output, &row, [&drawing, &picture])?);
+            for measured in measured {
+                pictures.extend(kept(arguments, &mut log, &mut rows, measured)?);
+            }
+        }
+        if against == Against::Smooth {
+            for rule in [SilhouetteRule::Exact, SilhouetteRule::Smooth] {
+                let measured = measure_lines(&subject, rule, &of_scene, FRAMES_OF_LINES, &how)?;
+                if rows.iter().all(|row| row.key() != measured.row.key()) {
+                    pictures.extend(kept(arguments, &mut log, &mut rows, measured)?);
                 }
-                rows.push(row);
             }
         }
     }
@@ -217,11 +251,37 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
     report(arguments, given, &rows, pictures)
 }
 
+/// Writes a row down, and its picture where it is shown.
+fn kept(
+    arguments: &Arguments,
+    log: &mut RowLog,
+    rows: &mut Vec<Row>,
+    Measured { row, drawing, error_picture }: Measured,
+) -> Result<Option<ReportPicture>> {
+    log.append(&row)?;
+    let shown = error_picture.filter(|_| is_shown(&row));
+    let picture = shown.map(|picture| error_page(&arguments.output, &row, [&drawing, &picture])).transpose()?;
+    rows.push(row);
+    Ok(picture)
+}
+
+/// The surfaces in closed form, from few triangles to many.
+fn all_surfaces() -> Vec<String> {
+    let surfaces = BUILTINS.iter().filter(|builtin| builtin.closed_form().is_some());
+    surfaces.flat_map(|it| SURFACE_TRIANGLES.map(|count| format!("builtin:{}:{count}", it.name))).collect()
+}
+
 /// Rows of one folder are measured by one yardstick.
-fn refuse_other_terms(arguments: &Arguments, rows: &[Row], how: &MeasureSettings) -> Result<()> {
+fn refuse_other_terms(arguments: &Arguments, against: Against, rows: &[Row], how: &MeasureSettings) -> Result<()> {
+    let is_other = |row: &Row| row.lines.as_ref().is_some_and(|lines| lines.against != against);
+    if rows.iter().any(is_other) {
+        let problem = "its rows were measured against something else; give the same --against, or name another folder";
+        return Err(Error::output(&arguments.output, problem));
+    }
     let differs = |row: &Row| {
         let tolerance = row.lines.as_ref().map(|lines| lines.tolerance_px);
-        tolerance.is_some_and(|tolerance| tolerance != how.tolerance_px) || row.time.frames_ms.len() != how.frames
+        let is_of_frames = row.style != "lines" && row.time.frames_ms.len() != how.frames;
+        tolerance.is_some_and(|tolerance| tolerance != how.tolerance_px) || is_of_frames
     };
     match rows.iter().find(|row| differs(row)) {
         None => Ok(()),
@@ -268,25 +328,47 @@ fn scene_options(words: impl Iterator<Item = String>) -> String {
 /// A model at a size.
 struct Group {
     model: String,
+    /// The surface whose contour its lines are compared with, if they are.
+    surface: Option<ClosedForm>,
     scene: Scene,
     load_ms: f64,
 }
 
-fn groups(arguments: &Arguments, models: &[&str], model_cache: &ModelCache) -> Result<Vec<Group>> {
+fn groups(arguments: &Arguments, against: Against, models: &[&str], model_cache: &ModelCache) -> Result<Vec<Group>> {
     let mut groups = Vec::new();
+    let options = arguments.model.settings()?;
+    if against == Against::Smooth && options.up_axis != LoadOptions::default().up_axis {
+        let problem = "with --against smooth surfaces stand as their formulas say; leave it out";
+        return Err(Error::setting("up", problem));
+    }
     for model in models {
+        let surface = (against == Against::Smooth).then(|| surface_of(model)).transpose()?;
         let start = Instant::now();
-        let loaded = model_cache.read(model, &arguments.model.settings()?)?;
+        let loaded = model_cache.read(model, &options)?;
         let load_ms = milliseconds_since(start);
         loaded.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
         for size in &arguments.size {
             let settings =
                 SceneSettings { size: *size, camera: arguments.camera.settings()?, ..SceneSettings::default() };
             let scene = Scene::new(vec![loaded.mesh.clone()], &settings)?;
-            groups.push(Group { model: (*model).to_owned(), scene, load_ms });
+            groups.push(Group { model: (*model).to_owned(), surface, scene, load_ms });
         }
     }
     Ok(groups)
+}
+
+/// The surface that a built-in model is a mesh of.
+fn surface_of(model: &str) -> Result<ClosedForm> {
+    let surface = builtin(model).transpose()?.and_then(|named| named.builtin.closed_form());
+    surface.ok_or_else(|| {
+        let names: Vec<&str> = BUILTINS.iter().filter(|it| it.closed_form().is_some()).map(|it| it.name).collect();
+        let problem = format!(
+            "only surfaces in closed form have a true contour to measure against; choose of builtin:{}, or leave out \
+             --against",
+            names.join(", builtin:")
+        );
+        Error::model(model, problem)
+    })
 }
 
 /// How long all of it will take, by one frame of each group.

@@ -134,7 +134,7 @@ struct RunArguments {
     #[arg(long, hide_short_help = true)]
     json: bool,
 
-    /// Print the plan, its passes and steps, with times [default: off]
+    /// Print the plan, its passes and steps, with times; of exact lines their classes and where smooth silhouettes break [default: off]
     #[arg(long, hide_short_help = true, conflicts_with = "json")]
     explain: bool,
 

@@ -149,6 +149,7 @@ impl Ink {
             |(darkness, verdict, _): &&(u8, Verdict, f64)| *darkness >= INK_FROM && *verdict != Verdict::Ignored;
         let to_line = pixels.iter().filter(counted).map(|(darkness, _, distance)| (*distance, f64::from(*darkness)));
         LineError {
+            against: reference.against,
             tolerance_px,
             ink_from: INK_FROM,
             ignored_creases_degrees: [SOFT_CREASE_DEGREES, reference.crease_angle.degrees()],
@@ -197,7 +198,7 @@ fn average_precision(recall: impl Fn(u8) -> f64, precision: impl Fn(u8) -> f64) 
     area
 }
 
-fn recall_of_class(reference: &Reference, reach: &[u8]) -> BTreeMap<String, f64> {
+pub(super) fn recall_of_class(reference: &Reference, reach: &[u8]) -> BTreeMap<String, f64> {
     let mut sums: BTreeMap<Class, (f64, f64)> = BTreeMap::new();
     for (sample, darkest) in reference.samples.iter().zip(reach) {
         let (found, all) = sums.entry(sample.class).or_default();
@@ -208,7 +209,7 @@ fn recall_of_class(reference: &Reference, reach: &[u8]) -> BTreeMap<String, f64>
 }
 
 /// Weighted mean and 95th percentile of values with their weights; `None` for none.
-fn mean_and_95th(mut values: Vec<(f64, f64)>) -> Option<[f64; 2]> {
+pub(super) fn mean_and_95th(mut values: Vec<(f64, f64)>) -> Option<[f64; 2]> {
     values.retain(|(value, _)| value.is_finite());
     values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let all: f64 = values.iter().map(|(_, weight)| weight).sum();

@@ -1,7 +1,9 @@
 //! The exact lines of a scene as the yardstick of its ink: points along them, a tree that finds the nearest.
 
+use super::Against;
 use crate::edges::{Class, ClassSet, CreaseAngle};
 use crate::error::Result;
+use crate::lines::closed_forms::ClosedForm;
 use crate::lines::{LineSegment, LineSettings, Progress, VisibleLines};
 use crate::scene::{Scene, Size};
 use glam::DVec2;
@@ -9,6 +11,9 @@ use rstar::{PointDistance, RTree, RTreeObject};
 
 /// Distance between points along a line, pixels: at a tolerance of 2 they see a distance by less than 0.001 too far.
 const STEP_PX: f64 = 0.125;
+
+/// The same where lines are compared with a contour in closed form, to which they come as near as thousandths of a pixel.
+const FINE_STEP_PX: f64 = 1.0 / 128.0;
 
 /// Creases between this angle and the reference's own threshold count neither as lines nor as none: filters of a picture
 /// answer to any angle.
@@ -19,8 +24,10 @@ pub const SOFT_CREASE_DEGREES: f64 = 20.0;
 pub struct Reference {
     /// The picture's size.
     pub size: Size,
-    /// The lines.
+    /// The lines; of a surface none.
     pub lines: VisibleLines,
+    /// What they are.
+    pub against: Against,
     /// From which angle an edge is a crease.
     pub crease_angle: CreaseAngle,
     /// Points along the lines.
@@ -117,7 +124,33 @@ impl Reference {
         let visible = lines.segments.iter().filter(|segment| segment.is_visible);
         let samples: Vec<Sample> = visible.flat_map(samples_of).collect();
         let nearest = tree(samples.iter().map(|sample| sample.px));
-        Ok(Self { size: lines.size, crease_angle: settings.crease_angle, samples, nearest, ignored, lines })
+        let against = Against::Lines;
+        Ok(Self { size: lines.size, crease_angle: settings.crease_angle, against, samples, nearest, ignored, lines })
+    }
+
+    /// The visible contour of the surface that a scene's only object is a mesh of. Where an open surface ends, there is neither a line nor
+    /// none: its rims count as little as soft creases do.
+    ///
+    /// # Errors
+    ///
+    /// As [`VisibleLines::of`].
+    pub fn of_surface(scene: &Scene, surface: &ClosedForm) -> Result<Self> {
+        let boundary = ClassSet::of(&[Class::Boundary]);
+        let rims = LineSettings { classes: boundary, finds_hidden: false, ..LineSettings::as_published() };
+        let rims = VisibleLines::of(scene, &rims)?;
+        let ignored = rims.segments.iter().filter(|segment| segment.is_visible).flat_map(samples_of);
+        let contour = surface.visible_contour(scene);
+        let pieces = contour.iter().flat_map(|points| points.windows(2).map(|ends| [ends[0], ends[1]]));
+        let samples = pieces.clone().flat_map(|ends| samples_between(ends, Class::Silhouette)).collect();
+        Ok(Self {
+            size: scene.size,
+            crease_angle: CreaseAngle::default(),
+            against: Against::Smooth,
+            nearest: fine_tree(pieces),
+            ignored: tree(ignored.map(|sample| sample.px)),
+            samples,
+            lines: VisibleLines { segments: Vec::new(), ..rims },
+        })
     }
 
     /// The same with each visible point moved; the lines themselves stay where they are.
@@ -127,6 +160,7 @@ impl Reference {
         Self {
             size: self.size,
             lines: self.lines.clone(),
+            against: self.against,
             crease_angle: self.crease_angle,
             nearest: tree(samples.iter().map(|sample| sample.px)),
             ignored: tree(self.ignored.iter().map(|place| to(place.0))),
@@ -152,13 +186,25 @@ impl Reference {
 
 /// The middles of a segment's equal pieces.
 pub(crate) fn samples_of(segment: &LineSegment) -> impl Iterator<Item = Sample> + use<> {
-    let [a, b] = segment.ends_px;
-    let class = segment.class;
-    let length = a.distance(b);
-    let count = (length / STEP_PX).ceil().max(1.0);
-    (0..count as usize).map(move |index| Sample {
-        px: a.lerp(b, (index as f64 + 0.5) / count),
-        length_px: length / count,
-        class,
-    })
+    samples_between(segment.ends_px, segment.class)
+}
+
+fn samples_between(ends: [DVec2; 2], class: Class) -> impl Iterator<Item = Sample> {
+    let length_px = ends[0].distance(ends[1]) / count_of_steps(ends, STEP_PX);
+    middles(ends, STEP_PX).map(move |px| Sample { px, length_px, class })
+}
+
+fn count_of_steps([a, b]: [DVec2; 2], step_px: f64) -> f64 {
+    (a.distance(b) / step_px).ceil().max(1.0)
+}
+
+/// The middles of equal pieces of a line, none longer than a step.
+fn middles(ends: [DVec2; 2], step_px: f64) -> impl Iterator<Item = DVec2> {
+    let count = count_of_steps(ends, step_px);
+    (0..count as usize).map(move |index| ends[0].lerp(ends[1], (index as f64 + 0.5) / count))
+}
+
+/// A tree over points of lines so close that distances to them are those to the lines, but for thousandths of a pixel.
+pub(super) fn fine_tree(lines: impl Iterator<Item = [DVec2; 2]>) -> RTree<Place> {
+    tree(lines.flat_map(|ends| middles(ends, FINE_STEP_PX)))
 }

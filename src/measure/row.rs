@@ -42,9 +42,30 @@ impl Row {
     }
 }
 
-/// The error of a picture's ink against the exact visible lines.
+/// What lines are compared with.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Against {
+    /// The exact visible lines of the mesh.
+    #[default]
+    Lines,
+    /// The visible contour of the smooth surface in closed form that the mesh stands for.
+    Smooth,
+}
+
+impl Against {
+    /// Both, as the user writes them.
+    pub const ALL: [(&'static str, Self); 2] = [("lines", Self::Lines), ("smooth", Self::Smooth)];
+}
+
+tinta_geometry::choices!(Against);
+
+/// The error of a picture's ink against the visible lines.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LineError {
+    /// What is the reference.
+    #[serde(default)]
+    pub against: Against,
     /// Distance within which ink and line count as the same, pixels.
     pub tolerance_px: f64,
     /// Darkness from which a pixel is ink, of 255.

@@ -8,6 +8,7 @@ use super::{PassRow, Row, RunTime};
 use crate::edges::{ClassSet, Classes, MeshEdges, Silhouettes};
 use crate::error::{Error, Result};
 use crate::lines::LineSettings;
+use crate::lines::closed_forms::ClosedForm;
 use crate::picture::Picture;
 use crate::plan::{Plan, Submission};
 use crate::renderer::{Renderer, median, milliseconds_since};
@@ -107,6 +108,20 @@ impl Subject {
     /// As [`Reference::of`].
     pub fn new(model: &str, scene: Scene, load_ms: f64) -> Result<Self> {
         let reference = Reference::of(&scene, &LineSettings::as_published())?;
+        Self::with_reference(model, scene, reference, load_ms)
+    }
+
+    /// As [`Subject::new`], lines to be compared with the contour of the surface that the scene's only object is a mesh of.
+    ///
+    /// # Errors
+    ///
+    /// As [`Reference::of_surface`].
+    pub fn of_surface(model: &str, scene: Scene, surface: &ClosedForm, load_ms: f64) -> Result<Self> {
+        let reference = Reference::of_surface(&scene, surface)?;
+        Self::with_reference(model, scene, reference, load_ms)
+    }
+
+    fn with_reference(model: &str, scene: Scene, reference: Reference, load_ms: f64) -> Result<Self> {
         let light = ReferenceLight::of(&scene);
         let start = Instant::now();
         for object in &scene.objects {
@@ -251,7 +266,7 @@ pub(crate) fn shading_of(style: &Style) -> Show {
     if style.has_tones() { Show::Tones } else { Show::Final }
 }
 
-fn quartiles(times: &[f64]) -> [f64; 2] {
+pub(super) fn quartiles(times: &[f64]) -> [f64; 2] {
     let mut sorted = times.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
     [1, 3].map(|quarter| sorted.get(sorted.len() * quarter / 4).copied().unwrap_or_default())

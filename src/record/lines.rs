@@ -3,7 +3,7 @@
 use super::{CameraRecord, ModelRecord};
 use crate::edges::ClassCounts;
 use crate::error::{Error, Result};
-use crate::lines::{LinePath, LineSettings, LineTimes, SvgSettings, VisibilityChanges, VisibleLines};
+use crate::lines::{Healed, LinePath, LineSettings, LineTimes, SvgSettings, VisibilityChanges, VisibleLines};
 use crate::mesh::LoadOptions;
 use crate::scene::{Scene, Size};
 use crate::settings::HasSettings;
@@ -37,6 +37,9 @@ pub struct LinesRecord {
     /// Where along smooth silhouettes what is seen begins and ends; absent with others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changes: Option<VisibilityChanges>,
+    /// Which gaps of them were joined; absent where none were to be.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub healed: Option<Healed>,
     /// How many lines are missing because the time was over.
     pub undecided: usize,
     /// Pieces of lines, and what they were chained to.

@@ -6,12 +6,13 @@
 use super::ReportInfo;
 use super::answer::answer;
 use super::columns::{Column, Value, columns};
+use super::convergence::{curves, plot as convergence_plot, surfaces};
 use super::plot::{Shape, plot, subtitle};
 use super::ratios::ratios;
 use super::settings::{Machine, Measure, machines, model_names, models, points};
 use crate::error::Result;
 use crate::markup::escaped;
-use crate::measure::Row;
+use crate::measure::{Against, Row};
 use crate::page::{Pictures, beginning};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -34,6 +35,7 @@ pub fn html(rows: &[Row], info: &ReportInfo) -> Result<String> {
     page.push_str("<main>\n");
     page.push_str(&choices(rows, &models, &machines));
     page.push_str(&plots(&models, &machines)?);
+    page.push_str(&convergence(&machines)?);
     page.push_str(&machine_table(&machines));
     page.push_str(&pictures(info, &models));
     page.push_str(&row_table(rows, &machines));
@@ -60,8 +62,13 @@ fn heading(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
         [one] => format!("measured on {}", escaped(&one.name)),
         _ => format!("measured on {}", counted(machines.len(), "machine")),
     };
+    let is_smooth = |row: &Row| row.lines.as_ref().is_some_and(|lines| lines.against == Against::Smooth);
+    let reference = match rows.iter().any(is_smooth) {
+        true => "the visible contour of smooth surfaces in closed form",
+        false => "the exact visible lines",
+    };
     format!(
-        "<header>\n<h1>Error and run time</h1>\n{}<p>{} on {}, {machine}. Lines are compared with the exact visible lines, \
+        "<header>\n<h1>Error and run time</h1>\n{}<p>{} on {}, {machine}. Lines are compared with {reference}, \
          tones with rays cast in double precision.</p>\n<nav aria-label=\"Sections\">{}</nav>\n</header>\n",
         answers(machines),
         counted(settings, "setting"),
@@ -133,6 +140,28 @@ fn plots(models: &[&str], machines: &[Machine<'_>]) -> Result<String> {
                 }
             }
         }
+    }
+    text.push_str("</div>\n</section>\n");
+    Ok(text)
+}
+
+/// Error against the number of triangles; nothing where no surface was measured with several meshes.
+fn convergence(machines: &[Machine<'_>]) -> Result<String> {
+    let curves = machines.first().map(|machine| curves(&machine.rows)).unwrap_or_default();
+    if curves.is_empty() {
+        return Ok(String::new());
+    }
+    let mut text = "<section id=\"convergence\">\n<h2>Convergence</h2>\n<p>Error is the larger of two mean distances, from ink to \
+                    the surface's true contour and from that to ink; the order is that in edge length. Ink has a width and lies \
+                    on pixels, which no mesh makes finer.</p>\n<div class=\"plots\">\n"
+        .to_owned();
+    for surface in surfaces(&curves) {
+        let [wide, narrow] = [Shape::Wide, Shape::Narrow].map(|shape| convergence_plot(&curves, surface, shape));
+        let _ = write!(
+            text,
+            "<figure class=\"plot\">\n<div class=\"wide\">{}</div>\n<div class=\"narrow\">{}</div>\n</figure>\n",
+            wide?, narrow?
+        );
     }
     text.push_str("</div>\n</section>\n");
     Ok(text)

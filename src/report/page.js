@@ -33,7 +33,7 @@
     const machine = chosen("machine");
     const isMachine = (element) => machine === "" || element.dataset.machine === "" || element.dataset.machine === machine;
     const isModel = (element) => model === "" || element.dataset.model === "" || element.dataset.model === model;
-    for (const plot of all(".plot")) plot.hidden = plot.dataset.model !== model || !isMachine(plot);
+    for (const plot of all(".plot[data-model]")) plot.hidden = plot.dataset.model !== model || !isMachine(plot);
     for (const picture of all(".pictures figure")) picture.hidden = !isModel(picture);
     const rows = all("#rows tbody tr");
     for (const row of rows) {

@@ -20,21 +20,21 @@ pub enum Shape {
 }
 
 /// Sizes in pixels.
-struct Layout {
-    width: f64,
-    height: f64,
-    left: f64,
-    text: f64,
-    title: f64,
+pub(super) struct Layout {
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) left: f64,
+    pub(super) text: f64,
+    pub(super) title: f64,
 }
 
-const MARGIN: f64 = 12.0;
+pub(super) const MARGIN: f64 = 12.0;
 
 /// Names with more characters get a number instead.
 const LONGEST_LABEL: usize = 46;
 
 impl Shape {
-    fn layout(self) -> Layout {
+    pub(super) fn layout(self) -> Layout {
         match self {
             Self::Wide => Layout { width: 880.0, height: 420.0, left: 80.0, text: 14.0, title: 18.0 },
             Self::Narrow => Layout { width: 360.0, height: 300.0, left: 64.0, text: 12.0, title: 15.0 },
@@ -164,11 +164,11 @@ pub(super) fn short(number: f64) -> String {
 }
 
 /// What the axes reach over.
-struct Scale {
-    time_ms: Range<f64>,
-    error: Range<f64>,
+pub(super) struct Scale {
+    pub(super) time_ms: Range<f64>,
+    pub(super) error: Range<f64>,
     /// Where no error at all is drawn, which a logarithmic axis does not have.
-    zero: Option<f64>,
+    pub(super) zero: Option<f64>,
 }
 
 impl Scale {
@@ -191,7 +191,7 @@ impl Scale {
 }
 
 /// From the least to the largest with some room, at least two thirds of a decade.
-fn spread(values: impl Iterator<Item = f64>) -> Range<f64> {
+pub(super) fn spread(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (least, largest) = values
         .map(f64::log10)
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, largest), value| (least.min(value), largest.max(value)));
@@ -220,7 +220,7 @@ fn ticks(range: &Range<f64>) -> Vec<(f64, Option<String>)> {
     ticks
 }
 
-fn grid(canvas: &Canvas<'_>, axes: &Axes, scale: &Scale, inner: &Rectangle, layout: &Layout) -> Result<()> {
+pub(super) fn grid(canvas: &Canvas<'_>, axes: &Axes, scale: &Scale, inner: &Rectangle, layout: &Layout) -> Result<()> {
     let text = |at: (f64, f64), anchor: Anchor, text: &str| canvas.text(at, anchor, text, layout.text, false);
     let (time, error) = (scale.time_ms.start, scale.error.start);
     let mut free_from = f64::NEG_INFINITY;

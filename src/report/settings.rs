@@ -43,7 +43,7 @@ impl Measure {
     /// The error's axis.
     pub(super) fn axis(self) -> &'static str {
         match self {
-            Self::Lines => "1 − F1 against the exact lines",
+            Self::Lines => "1 − F1 against the true lines",
             Self::Tones => "share of pixels with another tone",
             Self::ContinuousTones => "mean difference of tones, of 255",
         }

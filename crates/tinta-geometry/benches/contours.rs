@@ -38,17 +38,13 @@ fn settings(silhouette: SilhouetteRule) -> LineSettings {
     LineSettings { silhouette, ..LineSettings::default() }
 }
 
-/// Hills that hide one another, and a saddle at the rim.
-const PATCH: Patch =
-    Patch { coefficients: [[0.1, 0.9, 0.0, -1.1], [-0.8, 0.2, 0.3, 0.0], [0.1, 0.0, -0.4, 0.2], [1.0, 0.1, 0.0, 0.0]] };
-
 fn forms() -> [(&'static str, ClosedForm); 5] {
     [
         ("sphere", ClosedForm::ellipsoid(1.0, 1.0, 1.0)),
         ("ellipsoid", ClosedForm::ellipsoid(1.0, 0.6, 1.4)),
         ("torus", ClosedForm::Torus { ring: 1.0, tube: 0.4 }),
         ("superquadric", ClosedForm::Superquadric { half_axes: DVec3::new(1.0, 0.6, 1.4), power: 4 }),
-        ("patch", ClosedForm::Patch(PATCH)),
+        ("patch", ClosedForm::Patch(Patch::HILLS)),
     ]
 }
 

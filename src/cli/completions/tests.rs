@@ -84,7 +84,6 @@ fn every_name_offered_is_taken_and_every_choice_is_offered() {
             if let Some(list) = text.split_once("choose ").map(|(_, list)| list.lines().next().unwrap()) {
                 assert!(!offered.is_empty(), "{what} is a choice ({list}): offer its names");
                 choices += 1;
-                let list = list.replace("; in style lines ", ", ");
                 for name in list.strip_prefix("one of ").into_iter().flat_map(|list| list.split(", ")) {
                     let name = name.trim_start_matches("or ").split(';').next().unwrap();
                     assert!(offered.contains(&name), "{what} takes {name}, which is not offered");

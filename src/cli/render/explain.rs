@@ -1,7 +1,9 @@
-//! What `--explain` says of a plan's times, and of what came before the first frame.
+//! What `--explain` says of a plan's times, of what came before the first frame, and of exact lines.
 
+use tinta::edges::Class;
+use tinta::lines::{InconsistencyKind, VisibleLines};
 use tinta::plan::Plan;
-use tinta::record::Summary;
+use tinta::record::{LineCounts, Summary};
 use tinta::renderer::PassTime;
 
 /// The plan, each pass's time, the whole picture's.
@@ -21,4 +23,49 @@ pub(super) fn frames(plan: &Plan, passes: &[PassTime], times: &Summary, frames: 
 pub(super) fn start(parts: &[(&str, f64)]) -> String {
     let rows: Vec<String> = parts.iter().map(|(name, ms)| format!("{name:<20}{ms:>10.3}\n")).collect();
     format!("\n{:<20}{:>10}  the model is read while the context opens\n{}", "start", "ms", rows.concat())
+}
+
+/// What the lines of a drawing are, how long each part took, and where what is seen of smooth silhouettes ends for no reason.
+pub(super) fn lines(lines: &VisibleLines, counts: &LineCounts, load_ms: f64, written_ms: f64) -> String {
+    let mut text = format!("{:<20}{:>10}{:>12}{:>12}\n", "class", "lines", "seen px", "hidden px");
+    let mut edges = lines.edges;
+    for (name, class) in Class::ALL {
+        let length = |is_visible: bool| -> f64 {
+            let of_it = |line: &&tinta::lines::LineSegment| line.class == class && line.is_visible == is_visible;
+            lines.segments.iter().filter(of_it).map(|line| line.ends_px[0].distance(line.ends_px[1])).sum()
+        };
+        if *edges.of(class) > 0 {
+            text.push_str(&format!("{name:<20}{:>10}{:>12.1}{:>12.1}\n", edges.of(class), length(true), length(false)));
+        }
+    }
+    text.push_str(&format!(
+        "\n{} pieces are seen and {} hidden; joined they are {} and {} lines\n",
+        counts.visible_segments, counts.hidden_segments, counts.visible_paths, counts.hidden_paths
+    ));
+    if let Some(changes) = &lines.changes {
+        text.push_str(&format!(
+            "\nsmooth silhouettes begin or end {} times where something comes before them, {} times at a cusp, {} times for no reason\n",
+            changes.crossings, changes.cusps, changes.inconsistencies
+        ));
+        for place in &changes.places {
+            let why = match place.kind {
+                InconsistencyKind::Near => "faces within two edges hide the line",
+                InconsistencyKind::Turn => "the contour turns towards the eye for less than two edges",
+            };
+            text.push_str(&format!("  at {:.1},{:.1} px: {why}\n", place.px[0], place.px[1]));
+        }
+    }
+    if let Some(healed) = lines.healed_note() {
+        text.push_str(&format!("{healed}\n"));
+    }
+    let times = [
+        ("read", load_ms),
+        ("edges, hierarchy", lines.times.topology_ms),
+        ("silhouettes", lines.times.silhouette_ms),
+        ("visibility", lines.times.visibility_ms),
+        ("join and write", written_ms),
+    ];
+    text.push_str(&format!("\n{:<20}{:>10}\n", "part", "ms"));
+    times.iter().for_each(|(name, ms)| text.push_str(&format!("{name:<20}{ms:>10.3}\n")));
+    text
 }

@@ -8,7 +8,7 @@ use super::super::models::{ReadModels, load_models};
 use super::super::progress::Progress;
 use super::super::signals::Stop;
 use super::super::{Verdict, say};
-use super::{Arguments, keep, model_records};
+use super::{Arguments, explain, keep, model_records};
 use crate::choice::meant_or;
 use std::path::Path;
 use std::str::FromStr;
@@ -149,8 +149,9 @@ pub(super) fn run(
         return turn::run(arguments, format, views, model_cache, stop.as_ref());
     }
     let mut settings = asked_lines(arguments, format)?;
-    settings.finds_hidden |= arguments.run.json;
-    settings.counts_changes = arguments.run.json && settings.silhouette == SilhouetteRule::Smooth;
+    settings.finds_hidden |= arguments.run.json || arguments.run.explain;
+    let is_told = arguments.run.json || arguments.run.explain;
+    settings.counts_changes = is_told && settings.silhouette == SilhouetteRule::Smooth;
     let start = Instant::now();
     let ReadModels { meshes, files, .. } = load_models(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
@@ -162,6 +163,9 @@ pub(super) fn run(
     let note = lines.partial_note();
     if let Some(note) = &note {
         say(&format!("tinta: {}: {note}", arguments.output));
+    }
+    if let Some(healed) = lines.healed_note() {
+        say(&format!("tinta: {}: {healed}", arguments.output));
     }
     if !lines.segments.iter().any(|segment| segment.is_visible) {
         say("tinta: no line of these classes is visible in this picture; see --classes, --eye and --target");
@@ -180,7 +184,7 @@ pub(super) fn run(
     let start = Instant::now();
     let keeps_all = format == Format::Json && drawn.min_length.is_none();
     let lines = if keeps_all { lines } else { lines.without_specks(&drawn)? };
-    let is_chained = format != Format::Json || arguments.run.json;
+    let is_chained = format != Format::Json || arguments.run.json || arguments.run.explain;
     let paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
     let counts = LineCounts::new(&lines, &paths);
     if is_stopped(stop.as_ref()) {
@@ -189,6 +193,9 @@ pub(super) fn run(
     let said = note.map(comment).or_else(|| recipe.as_ref().and_then(Recipe::note));
     write(arguments, format, &arguments.output, &scene, (&lines, paths), &drawn, said.as_ref())?;
     let lines_ms = milliseconds_since(start);
+    if arguments.run.explain {
+        super::super::print(&explain::lines(&lines, &counts, load_ms, lines_ms))?;
+    }
     if !arguments.run.json {
         return Ok(Verdict::Good);
     }
@@ -205,6 +212,7 @@ pub(super) fn run(
         camera: CameraRecord::new(&scene),
         edges: lines.edges,
         changes: lines.changes,
+        healed: lines.healed,
         undecided: lines.undecided,
         counts,
         load_ms,
@@ -343,13 +351,16 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format) -> Result<(
     let run = &arguments.run;
     refuse_given(
         &[
-            ("explain", run.explain),
             ("dump", run.dump.is_some()),
             ("frames", run.frames != 1),
             ("show", arguments.styles.show != Show::Final),
             ("animate", arguments.animation.animate.is_some()),
         ],
         "style lines has no passes and no model's frames; leave it out, or name a picture such as drawing.png",
+    )?;
+    refuse_given(
+        &[("explain", run.explain && arguments.animation.turntable.is_some())],
+        "a turn has many views and it tells of one; leave out --turntable",
     )?;
     let holds_note = format != Format::Picture
         || arguments.output == "-"
@@ -363,8 +374,8 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format) -> Result<(
         "style lines draws nothing but lines; leave it out",
     )?;
     refuse_given(
-        &[("-o -", arguments.output == "-" && run.json)],
-        "the drawing and --json cannot share standard output; name a file",
+        &[("-o -", arguments.output == "-" && (run.json || run.explain))],
+        "the drawing and --json or --explain cannot share standard output; name a file",
     )?;
     match format {
         Format::Svg => Ok(()),

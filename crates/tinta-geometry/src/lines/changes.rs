@@ -73,11 +73,18 @@ impl VisibilityChanges {
 }
 
 /// The cusps of smooth contours.
-struct Cusps {
+pub(super) struct Cusps {
     /// In the eye's space, and how far they reach.
     places: Vec<(DVec3, f64)>,
     /// Their numbers among the links.
-    links: HashSet<usize>,
+    pub links: HashSet<usize>,
+}
+
+impl Cusps {
+    /// Whether one is within two edges of a place.
+    pub(super) fn are_near(&self, place: DVec3, longest: f64) -> bool {
+        self.places.iter().any(|(cusp, reach)| cusp.distance(place) <= reach.max(REACH * longest))
+    }
 }
 
 impl ContourLines<'_> {
@@ -177,9 +184,14 @@ impl ContourLines<'_> {
         if is_far || !is_hidden {
             return Reason::Crossing;
         }
-        let is_near =
-            cusps.places.iter().any(|(place, reach)| place.distance(probe.view) <= reach.max(REACH * longest));
-        if is_near { Reason::Cusp } else { Reason::None(InconsistencyKind::Near) }
+        if cusps.are_near(probe.view, longest) { Reason::Cusp } else { Reason::None(InconsistencyKind::Near) }
+    }
+
+    /// Whether a face hides a point that is more than two edges away from it, or of another shell.
+    pub(super) fn is_hidden_from_afar(&self, probe: &Probe, part: u32, longest: f64) -> bool {
+        self.any_hider(probe, |place, distance| {
+            distance > REACH * longest || self.is_of_another_shell(probe, part, place)
+        })
     }
 
     /// Whether a face, by its place, hangs together with a probe's line nowhere.
@@ -209,7 +221,7 @@ impl ContourLines<'_> {
     }
 
     /// The cusps with contours of some length on either side.
-    fn cusps(&self) -> Cusps {
+    pub(super) fn cusps(&self) -> Cusps {
         let pieces = &self.contours.pieces;
         let mut runs: Vec<usize> = (0..pieces.len()).collect();
         let root = |runs: &mut Vec<usize>, mut number: usize| {

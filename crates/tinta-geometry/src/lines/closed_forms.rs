@@ -108,6 +108,15 @@ impl ClosedForm {
     ///
     /// As [`Mesh::of_triangles`].
     pub fn mesh(&self, triangles: usize, jitter: f64) -> Result<Mesh> {
+        self.mesh_with(triangles, jitter, &LoadOptions::default())
+    }
+
+    /// As [`ClosedForm::mesh`], with options as for a model that is read.
+    ///
+    /// # Errors
+    ///
+    /// As [`Mesh::of_triangles`].
+    pub fn mesh_with(&self, triangles: usize, jitter: f64, options: &LoadOptions) -> Result<Mesh> {
         let mut random = Random(0x9e37_79b9_7f4a_7c15);
         let (positions, faces) = match self {
             Self::Ellipsoid { half_axes } => {
@@ -145,7 +154,7 @@ impl ClosedForm {
                 (positions, faces.collect())
             }
         };
-        Mesh::of_triangles("a closed form", positions, &faces, &LoadOptions::default())
+        Mesh::of_triangles("a closed form", positions, &faces, options)
     }
 
     /// The visible contour of the surface itself in the picture of a scene whose first object is its mesh: polylines with points no

@@ -293,6 +293,7 @@ mod tests {
             segments: vec![segment],
             edges: ClassCounts::default(),
             changes: None,
+            healed: None,
             undecided: 0,
             times: LineTimes::default(),
         }

@@ -61,6 +61,7 @@ impl VisibleLines {
             segments: Vec::new(),
             edges: self.edges,
             changes: self.changes.clone(),
+            healed: self.healed,
             undecided: self.undecided,
             times: self.times,
         }

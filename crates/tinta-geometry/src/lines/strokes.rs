@@ -89,6 +89,7 @@ mod tests {
             segments: vec![segment(20.0, true), segment(60.0, false)],
             edges: Default::default(),
             changes: None,
+            healed: None,
             undecided: 0,
             times: LineTimes::default(),
         }

@@ -22,6 +22,11 @@ const CELLS: usize = 768;
 const HALVINGS: usize = 52;
 
 impl Patch {
+    /// Hills that hide one another, and a saddle at the rim.
+    pub const HILLS: Self = Self {
+        coefficients: [[0.1, 0.9, 0.0, -1.1], [-0.8, 0.2, 0.3, 0.0], [0.1, 0.0, -0.4, 0.2], [1.0, 0.1, 0.0, 0.0]],
+    };
+
     /// A point over a place of the square.
     pub(super) fn point(&self, place: DVec2) -> DVec3 {
         let row = |row: &[f64; 4]| row.iter().rev().fold(0.0, |sum, share| sum * place.y + share);
@@ -183,10 +188,6 @@ fn roots(polynomial: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    const WAVES: Patch = Patch {
-        coefficients: [[0.1, 0.9, 0.0, -1.1], [-0.8, 0.2, 0.3, 0.0], [0.1, 0.0, -0.4, 0.2], [1.0, 0.1, 0.0, 0.0]],
-    };
-
     #[test]
     fn roots_are_those_of_factors() {
         // (t - 0.25) (t - 0.5) (t - 2) (t + 1)
@@ -205,20 +206,20 @@ mod tests {
             Eye::Direction(DVec3::new(1.0, 0.3, 0.4)),
             Eye::Direction(DVec3::new(-0.3, -0.2, 1.0)),
         ] {
-            for place in WAVES.contour(eye).into_iter().step_by(7).map(|[a, b]| (a + b) * 0.5) {
-                let point = WAVES.point(place);
+            for place in Patch::HILLS.contour(eye).into_iter().step_by(7).map(|[a, b]| (a + b) * 0.5) {
+                let point = Patch::HILLS.point(place);
                 let way = way(eye, point) * if matches!(eye, Eye::Direction(_)) { 4.0 } else { 1.0 };
                 let heights = (1..=20_000).map(|k| point + way * (f64::from(k) / 20_000.0));
                 let over = heights.take_while(|at| at.x.abs() <= 1.0 && at.z.abs() <= 1.0);
-                let heights = over.map(|at| at.y - WAVES.point(DVec2::new(at.x, at.z)).y);
+                let heights = over.map(|at| at.y - Patch::HILLS.point(DVec2::new(at.x, at.z)).y);
                 let (low, high) =
                     heights.fold((0.0f64, 0.0f64), |(low, high), height| (low.min(height), high.max(height)));
                 // What is grazed by less is not to be told apart by steps.
                 if low < -1e-5 && high > 1e-5 {
-                    assert!(!WAVES.is_seen(place, eye), "{place} {eye:?}: {low} {high}");
+                    assert!(!Patch::HILLS.is_seen(place, eye), "{place} {eye:?}: {low} {high}");
                     hidden += 1;
                 } else if low > -1e-9 || high < 1e-9 {
-                    assert!(WAVES.is_seen(place, eye), "{place} {eye:?}: {low} {high}");
+                    assert!(Patch::HILLS.is_seen(place, eye), "{place} {eye:?}: {low} {high}");
                     seen += 1;
                 }
             }

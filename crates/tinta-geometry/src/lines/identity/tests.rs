@@ -86,6 +86,7 @@ fn creases(of: &[[f64; 2]]) -> VisibleLines {
         segments: of.iter().map(crease).collect(),
         edges: ClassCounts::default(),
         changes: None,
+        healed: None,
         undecided: 0,
         times: LineTimes::default(),
     }
