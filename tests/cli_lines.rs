@@ -73,16 +73,11 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "suggestive, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
     refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
-    for options in [
-        &["--explain", "--turntable", "2"][..],
-        &["--heal", "3"],
-        &["--dump", "steps"],
-        &["--frames", "3"],
-        &["--animate"],
-        &["--show", "borders"],
-    ] {
+    for options in [&["--dump", "steps"][..], &["--frames", "3"], &["--animate"], &["--show", "borders"]] {
         refuse(&svg, options, &[options[0], "style lines"]);
     }
+    refuse(&folder.path("a-%d.svg"), &["--explain", "--turntable", "2"], &["--explain", "--turntable"]);
+    refuse(&svg, &["--heal", "3"], &["--heal", "--silhouette smooth"]);
     refuse(&svg, &["--no-borders"], &["--no-borders", "leave it out"]);
     refuse(&svg, &["--silhouette", "paper"], &["--silhouette paper", "exactly"]);
     for options in

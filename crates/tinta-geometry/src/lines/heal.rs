@@ -154,7 +154,7 @@ mod tests {
         // A thin pole before it, across the view from the front.
         let corner = |x: f64, y: f64, z: f64| DVec3::new(x * 2.0, 0.02 * y, 1.6 + 0.02 * z);
         let corners: Vec<DVec3> = (0..8)
-            .map(|number| f64::from(number))
+            .map(f64::from)
             .map(|n| {
                 corner((n % 2.0) * 2.0 - 1.0, ((n / 2.0).floor() % 2.0) * 2.0 - 1.0, (n / 4.0).floor() * 2.0 - 1.0)
             })
