@@ -24,10 +24,11 @@ use tinta::renderer::milliseconds_since;
 use tinta::styles::{Cartoon, Mrt};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
 
-const USAGE: &str = "cargo bench --bench performance -- [--rounds N] [--largest N] [--only saved|triangles|pixels]
+const USAGE: &str =
+    "cargo bench --bench performance -- [--rounds N] [--largest N] [--only saved|sizes|triangles|pixels]
   --rounds N     interleaved rounds (default 21)
   --largest N    triangles of the largest mesh (default 4000000)
-  --only PART    one of the three tables";
+  --only PART    one of the four tables";
 
 struct Settings {
     rounds: usize,
@@ -60,6 +61,9 @@ fn main() {
     let mut record = json!({ "gl": renderer.context() });
     if is_wanted("saved") {
         record["saved"] = saved(&mut renderer, settings.rounds);
+    }
+    if is_wanted("sizes") {
+        record["sizes"] = by_sizes(&mut renderer, settings.rounds);
     }
     if is_wanted("triangles") {
         record["triangles"] = by_triangles(&mut renderer, &settings);
@@ -183,6 +187,37 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
         json!({ "scene": name, "styles": tables })
     });
     tables.collect()
+}
+
+/// Styles pruned over the same in full, at three sizes: whether having been looked at ever makes a frame slower.
+fn by_sizes(renderer: &mut Renderer, rounds: usize) -> Value {
+    const SIZES: [u32; 3] = [512, 1100, 2048];
+    let mut tables = Vec::new();
+    for model in ["builtin:bust", "builtin:open-box", "builtin:torus:70000"] {
+        println!("\n{model}: pruned over in full, median and quartiles of {rounds} rounds' ratios");
+        let mesh = Arc::new(load(model, &LoadOptions::default()).expect("a model").mesh);
+        for (name, style) in StyleName::ALL.iter().filter(|(name, _)| *name != "sand") {
+            print!("  {name:<12}");
+            for pixels in SIZES {
+                let size = Size { width: pixels, height: pixels };
+                let scene = Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() });
+                let scene = scene.expect("a scene");
+                let contestants = [
+                    ("full".to_owned(), Contestant::Full(Style::named(*style))),
+                    ("pruned".to_owned(), Contestant::Pruned(Style::named(*style))),
+                ];
+                let series = race(renderer, &scene, &contestants, rounds);
+                let ratios = series[0].times.iter().zip(&series[1].times).map(|(full, pruned)| pruned / full);
+                let mut ratios: Vec<f64> = ratios.collect();
+                ratios.sort_by(f64::total_cmp);
+                let [low, middle, high] = [1, 2, 3].map(|quarter| ratios[ratios.len() * quarter / 4]);
+                print!("  {pixels}: {middle:.3} ({low:.3}-{high:.3})");
+                tables.push(json!({ "model": model, "style": name, "pixels": pixels, "ms": rows(&series) }));
+            }
+            println!();
+        }
+    }
+    json!(tables)
 }
 
 /// A plan of one pass.
