@@ -6,6 +6,8 @@
 //! no needle decides for its neighbours. Sharp are creases, boundaries, edges of three faces or more, and edges whose faces are wound
 //! against each other. A file's own normals are not asked: they say how to shade.
 
+mod rims;
+
 use super::{Class, ClassSet, Classes, CreaseAngle, EdgeList, Incidence};
 use crate::mesh::{Mesh, NONE};
 use crate::threads::{filled, threads_for};
@@ -123,7 +125,10 @@ fn normals(mesh: &Mesh, edges: &EdgeList, is_sharp: &[bool]) -> (Vec<DVec3>, Vec
         corners[corner / 3][corner % 3] = numbers[root];
     }
     let unit = |sum: DVec3| (sum / sum.abs().max_element()).try_normalize().unwrap_or(DVec3::ZERO);
-    (sums.into_iter().map(unit).collect(), positions, corners)
+    let mut units: Vec<DVec3> = sums.into_iter().map(unit).collect();
+    let of_rims = rims::normals(mesh, edges, is_sharp, &units, &positions, &corners);
+    of_rims.into_iter().for_each(|(number, normal)| units[number as usize] = normal);
+    (units, positions, corners)
 }
 
 /// A face's normal at each of its corners with its weight there.

@@ -1,0 +1,107 @@
+//! Normals of a smooth surface where it ends, at its open rims.
+//!
+//! Around such a position there are faces on one side only, so that their mean is the normal of a place inside the surface, off by as much as the
+//! surface bends within half an edge: an error of first order, where it is of second elsewhere. Here the normals of inner positions within
+//! two rings are fitted by a linear function of the place in the tangent plane, and that is asked at the position itself. Where there are too few of
+//! them, as on a cylinder of one row of faces, the mean stays. Creases keep their means: of models as they are found many begin and end in the middle of what is
+//! smooth, and there contours broke more often with fitted normals than without.
+
+use super::super::{EdgeList, Incidence};
+use crate::mesh::{Mesh, NONE};
+use crate::tolerances::FLAT;
+use glam::{DMat3, DVec3};
+use std::collections::HashMap;
+
+/// Fewest inner positions of a fit, two more than the numbers it finds for each coordinate.
+const FEWEST: usize = 5;
+
+/// Least determinant of a fit whose unknowns have been scaled: below it the positions lie along a line.
+const LEAST_DETERMINANT: f64 = 1e-3;
+
+/// Cosine between a mean and what is found instead: beyond it the faces do not lie on one smooth surface.
+const LEAST_AGREEMENT: f64 = 0.9;
+
+/// The normals at open rims by their numbers, as far as they are others than those given.
+pub(super) fn normals(
+    mesh: &Mesh,
+    edges: &EdgeList,
+    is_sharp: &[bool],
+    units: &[DVec3],
+    positions: &[u32],
+    corners: &[[u32; 3]],
+) -> Vec<(u32, DVec3)> {
+    let (mut is_rim, mut is_at_sharp_edge) = (vec![false; mesh.positions.len()], vec![false; mesh.positions.len()]);
+    for edge in (0..edges.len()).filter(|edge| is_sharp[*edge]) {
+        for position in edges.positions()[edge] {
+            is_rim[position as usize] |= edges.incidence()[edge] == Incidence::Boundary;
+            is_at_sharp_edge[position as usize] = true;
+        }
+    }
+    // The faces around every normal at a rim or next to one.
+    let mut faces_of: HashMap<u32, Vec<u32>> = HashMap::new();
+    let is_near = |triangle: &[u32; 3]| triangle.iter().any(|position| is_rim[*position as usize]);
+    for (face, _) in mesh.triangles.iter().enumerate().filter(|(_, triangle)| is_near(triangle)) {
+        corners[face].iter().filter(|number| **number != NONE).for_each(|number| {
+            faces_of.entry(*number).or_default();
+        });
+    }
+    if faces_of.is_empty() {
+        return Vec::new();
+    }
+    for (face, numbers) in corners.iter().enumerate() {
+        for number in numbers {
+            if let Some(faces) = faces_of.get_mut(number) {
+                faces.push(face as u32);
+            }
+        }
+    }
+    let mut numbers: Vec<u32> =
+        faces_of.keys().copied().filter(|number| is_rim[positions[*number as usize] as usize]).collect();
+    numbers.sort_unstable();
+    let inner_around = |number: &u32| {
+        let mut around: Vec<u32> = faces_of[number]
+            .iter()
+            .flat_map(|face| corners[*face as usize])
+            .flat_map(|next| faces_of.get(&next).into_iter().flatten())
+            .flat_map(|face| corners[*face as usize])
+            .filter(|other| *other != NONE && !is_at_sharp_edge[positions[*other as usize] as usize])
+            .collect();
+        around.sort_unstable();
+        around.dedup();
+        around
+    };
+    let place = |number: u32| mesh.positions[positions[number as usize] as usize];
+    let found = numbers.iter().filter_map(|number| {
+        let own = place(*number);
+        let samples: Vec<(DVec3, DVec3)> =
+            inner_around(number).into_iter().map(|other| (place(other) - own, units[other as usize])).collect();
+        fitted(&samples, units[*number as usize]).map(|normal| (*number, normal))
+    });
+    found.collect()
+}
+
+/// The normal where inner positions, by their way from there, have these normals; `None` where the mean of the faces is as good.
+fn fitted(samples: &[(DVec3, DVec3)], mean: DVec3) -> Option<DVec3> {
+    let (across, up) = mean.try_normalize()?.any_orthonormal_pair();
+    let is_flat = samples.iter().all(|(_, normal)| normal.distance(mean) <= FLAT);
+    let size = samples.iter().map(|(place, _)| place.length()).fold(0.0, f64::max);
+    if samples.len() < FEWEST || is_flat || size <= 0.0 {
+        return None;
+    }
+    // The normal equations of N(u, v) = N0 + u A + v B, u and v of about 1.
+    let (mut matrix, mut sums) = (DMat3::ZERO, [DVec3::ZERO; 3]);
+    for (place, normal) in samples {
+        let row = DVec3::new(1.0, place.dot(across) / size, place.dot(up) / size);
+        matrix += DMat3::from_cols(row * row.x, row * row.y, row * row.z);
+        for (sum, share) in sums.iter_mut().zip(row.to_array()) {
+            *sum += *normal * share;
+        }
+    }
+    let count = samples.len() as f64;
+    if (matrix * (1.0 / count)).determinant() < LEAST_DETERMINANT {
+        return None;
+    }
+    let first = matrix.inverse().transpose().x_axis;
+    let normal = (sums[0] * first.x + sums[1] * first.y + sums[2] * first.z).try_normalize()?;
+    (normal.dot(mean) >= LEAST_AGREEMENT).then_some(normal)
+}
