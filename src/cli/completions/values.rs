@@ -3,7 +3,6 @@
 
 use clap::builder::{PossibleValuesParser, Resettable};
 use clap::{Arg, Command, ValueHint};
-use tinta::measure::Against;
 use tinta::plan::Submission;
 use tinta::plan::prune::Rule;
 use tinta::settings::{HasSettings, names_of};
@@ -54,7 +53,8 @@ fn offered(command: &str, option: &str) -> Vec<&'static str> {
         "keep" => names_of::<Rule>(),
         "ink" => vec!["dark", "light", "alpha"],
         "suite" => vec!["papers", "solids", "all"],
-        "against" => names_of::<Against>(),
+        #[cfg(feature = "measuring")]
+        "against" => names_of::<tinta::measure::Against>(),
         "only" if command == "stress" => GROUPS.to_vec(),
         #[cfg(feature = "measuring")]
         "only" => tinta::figures::figures(tinta::Size { width: 1, height: 1 }).iter().map(|figure| figure.id).collect(),

@@ -12,11 +12,14 @@ use crate::tolerances::FLAT;
 use glam::{DMat3, DVec3};
 use std::collections::HashMap;
 
-/// Fewest inner positions of a fit, two more than the numbers it finds for each coordinate.
-const FEWEST: usize = 5;
+/// Fewest inner positions of a fit, one more than the numbers it finds for each coordinate.
+const FEWEST: usize = 4;
+
+/// Most faces around a position that are looked at: at a hub of very many the mean stays, and nobody looks across it.
+const MOST_FACES: usize = 64;
 
 /// Least determinant of a fit whose unknowns have been scaled: below it the positions lie along a line.
-const LEAST_DETERMINANT: f64 = 1e-3;
+const LEAST_DETERMINANT: f64 = 1e-4;
 
 /// Cosine between a mean and what is found instead: beyond it the faces do not lie on one smooth surface.
 const LEAST_AGREEMENT: f64 = 0.9;
@@ -37,6 +40,10 @@ pub(super) fn normals(
             is_at_sharp_edge[position as usize] = true;
         }
     }
+    let is_inner = |position: &u32| !is_at_sharp_edge[*position as usize];
+    if !mesh.triangles.as_flattened().iter().any(is_inner) || !is_rim.contains(&true) {
+        return Vec::new();
+    }
     // The faces around every normal at a rim or next to one.
     let mut faces_of: HashMap<u32, Vec<u32>> = HashMap::new();
     let is_near = |triangle: &[u32; 3]| triangle.iter().any(|position| is_rim[*position as usize]);
@@ -44,9 +51,6 @@ pub(super) fn normals(
         corners[face].iter().filter(|number| **number != NONE).for_each(|number| {
             faces_of.entry(*number).or_default();
         });
-    }
-    if faces_of.is_empty() {
-        return Vec::new();
     }
     for (face, numbers) in corners.iter().enumerate() {
         for number in numbers {
@@ -58,13 +62,13 @@ pub(super) fn normals(
     let mut numbers: Vec<u32> =
         faces_of.keys().copied().filter(|number| is_rim[positions[*number as usize] as usize]).collect();
     numbers.sort_unstable();
+    let faces_of = |number: u32| faces_of.get(&number).filter(|faces| faces.len() <= MOST_FACES).into_iter().flatten();
     let inner_around = |number: &u32| {
-        let mut around: Vec<u32> = faces_of[number]
-            .iter()
+        let mut around: Vec<u32> = faces_of(*number)
             .flat_map(|face| corners[*face as usize])
-            .flat_map(|next| faces_of.get(&next).into_iter().flatten())
+            .flat_map(faces_of)
             .flat_map(|face| corners[*face as usize])
-            .filter(|other| *other != NONE && !is_at_sharp_edge[positions[*other as usize] as usize])
+            .filter(|other| *other != NONE && is_inner(&positions[*other as usize]))
             .collect();
         around.sort_unstable();
         around.dedup();
@@ -104,4 +108,59 @@ fn fitted(samples: &[(DVec3, DVec3)], mean: DVec3) -> Option<DVec3> {
     let first = matrix.inverse().transpose().x_axis;
     let normal = (sums[0] * first.x + sums[1] * first.y + sums[2] * first.z).try_normalize()?;
     (normal.dot(mean) >= LEAST_AGREEMENT).then_some(normal)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::edges::{CreaseAngle, EdgeList, SmoothSurface};
+    use crate::mesh::{LoadOptions, Mesh};
+    use glam::DVec3;
+
+    fn surface(mesh: &Mesh) -> SmoothSurface {
+        SmoothSurface::new(mesh, &EdgeList::new(mesh), CreaseAngle::of_drawings())
+    }
+
+    /// A piece of a sphere, open all around, with so many cells each way; the largest error of its normals, a sine.
+    fn error(cells: u32) -> f64 {
+        let count = cells + 1;
+        let place = |number: u32| f64::from(number) / f64::from(cells) - 0.4;
+        let positions: Vec<DVec3> = (0..count * count)
+            .map(|number| DVec3::new(place(number % count), 1.0, place(number / count)).normalize())
+            .collect();
+        let quads = (0..cells * cells).map(|cell| cell / cells * count + cell % cells);
+        let triangles: Vec<[u32; 3]> = quads
+            .flat_map(|corner| [[corner, corner + count, corner + count + 1], [corner, corner + count + 1, corner + 1]])
+            .collect();
+        let mesh = Mesh::of_triangles("a cap", positions, &triangles, &LoadOptions::default()).unwrap();
+        let surface = surface(&mesh);
+        // At the sheet's own corners there are too few inner positions.
+        let is_corner = |position: u32| {
+            [position % count, position / count].iter().all(|number| *number < 2 || *number > cells - 2)
+        };
+        let errors = surface.normals.iter().zip(&surface.normal_positions);
+        let errors = errors.filter(|(_, position)| !is_corner(**position));
+        errors.map(|(normal, position)| normal.cross(mesh.positions[*position as usize]).length()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_normals_at_a_rim_are_of_second_order() {
+        let (coarse, fine) = (error(12), error(48));
+        let order = (coarse / fine).log2() / 2.0;
+        assert!(fine < 2e-3 && order > 1.8, "{coarse} {fine}: order {order}");
+    }
+
+    #[test]
+    fn a_hub_of_very_many_faces_and_a_flat_sheet_keep_their_means() {
+        // A shallow cone: one position in the middle of 20,000 faces, all others at the rim.
+        let count = 20_000u32;
+        let around = |number: u32| {
+            let angle = f64::from(number) / f64::from(count) * std::f64::consts::TAU;
+            DVec3::new(angle.cos(), 0.0, angle.sin())
+        };
+        let positions: Vec<DVec3> = (0..count).map(around).chain([DVec3::Y * 0.1]).collect();
+        let triangles: Vec<[u32; 3]> = (0..count).map(|number| [count, (number + 1) % count, number]).collect();
+        let mesh = Mesh::of_triangles("a cone", positions, &triangles, &LoadOptions::default()).unwrap();
+        let surface = surface(&mesh);
+        assert!(surface.normals.iter().all(|normal| normal.is_normalized() && normal.y > 0.9));
+    }
 }
