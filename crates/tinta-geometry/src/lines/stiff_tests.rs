@@ -6,7 +6,7 @@ use super::closed_forms::{ClosedForm, ContourDistance, Patch, distance};
 use super::smooth_tests::{camera, found, of_triangles, scene, smooth};
 use crate::edges::{Class, SilhouetteRule};
 use crate::mesh::{LoadOptions, Mesh, load};
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -37,6 +37,52 @@ fn hills_that_hide_one_another_are_met_but_for_their_ends() {
             assert!(error.hausdorff_px() <= limit_px && error.mean_px < 0.06, "{view:?} {jitter}: {error:?}");
         }
     }
+}
+
+#[test]
+fn what_is_seen_of_random_hills_is_what_rays_say() {
+    let (mut truth_px, mut near_px, mut drawn_px, mut right_px) = (0.0, 0.0, 0.0, 0.0);
+    let mut worst: Vec<(u64, f64)> = Vec::new();
+    for number in 1..=20 {
+        let form = ClosedForm::Patch(Patch::random(number));
+        let scene =
+            scene(form.mesh(10_000, 0.1).unwrap(), camera(17.0 * number as f64, 5.0 + (number % 4) as f64 * 9.0));
+        let truth: Vec<[DVec2; 2]> = form
+            .visible_contour(&scene)
+            .iter()
+            .flat_map(|line| line.windows(2).map(|ends| [ends[0], ends[1]]).collect::<Vec<_>>())
+            .collect();
+        let lines = found(&scene, &smooth());
+        let seen = |class: Class| {
+            let drawn = lines.segments.iter().filter(move |line| line.is_visible && line.class == class);
+            drawn.map(|line| line.ends_px).collect::<Vec<[DVec2; 2]>>()
+        };
+        let (drawn, rims) = (seen(Class::Silhouette), seen(Class::Boundary));
+        let within = |point: DVec2, lines: &[[DVec2; 2]]| {
+            lines.iter().any(|[a, b]| {
+                let along = *b - *a;
+                let share = ((point - *a).dot(along) / along.length_squared().max(1e-12)).clamp(0.0, 1.0);
+                point.distance(*a + along * share) <= 1.0
+            })
+        };
+        let share = |lines: &[[DVec2; 2]], others: &[&[[DVec2; 2]]]| {
+            let (mut near, mut all) = (0.0, 0.0);
+            for [a, b] in lines {
+                all += a.distance(*b);
+                near += if others.iter().any(|others| within((*a + *b) * 0.5, others)) { a.distance(*b) } else { 0.0 };
+            }
+            [near, all]
+        };
+        // Where a contour runs along a rim, the rim is drawn.
+        let ([near, all], [right, drawn_length]) = (share(&truth, &[&drawn, &rims]), share(&drawn, &[&truth]));
+        worst.push((number, (all - near) + (drawn_length - right)));
+        (truth_px, near_px) = (truth_px + all, near_px + near);
+        (drawn_px, right_px) = (drawn_px + drawn_length, right_px + right);
+    }
+    worst.sort_by(|a, b| b.1.total_cmp(&a.1));
+    assert!(truth_px > 2_000.0, "{truth_px}");
+    let (recall, precision) = (near_px / truth_px, right_px / drawn_px);
+    assert!(recall > 0.99 && precision > 0.99, "{recall} {precision}, most wrong: {:?}", &worst[..4]);
 }
 
 #[test]
