@@ -26,7 +26,9 @@ pub fn tables() -> String {
     let scene = SceneSettings::default();
     let of_scene: Vec<Value> =
         SceneSettings::table().of(Some(&scene)).into_iter().map(|setting| control(setting, &scene)).collect();
-    let models: Vec<Value> = BUILTINS.iter().map(|model| json!({ "name": model.name, "what": model.what })).collect();
+    // Meshes of surfaces are for measuring.
+    let offered = BUILTINS.iter().filter(|model| model.closed_form().is_none());
+    let models: Vec<Value> = offered.map(|model| json!({ "name": model.name, "what": model.what })).collect();
     let keys: Vec<Value> = sheet(true).map(|(keys, what)| json!({ "keys": keys, "what": what })).collect();
     json!({ "version": env!("CARGO_PKG_VERSION"), "styles": styles, "scene": of_scene, "models": models, "keys": keys })
         .to_string()
