@@ -32,7 +32,7 @@ mod shading;
 mod tones;
 
 #[cfg(feature = "measuring")]
-pub use drawn::measure_lines;
+pub use drawn::{line_options, measure_lines};
 pub use error_picture::error_picture;
 pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
 #[cfg(feature = "judging")]

@@ -389,3 +389,21 @@ fn combs_and_stars_of_many_corners_are_drawn_whole() {
         }
     }
 }
+
+#[test]
+fn a_polygon_of_too_many_corners_is_named_as_that() {
+    let folder = Folder::new();
+    let count = 40_000;
+    let mut text: String = (0..count)
+        .map(|i| format!("v {i} {} 0\n", i32::from(i % 4 == 1 || i % 4 == 2) - i32::from(i == 0 || i == count - 1)))
+        .collect();
+    text += "f";
+    (1..=count).for_each(|corner| text += &format!(" {corner}"));
+    let alone = folder.file("alone.obj", text.as_bytes());
+    let problem = load(&alone, &LoadOptions::default()).unwrap_err().to_string();
+    assert!(problem.contains("1 polygon of too many corners") && problem.contains("cut into triangles"), "{problem}");
+    let among = folder.file("among.obj", format!("{text}\nf 1 2 3\n").as_bytes());
+    let loaded = load(&among, &LoadOptions::default()).unwrap();
+    let defects = &loaded.mesh.defects;
+    assert_eq!((loaded.mesh.triangles.len(), defects.long_polygons, defects.degenerate_triangles), (1, 1, 0));
+}

@@ -208,3 +208,47 @@ fn work_is_given_up_while_it_looks_for_intersections() {
     assert!(matches!(ended, Err(Error::Cancelled)));
     assert_eq!(progress.phase(), Phase::Intersections, "it went on to the lines");
 }
+
+/// While a phase of the lines of a scene lasts: which share of its steps is done, and which share of the boxes is looked at that the whole
+/// phase will have. Empty where it is over before it is seen.
+fn shares_on_the_way(scene: &Scene, phase: Phase) -> Vec<[f64; 2]> {
+    let progress = Progress::default();
+    let mut seen: Vec<(usize, usize, u64)> = Vec::new();
+    std::thread::scope(|scope| {
+        let work = scope.spawn(|| VisibleLines::with_progress(scene, &LineSettings::default(), &progress));
+        while !work.is_finished() {
+            if progress.phase() == phase {
+                let ((done, total), compared) = (progress.state(), progress.compared());
+                let is_new = seen.last().is_none_or(|last| done > last.0);
+                if progress.phase() == phase && total > 0 && is_new {
+                    seen.push((done, total, compared));
+                }
+            }
+            std::thread::yield_now();
+        }
+    });
+    let Some(&(_, _, all)) = seen.last().filter(|(done, total, _)| done == total) else { return Vec::new() };
+    let share =
+        |(done, total, compared): (usize, usize, u64)| [done as f64 / total as f64, compared as f64 / all as f64];
+    seen.into_iter().map(share).collect()
+}
+
+#[test]
+fn the_time_left_follows_from_what_is_done() {
+    let mut places = 0;
+    for (name, triangles) in [("soup", 3_000), ("book", 3_000), ("confetti", 3_000), ("waffle", 400), ("rail", 3_000)] {
+        let scene = scene(family(name), triangles);
+        for phase in [Phase::Intersections, Phase::Lines] {
+            for [done, compared] in shares_on_the_way(&scene, phase) {
+                if (0.25..=0.9).contains(&done) {
+                    // What remains as it looks from there, and as it is: boxes stand for time.
+                    let ratio = compared * (1.0 - done) / done / (1.0 - compared).max(1e-9);
+                    assert!((0.5..=2.0).contains(&ratio), "{name} {phase:?}: {ratio} times what remains at {done}");
+                    places += 1;
+                }
+            }
+        }
+    }
+    // Of the soup alone there are some thousand lines, and looking at them takes no time beside that of a line.
+    assert!(places > 20, "{places}");
+}

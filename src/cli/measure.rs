@@ -18,8 +18,8 @@ use tinta::camera;
 use tinta::edges::SilhouetteRule;
 use tinta::lines::closed_forms::ClosedForm;
 use tinta::measure::{
-    Against, MeasureSettings, MeasureStep, Measured, Row, Setting, Subject, frames_a_turn, measure, measure_lines,
-    turns,
+    Against, MeasureSettings, MeasureStep, Measured, Row, Setting, Subject, frames_a_turn, line_options, measure,
+    measure_lines, turns,
 };
 use tinta::mesh::{BUILTINS, builtin};
 use tinta::renderer::milliseconds_since;
@@ -206,13 +206,13 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
             Some(surface) => Subject::of_surface(&group.model, group.scene, surface, group.load_ms)?,
         };
         progress.step(reference);
-        let is_known = |setting: &Setting| {
+        let is_known = |options: &str| {
             let Size { width, height } = subject.scene.size;
             let is_it = |row: &Row| {
                 row.machine == how.machine
                     && row.model == subject.model
                     && row.size == [width, height]
-                    && row.options == setting.options
+                    && row.options == options
             };
             rows.iter().any(is_it)
         };
@@ -222,7 +222,13 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
                 pictures.extend(known_picture(&arguments.output, row));
             }
         }
-        let left: Vec<Setting> = settings.iter().filter(|setting| !is_known(setting)).cloned().collect();
+        let left: Vec<Setting> = settings.iter().filter(|setting| !is_known(&setting.options)).cloned().collect();
+        let rules: &[SilhouetteRule] = match against {
+            Against::Lines => &[],
+            Against::Smooth => &[SilhouetteRule::Exact, SilhouetteRule::Smooth],
+        };
+        let rules = rules.iter().map(|rule| (*rule, line_options(*rule, &of_scene)));
+        let rules: Vec<(SilhouetteRule, String)> = rules.filter(|(_, options)| !is_known(options)).collect();
         progress.skip(errors, settings.len() - left.len());
         progress.skip(turn, (settings.len() - left.len()) * turns(how.frames));
         // Settings take turns in groups, so that rows are on disk soon and an interruption costs little.
@@ -235,13 +241,9 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
                 pictures.extend(kept(arguments, &mut log, &mut rows, measured)?);
             }
         }
-        if against == Against::Smooth {
-            for rule in [SilhouetteRule::Exact, SilhouetteRule::Smooth] {
-                let measured = measure_lines(&subject, rule, &of_scene, FRAMES_OF_LINES, &how)?;
-                if rows.iter().all(|row| row.key() != measured.row.key()) {
-                    pictures.extend(kept(arguments, &mut log, &mut rows, measured)?);
-                }
-            }
+        for (rule, options) in rules {
+            let measured = measure_lines(&subject, rule, options, FRAMES_OF_LINES, &how)?;
+            pictures.extend(kept(arguments, &mut log, &mut rows, measured)?);
         }
     }
     drop(progress);

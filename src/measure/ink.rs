@@ -123,46 +123,24 @@ impl Ink {
             })
             .collect();
         let recall = |from: u8| {
-            let (mut found, mut all) = (0.0, 0.0);
-            for (sample, darkest) in reference.samples.iter().zip(&reach) {
-                all += sample.length_px;
-                found += if *darkest >= from { sample.length_px } else { 0.0 };
-            }
-            if all > 0.0 { found / all } else { 1.0 }
+            let darkest = reach.iter().map(|darkest| *darkest >= from);
+            share_of(darkest.zip(reference.samples.iter().map(|sample| sample.length_px)))
         };
         let precision = |from: u8| {
-            let (mut agreed, mut all) = (0.0, 0.0);
-            for (darkness, verdict, _) in pixels.iter().filter(|(darkness, ..)| *darkness >= from) {
-                let weight = f64::from(*darkness);
-                agreed += if *verdict == Verdict::Agreed { weight } else { 0.0 };
-                all += if *verdict == Verdict::Ignored { 0.0 } else { weight };
-            }
-            if all > 0.0 { agreed / all } else { 1.0 }
+            let counted =
+                pixels.iter().filter(|(darkness, verdict, _)| *darkness >= from && *verdict != Verdict::Ignored);
+            share_of(counted.map(|(darkness, verdict, _)| (*verdict == Verdict::Agreed, f64::from(*darkness))))
         };
-        let (recall_here, precision_here) = (recall(INK_FROM), precision(INK_FROM));
-        let sum = recall_here + precision_here;
         let ink_tree = tree(self.pixels(INK_FROM).map(|(_, middle)| middle));
-        let has_ink = ink_tree.size() > 0;
-        let to_ink =
-            reference.samples.iter().map(|sample| (distance(&ink_tree, sample.px), sample.length_px)).collect();
+        let to_ink: Vec<f64> = reference.samples.iter().map(|sample| distance(&ink_tree, sample.px)).collect();
         let counted =
             |(darkness, verdict, _): &&(u8, Verdict, f64)| *darkness >= INK_FROM && *verdict != Verdict::Ignored;
         let to_line = pixels.iter().filter(counted).map(|(darkness, _, distance)| (*distance, f64::from(*darkness)));
         LineError {
-            against: reference.against,
-            tolerance_px,
-            ink_from: INK_FROM,
-            ignored_creases_degrees: [SOFT_CREASE_DEGREES, reference.crease_angle.degrees()],
-            reference_px: reference.length_px(),
             ink_px: self.pixels(INK_FROM).map(|(index, _)| f64::from(self.darkness[index]) / 255.0).sum(),
-            recall: recall_here,
-            precision: precision_here,
             precision_of_all: precision(1),
-            f1: if sum > 0.0 { 2.0 * recall_here * precision_here / sum } else { 0.0 },
             average_precision: average_precision(recall, precision),
-            reference_to_ink_px: if has_ink { mean_and_95th(to_ink) } else { None },
-            ink_to_reference_px: mean_and_95th(to_line.collect()),
-            recall_of_class: recall_of_class(reference, &reach),
+            ..LineError::of_distances(reference, tolerance_px, &to_ink, to_line.collect())
         }
     }
 
@@ -198,18 +176,53 @@ fn average_precision(recall: impl Fn(u8) -> f64, precision: impl Fn(u8) -> f64) 
     area
 }
 
-pub(super) fn recall_of_class(reference: &Reference, reach: &[u8]) -> BTreeMap<String, f64> {
-    let mut sums: BTreeMap<Class, (f64, f64)> = BTreeMap::new();
-    for (sample, darkest) in reference.samples.iter().zip(reach) {
-        let (found, all) = sums.entry(sample.class).or_default();
-        *all += sample.length_px;
-        *found += if *darkest >= INK_FROM { sample.length_px } else { 0.0 };
+impl LineError {
+    /// From how far each sample of a reference is from what was drawn, and how far what was drawn is from the reference, with its weight.
+    pub(super) fn of_distances(
+        reference: &Reference,
+        tolerance_px: f64,
+        to_drawn: &[f64],
+        to_reference: Vec<(f64, f64)>,
+    ) -> Self {
+        let is_near = |distance: f64| distance <= tolerance_px;
+        let lengths = reference.samples.iter().map(|sample| sample.length_px);
+        let recall = share_of(to_drawn.iter().map(|px| is_near(*px)).zip(lengths.clone()));
+        let precision = share_of(to_reference.iter().map(|(px, weight)| (is_near(*px), *weight)));
+        let mut of_class: BTreeMap<Class, Vec<(bool, f64)>> = BTreeMap::new();
+        for (sample, px) in reference.samples.iter().zip(to_drawn) {
+            of_class.entry(sample.class).or_default().push((is_near(*px), sample.length_px));
+        }
+        Self {
+            against: reference.against,
+            tolerance_px,
+            ink_from: INK_FROM,
+            ignored_creases_degrees: [SOFT_CREASE_DEGREES, reference.crease_angle.degrees()],
+            reference_px: reference.length_px(),
+            ink_px: to_reference.iter().map(|(_, weight)| weight).sum(),
+            recall,
+            precision,
+            precision_of_all: precision,
+            f1: if recall + precision > 0.0 { 2.0 * recall * precision / (recall + precision) } else { 0.0 },
+            average_precision: recall * precision,
+            reference_to_ink_px: mean_and_95th(to_drawn.iter().copied().zip(lengths).collect()),
+            ink_to_reference_px: mean_and_95th(to_reference),
+            recall_of_class: of_class
+                .into_iter()
+                .map(|(class, samples)| (class.name().to_owned(), share_of(samples.into_iter())))
+                .collect(),
+        }
     }
-    sums.into_iter().map(|(class, (found, all))| (class.name().to_owned(), found / all)).collect()
+}
+
+/// The share of all weight that those have of which something holds; 1 of none.
+fn share_of(weights: impl Iterator<Item = (bool, f64)>) -> f64 {
+    let (held, all) = weights
+        .fold((0.0, 0.0), |(held, all), (holds, weight)| (held + if holds { weight } else { 0.0 }, all + weight));
+    if all > 0.0 { held / all } else { 1.0 }
 }
 
 /// Weighted mean and 95th percentile of values with their weights; `None` for none.
-pub(super) fn mean_and_95th(mut values: Vec<(f64, f64)>) -> Option<[f64; 2]> {
+fn mean_and_95th(mut values: Vec<(f64, f64)>) -> Option<[f64; 2]> {
     values.retain(|(value, _)| value.is_finite());
     values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let all: f64 = values.iter().map(|(_, weight)| weight).sum();

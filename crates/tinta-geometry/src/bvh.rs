@@ -102,8 +102,19 @@ impl BoxTree {
     /// Builds the hierarchy over boxes in time n log n, and returns it with the boxes' numbers in its own order: it speaks of
     /// things by their places in that order, so that whoever keeps them in it has neighbours together.
     pub(crate) fn new(boxes: &[Box3]) -> (Self, Vec<u32>) {
-        let groups = groups(boxes);
-        let mut groups = in_chunks(groups.len(), 1, cores(), |range| built(boxes, &groups[range.start]));
+        Self::new_unless(boxes, || false)
+    }
+
+    /// The same, or a hierarchy of nothing where it is over before.
+    pub(crate) fn new_unless(boxes: &[Box3], is_over: impl Fn() -> bool + Sync) -> (Self, Vec<u32>) {
+        let groups = groups(boxes, &is_over);
+        let mut groups = in_chunks(groups.len(), 1, cores(), |range| match is_over() {
+            true => Bvh2::default(),
+            false => built(boxes, &groups[range.start]),
+        });
+        if is_over() {
+            return Self::new(&[]);
+        }
         let mut nodes = if groups.len() == 1 { groups.swap_remove(0) } else { joined(&groups) };
         nodes.parents = Vec::new();
         let order = std::mem::take(&mut nodes.primitive_indices);
@@ -300,12 +311,12 @@ const BUILT_AT_ONCE: usize = 8192;
 
 /// The things' numbers in groups of which none has more than [`BUILT_AT_ONCE`], neighbours together: halved in the middle of the
 /// longest side of where they lie.
-fn groups(boxes: &[Box3]) -> Vec<Vec<u32>> {
+fn groups(boxes: &[Box3], is_over: impl Fn() -> bool) -> Vec<Vec<u32>> {
     let middle = |number: &u32| boxes[*number as usize].0.center();
     let mut open: Vec<Vec<u32>> = vec![(0..boxes.len() as u32).collect()];
     let mut done = Vec::new();
     while let Some(mut numbers) = open.pop() {
-        if numbers.len() <= BUILT_AT_ONCE {
+        if numbers.len() <= BUILT_AT_ONCE || is_over() {
             done.push(numbers);
             continue;
         }

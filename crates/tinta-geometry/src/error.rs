@@ -122,11 +122,18 @@ pub enum Error {
     Cancelled,
     /// The work takes longer than it was given.
     #[error(
-        "not done within {seconds} s; give it more time, ask for less, or for the part that is certain by then (partial)"
+        "not done within {seconds} s{}",
+        if *asked_for_part {
+            ", and no part of it is certain by then; give it more time, or ask for less"
+        } else {
+            "; give it more time, ask for less, or for the part that is certain by then (partial)"
+        }
     )]
     OutOfTime {
         /// The time it was given, seconds.
         seconds: f64,
+        /// Whether a part of it would have done.
+        asked_for_part: bool,
     },
     /// No way to an OpenGL 2.1 context worked.
     #[error(

@@ -57,7 +57,7 @@ pub const PIXELS_A_BYTE: u64 = 8 * 1032;
 pub const TRIANGLES: usize = 1 << 30;
 
 /// Most corners of a polygon that is not convex: cutting it may take up to the square of their number, a third of a second for
-/// the slowest known of this many. Longer ones are left out and counted as triangles without area.
+/// the slowest known of this many. Longer ones are left out and counted.
 pub const CONCAVE_CORNERS: usize = 32_768;
 
 /// Most corners of a polygon that crosses itself: cutting it may take their cube. Longer ones are left out likewise.

@@ -25,6 +25,7 @@
 //! ```
 
 mod beside;
+mod bundles;
 mod cast;
 mod chain;
 mod changes;
@@ -287,7 +288,7 @@ impl VisibleLines {
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] when no class is wanted, or the scene has more than 2^30 faces or positions.
+    /// [`crate::Error::Setting`] when no class is wanted, the scene has more than 2^30 faces or positions, or its lines take more memory than there is.
     pub fn of(scene: &Scene, settings: &LineSettings) -> Result<Self> {
         Self::with_progress(scene, settings, &Progress::default())
     }
@@ -369,7 +370,7 @@ impl VisibleLines {
             lines.extend(forms::form_features(scene, &space, &faces, &parts, settings, &mut edges));
         }
         lines.extend(features::near_plane_features(&space, &faces));
-        let found = Lines::new(&space, &faces, &lines, &intersections.piercings, pyramid.as_ref(), settings);
+        let found = Lines::new(&space, &faces, &lines, &intersections.piercings, pyramid.as_ref(), settings, progress)?;
         drop(intersections);
         progress.go_on()?;
         let (mut segments, steps) = found.segments(progress);

@@ -56,14 +56,33 @@ fn left(most: Option<String>, used: Option<String>, statistics: Option<String>) 
 ///
 /// [`Error::File`] with both numbers.
 pub(crate) fn check(name: &str, needed: u64, free: Option<u64>) -> Result<()> {
-    let Some(free) = free.filter(|free| needed > *free && needed > MEMORY_SLACK_BYTES as u64) else { return Ok(()) };
+    match too_much(needed, free) {
+        None => Ok(()),
+        Some(both) => Err(Error::model(name, format!("it takes {both}; close other programs, or make it smaller"))),
+    }
+}
+
+/// Refuses lines that take so many bytes more than there are.
+///
+/// # Errors
+///
+/// [`Error::Setting`] with both numbers.
+pub(crate) fn check_lines(needed: usize, free: Option<u64>) -> Result<()> {
+    match too_much(needed as u64, free) {
+        None => Ok(()),
+        Some(both) => {
+            let problem =
+                format!("the lines of this scene take {both}; ask for fewer, for instance without intersection");
+            Err(Error::setting("classes", problem))
+        }
+    }
+}
+
+/// `2.5 GiB of memory, and 1.0 GiB are free` where it is so.
+fn too_much(needed: u64, free: Option<u64>) -> Option<String> {
+    let free = free.filter(|free| needed > *free && needed > MEMORY_SLACK_BYTES as u64)?;
     let gib = |bytes: u64| format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30));
-    let problem = format!(
-        "it takes {} of memory, and {} are free; close other programs, or make it smaller",
-        gib(needed),
-        gib(free)
-    );
-    Err(Error::model(name, problem))
+    Some(format!("{} of memory, and {} are free", gib(needed), gib(free)))
 }
 
 #[cfg(test)]
@@ -104,5 +123,17 @@ mod tests {
     #[test]
     fn some_memory_is_free_here() {
         assert!(free().is_some_and(|free| free > 1 << 20));
+    }
+
+    #[test]
+    fn lines_that_take_more_than_there_is_say_what_to_leave_out() {
+        let gib = 1usize << 30;
+        assert!(check_lines(2 * gib, Some(3 << 30)).is_ok() && check_lines(2 * gib, None).is_ok());
+        let message = check_lines(5 * gib, Some(3 << 29)).unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "classes: the lines of this scene take 5.0 GiB of memory, and 1.5 GiB are free; ask for fewer, for instance \
+             without intersection"
+        );
     }
 }

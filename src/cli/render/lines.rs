@@ -156,7 +156,7 @@ pub(super) fn run(
     let ReadModels { meshes, files, .. } = load_models(model_cache, &arguments.models, &arguments.model.settings()?)?;
     let load_ms = milliseconds_since(start);
     let scene = Scene::new(meshes, &arguments.scene_settings()?)?;
-    let lines = match find(&scene, &settings, &progress, stop.as_ref()) {
+    let lines = match watched(&progress, stop.as_ref(), || VisibleLines::with_progress(&scene, &settings, &progress)) {
         Err(Error::Cancelled) => return Ok(stopped(stop.as_ref())),
         found => found?,
     };
@@ -183,7 +183,12 @@ pub(super) fn run(
     let drawn = svg_settings(arguments, recipe.as_ref())?;
     let start = Instant::now();
     let keeps_all = format == Format::Json && drawn.min_length.is_none();
-    let lines = if keeps_all { lines } else { lines.without_specks(&drawn)? };
+    let drawn_lines = || lines.without_specks_with_progress(&drawn, &progress);
+    let lines = match if keeps_all { None } else { Some(watched(&progress, stop.as_ref(), drawn_lines)) } {
+        None => lines,
+        Some(Err(Error::Cancelled)) => return Ok(stopped(stop.as_ref())),
+        Some(drawn) => drawn?,
+    };
     let is_chained = format != Format::Json || arguments.run.json || arguments.run.explain;
     let paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
     let counts = LineCounts::new(&lines, &paths);
@@ -288,22 +293,22 @@ fn check_output(arguments: &Arguments, output: &str, format: Format) -> Result<(
 /// How often the progress bar is looked after, and how long work takes before it gets one.
 const GLANCE: Duration = Duration::from_millis(200);
 
-/// Finds the lines, on a thread of its own so that this one can say how far it is.
-fn find(scene: &Scene, settings: &LineSettings, progress: &LineProgress, stop: Option<&Stop>) -> Result<VisibleLines> {
-    let work = || VisibleLines::with_progress(scene, settings, progress);
+/// Work on lines, on a thread of its own so that this one can say how far it is.
+fn watched<T: Send>(progress: &LineProgress, stop: Option<&Stop>, work: impl Fn() -> Result<T> + Sync) -> Result<T> {
     std::thread::scope(|scope| {
         let (sender, receiver) = std::sync::mpsc::channel();
+        let work = &work;
         let start = std::thread::Builder::new().spawn_scoped(scope, move || {
             // Whoever waited may have given up.
             let _ = sender.send(work());
         });
         if start.is_err() {
-            return VisibleLines::with_progress(scene, settings, progress);
+            return work();
         }
         let mut bar: Option<(Phase, Progress)> = None;
         loop {
             match receiver.recv_timeout(GLANCE) {
-                Ok(lines) => return lines,
+                Ok(done) => return done,
                 Err(RecvTimeoutError::Timeout) => {
                     if stop.is_some_and(Stop::is_asked) {
                         progress.cancel();
@@ -317,7 +322,7 @@ fn find(scene: &Scene, settings: &LineSettings, progress: &LineProgress, stop: O
                     if total == 0 { bar.wait() } else { bar.set(done as u64, total as u64) }
                 }
                 // The thread has panicked; the scope passes that on.
-                Err(RecvTimeoutError::Disconnected) => return VisibleLines::with_progress(scene, settings, progress),
+                Err(RecvTimeoutError::Disconnected) => return work(),
             }
         }
     })
@@ -329,6 +334,8 @@ fn word(phase: Phase) -> &'static str {
         Phase::Preparing => "preparing lines",
         Phase::Intersections => "finding intersections",
         Phase::Lines => "finding lines",
+        Phase::Contours => "finding smooth silhouettes",
+        Phase::TooShort => "leaving out specks",
     }
 }
 

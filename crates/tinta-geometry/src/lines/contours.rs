@@ -40,6 +40,8 @@ pub(super) struct PartSurface {
     pub first_position: u32,
     /// Whether the eye may be inside of closed shells.
     sees_inside: bool,
+    /// The parts of sharp edges beside curved faces that are silhouette: by edge, then along it.
+    pub edge_parts: Vec<(u32, [f64; 2])>,
 }
 
 /// A straight piece of a contour, inside one face or on a sharp edge.
@@ -105,14 +107,22 @@ impl Contours {
             let (low, high) = mesh.bounds();
             let is_within = |eye: DVec3| eye.cmpge(low).all() && eye.cmple(high).all();
             let sees_inside = is_cut_by_near || matches!(eye, Eye::Point(eye) if is_within(eye));
-            let part = PartSurface { surface, mesh, towards, first_position, sees_inside };
+            let mut part = PartSurface { surface, mesh, towards, first_position, sees_inside, edge_parts: Vec::new() };
             let chunks = in_chunks(part.mesh.triangles.len(), CHUNK, cores(), |range| {
                 range.filter_map(|face| part.piece(space, positions, number as u32, face as u32)).collect::<Vec<_>>()
             });
             chunks.into_iter().for_each(|chunk| all.pieces.extend(chunk));
             let list = edges.list();
-            let sharp = (0..list.len() as u32).filter(|edge| part.surface.is_sharp[*edge as usize]);
-            all.pieces.extend(sharp.flat_map(|edge| part.pieces_on_edge(space, positions, list, number as u32, edge)));
+            for edge in (0..list.len() as u32).filter(|edge| part.surface.is_sharp[*edge as usize]) {
+                match part.on_edge(space, positions, list, edge) {
+                    OnEdge::ByFaces => {}
+                    OnEdge::Parts(shares) => part.edge_parts.extend(shares.into_iter().map(|share| (edge, share))),
+                    OnEdge::OfContour(shares) => {
+                        let pieces = part.pieces_on_edge(space, positions, list, number as u32, edge, shares);
+                        all.pieces.extend(pieces);
+                    }
+                }
+            }
             first_position += part.mesh.positions.len() as u32;
             all.parts.push(part);
         }
@@ -211,9 +221,16 @@ impl PartSurface {
         })
     }
 
-    /// The parts of a sharp edge at which its smooth normals turn away but its faces do not.
-    fn pieces_on_edge(&self, space: &Space, positions: &[DVec3], list: &EdgeList, part: u32, edge: u32) -> Vec<Piece> {
-        let OnEdge::OfContour(parts) = self.on_edge(space, positions, list, edge) else { return Vec::new() };
+    /// Those shares of a sharp edge at which its smooth normals turn away but its faces do not.
+    fn pieces_on_edge(
+        &self,
+        space: &Space,
+        positions: &[DVec3],
+        list: &EdgeList,
+        part: u32,
+        edge: u32,
+        shares: Vec<[f64; 2]>,
+    ) -> Vec<Piece> {
         let &[first, second] = list.faces(edge) else { return Vec::new() };
         let ends = list.positions()[edge as usize];
         let [low, high] = ends.map(|position| positions[(position + self.first_position) as usize]);
@@ -232,7 +249,7 @@ impl PartSurface {
             bend: 0.0,
             on_edge: Some(edge),
         };
-        parts.into_iter().map(piece).collect()
+        shares.into_iter().map(piece).collect()
     }
 
     /// Where a plane through a point leaves a face by another side than it came in, the farther along a direction.

@@ -1,5 +1,6 @@
 //! Lines as they lie in the picture, and trees of them.
 
+use super::progress::Progress;
 use super::space::Space;
 use crate::bvh::{Box3, BoxTree, LeftOut, NO_FAMILY};
 use crate::tolerances::TOUCH;
@@ -172,6 +173,11 @@ pub(super) struct LineTree {
 }
 
 impl LineParts {
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.boxes.len()
+    }
+
     /// Adds those of another.
     pub(super) fn append(&mut self, other: Self) {
         self.boxes.extend(other.boxes);
@@ -193,8 +199,12 @@ impl LineParts {
         self.hubs.push(hub);
     }
 
-    pub(super) fn tree(self) -> LineTree {
-        let (mut tree, order) = BoxTree::new(&self.boxes);
+    /// Their tree; one of nothing where the work is over before.
+    pub(super) fn tree(self, progress: &Progress) -> LineTree {
+        let (mut tree, order) = BoxTree::new_unless(&self.boxes, || progress.is_over());
+        if order.len() < self.boxes.len() {
+            return LineTree { tree, numbers: Vec::new() };
+        }
         let in_order = |families: &[u32]| {
             let has_some = families.iter().any(|family| *family != NO_FAMILY);
             has_some.then(|| order.iter().map(|index| families[*index as usize]).collect::<Vec<u32>>())

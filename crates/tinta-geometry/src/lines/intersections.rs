@@ -9,7 +9,7 @@ use super::faces::Faces;
 use super::progress::{Phase, Progress};
 use super::pyramid::Pyramid;
 use super::space::Space;
-use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY, counting_steps};
+use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY, counting_steps, steps};
 use crate::threads::{cores, in_chunks, spread_chunks};
 use crate::tolerances::CONTACT;
 use glam::DVec3;
@@ -62,7 +62,7 @@ pub(super) fn intersections(
     const PAIRS_A_GLANCE: u32 = 1024;
     progress.begin(Phase::Intersections, faces.tree.group_count());
     let in_groups = |groups: std::ops::Range<usize>| {
-        let count = groups.len();
+        let (count, before) = (groups.len(), steps());
         let (mut found, mut pairs) = (Vec::new(), 0u32);
         // Pairs come leaf by leaf, and the places in a leaf follow one another.
         let mut plates: [Option<Plate>; LARGEST_LEAF as usize] = Default::default();
@@ -82,7 +82,7 @@ pub(super) fn intersections(
             found.extend(meeting.filter(|meeting| is_open(meeting.ends)));
             false
         });
-        progress.advance(count);
+        progress.advance(count, steps().wrapping_sub(before));
         found
     };
     let parts = spread_chunks(faces.tree.group_count(), GROUPS, cores(), |groups| counting_steps(|| in_groups(groups)));

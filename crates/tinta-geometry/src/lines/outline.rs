@@ -32,13 +32,14 @@ impl Lines<'_> {
                 count > most
             })
         };
-        let mut cuts = self.search(index, image, [piece.from, piece.to], Sought::Any, add);
+        let mut cuts = self.search(index, image, [piece.from, piece.to], Vec::new(), Sought::Any, add);
         let mut parts: Vec<Piece> = Vec::new();
         let places = self.places(image, [piece.from, piece.to], std::mem::take(&mut cuts.places));
+        let shortest = self.shortest_px / image.length();
         for place in places.windows(2) {
             let probe = self.probe(index, image, (place[0] + place[1]) * 0.5);
             let is_outline =
-                !cuts.hide(place[0], place[1]) && self.faces.cover(self.space, &probe, touch_px) != [true; 2];
+                !cuts.hide(place[0], place[1], shortest) && self.faces.cover(self.space, &probe, touch_px) != [true; 2];
             match parts.last_mut() {
                 Some(last) if last.is_outline == is_outline => last.to = place[1],
                 _ => parts.push(Piece { from: place[0], to: place[1], is_outline, ..piece }),

@@ -2,7 +2,7 @@
 
 use crate::clock::Instant;
 use crate::error::{Error, Result};
-use std::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, AtomicUsize, Ordering};
 use std::time::Duration;
 
 /// How far the work is, for whoever watches from another thread, who may also ask for it to be given up.
@@ -29,6 +29,7 @@ pub struct Progress {
     phase: AtomicU8,
     done: AtomicUsize,
     total: AtomicUsize,
+    compared: AtomicU64,
     is_cancelled: AtomicBool,
     deadline: Option<Deadline>,
     keeps_part: bool,
@@ -43,6 +44,10 @@ pub enum Phase {
     Intersections,
     /// Deciding what is seen of each line; lines count.
     Lines,
+    /// Deciding what is seen of smooth silhouettes; their pieces count.
+    Contours,
+    /// Leaving out what is too short to be a line; what may be one side of a sliver counts.
+    TooShort,
 }
 
 #[derive(Debug)]
@@ -72,13 +77,21 @@ impl Progress {
         match self.phase.load(Ordering::Relaxed) {
             0 => Phase::Preparing,
             1 => Phase::Intersections,
-            _ => Phase::Lines,
+            2 => Phase::Lines,
+            3 => Phase::Contours,
+            _ => Phase::TooShort,
         }
     }
 
     /// How much of its phase is done, and how much there is to do: 0 and 0 while nobody counts.
     pub fn state(&self) -> (usize, usize) {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
+    }
+
+    /// How many boxes of hierarchies were looked at for what is done of this phase, as far as that is counted: what takes the time, so that the
+    /// time left can be told from it where steps differ.
+    pub fn compared(&self) -> u64 {
+        self.compared.load(Ordering::Relaxed)
     }
 
     /// Asks for the work to be given up: it then ends soon with [`Error::Cancelled`].
@@ -106,9 +119,16 @@ impl Progress {
             return Err(Error::Cancelled);
         }
         match &self.deadline {
-            Some(deadline) if self.is_late() => Err(Error::OutOfTime { seconds: deadline.limit.as_secs_f64() }),
+            Some(deadline) if self.is_late() => {
+                Err(Error::OutOfTime { seconds: deadline.limit.as_secs_f64(), asked_for_part: self.keeps_part })
+            }
             _ => Ok(()),
         }
+    }
+
+    /// The same of what comes after the lines: where a part of them is asked for, that is finished after the time.
+    pub(crate) fn go_on_drawing(&self) -> Result<()> {
+        if self.keeps_part && !self.is_cancelled() { Ok(()) } else { self.go_on() }
     }
 
     /// How many lines were not decided, of work that has ended.
@@ -124,11 +144,14 @@ impl Progress {
     pub(crate) fn begin(&self, phase: Phase, total: usize) {
         self.total.store(0, Ordering::Relaxed);
         self.done.store(0, Ordering::Relaxed);
+        self.compared.store(0, Ordering::Relaxed);
         self.phase.store(phase as u8, Ordering::Relaxed);
         self.total.store(total, Ordering::Relaxed);
     }
 
-    pub(crate) fn advance(&self, count: usize) {
+    /// So many steps more are done, for which so many boxes were looked at.
+    pub(crate) fn advance(&self, count: usize, compared: u64) {
+        self.compared.fetch_add(compared, Ordering::Relaxed);
         self.done.fetch_add(count, Ordering::Relaxed);
     }
 }

@@ -29,9 +29,10 @@ pub(super) struct Cuts {
 }
 
 impl Cuts {
-    /// Whether any of what is between two places is hidden for sure: between two cuts all is then.
-    pub(super) fn hide(&self, from: f64, to: f64) -> bool {
-        overlap(&self.hidden, from, to)
+    /// Whether any of what is between two places is hidden for sure, farther from both than the shortest piece is long: between two cuts all is
+    /// then. Nearer to a cut a range may end that the cut is meant for.
+    pub(super) fn hide(&self, from: f64, to: f64, shortest: f64) -> bool {
+        overlap(&self.hidden, from + shortest, to - shortest)
     }
 
     /// Whether a place is hidden for sure.
@@ -100,19 +101,28 @@ struct Stretch {
 }
 
 impl Lines<'_> {
-    /// The cuts of what of a line is between two places; `add` adds those of a part, or returns true where there are more than a
+    /// What of a line between two places is hidden for sure by those that are nearest among many lines on which it lies; ascending.
+    pub(super) fn behind_nearest(&self, index: usize, image: &Image, inside: [f64; 2]) -> Vec<[f64; 2]> {
+        let nearest = self.bundles.nearest_along(index, image);
+        united(nearest.filter_map(|other| self.behind_line(index, image, other, inside)).collect())
+    }
+
+    /// The cuts of what of a line is between two places, some of which is known to be hidden; `add` adds those of a part, or returns true where there are more than a
     /// given number.
     pub(super) fn search(
         &self,
         index: usize,
         image: &Image,
         inside: [f64; 2],
+        hidden: Vec<[f64; 2]>,
         sought: Sought<'_>,
         mut add: impl FnMut([f64; 2], usize, &mut Vec<f64>) -> bool,
     ) -> Cuts {
-        let mut found = Cuts::default();
         let longest = self.space.size.max_element() / PARTS_OF_PICTURE;
-        for part in image.parts(inside, longest) {
+        let gaps_before = gaps(inside, &hidden);
+        let mut found = Cuts { hidden, ..Cuts::default() };
+        let is_long = |gap: &[f64; 2]| *gap == inside || (gap[1] - gap[0]) * image.length() > self.shortest_px;
+        for part in gaps_before.into_iter().filter(is_long).flat_map(|gap| image.parts(gap, longest)) {
             if self.pyramid_hides(image, part, sought) || self.one_hides(index, image, part, sought) {
                 found.hidden.push(part);
                 continue;
@@ -255,19 +265,20 @@ impl Lines<'_> {
 
     /// Adds what of a part lies in the picture on another line that is nearer for sure.
     fn behind_lines(&self, index: usize, image: &Image, beside: &Beside, part: [f64; 2], hidden: &mut Vec<[f64; 2]>) {
-        let touch_px = image.touch_px(self.space);
-        self.any_beside(image, beside, part, |other_index| {
-            let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
-            if let Some(range) = image.overlap(&other, touch_px.max(other.touch_px(self.space))) {
-                let range = [range[0].max(part[0]), range[1].min(part[1])];
-                let least = self.clearly_behind(index, &other);
-                let behind = |place: f64| image.key(place) - other.key(other.place_of(image.at(place))) - least;
-                if range[0] < range[1] {
-                    hidden.extend(above_zero(range, range.map(behind)));
-                }
-            }
+        self.any_beside(image, beside, part, |other| {
+            hidden.extend(self.behind_line(index, image, other, part));
             false
         });
+    }
+
+    /// What of a part lies in the picture on a certain other line that is nearer for sure.
+    fn behind_line(&self, index: usize, image: &Image, other_index: usize, part: [f64; 2]) -> Option<[f64; 2]> {
+        let other = self.images[other_index].filter(|_| other_index != index)?;
+        let range = image.overlap(&other, image.touch_px(self.space).max(other.touch_px(self.space)))?;
+        let range = [range[0].max(part[0]), range[1].min(part[1])];
+        let least = self.clearly_behind(index, &other);
+        let behind = |place: f64| image.key(place) - other.key(other.place_of(image.at(place))) - least;
+        if range[0] < range[1] { above_zero(range, range.map(behind)) } else { None }
     }
 
     /// By how much a line's key must be larger than another's for it not to touch it, nor anything that is nearer still.
@@ -281,7 +292,7 @@ impl Lines<'_> {
 }
 
 /// What ascending ranges, and others before, leave of a part.
-fn gaps(part: [f64; 2], ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub(super) fn gaps(part: [f64; 2], ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut gaps = Vec::new();
     let mut from = part[0];
     for range in ranges.iter().filter(|range| range[1] > part[0] && range[0] < part[1]) {

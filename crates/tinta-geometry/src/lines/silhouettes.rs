@@ -60,11 +60,7 @@ pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<Smoot
         silhouette
             .edges
             .retain(|edge| matches!(surface.on_edge(&space, &positions, edges.list(), *edge), OnEdge::ByFaces));
-        for edge in (0..edges.list().len() as u32).filter(|edge| surface.surface.is_sharp[*edge as usize]) {
-            if let OnEdge::Parts(shares) = surface.on_edge(&space, &positions, edges.list(), edge) {
-                silhouette.edge_parts.extend(shares.into_iter().map(|share| (edge, share)));
-            }
-        }
+        silhouette.edge_parts = surface.edge_parts.clone();
         found.push(silhouette);
     }
     // Pieces that meet are followed from the same face, so that they still do.

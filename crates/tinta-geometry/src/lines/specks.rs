@@ -16,9 +16,10 @@ mod ways;
 
 use super::layers::Layer;
 use super::length::Units;
+use super::progress::{Phase, Progress};
 use super::svg::SvgSettings;
 use super::{LineSegment, VisibleLines};
-use crate::bvh::{Box3, BoxTree};
+use crate::bvh::{Box3, BoxTree, steps};
 use crate::error::Result;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::JOINED_PX;
@@ -32,6 +33,15 @@ impl VisibleLines {
     ///
     /// As [`SvgSettings::check`] and [`VisibleLines::check`].
     pub fn without_specks(&self, settings: &SvgSettings) -> Result<Self> {
+        self.without_specks_with_progress(settings, &Progress::default())
+    }
+
+    /// The same, telling how far it is.
+    ///
+    /// # Errors
+    ///
+    /// Also [`Error::Cancelled`](crate::Error::Cancelled) and, but where a part is asked for, [`Error::OutOfTime`](crate::Error::OutOfTime).
+    pub fn without_specks_with_progress(&self, settings: &SvgSettings, progress: &Progress) -> Result<Self> {
         settings.check()?;
         self.check()?;
         let units = super::drawing::page(self, settings).units;
@@ -46,7 +56,7 @@ impl VisibleLines {
                 .map(|(number, segment)| Stroke::new(number, segment, settings, units))
                 .collect();
             let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));
-            for stroke in Strokes::new(&strokes, border).too_short() {
+            for stroke in Strokes::new(&strokes, border).too_short(progress)? {
                 keeps[strokes[stroke].number] = false;
             }
         }
@@ -160,14 +170,18 @@ impl<'a> Strokes<'a> {
     }
 
     /// All that go.
-    fn too_short(&self) -> Vec<usize> {
+    fn too_short(&self, progress: &Progress) -> Result<Vec<usize>> {
+        progress.begin(Phase::TooShort, 0);
         let mut is_gone = vec![false; self.strokes.len()];
         let wholes = self.small_wholes();
         let barbs = self.barbs();
         let loose: Vec<&Branch> = wholes.iter().chain(&barbs).collect();
         let goes = in_chunks(loose.len(), LOOKED_AT_ONCE, cores(), |range| {
-            range.map(|branch| self.places_touched(loose[branch]).len() <= 1).collect::<Vec<bool>>()
+            let goes =
+                |branch: usize| progress.go_on_drawing().is_ok() && self.places_touched(loose[branch]).len() <= 1;
+            range.map(goes).collect::<Vec<bool>>()
         });
+        progress.go_on_drawing()?;
         for (branch, _) in loose.iter().zip(goes.concat()).filter(|(_, goes)| *goes) {
             branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
         }
@@ -177,7 +191,13 @@ impl<'a> Strokes<'a> {
         sides.sort_by(|a, b| a.length.total_cmp(&b.length));
         let mut is_needed = vec![false; self.strokes.len()];
         let mut ways = Ways::new(self);
+        progress.begin(Phase::TooShort, sides.len());
+        let mut before = steps();
         for branch in sides {
+            progress.go_on_drawing()?;
+            let now = steps();
+            progress.advance(1, now.wrapping_sub(before));
+            before = now;
             if branch.strokes.iter().any(|stroke| is_needed[*stroke] || is_gone[*stroke]) {
                 continue;
             }
@@ -188,7 +208,7 @@ impl<'a> Strokes<'a> {
                 branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
             }
         }
-        (0..self.strokes.len()).filter(|stroke| is_gone[*stroke]).collect()
+        Ok((0..self.strokes.len()).filter(|stroke| is_gone[*stroke]).collect())
     }
 
     fn meeting(&self, end: u32) -> &[u32] {

@@ -21,12 +21,12 @@ use super::contours::{Contours, Piece, between};
 use super::faces::{Own, Probe};
 use super::features::Part;
 use super::image::Image;
-use super::progress::Progress;
+use super::progress::{Phase, Progress};
 use super::visibility::Lines;
-use crate::bvh::{Box3, NO_FAMILY};
+use crate::bvh::{Box3, NO_FAMILY, steps};
 use crate::edges::Class;
 use crate::mesh::NONE;
-use crate::threads::{cores, in_chunks};
+use crate::threads::{cores, spread_chunks};
 use crate::tolerances::CONTACT;
 use glam::{DVec2, DVec3};
 
@@ -64,9 +64,15 @@ pub(super) struct ContourLines<'a> {
 impl ContourLines<'_> {
     /// Every piece inside the picture, told apart, in the contours' order.
     pub(super) fn decided(&self, progress: &Progress) -> Vec<Decided> {
-        let chunks = in_chunks(self.contours.pieces.len(), CHUNK, cores(), |range| match progress.is_over() {
-            true => Vec::new(),
-            false => range.filter_map(|piece| self.decide(piece)).collect::<Vec<_>>(),
+        progress.begin(Phase::Contours, self.contours.pieces.len());
+        let chunks = spread_chunks(self.contours.pieces.len(), CHUNK, cores(), |range| {
+            if progress.is_over() {
+                return Vec::new();
+            }
+            let (count, before) = (range.len(), steps());
+            let decided = range.filter_map(|piece| self.decide(piece)).collect::<Vec<_>>();
+            progress.advance(count, steps().wrapping_sub(before));
+            decided
         });
         chunks.concat()
     }

@@ -4,6 +4,7 @@
 //! them ends and where both are equally near; the nearest is drawn; of equally near ones, one.
 
 use super::beside::Beside;
+use super::bundles::Bundles;
 use super::face_image::FaceImage;
 use super::faces::{Faces, Own, Probe};
 use super::features::Feature;
@@ -12,12 +13,14 @@ use super::intersections::Piercing;
 use super::occluders::Occluders;
 use super::progress::Phase;
 use super::pyramid::Pyramid;
-use super::search::{Cuts, Sought};
+use super::search::{Cuts, Sought, gaps};
 use super::space::Space;
 use super::{LineSegment, LineSettings, Progress};
-use crate::bvh::{Box3, LeftOut, NO_FAMILY, counting_steps};
+use crate::bvh::{Box3, LeftOut, NO_FAMILY, counting_steps, steps};
+use crate::error::Result;
+use crate::memory;
 use crate::threads::{cores, in_chunks, spread_chunks};
-use crate::tolerances::{CONTACT, SHORTEST_LINE};
+use crate::tolerances::{CONTACT, SHORTEST_LINE, TOUCH};
 use glam::{DVec2, DVec3};
 use std::cell::LazyCell;
 use std::collections::HashMap;
@@ -41,6 +44,8 @@ pub(super) struct Lines<'a> {
     pub(super) face_images: Vec<FaceImage>,
     /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
     pub(super) beside: LineTree,
+    /// Many lines that lie on one another.
+    pub(super) bundles: Bundles,
     pub(super) shortest_px: f64,
     pub(super) finds_outline: bool,
     pub(super) finds_hidden: bool,
@@ -59,6 +64,12 @@ pub(super) struct Piece {
 /// ask for everything in its box.
 pub(super) const PARTS_OF_PICTURE: f64 = 16.0;
 
+/// Parts' lines between two looks at the time.
+const LINES_A_GLANCE: usize = 64;
+
+/// What a part of a line takes while its tree is built, at the most, bytes: box, nodes, numbers, and what building them needs.
+const BYTES_A_PART: usize = 320;
+
 /// Lines whose parts a thread finds at once.
 const MADE_AT_ONCE: usize = 4096;
 
@@ -70,7 +81,8 @@ impl<'a> Lines<'a> {
         piercings: &[Piercing],
         pyramid: Option<&'a Pyramid>,
         settings: &LineSettings,
-    ) -> Self {
+        progress: &Progress,
+    ) -> Result<Self> {
         let &LineSettings { finds_outline, finds_hidden, .. } = settings;
         let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
         let side = space.size.max_element();
@@ -81,6 +93,9 @@ impl<'a> Lines<'a> {
         let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
             let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
             for index in range {
+                if index % LINES_A_GLANCE == 0 && progress.is_over() {
+                    break;
+                }
                 let (feature, image) = (&features[index], images[index]);
                 let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
                     continue;
@@ -110,26 +125,31 @@ impl<'a> Lines<'a> {
             rims.append(some_rims);
             beside.append(some_beside);
         }
+        progress.go_on()?;
+        memory::check_lines((rims.len() + beside.len()) * BYTES_A_PART, memory::free())?;
+        let is_wanted = |index: usize| features[index].class.is_some();
+        let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * TOUCH * side);
         let face_images = if occluders.is_some() { FaceImage::of_all(space, faces) } else { Vec::new() };
         let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
         for piercing in piercings {
             pierced.entry(piercing.edge).or_default().push(piercing.point);
         }
-        Self {
+        Ok(Self {
             space,
             faces,
             features,
             images,
             piercings: pierced,
-            rims: rims.tree(),
+            rims: rims.tree(progress),
             pyramid,
             occluders,
             face_images,
-            beside: beside.tree(),
+            beside: beside.tree(progress),
+            bundles,
             shortest_px: SHORTEST_LINE * side,
             finds_outline,
             finds_hidden,
-        }
+        })
     }
 
     /// The wanted lines' pieces, in the lines' order; with how many boxes were looked at. Of all lines, unless the time is over
@@ -145,8 +165,9 @@ impl<'a> Lines<'a> {
                     if progress.is_over() {
                         break;
                     }
+                    let before = steps();
                     self.add_segments(index, &mut segments);
-                    progress.advance(1);
+                    progress.advance(1, steps().wrapping_sub(before));
                 }
                 segments
             })
@@ -164,12 +185,20 @@ impl<'a> Lines<'a> {
         if image.length() * (inside[1] - inside[0]) <= self.shortest_px {
             return;
         }
+        let behind = self.behind_nearest(index, &image, inside);
+        let is_open = |gap: &[f64; 2]| image.length() * (gap[1] - gap[0]) > self.shortest_px;
+        if !self.finds_hidden && !gaps(inside, &behind).iter().any(is_open) {
+            return;
+        }
         let beside = self.beside(index, &image, inside);
         let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, &beside, part, most, cuts);
-        let mut cuts = self.search(index, &image, inside, Sought::Nearer(&beside), add);
+        let mut cuts = self.search(index, &image, inside, behind, Sought::Nearer(&beside), add);
         self.add_piercings(index, &image, &mut cuts);
         if self.finds_hidden {
-            for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
+            // The box of one that is upright or level holds no other.
+            let is_thin = (image.b - image.a).abs().min_element() < 1.0;
+            let longest = if is_thin { f64::INFINITY } else { self.space.size.max_element() / PARTS_OF_PICTURE };
+            for part in image.parts(inside, longest) {
                 self.add_beside(index, &image, &beside, part, usize::MAX, &mut cuts.places);
             }
         }
@@ -177,7 +206,7 @@ impl<'a> Lines<'a> {
         let places = self.places(&image, inside, std::mem::take(&mut cuts.places));
         for place in places.windows(2) {
             let [from, to] = [place[0], place[1]];
-            let is_hidden = cuts.hide(from, to);
+            let is_hidden = cuts.hide(from, to, self.shortest_px / image.length());
             if is_hidden && !self.finds_hidden {
                 continue;
             }

@@ -10,6 +10,8 @@ use std::fmt;
 pub struct Defects {
     /// Triangles without area (also faces of fewer than three corners), left out.
     pub degenerate_triangles: usize,
+    /// Polygons of more corners than are cut into triangles, left out: [`limits`](crate::limits).
+    pub long_polygons: usize,
     /// Triangles that repeat another with the same orientation, left out.
     pub duplicate_triangles: usize,
     /// Vertices with a coordinate that is NaN or infinite; the faces that use them are left out.
@@ -33,6 +35,7 @@ impl<'a> std::iter::Sum<&'a Self> for Defects {
     fn sum<I: Iterator<Item = &'a Self>>(all: I) -> Self {
         all.fold(Self::default(), |sum, one| Self {
             degenerate_triangles: sum.degenerate_triangles + one.degenerate_triangles,
+            long_polygons: sum.long_polygons + one.long_polygons,
             duplicate_triangles: sum.duplicate_triangles + one.duplicate_triangles,
             non_finite_vertices: sum.non_finite_vertices + one.non_finite_vertices,
             out_of_range_faces: sum.out_of_range_faces + one.out_of_range_faces,
@@ -46,6 +49,7 @@ impl fmt::Display for Defects {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let kinds = [
             (self.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
+            (self.long_polygons, "polygon of too many corners", "polygons of too many corners"),
             (self.duplicate_triangles, "duplicate triangle", "duplicate triangles"),
             (self.non_finite_vertices, "vertex that is not finite", "vertices that are not finite"),
             (self.out_of_range_faces, "face with an index out of range", "faces with an index out of range"),

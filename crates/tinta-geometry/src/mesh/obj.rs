@@ -100,9 +100,28 @@ fn read_in_pieces(
         Error::model(path, format!("{}; correct this line or export the model again", problem.what))
             .at(Some(problem.line))
     })?;
+    let free_form = pieces
+        .iter()
+        .fold([0, 0], |[curves, surfaces], piece: &Piece| [curves + piece.free_form[0], surfaces + piece.free_form[1]]);
     let (mut soup, namings) = joined(pieces);
+    if let Some(left_out) = free_form_in_words(free_form) {
+        if soup.corners.is_empty() {
+            return Err(Error::model(path, format!("it has no faces but {left_out}; export it as polygons")));
+        }
+        remarks.push(format!("{path}: {left_out} not drawn; to see them, export them as polygons"));
+    }
     put_on_materials(&mut soup, &namings, path, folder, remarks)?;
     Ok(soup)
+}
+
+/// `2 free-form surfaces and 1 free-form curve`; `None` for none.
+fn free_form_in_words([curves, surfaces]: [usize; 2]) -> Option<String> {
+    let words = |count: usize, what: &str| {
+        let plural = if count == 1 { "" } else { "s" };
+        (count > 0).then(|| format!("{count} free-form {what}{plural}"))
+    };
+    let all: Vec<String> = [words(surfaces, "surface"), words(curves, "curve")].into_iter().flatten().collect();
+    (!all.is_empty()).then(|| all.join(" and "))
 }
 
 /// All pieces as one, and the materials named with how many faces come before each.
@@ -270,6 +289,20 @@ mod tests {
         assert_eq!(soup.positions[0], DVec3::ZERO);
         let positions: Vec<u32> = soup.corners.iter().map(|corner| corner.position).collect();
         assert_eq!(positions, [3, 2, 1, 2, 0, 1]);
+    }
+
+    #[test]
+    fn free_form_statements_are_said_and_the_old_name_of_a_face_is_understood() {
+        let free = "cstype bezier\ndeg 3 3\nsurf 0 1 0 1 1 2 3 4\nend\ncurv 0 1 1 2 3 4\ncurv 0 1 4 3 2 1\nend\n";
+        let mut remarks = Vec::new();
+        let text = format!("{SQUARE}{free}fo 1 2 3 4\n");
+        let soup = read(text.as_bytes(), "test.obj", &Folder::of_files(&[]), &mut remarks).unwrap();
+        assert_eq!(soup.corners.len(), 4);
+        let sentence =
+            "test.obj: 1 free-form surface and 2 free-form curves not drawn; to see them, export them as polygons";
+        assert_eq!(remarks, [sentence]);
+        let alone = message(&format!("{SQUARE}bzp 1 2 3 4\n"));
+        assert_eq!(alone, "test.obj: it has no faces but 1 free-form surface; export it as polygons");
     }
 
     #[test]

@@ -19,6 +19,8 @@ pub(super) struct Pieces {
     pub materials: Vec<u32>,
     /// How many triangles had no area.
     pub degenerate: usize,
+    /// How many polygons had too many corners to be cut.
+    pub too_long: usize,
     /// How many repeated another.
     pub duplicate: usize,
 }
@@ -47,7 +49,10 @@ impl Pieces {
                 }
                 points.clear();
                 points.extend(corners.iter().map(|corner| soup.positions[corner.position as usize]));
-                triangulate::triangulate(&points, &mut earcut, &mut cut);
+                if !triangulate::triangulate(&points, &mut earcut, &mut cut) {
+                    pieces.too_long += 1;
+                    continue;
+                }
                 // A polygon whose area earcut cannot find loses triangles there: they are as good as degenerate.
                 pieces.degenerate += (corners.len() - 2).saturating_sub(cut.len());
                 cut.iter().for_each(|triangle| {

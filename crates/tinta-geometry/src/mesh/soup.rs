@@ -7,7 +7,7 @@ use super::normals::Splitting;
 use super::pieces::Pieces;
 use super::{Defects, LoadOptions, LoadStage, Material, Mesh, NONE, Normals, normals, weld};
 use crate::error::{Error, Result};
-use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
+use crate::limits::{CONCAVE_CORNERS, MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
 use crate::memory;
 use crate::tolerances::LARGEST_COORDINATE;
 use glam::{DVec3, Vec2, Vec3};
@@ -142,6 +142,7 @@ impl Soup {
         let mut pieces = Pieces::of(&self, &finite, &welded);
         pieces.drop_duplicates(self.positions.len());
         defects.degenerate_triangles += pieces.degenerate;
+        defects.long_polygons += pieces.too_long;
         defects.duplicate_triangles += pieces.duplicate;
         if pieces.triangles.is_empty() {
             return Err(nothing_to_draw(name, &self, &defects));
@@ -299,7 +300,13 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
     } else if soup.corners.is_empty() && defects.is_empty() {
         format!("it holds {} vertices but no faces; export it with its faces", soup.positions.len())
     } else {
-        format!("nothing is left to draw ({defects}); export it again with faces that have area")
+        let wanted = match defects.long_polygons {
+            0 => "faces that have area".to_owned(),
+            _ => format!(
+                "its faces cut into triangles, for those that are not convex may have {CONCAVE_CORNERS} corners"
+            ),
+        };
+        format!("nothing is left to draw ({defects}); export it again with {wanted}")
     };
     Error::model(name, problem)
 }

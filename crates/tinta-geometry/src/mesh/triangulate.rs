@@ -16,9 +16,9 @@ use simple::is_simple;
 /// Splits one polygon (its corners' positions, in order) into triangles of corner numbers.
 ///
 /// `out` is cleared and gets `corners.len() - 2` triangles for a simple polygon, fewer where it has no area to cut, none where
-/// it has more than [`CONCAVE_CORNERS`] and is not convex, or more than [`CROSSING_CORNERS`] and crosses itself.
+/// it has more than [`CONCAVE_CORNERS`] and is not convex, or more than [`CROSSING_CORNERS`] and crosses itself: then it returns false.
 /// Time grows with n log n for most long polygons; the slowest known of 32,768 corners takes a third of a second.
-pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u32; 3]>) {
+pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u32; 3]>) -> bool {
     out.clear();
     match corners.len() {
         0..=2 => {}
@@ -30,14 +30,15 @@ pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut
                 out.extend((1..count as u32 - 1).map(|i| [0, i, i + 1]));
             } else {
                 if count > CONCAVE_CORNERS {
-                    return;
+                    return false;
                 }
                 let plane: Vec<DVec2> = project(corners, normal).collect();
                 if count > CROSSING_CORNERS {
-                    if is_simple(&plane) {
+                    let is_simple = is_simple(&plane);
+                    if is_simple {
                         cut_ears(&plane, out);
                     }
-                    return;
+                    return is_simple;
                 }
                 let mut indices: Vec<u32> = Vec::new();
                 earcut.earcut(plane.iter().map(|point| point.to_array()), &[], &mut indices);
@@ -45,6 +46,7 @@ pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut
             }
         }
     }
+    true
 }
 
 /// The corners moved to the first one and scaled to a size of 1 to 2, so that products of lengths stay ordinary numbers. The

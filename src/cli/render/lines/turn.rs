@@ -6,7 +6,7 @@ use super::super::super::signals::Stop;
 use super::super::super::{Verdict, print_json, say};
 use super::super::animate::WORTH_PREPARING;
 use super::super::{Arguments, model_records};
-use super::{Format, asked_lines, comment, find, is_stopped, progress, svg_settings, write};
+use super::{Format, asked_lines, comment, is_stopped, progress, svg_settings, watched, write};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -14,7 +14,7 @@ use tinta::animation::NumberedName;
 use tinta::lines::StrokeIds;
 use tinta::record::{LinesStyle, Summary};
 use tinta::renderer::milliseconds_since;
-use tinta::{Error, Result, Scene};
+use tinta::{Error, Result, Scene, VisibleLines};
 
 /// The names of the drawings.
 ///
@@ -57,7 +57,8 @@ pub(super) fn run(
         let frame = Instant::now();
         let scene = Scene { camera, ..scene.clone() };
         let name = names.with(number);
-        let lines = match find(&scene, &settings, &progress(arguments)?, stop) {
+        let progress = progress(arguments)?;
+        let lines = match watched(&progress, stop, || VisibleLines::with_progress(&scene, &settings, &progress)) {
             Err(Error::Cancelled) => return Ok(stopped(stop, number - 1, views)),
             found => found?,
         };
@@ -65,7 +66,10 @@ pub(super) fn run(
         if let Some(note) = &note {
             say(&format!("tinta: {name}: {note}"));
         }
-        let lines = lines.without_specks(&drawn)?;
+        let lines = match watched(&progress, stop, || lines.without_specks_with_progress(&drawn, &progress)) {
+            Err(Error::Cancelled) => return Ok(stopped(stop, number - 1, views)),
+            drawn => drawn?,
+        };
         let paths = ids.next(&scene, &lines);
         if is_stopped(stop) {
             return Ok(stopped(stop, number - 1, views));

@@ -1,17 +1,21 @@
 //! Ways along strokes from one place to another near it, for [slivers' sides](super): the shortest first, by A*, over the
 //! places where strokes touch.
 //!
-//! A stroke leads from each place on it to the next on either side. What lies on a stroke, and which strokes go through a place,
-//! is found when it is first asked for and kept, so that each way costs what is on it and beside it, however much else lies
-//! within its reach.
+//! A stroke leads from each place on it to the next on either side. On a long stroke these are looked for no farther than a way may reach, about
+//! a stroke's width; what lies on a short one, and which strokes go through a place, is found when it is first asked for and kept. So each way
+//! costs what is on it and beside it, however much else lies in the picture.
 
-use super::{Branch, JOINED_PX, Strokes};
+use super::{Branch, JOINED_PX, Stroke, Strokes};
+use crate::bvh::{Box3, BoxTree};
 use glam::DVec2;
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
 
 /// Places looked at for one way; where there are more, there is none, and what might have gone stays.
 const MOST_PLACES: usize = 512;
+
+/// Up to which length all meetings on a stroke are found at once, pixels.
+const SHORT_PX: f64 = 8.0;
 
 /// The ends of the way, among places that are meetings otherwise.
 const FROM: usize = usize::MAX - 1;
@@ -20,12 +24,19 @@ const TO: usize = usize::MAX;
 /// A meeting on a stroke, with its distance from the stroke's first end.
 type Along = (f64, usize);
 
-/// What is known of strokes and places; nothing of those that nobody has asked about.
+/// What is known of places; nothing of those that nobody has asked about.
 pub(super) struct Ways {
-    /// On each stroke the meetings in their order along it.
+    meetings: MeetingTree,
+    /// On each short stroke the meetings in their order along it.
     on_strokes: Vec<Option<Box<[Along]>>>,
     /// The strokes through each meeting.
     through: Vec<Option<Box<[usize]>>>,
+}
+
+/// A tree over the meetings, and which one is at each place in it.
+struct MeetingTree {
+    tree: BoxTree,
+    order: Vec<u32>,
 }
 
 /// How a place was reached: by how long a way, and from which other place along which stroke at last.
@@ -60,7 +71,13 @@ impl PartialOrd for Open {
 
 impl Ways {
     pub(super) fn new(strokes: &Strokes<'_>) -> Self {
-        Self { on_strokes: vec![None; strokes.strokes.len()], through: vec![None; strokes.ends.len()] }
+        let around = |meeting: usize| Box3::around([strokes.place(meeting).extend(0.0); 2]);
+        let (tree, order) = BoxTree::new(&(0..strokes.ends.len()).map(around).collect::<Vec<Box3>>());
+        Self {
+            meetings: MeetingTree { tree, order },
+            on_strokes: vec![None; strokes.strokes.len()],
+            through: vec![None; strokes.ends.len()],
+        }
     }
 
     /// The strokes of the shortest way between two places beside a branch, as wide and also too short; `None` where there is none.
@@ -99,8 +116,9 @@ impl Ways {
                 }
             };
             for &stroke in through.iter().filter(|stroke| is_way(**stroke)) {
-                let on_it = self.on_strokes[stroke].get_or_insert_with(|| strokes.on_stroke(stroke).into());
-                let next = neighbours(on_it, here, px(here).distance(strokes.strokes[stroke].ends[0]));
+                let known = &mut self.on_strokes[stroke];
+                let at = (here, px(here));
+                let next = self.meetings.next_on(known, strokes, &strokes.strokes[stroke], at, least - length);
                 let to = through_to.contains(&stroke).then_some(TO);
                 for next in next.into_iter().flatten().chain(to) {
                     let length = length + px(here).distance(px(next));
@@ -114,6 +132,48 @@ impl Ways {
             }
         }
         None
+    }
+}
+
+impl MeetingTree {
+    /// The meetings on a stroke next before and after a place on it, which may be a meeting, as far as they are within reach; `known`
+    /// are all on a short one.
+    fn next_on(
+        &self,
+        known: &mut Option<Box<[Along]>>,
+        strokes: &Strokes<'_>,
+        stroke: &Stroke,
+        (here, px): (usize, DVec2),
+        reach: f64,
+    ) -> [Option<usize>; 2] {
+        let along = px.distance(stroke.ends[0]);
+        if stroke.length > SHORT_PX {
+            return neighbours(&self.on_stroke(strokes, stroke, [along - reach, along + reach]), here, along);
+        }
+        neighbours(
+            known.get_or_insert_with(|| self.on_stroke(strokes, stroke, [0.0, stroke.length]).into()),
+            here,
+            along,
+        )
+    }
+
+    /// The meetings on a stroke in their order along it, from one distance from its first end to another.
+    fn on_stroke(&self, strokes: &Strokes<'_>, stroke: &Stroke, range: [f64; 2]) -> Vec<Along> {
+        let [start, end] = stroke.ends;
+        let direction = (end - start).normalize_or_zero();
+        let [from, to] = range.map(|along| start + direction * along.clamp(0.0, stroke.length));
+        let (low, high) = (from.min(to) - 2.0 * JOINED_PX, from.max(to) + 2.0 * JOINED_PX);
+        let mut on_it = Vec::new();
+        self.tree.any(&Box3::new(low.extend(0.0), high.extend(0.0)), |place| {
+            let meeting = self.order[place as usize] as usize;
+            let place = strokes.place(meeting);
+            if stroke.distance(place) <= JOINED_PX {
+                on_it.push((place.distance(start), meeting));
+            }
+            false
+        });
+        on_it.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        on_it
     }
 }
 
@@ -160,25 +220,5 @@ impl Strokes<'_> {
     fn place(&self, meeting: usize) -> DVec2 {
         let end = self.ends[meeting][0] as usize;
         self.strokes[end / 2].ends[end % 2]
-    }
-
-    /// The meetings on a stroke in their order along it.
-    fn on_stroke(&self, number: usize) -> Vec<Along> {
-        let stroke = &self.strokes[number];
-        let mut on_it = Vec::new();
-        for part in stroke.parts() {
-            self.any_near(part, JOINED_PX, |other| {
-                for end in [other * 2, other * 2 + 1] {
-                    let place = self.strokes[other].ends[end % 2];
-                    if stroke.distance(place) <= JOINED_PX {
-                        on_it.push((place.distance(stroke.ends[0]), self.meetings[end]));
-                    }
-                }
-                false
-            });
-        }
-        on_it.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        on_it.dedup();
-        on_it
     }
 }

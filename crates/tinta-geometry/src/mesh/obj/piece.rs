@@ -98,6 +98,8 @@ pub(super) struct Piece {
     pub degenerate_faces: usize,
     /// Faces with an index out of range, left out.
     pub out_of_range_faces: usize,
+    /// Free-form curves and surfaces, left out.
+    pub free_form: [usize; 2],
 }
 
 impl Piece {
@@ -133,7 +135,10 @@ impl Piece {
                 let normal = numbers(&plain(rest)).ok_or("a normal is not three numbers")?;
                 self.normals.push(DVec3::from_array(normal).as_vec3());
             }
-            "f" => self.take_face(&plain(rest), before)?,
+            // The second is what the format of 1992 called the same.
+            "f" | "fo" => self.take_face(&plain(rest), before)?,
+            "curv" | "cdc" => self.free_form[0] += 1,
+            "surf" | "cdp" | "bzp" | "bsp" => self.free_form[1] += 1,
             "usemtl" | "mtllib" => {
                 // Names may hold '#' and blanks.
                 let (name, naming) = (rest.trim(), if keyword == "usemtl" { Naming::Use } else { Naming::Library });

@@ -1,0 +1,124 @@
+//! The edges that `inking` draws of a scene.
+//!
+//! In: a scene and the settings. Out: runs of lines, object by object and class by class. Edges share the vertices of the faces, so that their
+//! depths agree with them; smooth silhouettes run through faces and have vertices of their own.
+
+use super::Inking;
+use crate::edges::{Class, Side, SilhouetteRule, side_of_face};
+use crate::lines::smooth_silhouettes;
+use crate::mesh::Mesh;
+use crate::plan::EdgeRun;
+use crate::scene::{Color, Scene};
+use glam::DVec3;
+use std::collections::HashMap;
+
+impl Inking {
+    /// The edges to draw, object by object and class by class.
+    pub(super) fn runs(&self, scene: &Scene) -> Vec<EdgeRun> {
+        let is_smooth = self.silhouette == SilhouetteRule::Smooth && self.classes.contains(Class::Silhouette);
+        let smooth = if is_smooth { smooth_silhouettes(scene, self.crease_angle) } else { Vec::new() };
+        let mut runs = Vec::new();
+        for (number, object) in scene.objects.iter().enumerate() {
+            let edges = scene.edges(object);
+            let arrays = scene.arrays(object);
+            let mesh = &object.mesh;
+            // Where the eye really is, whatever the rule for silhouettes.
+            let true_eye = scene.eye(object, SilhouetteRule::Exact);
+            let is_turned_away = |face: &u32| {
+                let corners = mesh.triangles[*face as usize].map(|position| mesh.positions[position as usize]);
+                side_of_face(corners, true_eye) == Side::Back
+            };
+            let is_drawn = |edge: &u32| self.back_edges || !edges.list().faces(*edge).iter().all(is_turned_away);
+            let smooth = smooth.get(number);
+            let chosen = match smooth {
+                None => {
+                    edges.chosen(self.classes, self.crease_angle, scene.eye(object, self.silhouette), self.silhouette)
+                }
+                Some(smooth) => edges.chosen_with(self.classes, self.crease_angle, &smooth.edges),
+            };
+            let positions = edges.list().positions();
+            let run = |class: Class, ends, own_vertices| {
+                let Color([red, green, blue]) = self.colors.of_class(class);
+                EdgeRun { object: number, name: class.name(), color: [red, green, blue, 1.0], ends, own_vertices }
+            };
+            let mut through_faces = Class::ALL.map(|_| OwnLines::default());
+            let to_vertex = |point: DVec3| {
+                let [x, y, z] = ((point - arrays.centre) / scene.radius).as_vec3().to_array();
+                [x, y, z, 0.0, 0.0, 0.0]
+            };
+            let mut of_classes = Vec::new();
+            for (class, mut chosen) in chosen {
+                chosen.retain(&is_drawn);
+                if let Some(smooth) = smooth.filter(|_| class > Class::Silhouette) {
+                    // The parts that are silhouette are drawn as that.
+                    chosen.retain(|edge| {
+                        let between = between_parts(smooth.parts_of(*edge));
+                        let is_whole = between == [[0.0, 1.0]];
+                        for part in between.into_iter().filter(|_| !is_whole) {
+                            through_faces[class as usize]
+                                .push(along(mesh, positions[*edge as usize], part).map(to_vertex));
+                        }
+                        is_whole
+                    });
+                }
+                let ends = |edge: &u32| positions[*edge as usize].map(|end| arrays.position_vertices[end as usize]);
+                of_classes.push((class, run(class, chosen.iter().map(ends).collect(), None)));
+            }
+            if let Some(smooth) = smooth {
+                let lines = &mut through_faces[Class::Silhouette as usize];
+                smooth.pieces.iter().for_each(|ends| lines.push(ends.map(to_vertex)));
+                for (edge, part) in smooth.edge_parts.iter().filter(|(edge, _)| is_drawn(edge)) {
+                    lines.push(along(mesh, positions[*edge as usize], *part).map(to_vertex));
+                }
+            }
+            for ((_, class), lines) in
+                Class::ALL.into_iter().zip(through_faces).filter(|(_, lines)| !lines.ends.is_empty())
+            {
+                of_classes.push((class, run(class, lines.ends, Some(lines.vertices))));
+            }
+            of_classes.sort_by_key(|(class, _)| *class);
+            runs.extend(of_classes.into_iter().map(|(_, run)| run));
+        }
+        runs
+    }
+}
+
+/// Lines with vertices of their own, each of these once.
+#[derive(Debug, Default)]
+struct OwnLines {
+    vertices: Vec<[f32; 6]>,
+    ends: Vec<[u32; 2]>,
+    numbers: HashMap<[u32; 3], u32>,
+}
+
+impl OwnLines {
+    fn push(&mut self, ends: [[f32; 6]; 2]) {
+        let ends = ends.map(|vertex| {
+            let [x, y, z, ..] = vertex.map(f32::to_bits);
+            *self.numbers.entry([x, y, z]).or_insert_with(|| {
+                self.vertices.push(vertex);
+                self.vertices.len() as u32 - 1
+            })
+        });
+        self.ends.push(ends);
+    }
+}
+
+/// A part of an edge, in the mesh's own coordinates.
+fn along(mesh: &Mesh, ends: [u32; 2], part: [f64; 2]) -> [DVec3; 2] {
+    let [low, high] = ends.map(|position| mesh.positions[position as usize]);
+    part.map(|share| if share == 1.0 { high } else { low + (high - low) * share })
+}
+
+/// What parts of a whole leave of it.
+fn between_parts(parts: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    let mut from = 0.0;
+    let mut between: Vec<[f64; 2]> = Vec::new();
+    for [start, end] in parts.chain([[1.0, 1.0]]) {
+        if start > from {
+            between.push([from, start]);
+        }
+        from = end;
+    }
+    between
+}
