@@ -109,6 +109,9 @@ use std::sync::{Arc, LazyLock};
 use summits::ContourLines;
 use visibility::Lines;
 
+/// From how many intersections on the cells that hide some are made smaller.
+const MANY_INTERSECTIONS: usize = 10_000;
+
 /// Which lines are wanted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineSettings {
@@ -357,10 +360,16 @@ impl VisibleLines {
         progress.go_on()?;
 
         let clock = Instant::now();
-        let pyramid = Pyramid::new(&space, &faces);
+        let mut pyramid = Pyramid::new(&space, &faces);
         let hides = pyramid.as_ref().filter(|_| !settings.finds_hidden);
-        let intersections = intersections::intersections(&space, &faces, hides, progress);
+        let mut intersections = intersections::intersections(&space, &faces, hides, progress);
         progress.go_on()?;
+        if hides.is_some() && intersections.lines.len() > MANY_INTERSECTIONS {
+            pyramid = Pyramid::fine(&space, &faces);
+            if let Some(fine) = &pyramid {
+                intersections.leave_out_hidden(&space, fine);
+            }
+        }
         let mut compared = intersections.compared;
         if settings.classes.contains(Class::Intersection) {
             edges.intersection = intersections.lines.len();

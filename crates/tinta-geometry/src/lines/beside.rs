@@ -15,6 +15,8 @@ pub(super) enum Beside {
 const MANY: usize = 12;
 
 impl Beside {
+    pub(super) const NONE: Self = Self::Few(Vec::new());
+
     pub(super) fn are_none(&self) -> bool {
         matches!(self, Self::Few(lines) if lines.is_empty())
     }

@@ -5,12 +5,12 @@
 //! exactly on another surface the line is found once, on one side; faces of which neither has corners clearly on both sides
 //! of the other lie on one another and do not intersect.
 
-use super::faces::Faces;
+use super::faces::{Faces, worth};
 use super::progress::{Phase, Progress};
 use super::pyramid::Pyramid;
 use super::space::Space;
 use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY, counting_steps, steps};
-use crate::threads::{cores, in_chunks, spread_chunks};
+use crate::threads::{cores, filled, in_chunks, spread_chunks};
 use crate::tolerances::CONTACT;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
@@ -43,6 +43,22 @@ pub(super) struct Intersections {
     pub compared: u64,
 }
 
+/// Whether a pyramid hides a line.
+fn is_hidden(space: &Space, pyramid: &Pyramid, ends: [DVec3; 2]) -> bool {
+    ends.iter().all(|end| -end.z >= space.near) && pyramid.hides_line(ends.map(|end| space.project(end)))
+}
+
+impl Intersections {
+    /// Leaves out lines that a pyramid hides. Edges are still cut where they pass through faces: at a shallow angle a cut may lie a
+    /// little behind another face, and without it what is seen before it would be one piece with what is not.
+    pub(super) fn leave_out_hidden(&mut self, space: &Space, pyramid: &Pyramid) {
+        let is_open = |line: &Intersection| !is_hidden(space, pyramid, line.ends);
+        let are_open = filled(self.lines.len(), worth(self.lines.len()), false, |line| is_open(&self.lines[line]));
+        let mut are_open = are_open.into_iter();
+        self.lines.retain(|_| are_open.next() == Some(true));
+    }
+}
+
 /// All intersections of a scene's faces and where edges pierce faces; of what a pyramid hides none. Not all where the work is to
 /// end before it is done.
 pub(super) fn intersections(
@@ -53,11 +69,7 @@ pub(super) fn intersections(
 ) -> Intersections {
     let seen = pyramid.map(|pyramid| pyramid.seen(space, faces));
     let is_seen = |place: u32| seen.as_ref().is_none_or(|seen| seen[place as usize]);
-    let image = |point: DVec3| space.project(point);
-    let is_open = |ends: [DVec3; 2]| {
-        let is_in_front = || ends.iter().all(|end| -end.z >= space.near);
-        !pyramid.is_some_and(|pyramid| is_in_front() && pyramid.hides_line(ends.map(image)))
-    };
+    let is_open = |ends: [DVec3; 2]| !pyramid.is_some_and(|pyramid| is_hidden(space, pyramid, ends));
     const GROUPS: usize = 64;
     const PAIRS_A_GLANCE: u32 = 1024;
     progress.begin(Phase::Intersections, faces.tree.group_count());
@@ -101,7 +113,21 @@ pub(super) fn intersections(
     let through = Through::new(space, faces, &found);
     let lines = found.iter().filter(|found| found.is_line && through.allows(found));
     let lines = lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect();
-    Intersections { lines, piercings, compared }
+    Intersections { lines: without_repeated(space, faces, lines), piercings, compared }
+}
+
+/// Of lines in the same place the first, which stands for all: spokes that end in one axis have one line there, not one for each two.
+fn without_repeated(space: &Space, faces: &Faces, mut lines: Vec<Intersection>) -> Vec<Intersection> {
+    /// Of what counts as touching.
+    const SAME: f64 = 0.01;
+    let mut places: HashSet<[[i64; 3]; 2]> = HashSet::new();
+    lines.retain(|line| {
+        let touching = faces.weld(faces.triangles[line.faces[0] as usize][0]) + 4.0 * space.noise;
+        let place = |end: DVec3| (end / (SAME * touching)).round().to_array().map(|number| number as i64);
+        let [a, b] = line.ends.map(place);
+        places.insert([a.min(b), a.max(b)])
+    });
+    lines
 }
 
 /// What faces around one hub have in common but for it: from the hub on, until a side opposite to it passes through a face. With

@@ -5,6 +5,7 @@
 //! their depth. Faces seen edge-on cover nothing, and background narrower than what counts as touching is none. Lines at which
 //! no surface ends have a face on either side.
 
+use super::beside::Beside;
 use super::faces::{Faces, Own, Probe};
 use super::image::Image;
 use super::search::Sought;
@@ -32,14 +33,14 @@ impl Lines<'_> {
                 count > most
             })
         };
-        let mut cuts = self.search(index, image, [piece.from, piece.to], Vec::new(), Sought::Any, add);
+        let looked = self.look(index, image, [piece.from, piece.to], Vec::new(), Sought::Any);
+        let mut cuts = self.search(index, image, looked, Sought::Any, &Beside::NONE, add);
         let mut parts: Vec<Piece> = Vec::new();
         let places = self.places(image, [piece.from, piece.to], std::mem::take(&mut cuts.places));
-        let shortest = self.shortest_px / image.length();
         for place in places.windows(2) {
-            let probe = self.probe(index, image, (place[0] + place[1]) * 0.5);
-            let is_outline =
-                !cuts.hide(place[0], place[1], shortest) && self.faces.cover(self.space, &probe, touch_px) != [true; 2];
+            let middle = (place[0] + place[1]) * 0.5;
+            let probe = self.probe(index, image, middle);
+            let is_outline = !cuts.hides(middle) && self.faces.cover(self.space, &probe, touch_px) != [true; 2];
             match parts.last_mut() {
                 Some(last) if last.is_outline == is_outline => last.to = place[1],
                 _ => parts.push(Piece { from: place[0], to: place[1], is_outline, ..piece }),

@@ -13,8 +13,9 @@ use crate::threads::filled;
 use crate::tolerances::{CONTACT, TOUCH};
 use glam::DVec2;
 
-/// Cells along the picture's larger side, as a power of 2.
-const LEVELS: usize = 8;
+/// Cells along the picture's larger side, as powers of 2: where many lines are left, finer ones leave fewer.
+const COARSE: usize = 8;
+const FINE: usize = 10;
 
 /// So few faces that cover the picture so seldom hide so little that the cells cost more than they spare.
 const FEW: usize = 10_000;
@@ -118,7 +119,16 @@ impl Plate {
 impl Pyramid {
     /// What the faces hide; `None` if none covers a cell.
     pub(super) fn new(space: &Space, faces: &Faces) -> Option<Self> {
-        let cell_px = space.size.max_element() / f64::from(1u32 << LEVELS);
+        Self::of_cells(space, faces, COARSE)
+    }
+
+    /// What they hide of smaller cells.
+    pub(super) fn fine(space: &Space, faces: &Faces) -> Option<Self> {
+        Self::of_cells(space, faces, FINE)
+    }
+
+    fn of_cells(space: &Space, faces: &Faces, top: usize) -> Option<Self> {
+        let cell_px = space.size.max_element() / f64::from(1u32 << top);
         let is_large = |around: &Box3| {
             let [low, high] = around.corners();
             (high - low).truncate().min_element() >= cell_px
@@ -134,20 +144,25 @@ impl Pyramid {
             return None;
         }
         plates.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
-        let levels = (0..=LEVELS).map(|level| vec![f64::INFINITY; 1 << (2 * (LEVELS - level))]).collect();
+        let levels = (0..=top).map(|level| vec![f64::INFINITY; 1 << (2 * (top - level))]).collect();
         let mut pyramid = Self { levels, cell_px, size: space.size };
         pyramid.leave_out_what_lies_beside_the_picture();
         plates.iter().for_each(|plate| {
-            pyramid.add(plate, LEVELS, 0, 0, f64::INFINITY);
+            pyramid.add(plate, top, 0, 0, f64::INFINITY);
         });
         pyramid.settle();
         let is_of_use = pyramid.levels[0].iter().any(|key| key.is_finite());
         is_of_use.then_some(pyramid)
     }
 
+    /// The number of the level with one cell.
+    fn top(&self) -> usize {
+        self.levels.len() - 1
+    }
+
     fn leave_out_what_lies_beside_the_picture(&mut self) {
-        for level in 0..=LEVELS {
-            let width = 1usize << (LEVELS - level);
+        for level in 0..=self.top() {
+            let width = 1usize << (self.top() - level);
             let cell = self.cell_px * (1u32 << level) as f64;
             let [columns, rows] = self.size.to_array().map(|px| ((px / cell).ceil() as usize).min(width));
             for (row, cells) in self.levels[level].chunks_mut(width).enumerate() {
@@ -165,8 +180,8 @@ impl Pyramid {
         ((low + high) * 0.5, (high - low) * 0.5)
     }
 
-    fn index(level: usize, column: usize, row: usize) -> usize {
-        (row << (LEVELS - level)) + column
+    fn index(&self, level: usize, column: usize, row: usize) -> usize {
+        (row << (self.top() - level)) + column
     }
 
     /// Lets a face hide what it covers of a cell; returns the cell's key.
@@ -176,7 +191,7 @@ impl Pyramid {
         if half.min_element() <= 0.0 {
             return f64::NEG_INFINITY;
         }
-        let index = Self::index(level, column, row);
+        let index = self.index(level, column, row);
         let own = self.levels[level][index].min(above);
         if !plate.overlaps(middle, half) {
             return own;
@@ -201,12 +216,13 @@ impl Pyramid {
 
     /// Gives every cell what hides the larger ones around it.
     fn settle(&mut self) {
-        for level in (0..LEVELS).rev() {
+        let top = self.top();
+        for level in (0..top).rev() {
             let (finer, coarser) = self.levels.split_at_mut(level + 1);
-            let width = 1usize << (LEVELS - level);
+            let width = 1usize << (top - level);
             for (index, key) in finer[level].iter_mut().enumerate() {
                 let (column, row) = (index % width, index / width);
-                *key = key.min(coarser[0][Self::index(level + 1, column / 2, row / 2)]);
+                *key = key.min(coarser[0][(row / 2) * (width / 2) + column / 2]);
             }
         }
     }
@@ -216,14 +232,14 @@ impl Pyramid {
         let low = low.clamp(DVec2::ZERO, self.size);
         let high = high.clamp(DVec2::ZERO, self.size);
         let cells = ((high - low).max_element() / self.cell_px).max(1.0);
-        let level = (cells.log2().ceil() as usize).min(LEVELS);
+        let level = (cells.log2().ceil() as usize).min(self.top());
         let cell = self.cell_px * (1u32 << level) as f64;
-        let last = (1usize << (LEVELS - level)) - 1;
+        let last = (1usize << (self.top() - level)) - 1;
         let at = |px: f64| ((px / cell) as usize).min(last);
         let mut key = f64::NEG_INFINITY;
         for row in at(low.y)..=at(high.y) {
             for column in at(low.x)..=at(high.x) {
-                key = key.max(self.levels[level][Self::index(level, column, row)]);
+                key = key.max(self.levels[level][self.index(level, column, row)]);
             }
         }
         key
@@ -264,7 +280,7 @@ impl Pyramid {
             if !self.hides(low.truncate(), high.truncate(), low.z) {
                 let is_small = (high - low).truncate().max_element() <= 2.0 * self.cell_px;
                 let plate = || Plate::new(space, faces, place as u32);
-                return is_small || plate().is_none_or(|plate| self.sees(&plate, LEVELS, 0, 0));
+                return is_small || plate().is_none_or(|plate| self.sees(&plate, self.top(), 0, 0));
             }
             false
         })
@@ -275,7 +291,7 @@ impl Pyramid {
         if half.min_element() <= 0.0 || !plate.overlaps(middle, half) {
             return false;
         }
-        if plate.keys(middle, half)[0] > self.levels[level][Self::index(level, column, row)] {
+        if plate.keys(middle, half)[0] > self.levels[level][self.index(level, column, row)] {
             return false;
         }
         let children = [(0, 0), (1, 0), (0, 1), (1, 1)];

@@ -29,12 +29,6 @@ pub(super) struct Cuts {
 }
 
 impl Cuts {
-    /// Whether any of what is between two places is hidden for sure, farther from both than the shortest piece is long: between two cuts all is
-    /// then. Nearer to a cut a range may end that the cut is meant for.
-    pub(super) fn hide(&self, from: f64, to: f64, shortest: f64) -> bool {
-        overlap(&self.hidden, from + shortest, to - shortest)
-    }
-
     /// Whether a place is hidden for sure.
     pub(super) fn hides(&self, place: f64) -> bool {
         overlap(&self.hidden, place, place)
@@ -73,12 +67,19 @@ const PROBES: usize = 4;
 const ASKED: usize = 48;
 
 /// What a search looks for.
-#[derive(Clone, Copy)]
-pub(super) enum Sought<'a> {
-    /// What is nearer to the eye, among it these lines.
-    Nearer(&'a Beside),
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Sought {
+    /// What is nearer to the eye.
+    Nearer,
     /// What is there at any depth.
     Any,
+}
+
+/// The parts of a line that are to be searched, and those of which a look shows that they are hidden.
+#[derive(Default)]
+pub(super) struct Looked {
+    pub open: Vec<[f64; 2]>,
+    hidden: Vec<[f64; 2]>,
 }
 
 /// A part of a line of which it is asked what hides it.
@@ -107,32 +108,44 @@ impl Lines<'_> {
         united(nearest.filter_map(|other| self.behind_line(index, image, other, inside)).collect())
     }
 
-    /// The cuts of what of a line is between two places, some of which is known to be hidden; `add` adds those of a part, or returns true where there are more than a
-    /// given number.
-    pub(super) fn search(
+    /// What of a line between two places, some of which is known to be hidden, neither the pyramid nor one face hides.
+    pub(super) fn look(
         &self,
         index: usize,
         image: &Image,
         inside: [f64; 2],
         hidden: Vec<[f64; 2]>,
-        sought: Sought<'_>,
+        sought: Sought,
+    ) -> Looked {
+        let longest = self.space.size.max_element() / PARTS_OF_PICTURE;
+        let is_long = |gap: &[f64; 2]| *gap == inside || (gap[1] - gap[0]) * image.length() > self.shortest_px;
+        let gaps_before = gaps(inside, &hidden);
+        let mut looked = Looked { open: Vec::new(), hidden };
+        for part in gaps_before.into_iter().filter(is_long).flat_map(|gap| image.parts(gap, longest)) {
+            let is_hidden = self.pyramid_hides(image, part, sought) || self.one_hides(index, image, part, sought);
+            if is_hidden { &mut looked.hidden } else { &mut looked.open }.push(part);
+        }
+        looked
+    }
+
+    /// The cuts of the open parts of a line; `add` adds those of one, or returns true where there are more than a given number.
+    pub(super) fn search(
+        &self,
+        index: usize,
+        image: &Image,
+        looked: Looked,
+        sought: Sought,
+        beside: &Beside,
         mut add: impl FnMut([f64; 2], usize, &mut Vec<f64>) -> bool,
     ) -> Cuts {
-        let longest = self.space.size.max_element() / PARTS_OF_PICTURE;
-        let gaps_before = gaps(inside, &hidden);
-        let mut found = Cuts { hidden, ..Cuts::default() };
-        let is_long = |gap: &[f64; 2]| *gap == inside || (gap[1] - gap[0]) * image.length() > self.shortest_px;
-        for part in gaps_before.into_iter().filter(is_long).flat_map(|gap| image.parts(gap, longest)) {
-            if self.pyramid_hides(image, part, sought) || self.one_hides(index, image, part, sought) {
-                found.hidden.push(part);
-                continue;
-            }
+        let mut found = Cuts { hidden: looked.hidden, ..Cuts::default() };
+        for part in looked.open {
             let before = found.places.len();
             if !add(part, MOST, &mut found.places) {
                 continue;
             }
             found.places.truncate(before);
-            self.sweep(index, image, part, sought, &mut found);
+            self.sweep(index, image, part, sought, beside, &mut found);
             for gap in gaps(part, &found.hidden) {
                 if (gap[1] - gap[0]) * image.length() > self.shortest_px {
                     add(gap, usize::MAX, &mut found.places);
@@ -144,19 +157,19 @@ impl Lines<'_> {
         found
     }
 
-    fn pyramid_hides(&self, image: &Image, part: [f64; 2], sought: Sought<'_>) -> bool {
+    fn pyramid_hides(&self, image: &Image, part: [f64; 2], sought: Sought) -> bool {
         let Some(pyramid) = self.pyramid else { return false };
         let [first, second] = part.map(|place| image.at(place));
         let (low, high) = (first.min(second), first.max(second));
         match sought {
-            Sought::Nearer(_) => pyramid.hides(low, high, image.key(part[0]).min(image.key(part[1]))),
+            Sought::Nearer => pyramid.hides(low, high, image.key(part[0]).min(image.key(part[1]))),
             Sought::Any => pyramid.covers(low, high),
         }
     }
 
     /// Whether one face of those before the middle of a part hides all of it for sure. Asked where there are many.
-    fn one_hides(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought<'_>) -> bool {
-        if self.face_images.is_empty() || matches!(sought, Sought::Any) {
+    fn one_hides(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought) -> bool {
+        if self.face_images.is_empty() || sought == Sought::Any {
             return false;
         }
         let feature = &self.features[index];
@@ -173,7 +186,7 @@ impl Lines<'_> {
         is_hidden
     }
 
-    fn stretch(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought<'_>) -> Stretch {
+    fn stretch(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought) -> Stretch {
         let feature = &self.features[index];
         let corners = feature.own.corners(self.faces);
         let is_at = |end: usize, px: DVec2| self.space.project(feature.ends[end]).0 == px;
@@ -189,12 +202,12 @@ impl Lines<'_> {
             weld: feature.weld,
             touch_px: image.touch_px(self.space),
             noise_px: image.noise_px,
-            is_nearer_sought: matches!(sought, Sought::Nearer(_)),
+            is_nearer_sought: sought == Sought::Nearer,
         }
     }
 
     /// Finds what of a part faces hide for sure, and what they may hide.
-    fn sweep(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought<'_>, found: &mut Cuts) {
+    fn sweep(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought, beside: &Beside, found: &mut Cuts) {
         let feature = &self.features[index];
         let length = image.length();
         // What the pyramid hides of it, in pieces of about its cells.
@@ -205,7 +218,7 @@ impl Lines<'_> {
         }
         let touch_px = image.touch_px(self.space);
         let farthest = |part: [f64; 2]| match sought {
-            Sought::Nearer(_) => image.key(part[0]).max(image.key(part[1])),
+            Sought::Nearer => image.key(part[0]).max(image.key(part[1])),
             Sought::Any => f64::INFINITY,
         };
         let stretch = |part: [f64; 2]| self.stretch(index, image, part, sought);
@@ -248,10 +261,7 @@ impl Lines<'_> {
                 false
             });
         }
-        if let Sought::Nearer(beside) = sought
-            && !self.finds_hidden
-            && !beside.are_none()
-        {
+        if !self.finds_hidden && !beside.are_none() {
             for gap in gaps(part, &united(hidden.clone())) {
                 if (gap[1] - gap[0]) * length > self.shortest_px {
                     self.behind_lines(index, image, beside, gap, &mut hidden);

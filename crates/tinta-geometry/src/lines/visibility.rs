@@ -13,7 +13,7 @@ use super::intersections::Piercing;
 use super::occluders::Occluders;
 use super::progress::Phase;
 use super::pyramid::Pyramid;
-use super::search::{Cuts, Sought, gaps};
+use super::search::{Cuts, Sought};
 use super::space::Space;
 use super::{LineSegment, LineSettings, Progress};
 use crate::bvh::{Box3, LeftOut, NO_FAMILY, counting_steps, steps};
@@ -186,14 +186,14 @@ impl<'a> Lines<'a> {
             return;
         }
         let behind = self.behind_nearest(index, &image, inside);
-        let is_open = |gap: &[f64; 2]| image.length() * (gap[1] - gap[0]) > self.shortest_px;
-        if !self.finds_hidden && !gaps(inside, &behind).iter().any(is_open) {
+        let looked = self.look(index, &image, inside, behind, Sought::Nearer);
+        if !self.finds_hidden && looked.open.is_empty() {
             return;
         }
         let beside = self.beside(index, &image, inside);
         let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, &beside, part, most, cuts);
-        let mut cuts = self.search(index, &image, inside, behind, Sought::Nearer(&beside), add);
-        self.add_piercings(index, &image, &mut cuts);
+        let mut cuts = self.search(index, &image, looked, Sought::Nearer, &beside, add);
+        self.add_piercings(index, &image, &mut cuts.places);
         if self.finds_hidden {
             // The box of one that is upright or level holds no other.
             let is_thin = (image.b - image.a).abs().min_element() < 1.0;
@@ -206,11 +206,11 @@ impl<'a> Lines<'a> {
         let places = self.places(&image, inside, std::mem::take(&mut cuts.places));
         for place in places.windows(2) {
             let [from, to] = [place[0], place[1]];
-            let is_hidden = cuts.hide(from, to, self.shortest_px / image.length());
+            let place = (from + to) * 0.5;
+            let is_hidden = cuts.hides(place);
             if is_hidden && !self.finds_hidden {
                 continue;
             }
-            let place = (from + to) * 0.5;
             let Some(is_visible) = self.state(index, &image, &beside, place, is_hidden, &cuts) else { continue };
             match pieces.last_mut() {
                 Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
@@ -413,12 +413,10 @@ impl<'a> Lines<'a> {
     }
 
     /// Adds the places where an edge passes through faces.
-    fn add_piercings(&self, index: usize, image: &Image, cuts: &mut Cuts) {
+    fn add_piercings(&self, index: usize, image: &Image, places: &mut Vec<f64>) {
         let Own::Edge([a, b]) = self.features[index].own else { return };
         if let Some(points) = self.piercings.get(&[a.min(b), a.max(b)]) {
-            let places = points.iter().map(|point| image.place_of(self.space.project(*point).0));
-            let places: Vec<f64> = places.filter(|place| !cuts.hides(*place)).collect();
-            cuts.places.extend(places);
+            places.extend(points.iter().map(|point| image.place_of(self.space.project(*point).0)));
         }
     }
 
