@@ -13,7 +13,7 @@ mod growth;
 #[path = "report/mod.rs"]
 mod report;
 
-use families::{FAMILIES, Family};
+use families::{FAMILIES, Family, Seen};
 use growth::{Curve, plot};
 use report::write_record;
 use serde_json::{Value, json};
@@ -22,7 +22,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tinta::lines::{LineSettings, Progress, VisibleLines, svg};
 use tinta::renderer::milliseconds_since;
-use tinta::{Error, Mesh, Scene, SceneSettings, SvgSettings};
+use tinta::{CameraSettings, Error, Mesh, Scene, SceneSettings, SvgSettings};
 
 struct Settings {
     sizes: Vec<usize>,
@@ -91,7 +91,14 @@ fn measured(family: &Family, size: usize, settings: &Settings) -> Option<(Value,
         triangle_normals: Vec::new(),
         ..Mesh::triangle()
     };
-    let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default()).expect("a scene");
+    let camera = match family.seen {
+        Seen::Aslant => CameraSettings::default(),
+        Seen::Along => {
+            CameraSettings { view: "front".parse().expect("a view"), parallel: true, ..CameraSettings::default() }
+        }
+    };
+    let settings_of_scene = SceneSettings { camera, ..SceneSettings::default() };
+    let scene = Scene::new(vec![Arc::new(mesh)], &settings_of_scene).expect("a scene");
     let wanted = LineSettings { finds_hidden: settings.finds_hidden, ..LineSettings::default() };
     let start = Instant::now();
     let lines = match VisibleLines::with_progress(&scene, &wanted, &Progress::within(settings.limit)) {

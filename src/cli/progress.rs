@@ -30,18 +30,18 @@ impl Progress {
     /// So many steps are done of so many.
     pub(super) fn set(&self, done: u64, count: u64) {
         if self.0.length() != Some(count) {
-            self.show_share();
             self.0.set_length(count);
+            self.show_share();
         }
         self.0.set_position(done);
     }
 
     /// Nothing is known yet of how much there is to do.
     pub(super) fn wait(&self) {
-        self.0.set_length(u64::MAX);
         if let Ok(style) = ProgressStyle::with_template("{msg}, {elapsed} so far") {
             self.0.set_style(style);
         }
+        self.0.set_length(u64::MAX);
         self.0.tick();
     }
 

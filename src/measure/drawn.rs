@@ -1,7 +1,7 @@
 //! Exact lines as a row beside the styles: measured as lines, not as pixels.
 
 use super::ink::Ink;
-use super::reference::{Reference, Sample, distance, fine_tree, samples_of};
+use super::reference::{Reference, Sample, distance, fine_tree, samples_of, total};
 use super::run::quartiles;
 use super::{LineError, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
 use crate::edges::{Class, ClassSet, SilhouetteRule};
@@ -85,7 +85,7 @@ fn error(lines: &VisibleLines, reference: &Reference, tolerance_px: f64) -> Line
     let counted = drawn.iter().filter(is_counted);
     let to_reference = counted.map(|sample| (reference.distance_px(sample.px), sample.length_px)).collect();
     LineError {
-        ink_px: drawn.iter().map(|sample| sample.length_px).sum(),
+        ink_px: total(drawn.iter().map(|sample| sample.length_px)),
         ..LineError::of_distances(reference, tolerance_px, &to_drawn, to_reference)
     }
 }

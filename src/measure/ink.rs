@@ -1,7 +1,7 @@
 //! The error of a picture's ink against the exact lines.
 
 use super::LineError;
-use super::reference::{Reference, SOFT_CREASE_DEGREES, distance, tree};
+use super::reference::{Reference, SOFT_CREASE_DEGREES, distance, total, tree};
 use crate::compare::InkMask;
 use crate::edges::Class;
 use crate::error::Result;
@@ -137,7 +137,7 @@ impl Ink {
             |(darkness, verdict, _): &&(u8, Verdict, f64)| *darkness >= INK_FROM && *verdict != Verdict::Ignored;
         let to_line = pixels.iter().filter(counted).map(|(darkness, _, distance)| (*distance, f64::from(*darkness)));
         LineError {
-            ink_px: self.pixels(INK_FROM).map(|(index, _)| f64::from(self.darkness[index]) / 255.0).sum(),
+            ink_px: total(self.pixels(INK_FROM).map(|(index, _)| f64::from(self.darkness[index]) / 255.0)),
             precision_of_all: precision(1),
             average_precision: average_precision(recall, precision),
             ..LineError::of_distances(reference, tolerance_px, &to_ink, to_line.collect())
@@ -198,7 +198,7 @@ impl LineError {
             ink_from: INK_FROM,
             ignored_creases_degrees: [SOFT_CREASE_DEGREES, reference.crease_angle.degrees()],
             reference_px: reference.length_px(),
-            ink_px: to_reference.iter().map(|(_, weight)| weight).sum(),
+            ink_px: total(to_reference.iter().map(|(_, weight)| *weight)),
             recall,
             precision,
             precision_of_all: precision,

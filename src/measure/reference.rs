@@ -170,7 +170,7 @@ impl Reference {
 
     /// Length of all visible lines, pixels.
     pub fn length_px(&self) -> f64 {
-        self.samples.iter().map(|sample| sample.length_px).sum()
+        total(self.samples.iter().map(|sample| sample.length_px))
     }
 
     /// Distance from a place in the picture to the nearest visible line, pixels.
@@ -207,4 +207,9 @@ fn middles(ends: [DVec2; 2], step_px: f64) -> impl Iterator<Item = DVec2> {
 /// A tree over points of lines so close that distances to them are those to the lines, but for thousandths of a pixel.
 pub(super) fn fine_tree(lines: impl Iterator<Item = [DVec2; 2]>) -> RTree<Place> {
     tree(lines.flat_map(|ends| middles(ends, FINE_STEP_PX)))
+}
+
+/// The sum, of none 0: that of the standard library is -0.
+pub(super) fn total(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |sum, value| sum + value)
 }

@@ -4,7 +4,7 @@
 //! Each is positions and triangles, about as many as asked for, the same on every machine. What grows is the model; the picture
 //! and the view stay, so that a family shows what more of the same costs.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::f64::consts::TAU;
 
 /// Positions and triangles.
@@ -23,24 +23,65 @@ pub struct Family {
     pub what: &'static str,
     /// One of about so many triangles.
     pub make: fn(usize) -> Shape,
+    /// From where it is seen.
+    pub seen: Seen,
+}
+
+/// From where a family is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seen {
+    /// As by default.
+    Aslant,
+    /// Along the z axis in parallel projection, where equal parts lie on one another.
+    Along,
 }
 
 /// All of them.
-pub const FAMILIES: [Family; 14] = [
-    Family { name: "soup", what: "random triangles as large as the scene", make: soup },
-    Family { name: "confetti", what: "random triangles of a tenth of the scene", make: confetti },
-    Family { name: "coplanar", what: "rectangles that overlap in four planes", make: coplanar },
-    Family { name: "book", what: "triangles around one edge", make: book },
-    Family { name: "fan", what: "triangles around one corner, that pass through others", make: fan },
-    Family { name: "comb", what: "a comb of many teeth, extruded", make: comb },
-    Family { name: "honeycomb", what: "hexagonal cells of thin walls", make: honeycomb },
-    Family { name: "grille", what: "a plate with square holes", make: grille },
-    Family { name: "waffle", what: "sheets that all pass through one another", make: waffle },
-    Family { name: "hair", what: "thin triangles as long as the scene, in all directions", make: hair },
-    Family { name: "shells", what: "spheres inside one another", make: shells },
-    Family { name: "building", what: "slabs, walls and columns, flush with one another", make: building },
-    Family { name: "assembly", what: "plates with bolts, nuts and washers through them", make: assembly },
-    Family { name: "rail", what: "a row of thin squares, seen aslant", make: rail },
+pub const FAMILIES: [Family; 19] = [
+    Family { name: "soup", what: "random triangles as large as the scene", make: soup, seen: Seen::Aslant },
+    Family { name: "confetti", what: "random triangles of a tenth of the scene", make: confetti, seen: Seen::Aslant },
+    Family { name: "coplanar", what: "rectangles that overlap in four planes", make: coplanar, seen: Seen::Aslant },
+    Family { name: "book", what: "triangles around one edge", make: book, seen: Seen::Aslant },
+    Family {
+        name: "fan",
+        what: "triangles around one corner, that pass through others",
+        make: fan,
+        seen: Seen::Aslant,
+    },
+    Family { name: "comb", what: "a comb of many teeth, extruded", make: comb, seen: Seen::Aslant },
+    Family { name: "honeycomb", what: "hexagonal cells of thin walls", make: honeycomb, seen: Seen::Aslant },
+    Family { name: "grille", what: "a plate with square holes", make: grille, seen: Seen::Aslant },
+    Family { name: "waffle", what: "sheets that all pass through one another", make: waffle, seen: Seen::Aslant },
+    Family {
+        name: "hair",
+        what: "thin triangles as long as the scene, in all directions",
+        make: hair,
+        seen: Seen::Aslant,
+    },
+    Family { name: "shells", what: "spheres inside one another", make: shells, seen: Seen::Aslant },
+    Family {
+        name: "building",
+        what: "slabs, walls and columns, flush with one another",
+        make: building,
+        seen: Seen::Aslant,
+    },
+    Family {
+        name: "assembly",
+        what: "plates with bolts, nuts and washers through them",
+        make: assembly,
+        seen: Seen::Aslant,
+    },
+    Family { name: "rail", what: "a row of thin squares, seen aslant", make: rail, seen: Seen::Aslant },
+    Family { name: "row", what: "equal fins behind one another", make: row, seen: Seen::Along },
+    Family {
+        name: "lattice",
+        what: "square bars in three directions, flush where they cross",
+        make: lattice,
+        seen: Seen::Along,
+    },
+    Family { name: "spokes", what: "bars from one axis, through one another", make: spokes, seen: Seen::Aslant },
+    Family { name: "sticks", what: "long bars in a heap, through one another", make: sticks, seen: Seen::Aslant },
+    Family { name: "twins", what: "cubes in one place but for a thousandth", make: twins, seen: Seen::Aslant },
 ];
 
 /// Numbers that are the same everywhere (Marsaglia's xorshift).
@@ -82,12 +123,17 @@ impl Shape {
 
     /// A box, wound outwards.
     fn cuboid(&mut self, low: DVec3, high: DVec3) {
+        self.turned_cuboid(low, high, |corner| corner);
+    }
+
+    /// One whose corners are moved.
+    fn turned_cuboid(&mut self, low: DVec3, high: DVec3, moved: impl FnMut(DVec3) -> DVec3) {
         let corner = |i: u32| {
             let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 1 { high } else { low };
             DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
         };
         let first = self.positions.len() as u32;
-        self.positions.extend((0..8).map(corner));
+        self.positions.extend((0..8).map(corner).map(moved));
         let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
         for quad in quads {
             let [a, b, c, d] = quad.map(|corner: u32| corner + first);
@@ -366,6 +412,70 @@ fn rail(count: usize) -> Shape {
     for square in 0..squares {
         let x = place(square, squares);
         shape.quad([(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)].map(|(y, z)| DVec3::new(x, y, z)));
+    }
+    shape
+}
+
+fn row(count: usize) -> Shape {
+    let fins = (count / 12).max(1);
+    let mut shape = Shape::default();
+    for fin in 0..fins {
+        let depth = 1.0 / fins as f64;
+        let z = place(fin, fins);
+        shape.cuboid(DVec3::new(-1.0, -0.5, z), DVec3::new(1.0, 0.5, z + depth));
+    }
+    shape
+}
+
+fn lattice(count: usize) -> Shape {
+    let side = side_of(count / 36);
+    let width = 0.6 / side as f64;
+    let mut shape = Shape::default();
+    for first in 0..side {
+        for second in 0..side {
+            let (u, v) = (place(first, side), place(second, side));
+            for axis in 0..3 {
+                let turned = |along: f64, u: f64, v: f64| match axis {
+                    0 => DVec3::new(along, u, v),
+                    1 => DVec3::new(u, along, v),
+                    _ => DVec3::new(u, v, along),
+                };
+                shape.cuboid(turned(-1.0, u, v), turned(1.0, u + width, v + width));
+            }
+        }
+    }
+    shape
+}
+
+fn spokes(count: usize) -> Shape {
+    let bars = (count / 12).max(1);
+    let mut shape = Shape::default();
+    for bar in 0..bars {
+        let (sin, cos) = (TAU * bar as f64 / bars as f64).sin_cos();
+        let turned =
+            |corner: DVec3| DVec3::new(cos * corner.x + sin * corner.z, corner.y, cos * corner.z - sin * corner.x);
+        shape.turned_cuboid(DVec3::new(0.0, -0.01, -0.01), DVec3::new(1.0, 0.01, 0.01), turned);
+    }
+    shape
+}
+
+fn sticks(count: usize) -> Shape {
+    let (mut numbers, mut shape) = (Numbers::new(), Shape::default());
+    for _ in 0..(count / 12).max(1) {
+        let along = (numbers.point() * DVec3::new(1.0, 0.2, 1.0)).normalize_or(DVec3::X);
+        let aside = along.any_orthonormal_vector();
+        let frame = DMat3::from_cols(along, aside, along.cross(aside));
+        let middle = numbers.point() * DVec3::new(0.3, 0.1, 0.3);
+        let half = DVec3::new(1.0, 0.01, 0.01);
+        shape.turned_cuboid(-half, half, |corner| middle + frame * corner);
+    }
+    shape
+}
+
+fn twins(count: usize) -> Shape {
+    let (mut numbers, mut shape) = (Numbers::new(), Shape::default());
+    for _ in 0..(count / 12).max(1) {
+        shape.turned_cuboid(DVec3::NEG_ONE, DVec3::ONE, |corner| corner + numbers.point() * 0.001);
     }
     shape
 }

@@ -32,7 +32,9 @@ pub(super) fn lines(lines: &VisibleLines, counts: &LineCounts, load_ms: f64, wri
     for (name, class) in Class::ALL {
         let length = |is_visible: bool| -> f64 {
             let of_it = |line: &&tinta::lines::LineSegment| line.class == class && line.is_visible == is_visible;
-            lines.segments.iter().filter(of_it).map(|line| line.ends_px[0].distance(line.ends_px[1])).sum()
+            let lengths = lines.segments.iter().filter(of_it).map(|line| line.ends_px[0].distance(line.ends_px[1]));
+            // The sum of none is -0.
+            lengths.sum::<f64>() + 0.0
         };
         if *edges.of(class) > 0 {
             text.push_str(&format!("{name:<20}{:>10}{:>12.1}{:>12.1}\n", edges.of(class), length(true), length(false)));

@@ -121,9 +121,19 @@ impl Lines<'_> {
         let is_long = |gap: &[f64; 2]| *gap == inside || (gap[1] - gap[0]) * image.length() > self.shortest_px;
         let gaps_before = gaps(inside, &hidden);
         let mut looked = Looked { open: Vec::new(), hidden };
-        for part in gaps_before.into_iter().filter(is_long).flat_map(|gap| image.parts(gap, longest)) {
-            let is_hidden = self.pyramid_hides(image, part, sought) || self.one_hides(index, image, part, sought);
-            if is_hidden { &mut looked.hidden } else { &mut looked.open }.push(part);
+        let is_hidden = |part| self.pyramid_hides(image, part, sought) || self.one_hides(index, image, part, sought);
+        for gap in gaps_before.into_iter().filter(is_long) {
+            if is_hidden(gap) {
+                looked.hidden.push(gap);
+                continue;
+            }
+            let parts: Vec<[f64; 2]> = image.parts(gap, longest).collect();
+            match parts.len() {
+                1 => looked.open.push(gap),
+                _ => parts.into_iter().for_each(|part| {
+                    if is_hidden(part) { &mut looked.hidden } else { &mut looked.open }.push(part);
+                }),
+            }
         }
         looked
     }

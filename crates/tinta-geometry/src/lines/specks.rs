@@ -248,6 +248,8 @@ impl<'a> Strokes<'a> {
     /// What hangs together and is too short as a whole.
     fn small_wholes(&self) -> Vec<Branch> {
         let mut is_seen = vec![false; self.strokes.len()];
+        // What meets somewhere is asked for once: of lines around one corner all meet there.
+        let mut is_met = vec![false; self.ends.len()];
         let mut wholes = Vec::new();
         for first in 0..self.strokes.len() {
             if is_seen[first] {
@@ -260,6 +262,9 @@ impl<'a> Strokes<'a> {
                 next += 1;
                 whole.length += self.strokes[number].length;
                 for end in [number * 2, number * 2 + 1] {
+                    if std::mem::replace(&mut is_met[self.meetings[end]], true) {
+                        continue;
+                    }
                     for neighbour in self.meeting(end as u32).iter().map(|end| *end as usize / 2) {
                         if !is_seen[neighbour] {
                             is_seen[neighbour] = true;
