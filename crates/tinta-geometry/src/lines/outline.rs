@@ -8,7 +8,7 @@
 use super::beside::Beside;
 use super::faces::{Faces, Own, Probe};
 use super::image::Image;
-use super::search::Sought;
+use super::search::{LastHider, Sought};
 use super::space::Space;
 use super::visibility::{Lines, Piece};
 use crate::bvh::Box3;
@@ -33,7 +33,7 @@ impl Lines<'_> {
                 count > most
             })
         };
-        let looked = self.look(index, image, [piece.from, piece.to], Vec::new(), Sought::Any);
+        let looked = self.look(index, image, [piece.from, piece.to], Vec::new(), Sought::Any, &LastHider::default());
         let mut cuts = self.search(index, image, looked, Sought::Any, &Beside::NONE, add);
         let mut parts: Vec<Piece> = Vec::new();
         let places = self.places(image, [piece.from, piece.to], std::mem::take(&mut cuts.places));

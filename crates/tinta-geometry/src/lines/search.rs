@@ -16,6 +16,7 @@ use super::visibility::{Lines, PARTS_OF_PICTURE};
 use crate::bvh::Box3;
 use crate::tolerances::{CONTACT, NEAR_CORNER};
 use glam::{DVec2, DVec3};
+use std::cell::Cell;
 
 /// Where a line is cut, and where it needs no look.
 #[derive(Default)]
@@ -82,6 +83,10 @@ pub(super) struct Looked {
     hidden: Vec<[f64; 2]>,
 }
 
+/// The face that hid a line last: often it hides the next one too.
+#[derive(Default)]
+pub(super) struct LastHider(Cell<Option<u32>>);
+
 /// A part of a line of which it is asked what hides it.
 struct Stretch {
     part: [f64; 2],
@@ -116,12 +121,14 @@ impl Lines<'_> {
         inside: [f64; 2],
         hidden: Vec<[f64; 2]>,
         sought: Sought,
+        last: &LastHider,
     ) -> Looked {
         let longest = self.space.size.max_element() / PARTS_OF_PICTURE;
         let is_long = |gap: &[f64; 2]| *gap == inside || (gap[1] - gap[0]) * image.length() > self.shortest_px;
         let gaps_before = gaps(inside, &hidden);
         let mut looked = Looked { open: Vec::new(), hidden };
-        let is_hidden = |part| self.pyramid_hides(image, part, sought) || self.one_hides(index, image, part, sought);
+        let is_hidden =
+            |part| self.pyramid_hides(image, part, sought) || self.one_hides(index, image, part, sought, last);
         for gap in gaps_before.into_iter().filter(is_long) {
             if is_hidden(gap) {
                 looked.hidden.push(gap);
@@ -178,19 +185,26 @@ impl Lines<'_> {
     }
 
     /// Whether one face of those before the middle of a part hides all of it for sure. Asked where there are many.
-    fn one_hides(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought) -> bool {
+    fn one_hides(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought, last: &LastHider) -> bool {
         if self.face_images.is_empty() || sought == Sought::Any {
             return false;
         }
         let feature = &self.features[index];
         let stretch = self.stretch(index, image, part, sought);
+        let hides = |face: u32| self.hidden_ranges(face, &stretch)[0] == Some(part);
+        if last.0.get().is_some_and(hides) {
+            return true;
+        }
         let middle = (part[0] + part[1]) * 0.5;
         let px = image.at(middle);
         let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(image.key(middle)));
         let (mut asked, mut is_hidden) = (0, false);
         self.any_occluder(&column, feature.planes, |face| {
             asked += 1;
-            is_hidden = self.hidden_ranges(face, &stretch)[0] == Some(part);
+            is_hidden = hides(face);
+            if is_hidden {
+                last.0.set(Some(face));
+            }
             is_hidden || asked >= ASKED
         });
         is_hidden

@@ -13,7 +13,7 @@ use super::intersections::Piercing;
 use super::occluders::Occluders;
 use super::progress::Phase;
 use super::pyramid::Pyramid;
-use super::search::{Cuts, Sought};
+use super::search::{Cuts, LastHider, Sought};
 use super::space::Space;
 use super::{LineSegment, LineSettings, Progress};
 use crate::bvh::{Box3, LeftOut, NO_FAMILY, counting_steps, steps};
@@ -160,13 +160,13 @@ impl<'a> Lines<'a> {
         // Not one after the other: what is left then takes as long as what is done, and a part is one of the whole picture.
         let parts = spread_chunks(self.features.len(), LINES, cores(), |range| {
             counting_steps(|| {
-                let mut segments = Vec::new();
+                let (mut segments, last) = (Vec::new(), LastHider::default());
                 for index in range {
                     if progress.is_over() {
                         break;
                     }
                     let before = steps();
-                    self.add_segments(index, &mut segments);
+                    self.add_segments(index, &last, &mut segments);
                     progress.advance(1, steps().wrapping_sub(before));
                 }
                 segments
@@ -178,7 +178,7 @@ impl<'a> Lines<'a> {
         (segments, compared)
     }
 
-    fn add_segments(&self, index: usize, segments: &mut Vec<LineSegment>) {
+    fn add_segments(&self, index: usize, last: &LastHider, segments: &mut Vec<LineSegment>) {
         let feature = &self.features[index];
         let (Some(class), Some(image)) = (feature.class, self.images[index]) else { return };
         let Some(inside) = image.inside(self.space.size, 0.0) else { return };
@@ -186,7 +186,7 @@ impl<'a> Lines<'a> {
             return;
         }
         let behind = self.behind_nearest(index, &image, inside);
-        let looked = self.look(index, &image, inside, behind, Sought::Nearer);
+        let looked = self.look(index, &image, inside, behind, Sought::Nearer, last);
         if !self.finds_hidden && looked.open.is_empty() {
             return;
         }
