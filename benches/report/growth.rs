@@ -49,7 +49,10 @@ pub fn plot(curves: &[Curve], [title, sizes, times]: [&str; 3], path: &Path) -> 
     };
     let area = SVGBackend::new(path, (760, 460)).into_drawing_area();
     area.fill(&WHITE)?;
-    let (x, y) = (range(|point| point.0, 0.8, 1.25), range(|point| point.1, 0.6, 4.0));
+    // Where there are more curves than colours each has its name at its end.
+    let has_legend = curves.len() <= COLORS.len();
+    let (beyond, above) = if has_legend { (1.25, 4.0) } else { (2.2, 1.7) };
+    let (x, y) = (range(|point| point.0, 0.8, beyond), range(|point| point.1, 0.6, above));
     let mut chart = ChartBuilder::on(&area)
         .caption(title, ("sans-serif", 17))
         .margin(12)
@@ -79,12 +82,40 @@ pub fn plot(curves: &[Curve], [title, sizes, times]: [&str; 3], path: &Path) -> 
             .label(&curve.name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], style));
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
-        .background_style(WHITE)
-        .border_style(RGBColor(200, 200, 200))
-        .draw()?;
+    if has_legend {
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperLeft)
+            .background_style(WHITE)
+            .border_style(RGBColor(200, 200, 200))
+            .draw()?;
+    } else {
+        let ends = curves.iter().filter_map(|curve| Some((curve.name.as_str(), curve.points.last()?)));
+        let ends = ends.map(|(name, end)| (name, chart.plotting_area().map_coordinate(end))).collect();
+        for (name, place) in apart(ends) {
+            area.draw(&Text::new(name, place, ("sans-serif", 12)))?;
+        }
+    }
     area.present()?;
     Ok(())
+}
+
+/// Names beside the ends of their curves, pixels, moved down where they would lie on one another.
+fn apart(mut ends: Vec<(&str, (i32, i32))>) -> Vec<(&str, (i32, i32))> {
+    const ASIDE: i32 = 8;
+    const UP: i32 = 6;
+    const HEIGHT: i32 = 12;
+    const WIDTH: i32 = 70;
+    ends.sort_by_key(|(_, (_, y))| *y);
+    let mut placed: Vec<(&str, (i32, i32))> = Vec::new();
+    for (name, (x, y)) in ends {
+        let (x, mut y) = (x + ASIDE, y - UP);
+        for (_, (other_x, other_y)) in &placed {
+            if (x - other_x).abs() < WIDTH && (*other_y..other_y + HEIGHT).contains(&y) {
+                y = other_y + HEIGHT;
+            }
+        }
+        placed.push((name, (x, y)));
+    }
+    placed
 }
