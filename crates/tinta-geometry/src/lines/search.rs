@@ -11,6 +11,7 @@ use super::beside::Beside;
 use super::face_image::FaceImage;
 use super::faces::{Faces, Own};
 use super::image::Image;
+use super::ranges::{above_zero, clipped, common, gaps, hold, united};
 use super::space::Space;
 use super::visibility::{Lines, PARTS_OF_PICTURE};
 use crate::bvh::Box3;
@@ -32,32 +33,13 @@ pub(super) struct Cuts {
 impl Cuts {
     /// Whether a place is hidden for sure.
     pub(super) fn hides(&self, place: f64) -> bool {
-        overlap(&self.hidden, place, place)
+        hold(&self.hidden, place)
     }
 
     /// Whether a place is seen for sure, as far as faces are concerned.
     pub(super) fn leave_open(&self, place: f64) -> bool {
-        overlap(&self.swept, place, place) && !overlap(&self.maybe, place, place)
+        hold(&self.swept, place) && !hold(&self.maybe, place)
     }
-}
-
-/// Whether any of ascending ranges apart from one another reaches between two places.
-fn overlap(ranges: &[[f64; 2]], from: f64, to: f64) -> bool {
-    let next = ranges.partition_point(|range| range[1] <= from);
-    ranges.get(next).is_some_and(|range| range[0] < to || (from == to && range[0] <= to))
-}
-
-/// Ranges in any order as ascending ones apart from one another.
-fn united(mut ranges: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    ranges.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-    let mut united: Vec<[f64; 2]> = Vec::with_capacity(ranges.len());
-    for range in ranges {
-        match united.last_mut() {
-            Some(last) if range[0] <= last[1] => last[1] = last[1].max(range[1]),
-            _ => united.push(range),
-        }
-    }
-    united
 }
 
 /// Cuts in a part of a line from which on it is swept.
@@ -107,12 +89,6 @@ struct Stretch {
 }
 
 impl Lines<'_> {
-    /// What of a line between two places is hidden for sure by those that are nearest among many lines on which it lies; ascending.
-    pub(super) fn behind_nearest(&self, index: usize, image: &Image, inside: [f64; 2]) -> Vec<[f64; 2]> {
-        let nearest = self.bundles.nearest_along(index, image);
-        united(nearest.filter_map(|other| self.behind_line(index, image, other, inside)).collect())
-    }
-
     /// What of a line between two places, some of which is known to be hidden, neither the pyramid nor one face hides.
     pub(super) fn look(
         &self,
@@ -296,59 +272,6 @@ impl Lines<'_> {
         found.maybe.extend(united(maybe));
         found.swept.push(part);
     }
-
-    /// Adds what of a part lies in the picture on another line that is nearer for sure.
-    fn behind_lines(&self, index: usize, image: &Image, beside: &Beside, part: [f64; 2], hidden: &mut Vec<[f64; 2]>) {
-        self.any_beside(image, beside, part, |other| {
-            hidden.extend(self.behind_line(index, image, other, part));
-            false
-        });
-    }
-
-    /// What of a part lies in the picture on a certain other line that is nearer for sure.
-    fn behind_line(&self, index: usize, image: &Image, other_index: usize, part: [f64; 2]) -> Option<[f64; 2]> {
-        let other = self.images[other_index].filter(|_| other_index != index)?;
-        let range = image.overlap(&other, image.touch_px(self.space).max(other.touch_px(self.space)))?;
-        let range = [range[0].max(part[0]), range[1].min(part[1])];
-        let least = self.clearly_behind(index, &other);
-        let behind = |place: f64| image.key(place) - other.key(other.place_of(image.at(place))) - least;
-        if range[0] < range[1] { above_zero(range, range.map(behind)) } else { None }
-    }
-
-    /// By how much a line's key must be larger than another's for it not to touch it, nor anything that is nearer still.
-    pub(super) fn clearly_behind(&self, index: usize, other: &Image) -> f64 {
-        let feature = &self.features[index];
-        let length = feature.ends[0].distance(feature.ends[1]);
-        let depths = other.keys.map(|key| self.space.depth_of_key(key));
-        let touching = CONTACT * length + feature.weld + 4.0 * self.space.noise;
-        self.space.key_step(depths[0].min(depths[1]), 2.0 * touching)
-    }
-}
-
-/// What ascending ranges, and others before, leave of a part.
-pub(super) fn gaps(part: [f64; 2], ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut gaps = Vec::new();
-    let mut from = part[0];
-    for range in ranges.iter().filter(|range| range[1] > part[0] && range[0] < part[1]) {
-        if range[0] > from {
-            gaps.push([from, range[0]]);
-        }
-        from = from.max(range[1]);
-    }
-    if from < part[1] {
-        gaps.push([from, part[1]]);
-    }
-    gaps
-}
-
-/// The part of a range in which what is linear along it, and has these values at its ends, is not negative.
-fn above_zero([from, to]: [f64; 2], [start, end]: [f64; 2]) -> Option<[f64; 2]> {
-    match (start >= 0.0, end >= 0.0) {
-        (true, true) => Some([from, to]),
-        (true, false) => Some([from, from + (to - from) * (start / (start - end))]),
-        (false, true) => Some([from + (to - from) * (start / (start - end)), to]),
-        (false, false) => None,
-    }
 }
 
 impl Stretch {
@@ -438,14 +361,4 @@ impl Faces {
         };
         [clip(sure, 2.0 * contact).map(|sure| stretch.up_to_corners(sure, numbers)), clip(may, 0.5 * contact)]
     }
-}
-
-/// What a range has in common with that part of a whole in which what is linear along it is not negative.
-fn clipped(range: Option<[f64; 2]>, whole: [f64; 2], at_ends: [f64; 2]) -> Option<[f64; 2]> {
-    common(range?, above_zero(whole, at_ends)?)
-}
-
-fn common(first: [f64; 2], second: [f64; 2]) -> Option<[f64; 2]> {
-    let common = [first[0].max(second[0]), first[1].min(second[1])];
-    (common[0] < common[1]).then_some(common)
 }

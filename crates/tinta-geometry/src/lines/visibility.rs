@@ -20,8 +20,8 @@ use crate::bvh::{Box3, LeftOut, NO_FAMILY, counting_steps, steps};
 use crate::error::Result;
 use crate::memory;
 use crate::threads::{cores, in_chunks, spread_chunks};
-use crate::tolerances::{CONTACT, SHORTEST_LINE, TOUCH};
-use glam::{DVec2, DVec3};
+use crate::tolerances::{SHORTEST_LINE, TOUCH};
+use glam::DVec3;
 use std::cell::LazyCell;
 use std::collections::HashMap;
 
@@ -33,7 +33,7 @@ pub(super) struct Lines<'a> {
     /// Of what of each line is between the near and the far plane.
     pub(super) images: Vec<Option<Image>>,
     /// Where edges pass through faces.
-    piercings: HashMap<[u32; 2], Vec<DVec3>>,
+    pub(super) piercings: HashMap<[u32; 2], Vec<DVec3>>,
     /// Where surfaces end: what any line may be crossed by.
     pub(super) rims: LineTree,
     /// What single faces hide; `None` where none is large enough.
@@ -275,7 +275,7 @@ impl<'a> Lines<'a> {
         self.any_but(query, LeftOut::planes(planes), visit)
     }
 
-    fn any_but(&self, query: &Box3, left_out: LeftOut, visit: impl FnMut(u32) -> bool) -> bool {
+    pub(super) fn any_but(&self, query: &Box3, left_out: LeftOut, visit: impl FnMut(u32) -> bool) -> bool {
         match &self.occluders {
             Some(occluders) => occluders.any_but(query, left_out, visit),
             None => self.faces.tree.any_but(query, left_out, visit),
@@ -297,177 +297,6 @@ impl<'a> Lines<'a> {
             weld: feature.weld,
             own: feature.own,
         }
-    }
-
-    /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
-    /// lies in space on another of an earlier class, or of the same and a lower number.
-    fn is_nearest(&self, index: usize, image: &Image, beside: &Beside, px: DVec2, depth: f64) -> Option<bool> {
-        let touch_px = image.touch_px(self.space);
-        let (place, own_key) = (image.place_of(px), image.key(image.place_of(px)));
-        let mut others: Vec<(f64, usize)> = Vec::new();
-        let is_behind = self.any_beside(image, beside, [place; 2], |other_index| {
-            let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
-            let lies_on_it = image
-                .overlap(&other, touch_px.max(other.touch_px(self.space)))
-                .is_some_and(|range| (range[0]..=range[1]).contains(&place));
-            if lies_on_it {
-                let key = other.key(other.place_of(px).clamp(0.0, 1.0));
-                // Where only what is seen counts, nothing else does.
-                if !self.finds_hidden && own_key - key > self.clearly_behind(index, &other) {
-                    return true;
-                }
-                others.push((self.space.depth_of_key(key), other_index));
-            }
-            false
-        });
-        if is_behind {
-            return Some(false);
-        }
-        if others.is_empty() {
-            return Some(true);
-        }
-        others.push((depth, index));
-        others.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        others.dedup();
-        // From the nearest on, those that touch the first of a group are in its place.
-        let mut start = 0;
-        loop {
-            let (first_depth, first) = others[start];
-            let is_of_group = |(depth, other): &(f64, usize)| depth - first_depth <= self.contact(first, *other);
-            let end = start + others[start..].iter().take_while(|other| is_of_group(other)).count();
-            let group = &others[start..end];
-            if group.iter().any(|(_, other)| *other == index) {
-                let stands_for_all = group.iter().map(|(_, other)| (self.features[*other].class, *other)).min();
-                return (stands_for_all.map(|(_, other)| other) == Some(index)).then_some(start == 0);
-            }
-            start = end;
-        }
-    }
-
-    /// The distance below which two lines touch, file units.
-    fn contact(&self, first: usize, second: usize) -> f64 {
-        let [first, second] = [first, second].map(|index| &self.features[index]);
-        let length = |feature: &Feature| feature.ends[0].distance(feature.ends[1]);
-        CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise
-    }
-
-    /// Adds the places along a part of a line where what is seen of it may change; whether there are too many to look at all.
-    fn add_cuts(
-        &self,
-        index: usize,
-        image: &Image,
-        beside: &Beside,
-        part: [f64; 2],
-        most: usize,
-        cuts: &mut Vec<f64>,
-    ) -> bool {
-        let feature = &self.features[index];
-        let touch_px = image.touch_px(self.space);
-        let keys = part.map(|place| image.key(place));
-        let farthest = keys[0].max(keys[1]);
-        let nearer = [f64::NEG_INFINITY, farthest + farthest.abs() * (2.0 * CONTACT)];
-        let start = cuts.len();
-        // Lines from one position cross nowhere else.
-        let left_out = LeftOut { planes: feature.planes, hubs: feature.own.corners(self.faces) };
-        let are_too_many = self.rims.any_but(&image.part_box(part, touch_px, nearer), left_out, |other_index| {
-            if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
-                let touch_px = touch_px.max(other.touch_px(self.space));
-                let occludes = !feature.own.meets(self.features[other_index].own);
-                self.add_crossings(image, &other, touch_px, occludes, cuts);
-            }
-            cuts.len() - start > most
-        });
-        if are_too_many || (!self.finds_hidden && self.add_beside(index, image, beside, part, most, cuts)) {
-            return true;
-        }
-        let Own::Faces(own) = feature.own else { return false };
-        // Faces with the corner in which it begins it meets nowhere else.
-        self.any_but(&image.part_box(part, touch_px, keys), left_out, |face| {
-            if own.contains(&face) {
-                return false;
-            }
-            cuts.extend(self.piercing(feature.ends, face).map(|point| image.place_of(self.space.project(point).0)));
-            cuts.len() - start > most
-        })
-    }
-
-    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many.
-    fn add_beside(
-        &self,
-        index: usize,
-        image: &Image,
-        beside: &Beside,
-        part: [f64; 2],
-        most: usize,
-        cuts: &mut Vec<f64>,
-    ) -> bool {
-        let touch_px = image.touch_px(self.space);
-        let mut count = 0;
-        self.any_beside(image, beside, part, |other_index| {
-            if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
-                self.add_crossings(image, &other, touch_px.max(other.touch_px(self.space)), false, cuts);
-                count += 1;
-            }
-            count > most
-        })
-    }
-
-    /// Adds the places where an edge passes through faces.
-    fn add_piercings(&self, index: usize, image: &Image, places: &mut Vec<f64>) {
-        let Own::Edge([a, b]) = self.features[index].own else { return };
-        if let Some(points) = self.piercings.get(&[a.min(b), a.max(b)]) {
-            places.extend(points.iter().map(|point| image.place_of(self.space.project(*point).0)));
-        }
-    }
-
-    /// Adds where a line's image that lies on this one begins and ends and where both are equally near, and where a nearer one
-    /// at which a surface ends crosses or touches it.
-    pub(super) fn add_crossings(
-        &self,
-        image: &Image,
-        other: &Image,
-        touch_px: f64,
-        occludes: bool,
-        cuts: &mut Vec<f64>,
-    ) {
-        let along = image.b - image.a;
-        let length = along.length();
-        let (c, d) = (along.perp_dot(other.a - image.a) / length, along.perp_dot(other.b - image.a) / length);
-        if (c > touch_px && d > touch_px) || (c < -touch_px && d < -touch_px) {
-            return;
-        }
-        if let Some(range) = image.overlap(other, touch_px) {
-            cuts.extend(range);
-            cuts.extend(image.same_key(other));
-        }
-        if !occludes || c == d {
-            return;
-        }
-        let on_other = (c / (c - d)).clamp(0.0, 1.0);
-        let place = image.place_of(other.at(on_other));
-        if place * length < -touch_px || (place - 1.0) * length > touch_px {
-            return;
-        }
-        let (key, other_key) = (image.key(place), other.key(on_other));
-        // What is clearly farther away hides nothing; where that is not clear, a cut too many does no harm.
-        if other_key <= key + key.abs() * CONTACT {
-            cuts.push(place);
-        }
-    }
-
-    /// Where a line passes through a face, if it does.
-    pub(super) fn piercing(&self, [from, to]: [DVec3; 2], face: u32) -> Option<DVec3> {
-        let [a, b, c] = self.faces.corners(face);
-        let normal = (b - a).cross(c - a);
-        let (start, end) = (normal.dot(from - a), normal.dot(to - a));
-        if (start > 0.0) == (end > 0.0) {
-            return None;
-        }
-        let point = from + (to - from) * (start / (start - end));
-        // Inside, or near enough: one cut too many does no harm.
-        let scale = -1e-9 * normal.length_squared();
-        let is_left = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) >= scale;
-        (is_left(a, b) && is_left(b, c) && is_left(c, a)).then_some(point)
     }
 }
 
@@ -491,14 +320,4 @@ fn hub_of(hubs: &HashMap<u32, u32>, own: Own) -> u32 {
     let Own::Edge(ends) = own else { return NO_FAMILY };
     let known = ends.into_iter().filter_map(|end| Some((*hubs.get(&end)?, end)));
     known.max().map_or(NO_FAMILY, |(_, end)| end)
-}
-
-impl Own {
-    /// Whether two edges share an end, where both end anyway.
-    fn meets(self, other: Self) -> bool {
-        match (self, other) {
-            (Self::Edge([a, b]), Self::Edge(other)) => other.contains(&a) || other.contains(&b),
-            _ => false,
-        }
-    }
 }
