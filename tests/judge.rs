@@ -277,3 +277,27 @@ fn what_cannot_be_judged_is_refused_in_a_sentence() {
         refused_in_one_line(&words, &parts);
     }
 }
+
+#[test]
+fn a_picture_drawn_from_elsewhere_is_said_and_gives_its_own_camera() {
+    let folder = Folder::new();
+    let [elsewhere, here] = ["elsewhere.svg", "here.svg"].map(|name| folder.path(name));
+    let model = ["--model", "builtin:gear"];
+    let drawn = |out: &str, more: &[&str]| {
+        let output =
+            tinta(&[&["render", "builtin:gear", "-o", out, "--style", "lines", "--size", "160"][..], more].concat());
+        assert!(output.status.success(), "{output:?}");
+    };
+    drawn(&elsewhere, &["--view", "70,40", "--fov", "20"]);
+    drawn(&here, &[]);
+    let judged = |drawing: &str, more: &[&str]| {
+        let output = tinta(&[&["judge", drawing, "--json"], &model[..], more].concat());
+        let record: Value = serde_json::from_slice(&output.stdout).unwrap();
+        (record["lines"]["f1"].as_f64().unwrap(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (wrong, said) = judged(&elsewhere, &[]);
+    assert!(said.contains("elsewhere.svg was drawn from elsewhere (--fov 20 --view 70,40); --camera"), "{said}");
+    let (right, said) = judged(&elsewhere, &["--camera", &elsewhere]);
+    assert!(said.is_empty() && right > 0.95 && wrong < 0.8, "{wrong} {right} {said}");
+    assert_eq!(judged(&here, &[]).1, "");
+}

@@ -7,6 +7,7 @@ use crate::lines_support::{lines, lines_with, published_lines, scene_of, view};
 use crate::shapes::{Random, mesh};
 use crate::support::growth::{FAMILIES, Family, Seen};
 use crate::svg;
+use glam::DVec3;
 use std::collections::HashSet;
 use std::time::Duration;
 use tinta::edges::Class;
@@ -216,6 +217,23 @@ fn work_is_given_up_while_it_looks_for_intersections() {
     });
     assert!(matches!(ended, Err(Error::Cancelled)));
     assert_eq!(progress.phase(), Phase::Intersections, "it went on to the lines");
+}
+
+#[test]
+fn planes_through_one_axis_have_one_line_there() {
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for plane in 0..5 {
+        let (sin, cos) = (0.1 + std::f64::consts::PI * f64::from(plane) / 5.0).sin_cos();
+        let first = positions.len() as u32;
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        positions.extend(corners.map(|(along, up)| DVec3::new(cos * along, up, sin * along)));
+        triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    let found = lines(&scene_of(vec![mesh(positions, triangles)], view("30,20", false)));
+    // Each square's diagonal cuts it in the middle; without counting once there would be ten times as many.
+    assert_eq!(found.edges.intersection, 2);
+    let drawn = found.segments.iter().filter(|segment| segment.class == Class::Intersection);
+    assert_eq!(drawn.count(), 2);
 }
 
 #[test]

@@ -4,27 +4,37 @@ use serde_json::Value;
 use std::path::Path;
 use tinta::glam::{DMat4, DVec3};
 use tinta::preset::Preset;
-use tinta::settings::{HasSettings, OptionValue};
+use tinta::recipe::Recipe;
+use tinta::settings::{HasSettings, OptionValue, Options};
 use tinta::{CameraSettings, Error, FileKind, Result, SceneSettings, View, camera, mesh};
 
 /// Largest file read, bytes: a model with its data, as `--camera scene.glb` names.
 const LARGEST_BYTES: u64 = tinta::limits::MODEL_BYTES;
 
 /// What to name instead.
-const CHOICE: &str = "name what --json printed, a glTF model with a camera, or 16 numbers";
+const CHOICE: &str = "name what --json printed, a picture by tinta render, a glTF model with a camera, or 16 numbers";
 
 /// Reads a file's camera.
 pub(super) fn read(path: &Path) -> Result<Preset> {
     let failed = |problem: String| Error::file(FileKind::Preset, path, problem);
     let bytes = crate::files::read(path, LARGEST_BYTES)
         .map_err(|failure| failure.into_error(FileKind::Preset, path, "a file with a camera"))?;
-    let settings = of_bytes(&bytes).map_err(failed)?;
-    let settings = SceneSettings { camera: settings, ..SceneSettings::default() };
-    let mut options = settings.to_options()?;
+    let options = match Recipe::of_bytes(&bytes, &path.to_string_lossy()) {
+        Ok(recipe) => recipe.options,
+        Err(_) => {
+            let settings = SceneSettings { camera: of_bytes(&bytes).map_err(failed)?, ..SceneSettings::default() };
+            settings.to_options()?
+        }
+    };
+    Ok(Preset::of_options(&path.to_string_lossy(), of_camera(options)))
+}
+
+/// Those of some options that are about the camera.
+pub(super) fn of_camera(mut options: Options) -> Options {
     let is_of_camera =
         |name: &str| SceneSettings::table().settings.iter().any(|s| s.name == name && s.heading == camera::HEADING);
     options.retain(|name, value| is_of_camera(name) && *value != OptionValue::Switch(false));
-    Ok(Preset::of_options(&path.to_string_lossy(), options))
+    options
 }
 
 /// The camera; the error is a sentence without the file's name.

@@ -1,19 +1,22 @@
 //! `tinta judge`: any program's drawing of a model against the model's exact lines.
 
+use super::camera_file;
 use super::measure::errors::{error_page, known_picture};
 use super::model_cache::ModelCache;
 use super::models::load_meshes;
 use super::options::{CameraArguments, Chosen, ModelArguments, Selection};
 use super::preset::Given;
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tinta::glam::DVec2;
 use tinta::judge::{Entry, InkColor, JudgeSettings, Judgement, OneToOne, drawing, judge};
 use tinta::measure::{INK_FROM, MeasureSettings, Reference, error_picture};
+use tinta::recipe::{Recipe, option_words};
 use tinta::report::{ReportInfo, RowLog};
 use tinta::settings::{HasSettings as _, Setting};
 use tinta::styles::Inking;
-use tinta::{Error, LineSettings, Mesh, Result, Scene, SceneSettings, Size, Style, StyleName};
+use tinta::{Camera, Error, LineSettings, Mesh, Result, Scene, SceneSettings, Size, Style, StyleName, shell};
 
 /// Judge any program's drawing of a model by the model's exact visible lines
 #[derive(clap::Args)]
@@ -125,6 +128,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<()> {
             subject = Some(Subject::new(arguments, meshes.clone(), picture.size)?);
         }
         let Some(Subject { scene, reference }) = &subject else { continue };
+        say_other_camera(&arguments.drawings[index], scene);
         let ink = arguments.ink.of(picture);
         let judgement = judge(&ink, reference, &settings)?;
         if arguments.json {
@@ -181,6 +185,39 @@ impl Subject {
         let reference = Reference::with_hidden(&scene, &lines)?;
         Ok(Self { scene, reference })
     }
+}
+
+/// Says where a picture that tinta drew, as its recipe has it, shows the model from elsewhere than it is judged from.
+fn say_other_camera(drawing: &Path, scene: &Scene) {
+    let Ok(recipe) = Recipe::read(drawing) else { return };
+    let options = camera_file::of_camera(recipe.options);
+    let words: Vec<String> = options.iter().flat_map(|(name, value)| option_words(name, value)).collect();
+    let Ok(settings) = SceneSettings::from_options(&options) else { return };
+    let meshes: Vec<Arc<Mesh>> = scene.objects.iter().map(|object| object.mesh.clone()).collect();
+    let Ok(drawn) = Scene::new(meshes, &SceneSettings { size: scene.size, ..settings }) else { return };
+    if largest_shift_px(scene, &drawn.camera) > 1.0 {
+        let from =
+            if words.is_empty() { "the default view".to_owned() } else { shell::command_line(words.into_iter()) };
+        let path = drawing.display();
+        super::say(&format!("tinta: {path} was drawn from elsewhere ({from}); --camera {path} judges it from there"));
+    }
+}
+
+/// How far a corner of the scene moves at most if another camera sees it, pixels.
+fn largest_shift_px(scene: &Scene, other: &Camera) -> f64 {
+    /// Positions asked of each object.
+    const ASKED: usize = 256;
+    let size = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height));
+    let [own, other] =
+        [&scene.camera, other].map(|camera| camera.clip_from_view(size.x / size.y) * camera.view_from_world());
+    let shifts = scene.objects.iter().flat_map(|object| {
+        let positions = object.mesh.positions.iter().step_by(object.mesh.positions.len() / ASKED + 1);
+        positions.map(|position| {
+            let [own, other] = [own, other].map(|clip| clip.project_point3(*position + object.offset).truncate());
+            ((own - other) * size * 0.5).length()
+        })
+    });
+    shifts.fold(0.0, f64::max)
 }
 
 /// What the drawings are called, once what is said of each is known to be for as many.

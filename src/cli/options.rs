@@ -267,7 +267,7 @@ impl Selection for OfCamera {
 #[derive(clap::Args)]
 #[command(next_help_heading = camera::HEADING)]
 pub(super) struct CameraArguments {
-    /// Read the camera from this file: the JSON that --json prints, a glTF or GLB model, or the 16 numbers of the matrix from world to clip space, row by row; single options override it [default: none]
+    /// Read the camera from this file: the JSON that --json prints, a picture that tinta drew, a glTF or GLB model, or the 16 numbers of the matrix from world to clip space, row by row; single options override it [default: none]
     // Its settings stand among the others by the time anyone asks: see preset.rs.
     #[arg(id = "camera", long, hide_short_help = true, value_name = "FILE")]
     _file: Option<PathBuf>,

@@ -424,7 +424,8 @@ fn after_help() -> String {
     let names: Vec<String> =
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
     format!(
-        "Built-in models:\n{}\n\nAs published, borders are black and one or two pixels wide at any size, and edges are \
+        "Built-in models:\n{}\n\nWithout --style, --look and --preset the look print is drawn, with settings, colours and a view of its own (tinta looks); \
+         the defaults above are those of a style that is named.\n\nAs published, borders are black and one or two pixels wide at any size, and edges are \
          not smoothed.\n\nIf facets show as thin lines, blame the file's normals and try --normals smooth.",
         names.join("\n")
     )

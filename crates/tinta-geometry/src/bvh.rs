@@ -247,7 +247,7 @@ impl BoxTree {
                 }
             }
         }
-        STEPS.set(STEPS.get().wrapping_add(steps));
+        add_steps(steps);
         is_found
     }
 }
@@ -286,6 +286,11 @@ impl Stack {
 
 thread_local! {
     static STEPS: Cell<u64> = const { Cell::new(0) };
+}
+
+/// Counts what else is looked at as boxes are.
+pub(crate) fn add_steps(count: u64) {
+    STEPS.set(STEPS.get().wrapping_add(count));
 }
 
 /// How many boxes this thread has looked at, in all hierarchies.

@@ -110,8 +110,19 @@ fn read_in_pieces(
         }
         remarks.push(format!("{path}: {left_out} not drawn; to see them, export them as polygons"));
     }
+    if ends_in_a_face(bytes) {
+        remarks.push(format!("{path}: its last line is a face without three corners; the file may be cut off"));
+    }
     put_on_materials(&mut soup, &namings, path, folder, remarks)?;
     Ok(soup)
+}
+
+/// Whether the last line has no end, and is a face of fewer than three corners.
+fn ends_in_a_face(bytes: &[u8]) -> bool {
+    let start = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+    let words = bytes[start..].split(|byte| byte.is_ascii_whitespace()).filter(|word| !word.is_empty());
+    let words: Vec<&[u8]> = words.take(4).collect();
+    matches!(words.as_slice(), [b"f", corners @ ..] if corners.len() < 3)
 }
 
 /// `2 free-form surfaces and 1 free-form curve`; `None` for none.
@@ -303,6 +314,19 @@ mod tests {
         assert_eq!(remarks, [sentence]);
         let alone = message(&format!("{SQUARE}bzp 1 2 3 4\n"));
         assert_eq!(alone, "test.obj: it has no faces but 1 free-form surface; export it as polygons");
+    }
+
+    #[test]
+    fn a_file_that_ends_within_a_face_is_said_to_be_cut_off() {
+        for (end, is_cut) in
+            [("f 1 ", true), ("f", true), ("f 1 2", true), ("f 1 2 3", false), ("f 1 2\n", false), ("", false)]
+        {
+            let mut remarks = Vec::new();
+            let text = format!("{SQUARE}f 1 2 3\n{end}");
+            read(text.as_bytes(), "test.obj", &Folder::of_files(&[]), &mut remarks).unwrap();
+            let sentence = "test.obj: its last line is a face without three corners; the file may be cut off";
+            assert_eq!(remarks, if is_cut { vec![sentence] } else { vec![] }, "{end:?}");
+        }
     }
 
     #[test]

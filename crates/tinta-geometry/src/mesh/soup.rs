@@ -7,7 +7,7 @@ use super::normals::Splitting;
 use super::pieces::Pieces;
 use super::{Defects, LoadOptions, LoadStage, Material, Mesh, NONE, Normals, normals, weld};
 use crate::error::{Error, Result};
-use crate::limits::{CONCAVE_CORNERS, MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
+use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS, MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
 use crate::memory;
 use crate::tolerances::LARGEST_COORDINATE;
 use glam::{DVec3, Vec2, Vec3};
@@ -303,7 +303,8 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
         let wanted = match defects.long_polygons {
             0 => "faces that have area".to_owned(),
             _ => format!(
-                "its faces cut into triangles, for those that are not convex may have {CONCAVE_CORNERS} corners"
+                "its faces cut into triangles, for one that is not convex may have {CONCAVE_CORNERS} corners, and \
+                 {CROSSING_CORNERS} if it crosses itself"
             ),
         };
         format!("nothing is left to draw ({defects}); export it again with {wanted}")

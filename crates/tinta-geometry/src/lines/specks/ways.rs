@@ -6,7 +6,7 @@
 //! costs what is on it and beside it, however much else lies in the picture.
 
 use super::{Branch, JOINED_PX, Stroke, Strokes};
-use crate::bvh::{Box3, BoxTree};
+use crate::bvh::add_steps;
 use glam::DVec2;
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
@@ -26,17 +26,21 @@ type Along = (f64, usize);
 
 /// What is known of places; nothing of those that nobody has asked about.
 pub(super) struct Ways {
-    meetings: MeetingTree,
+    meetings: MeetingGrid,
     /// On each short stroke the meetings in their order along it.
     on_strokes: Vec<Option<Box<[Along]>>>,
     /// The strokes through each meeting.
     through: Vec<Option<Box<[usize]>>>,
 }
 
-/// A tree over the meetings, and which one is at each place in it.
-struct MeetingTree {
-    tree: BoxTree,
-    order: Vec<u32>,
+/// The meetings by the cell of the picture in which they lie, row by row: about one in each.
+struct MeetingGrid {
+    cell_px: f64,
+    columns: usize,
+    rows: usize,
+    /// Where each cell's begin among all, and where the last one's end.
+    starts: Vec<u32>,
+    meetings: Vec<u32>,
 }
 
 /// How a place was reached: by how long a way, and from which other place along which stroke at last.
@@ -71,10 +75,8 @@ impl PartialOrd for Open {
 
 impl Ways {
     pub(super) fn new(strokes: &Strokes<'_>) -> Self {
-        let around = |meeting: usize| Box3::around([strokes.place(meeting).extend(0.0); 2]);
-        let (tree, order) = BoxTree::new(&(0..strokes.ends.len()).map(around).collect::<Vec<Box3>>());
         Self {
-            meetings: MeetingTree { tree, order },
+            meetings: MeetingGrid::new(strokes),
             on_strokes: vec![None; strokes.strokes.len()],
             through: vec![None; strokes.ends.len()],
         }
@@ -135,7 +137,51 @@ impl Ways {
     }
 }
 
-impl MeetingTree {
+impl MeetingGrid {
+    fn new(strokes: &Strokes<'_>) -> Self {
+        let count = strokes.ends.len();
+        let cell_px = (strokes.border.element_product() / count.max(1) as f64).sqrt();
+        let [columns, rows] = strokes.border.to_array().map(|side| (side / cell_px).ceil().max(1.0) as usize);
+        let mut grid = Self { cell_px, columns, rows, starts: vec![0; columns * rows + 1], meetings: vec![0; count] };
+        let cell_of = |grid: &Self, meeting: usize| {
+            let [column, row] = grid.cell(strokes.place(meeting));
+            row * columns + column
+        };
+        for meeting in 0..count {
+            let cell = cell_of(&grid, meeting);
+            grid.starts[cell] += 1;
+        }
+        // Each cell's end first, then as they are put in from behind its start.
+        let mut end = 0;
+        for start in &mut grid.starts {
+            end += *start;
+            *start = end;
+        }
+        for meeting in (0..count).rev() {
+            let cell = cell_of(&grid, meeting);
+            grid.starts[cell] -= 1;
+            let place = grid.starts[cell] as usize;
+            grid.meetings[place] = meeting as u32;
+        }
+        grid
+    }
+
+    /// Column and row; of a place beside the picture those of the nearest cell.
+    fn cell(&self, px: DVec2) -> [usize; 2] {
+        let at = |px: f64, count: usize| ((px / self.cell_px).max(0.0) as usize).min(count - 1);
+        [at(px.x, self.columns), at(px.y, self.rows)]
+    }
+
+    /// The meetings in the cells between two places.
+    fn between(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = usize> {
+        let ([left, top], [right, bottom]) = (self.cell(low), self.cell(high));
+        (top..=bottom).flat_map(move |row| {
+            let [first, end] = [left, right + 1].map(|column| self.starts[row * self.columns + column] as usize);
+            add_steps((end - first) as u64 + 1);
+            self.meetings[first..end].iter().map(|meeting| *meeting as usize)
+        })
+    }
+
     /// The meetings on a stroke next before and after a place on it, which may be a meeting, as far as they are within reach; `known`
     /// are all on a short one.
     fn next_on(
@@ -164,14 +210,12 @@ impl MeetingTree {
         let [from, to] = range.map(|along| start + direction * along.clamp(0.0, stroke.length));
         let (low, high) = (from.min(to) - 2.0 * JOINED_PX, from.max(to) + 2.0 * JOINED_PX);
         let mut on_it = Vec::new();
-        self.tree.any(&Box3::new(low.extend(0.0), high.extend(0.0)), |place| {
-            let meeting = self.order[place as usize] as usize;
+        for meeting in self.between(low, high) {
             let place = strokes.place(meeting);
             if stroke.distance(place) <= JOINED_PX {
                 on_it.push((place.distance(start), meeting));
             }
-            false
-        });
+        }
         on_it.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         on_it
     }
