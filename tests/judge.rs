@@ -199,7 +199,7 @@ fn a_camera_of_another_program_is_read_from_its_file() {
     };
     let right = f1(&view[..4]);
     assert!(right > 0.99 && f1(&[]) < 0.8);
-    for file in [&record, &matrix] {
+    for file in [&record, &matrix, &picture] {
         assert!((f1(&["--camera", file]) - right).abs() < 1e-6, "{file}");
         // A drawing from it, in a look that has a view of its own.
         let again = folder.path("again.png");
@@ -207,7 +207,9 @@ fn a_camera_of_another_program_is_read_from_its_file() {
         let output = tinta(&words);
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     }
-    refused_in_one_line(&["judge", &picture, "--model", "builtin:gear", "--camera", &picture], &["a.png", "camera"]);
+    let bare = folder.path("bare.png");
+    tinta(&["render", "builtin:gear", "-o", &bare, "--no-recipe", "--size", "150x100"]);
+    refused_in_one_line(&["judge", &picture, "--model", "builtin:gear", "--camera", &bare], &["bare.png", "camera"]);
 }
 
 #[test]

@@ -16,7 +16,7 @@ use tinta::recipe::{Recipe, option_words};
 use tinta::report::{ReportInfo, RowLog};
 use tinta::settings::{HasSettings as _, Setting};
 use tinta::styles::Inking;
-use tinta::{Camera, Error, LineSettings, Mesh, Result, Scene, SceneSettings, Size, Style, StyleName, shell};
+use tinta::{Camera, Error, LineSettings, Mesh, Result, Scene, SceneSettings, Size, Style, StyleName};
 
 /// Judge any program's drawing of a model by the model's exact visible lines
 #[derive(clap::Args)]
@@ -196,8 +196,7 @@ fn say_other_camera(drawing: &Path, scene: &Scene) {
     let meshes: Vec<Arc<Mesh>> = scene.objects.iter().map(|object| object.mesh.clone()).collect();
     let Ok(drawn) = Scene::new(meshes, &SceneSettings { size: scene.size, ..settings }) else { return };
     if largest_shift_px(scene, &drawn.camera) > 1.0 {
-        let from =
-            if words.is_empty() { "the default view".to_owned() } else { shell::command_line(words.into_iter()) };
+        let from = if words.is_empty() { "the default view".to_owned() } else { words.join(" ") };
         let path = drawing.display();
         super::say(&format!("tinta: {path} was drawn from elsewhere ({from}); --camera {path} judges it from there"));
     }
