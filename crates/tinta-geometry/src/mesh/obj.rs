@@ -69,7 +69,11 @@ pub(super) fn looks_like(head: &[u8]) -> bool {
 
 /// Reads an OBJ file's bytes. `path` is for messages; `remarks` gets a sentence for each missing material file.
 pub(super) fn read(bytes: &[u8], path: &str, folder: &Folder<'_>, remarks: &mut Vec<String>) -> Result<Soup> {
-    read_in_pieces(bytes, PIECE_BYTES, path, folder, remarks)
+    let soup = read_in_pieces(bytes, PIECE_BYTES, path, folder, remarks)?;
+    if ends_in_a_face(bytes) {
+        remarks.push(format!("{path}: its last line is a face without three corners; the file may be cut off"));
+    }
+    Ok(soup)
 }
 
 /// The same, of pieces of about `length` bytes; what comes out does not depend on it.
@@ -109,9 +113,6 @@ fn read_in_pieces(
             return Err(Error::model(path, format!("it has no faces but {left_out}; export it as polygons")));
         }
         remarks.push(format!("{path}: {left_out} not drawn; to see them, export them as polygons"));
-    }
-    if ends_in_a_face(bytes) {
-        remarks.push(format!("{path}: its last line is a face without three corners; the file may be cut off"));
     }
     put_on_materials(&mut soup, &namings, path, folder, remarks)?;
     Ok(soup)
