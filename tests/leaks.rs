@@ -9,6 +9,32 @@ use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, St
 /// 1,000 frames as after 6,000; a frame of one style that leaked a 64 x 64 RGBA picture would need 4,800.
 const ALLOWED_KIB: u64 = 2048;
 
+/// By how much memory grows from one equal span of work to the next, KiB, where it grows in three of them one after another:
+/// what leaks does, the allocator's level moves once.
+fn growth(mut memory_after_a_span: impl FnMut() -> u64) -> u64 {
+    let (mut before, mut least) = (memory_after_a_span(), u64::MAX);
+    for _ in 0..3 {
+        let after = memory_after_a_span();
+        least = least.min(after.saturating_sub(before));
+        if least < ALLOWED_KIB {
+            break;
+        }
+        before = after;
+    }
+    least
+}
+
+#[test]
+fn growth_is_what_goes_on_and_not_what_moves_once() {
+    let of = |spans: &[u64]| {
+        let mut spans = spans.iter();
+        growth(|| *spans.next().unwrap())
+    };
+    assert_eq!(of(&[100, 3_100, 6_200, 9_200]), 3_000);
+    assert_eq!(of(&[100, 3_100, 6_200, 6_300]), 100);
+    assert_eq!(of(&[5_000, 4_000]), 0);
+}
+
 /// Held by each test here, so that none counts another's memory.
 static ALONE: Mutex<()> = Mutex::new(());
 
@@ -40,15 +66,14 @@ fn check_frames(frames_at_once: usize, looks: usize) {
         let objects = frames(5);
         assert!(objects > 0);
         // The least of many looks is what is held.
-        let mut least = || {
+        let least = || {
             let look = |_| {
                 assert_eq!(frames(frames_at_once), objects);
                 resident_kib()
             };
             (0..looks).map(look).min().unwrap()
         };
-        let memory = least();
-        let grown = least().saturating_sub(memory);
+        let grown = growth(least);
         println!("{backend:?}, {} styles: grown by {grown} KiB", styles.len());
         assert!(grown < ALLOWED_KIB, "{backend:?}: frames of each style grew the process by {grown} KiB");
     }
@@ -106,7 +131,7 @@ fn a_renderer_deletes_every_object_it_made() {
 }
 
 #[cfg(feature = "window")]
-fn check_switches(at_once: usize, looks: [usize; 2]) {
+fn check_switches(at_once: usize, looks: usize) {
     use tinta::window::{Drawer, Job, Orbit, Side};
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let mut drawer = Drawer::new(Backend::Egl).unwrap_or_else(|error| panic!("{error}"));
@@ -138,19 +163,14 @@ fn check_switches(at_once: usize, looks: [usize; 2]) {
     let objects = switches(at_once);
     assert!(objects > 0);
     // Charcoal's textures find another place in the allocator each time: the least of many looks is what is held.
-    let mut least = |rounds: usize| {
+    let least = || {
         let look = |_| {
             assert_eq!(switches(at_once), objects);
             resident_kib()
         };
-        (0..rounds).map(look).min().unwrap()
+        (0..looks).map(look).min().unwrap()
     };
-    let memory = least(looks[0]);
-    let mut grown = least(looks[1]).saturating_sub(memory);
-    if grown >= ALLOWED_KIB {
-        // What leaks has grown further by then; what the allocator kept for a while has gone.
-        grown = least(2 * looks[1]).saturating_sub(memory);
-    }
+    let grown = growth(least);
     println!("grown by {grown} KiB");
     assert!(grown < ALLOWED_KIB, "style switches and reloads grew the process by {grown} KiB");
 }
@@ -158,14 +178,14 @@ fn check_switches(at_once: usize, looks: [usize; 2]) {
 #[cfg(feature = "window")]
 #[test]
 fn a_hundred_style_switches_and_ten_model_reloads_leave_memory_and_objects_as_they_were() {
-    check_switches(20, [3, 3]);
+    check_switches(20, 3);
 }
 
 #[cfg(feature = "window")]
 #[test]
 #[ignore = "exhaustive: a thousand switches"]
 fn a_thousand_style_switches_and_model_reloads_leave_memory_and_objects_as_they_were() {
-    check_switches(80, [6, 13]);
+    check_switches(80, 8);
 }
 
 #[cfg(target_os = "linux")]
@@ -203,10 +223,11 @@ fn check_worker(looks: usize, has_charcoal: bool) {
     };
     // Charcoal's textures, 3 MiB, find another place in the allocator each time: the least of many looks is what is held.
     let mut least = || (0..looks).map(|_| work(18)).min().unwrap();
-    let (_, before, after) = (least(), least(), least());
-    let grown = after.saturating_sub(before);
-    println!("{looks} times 18 jobs after twice as many: grown by {grown} KiB");
-    assert!(grown < ALLOWED_KIB, "the last third of the jobs grew the worker by {grown} KiB");
+    // Until the driver has compiled all.
+    least();
+    let grown = growth(least);
+    println!("{looks} times 18 jobs: grown by {grown} KiB");
+    assert!(grown < ALLOWED_KIB, "{looks} times 18 jobs grew the worker by {grown} KiB, and as many before and after");
     drop(jobs);
     assert!(worker.wait().unwrap().success());
 }
@@ -219,7 +240,7 @@ fn a_worker_of_a_batch_does_dozens_of_jobs_in_the_memory_of_the_first() {
 
 #[cfg(target_os = "linux")]
 #[test]
-#[ignore = "exhaustive: 432 jobs, charcoal among them"]
+#[ignore = "exhaustive: hundreds of jobs, charcoal among them"]
 fn a_worker_of_a_batch_does_hundreds_of_jobs_in_the_memory_of_the_first() {
     check_worker(8, true);
 }

@@ -40,7 +40,7 @@ impl Box3 {
         [self.0.min, self.0.max].map(|corner| corner.as_dvec3())
     }
 
-    fn overlaps(&self, other: &Self) -> bool {
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
         self.0.intersect_aabb(&other.0)
     }
 }

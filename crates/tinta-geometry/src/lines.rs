@@ -38,6 +38,7 @@ mod face_image;
 mod faces;
 mod features;
 mod flicker;
+mod foremost;
 mod forms;
 mod heal;
 mod identity;
@@ -102,6 +103,7 @@ use crate::threads::both;
 use contours::Contours;
 use faces::Faces;
 use features::{Edges, MendedEdges, Part};
+use foremost::Foremost;
 use glam::{DVec2, DVec3};
 use pyramid::Pyramid;
 use serde::Serialize;
@@ -363,8 +365,10 @@ impl VisibleLines {
 
         let clock = Instant::now();
         let mut pyramid = Pyramid::new(&space, &faces);
+        let foremost = Foremost::new(&space, &faces);
         let hides = pyramid.as_ref().filter(|_| !settings.finds_hidden);
-        let mut intersections = intersections::intersections(&space, &faces, hides, progress);
+        let nearest = foremost.as_ref().filter(|_| !settings.finds_hidden);
+        let mut intersections = intersections::intersections(&space, &faces, hides, nearest, progress);
         progress.go_on()?;
         if hides.is_some() && intersections.lines.len() > MANY_INTERSECTIONS {
             pyramid = Pyramid::fine(&space, &faces);
@@ -381,7 +385,15 @@ impl VisibleLines {
             lines.extend(forms::form_features(scene, &space, &faces, &parts, settings, &mut edges));
         }
         lines.extend(features::near_plane_features(&space, &faces));
-        let found = Lines::new(&space, &faces, &lines, &intersections.piercings, pyramid.as_ref(), settings, progress)?;
+        let found = Lines::new(
+            &space,
+            &faces,
+            &lines,
+            &intersections.piercings,
+            (pyramid.as_ref(), foremost.as_ref()),
+            settings,
+            progress,
+        )?;
         drop(intersections);
         progress.go_on()?;
         let (mut segments, steps) = found.segments(progress);

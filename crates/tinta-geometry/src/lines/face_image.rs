@@ -47,6 +47,11 @@ impl FaceImage {
         in_chunks(faces.triangles.len(), MADE_AT_ONCE, cores(), of).concat()
     }
 
+    /// Of each side the unit vector inwards, and what its product with a pixel on the side is.
+    pub(super) fn sides(&self) -> impl Iterator<Item = (DVec2, f64)> {
+        self.inwards.into_iter().zip(self.starts_px)
+    }
+
     /// How far inside of a side a pixel is.
     pub(super) fn inside(&self, side: usize, px: DVec2) -> f64 {
         self.inwards[side].dot(px) - self.starts_px[side]

@@ -5,9 +5,11 @@
 //! exactly on another surface the line is found once, on one side; faces of which neither has corners clearly on both sides
 //! of the other lie on one another and do not intersect.
 
-use super::faces::{Faces, worth};
+use super::faces::{Faces, Own, worth};
+use super::foremost::Foremost;
 use super::progress::{Phase, Progress};
 use super::pyramid::Pyramid;
+use super::search::Line;
 use super::space::Space;
 use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY, counting_steps, steps};
 use crate::threads::{cores, filled, in_chunks, spread_chunks};
@@ -65,12 +67,14 @@ pub(super) fn intersections(
     space: &Space,
     faces: &Faces,
     pyramid: Option<&Pyramid>,
+    foremost: Option<&Foremost>,
     progress: &Progress,
 ) -> Intersections {
     let seen = pyramid.map(|pyramid| pyramid.seen(space, faces));
     let is_seen = |place: u32| seen.as_ref().is_none_or(|seen| seen[place as usize]);
     let is_open = |ends: [DVec3; 2]| !pyramid.is_some_and(|pyramid| is_hidden(space, pyramid, ends));
     const GROUPS: usize = 64;
+    const FOUND_AT_ONCE: usize = 1024;
     const PAIRS_A_GLANCE: u32 = 1024;
     progress.begin(Phase::Intersections, faces.tree.group_count());
     let in_groups = |groups: std::ops::Range<usize>| {
@@ -101,17 +105,34 @@ pub(super) fn intersections(
     let mut compared: u64 = parts.iter().map(|(_, steps)| steps).sum();
     let mut found: Vec<Found> = Vec::with_capacity(parts.iter().map(|(found, _)| found.len()).sum());
     parts.into_iter().for_each(|(some, _)| found.extend(some));
-    let (of_hubs, steps) = around_hubs(space, faces, progress);
+    let (of_hubs, steps) = around_hubs(space, faces, is_seen, is_open, progress);
     compared += steps;
-    found.extend(of_hubs.into_iter().filter(|found| is_open(found.ends)));
+    found.extend(of_hubs);
     if progress.is_over() {
         return Intersections { compared, ..Intersections::default() };
     }
-    // Two of one pair are the same.
-    found.sort_unstable_by_key(|found| found.faces.map(|face| faces.numbers[face as usize]));
-    let piercings = found.iter().flat_map(|found| found.piercings).flatten().collect();
+    // By their places, for they are large; two of one pair are the same.
+    let number = |face: u32| faces.numbers[face as usize];
+    let mut order: Vec<([u32; 2], u32)> =
+        found.iter().zip(0..).map(|(found, place)| (found.faces.map(number), place)).collect();
+    order.sort_unstable();
+    let in_order = || order.iter().map(|(_, place)| *place as usize);
+    let piercings = in_order().flat_map(|place| found[place].piercings).flatten().collect();
     let through = Through::new(space, faces, &found);
-    let lines = found.iter().filter(|found| found.is_line && through.allows(found));
+    let is_nearest = |found: &Found| {
+        let line = || Line {
+            own: Own::Faces(found.faces),
+            ends: found.ends,
+            weld: faces.weld(faces.triangles[found.faces[0] as usize][0]),
+        };
+        !foremost.is_some_and(|foremost| foremost.hide(space, faces, line()))
+    };
+    let are_nearest = in_chunks(found.len(), FOUND_AT_ONCE, cores(), |range| {
+        range.map(|index| found[index].is_line && is_nearest(&found[index])).collect::<Vec<bool>>()
+    });
+    let are_nearest = are_nearest.concat();
+    let lines = in_order().filter(|place| are_nearest[*place]).map(|place| &found[place]);
+    let lines = lines.filter(|found| through.allows(found));
     let lines = lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect();
     Intersections { lines: without_repeated(space, faces, lines), piercings, compared }
 }
@@ -130,48 +151,65 @@ fn without_repeated(space: &Space, faces: &Faces, mut lines: Vec<Intersection>) 
     lines
 }
 
-/// What faces around one hub have in common but for it: from the hub on, until a side opposite to it passes through a face. With
+/// What faces around one hub that may be seen have in common but for it: from the hub on, until a side opposite to it passes through a face. With
 /// how many boxes were looked at.
-fn around_hubs(space: &Space, faces: &Faces, progress: &Progress) -> (Vec<Found>, u64) {
-    const AT_ONCE: usize = 256;
+fn around_hubs(
+    space: &Space,
+    faces: &Faces,
+    is_seen: impl Fn(u32) -> bool + Sync,
+    is_open: impl Fn([DVec3; 2]) -> bool + Sync,
+    progress: &Progress,
+) -> (Vec<Found>, u64) {
+    const AT_ONCE: usize = 16;
     if faces.hubs.is_empty() {
         return (Vec::new(), 0);
     }
     let spines = spines(faces);
-    let pairs_of = |place: u32| {
+    let is_asked = |place: u32| {
         let hub = faces.hubs[place as usize];
-        let mut pairs = Vec::new();
-        if hub == NO_FAMILY || spines.contains(&hub) || progress.is_over() {
-            return pairs;
-        }
-        let opposite = faces.triangles[place as usize].into_iter().filter(|position| *position != hub);
-        let images = opposite.map(|position| {
-            let (px, key) = space.project(faces.positions[position as usize]);
-            px.extend(key)
-        });
-        let (low, high) = crate::mesh::bounds(&images.collect::<Vec<_>>());
-        // What counts as touching is a hundred-thousandth of a side.
-        let margin = (high - low).max_element() * (8.0 * CONTACT);
-        faces.tree.any(&Box3::new(low - margin, high + margin), |other| {
-            if other != place && faces.hubs[other as usize] == hub {
-                pairs.push([place.min(other), place.max(other)]);
+        hub != NO_FAMILY && !spines.contains(&hub) && is_seen(place)
+    };
+    // Around the side opposite to the hub, of those that are asked.
+    let side_box = |place: usize| {
+        is_asked(place as u32).then(|| {
+            let hub = faces.hubs[place];
+            let opposite = faces.triangles[place].into_iter().filter(|position| *position != hub);
+            let images = opposite.map(|position| {
+                let (px, key) = space.project(faces.positions[position as usize]);
+                px.extend(key)
+            });
+            let (low, high) = crate::mesh::bounds(&images.collect::<Vec<_>>());
+            // What counts as touching is a hundred-thousandth of a side.
+            let margin = (high - low).max_element() * (8.0 * CONTACT);
+            Box3::new(low - margin, high + margin)
+        })
+    };
+    let sides = filled(faces.hubs.len(), worth(faces.hubs.len()), None, side_box);
+    let boxes = faces.tree.boxes();
+    let add_of = |place: usize, found: &mut Vec<Found>| {
+        let Some(side) = sides[place].filter(|_| !progress.is_over()) else { return };
+        let plate = Plate::new(space, faces, place as u32);
+        faces.tree.any(&side, |other| {
+            let other_place = other as usize;
+            let is_of_hub = other_place != place && faces.hubs[other_place] == faces.hubs[place];
+            // Where each side is near the other face, the pair comes from the first.
+            let comes_once =
+                place < other_place || !sides[other_place].is_some_and(|side| side.overlaps(&boxes[place]));
+            if is_of_hub && comes_once && sides[other_place].is_some() {
+                found.extend(plate.meet(space, faces, other).filter(|found| is_open(found.ends)));
             }
             false
         });
-        pairs
     };
     let parts = in_chunks(faces.hubs.len(), AT_ONCE, cores(), |range| {
-        counting_steps(|| range.flat_map(|place| pairs_of(place as u32)).collect::<Vec<[u32; 2]>>())
+        counting_steps(|| {
+            let mut found = Vec::new();
+            range.for_each(|place| add_of(place, &mut found));
+            found
+        })
     });
     let compared = parts.iter().map(|(_, steps)| steps).sum();
-    let mut pairs: Vec<[u32; 2]> = parts.into_iter().flat_map(|(pairs, _)| pairs).collect();
-    pairs.sort_unstable();
-    pairs.dedup();
-    let meeting = |pair: usize| {
-        let [first, second] = pairs[pair];
-        if progress.is_over() { None } else { Plate::new(space, faces, first).meet(space, faces, second) }
-    };
-    let found = in_chunks(pairs.len(), AT_ONCE, cores(), |range| range.filter_map(meeting).collect::<Vec<Found>>());
+    let found = parts.into_iter().map(|(found, _)| found);
     (found.into_iter().flatten().collect(), compared)
 }
 

@@ -5,7 +5,7 @@
 //! that the [pyramid](super::pyramid) hides are left out, for what they hide is hidden anyway.
 
 use super::faces::Faces;
-use super::pyramid::{Pyramid, layers};
+use super::pyramid::Pyramid;
 use super::space::Space;
 use crate::bvh::{Box3, BoxTree, LeftOut};
 use crate::threads::{cores, in_chunks};
@@ -17,9 +17,6 @@ pub(super) struct Occluders {
     places: Vec<u32>,
 }
 
-/// How often the boxes of all faces cover the picture before faces are cut into parts: fewer are looked at as they are.
-const LAYERS: f64 = 24.0;
-
 /// Share of the picture's larger side that a part may be long.
 const LONGEST: f64 = 1.0 / 24.0;
 
@@ -28,12 +25,9 @@ const HALVINGS: u32 = 8;
 const MOST_PARTS: usize = 600_000;
 
 impl Occluders {
-    /// The parts of the faces, or `None` where the faces themselves do.
-    pub(super) fn new(space: &Space, faces: &Faces, pyramid: Option<&Pyramid>) -> Option<Self> {
+    /// The parts of the faces.
+    pub(super) fn new(space: &Space, faces: &Faces, pyramid: Option<&Pyramid>) -> Self {
         let boxes = faces.tree.boxes();
-        if layers(space, boxes.iter()) < LAYERS {
-            return None;
-        }
         let longest = space.size.max_element() * LONGEST;
         let halvings = HALVINGS.min((MOST_PARTS / boxes.len().max(1)).max(1).ilog2());
         let parts = in_chunks(boxes.len(), 256, cores(), |range| {
@@ -81,7 +75,7 @@ impl Occluders {
         if !faces.hubs.is_empty() {
             tree.set_hubs(&places.iter().map(|place| faces.hubs[*place as usize]).collect::<Vec<u32>>());
         }
-        Some(Self { tree, places })
+        Self { tree, places }
     }
 
     /// As [`BoxTree::any_but`] of the faces' tree; a face may come several times.

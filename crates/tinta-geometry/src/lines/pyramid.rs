@@ -232,7 +232,8 @@ impl Pyramid {
         let low = low.clamp(DVec2::ZERO, self.size);
         let high = high.clamp(DVec2::ZERO, self.size);
         let cells = ((high - low).max_element() / self.cell_px).max(1.0);
-        let level = (cells.log2().ceil() as usize).min(self.top());
+        // The logarithm, rounded up.
+        let level = ((cells.ceil() as u32).next_power_of_two().trailing_zeros() as usize).min(self.top());
         let cell = self.cell_px * (1u32 << level) as f64;
         let last = (1usize << (self.top() - level)) - 1;
         let at = |px: f64| ((px / cell) as usize).min(last);

@@ -10,12 +10,14 @@
 use super::beside::Beside;
 use super::face_image::FaceImage;
 use super::faces::{Faces, Own};
+use super::features::Feature;
+use super::foremost::Foremost;
 use super::image::Image;
 use super::ranges::{above_zero, clipped, common, gaps, hold, united};
 use super::space::Space;
 use super::visibility::{Lines, PARTS_OF_PICTURE};
 use crate::bvh::Box3;
-use crate::tolerances::{CONTACT, NEAR_CORNER};
+use crate::tolerances::{CONTACT, NEAR_CORNER, TIP};
 use glam::{DVec2, DVec3};
 use std::cell::Cell;
 
@@ -58,6 +60,10 @@ pub(super) enum Sought {
     Any,
 }
 
+/// The face that hid a line last: often it hides the next one too.
+#[derive(Default)]
+pub(super) struct LastHider(Cell<Option<u32>>);
+
 /// The parts of a line that are to be searched, and those of which a look shows that they are hidden.
 #[derive(Default)]
 pub(super) struct Looked {
@@ -65,14 +71,20 @@ pub(super) struct Looked {
     hidden: Vec<[f64; 2]>,
 }
 
-/// The face that hid a line last: often it hides the next one too.
-#[derive(Default)]
-pub(super) struct LastHider(Cell<Option<u32>>);
+/// A line of which it is asked what hides it.
+#[derive(Clone, Copy)]
+pub(super) struct Line {
+    pub own: Own,
+    /// In the eye's space.
+    pub ends: [DVec3; 2],
+    /// The distance below which positions of its object count as one, file units.
+    pub weld: f64,
+}
 
-/// A part of a line of which it is asked what hides it.
-struct Stretch {
+/// A part of such a line.
+pub(super) struct Stretch {
     part: [f64; 2],
-    px: [DVec2; 2],
+    pub px: [DVec2; 2],
     /// In the eye's space.
     view: [DVec3; 2],
     own: Own,
@@ -80,6 +92,8 @@ struct Stretch {
     corners: [u32; 2],
     /// So near to such a corner what faces around it hide is hidden up to there, shares of the line.
     near_corner: f64,
+    /// So near to where the part begins and ends what any face hides is hidden up to there, shares of the line.
+    tips: [f64; 2],
     line_length: f64,
     weld: f64,
     touch_px: f64,
@@ -103,19 +117,25 @@ impl Lines<'_> {
         let is_long = |gap: &[f64; 2]| *gap == inside || (gap[1] - gap[0]) * image.length() > self.shortest_px;
         let gaps_before = gaps(inside, &hidden);
         let mut looked = Looked { open: Vec::new(), hidden };
-        let is_hidden =
-            |part| self.pyramid_hides(image, part, sought) || self.one_hides(index, image, part, sought, last);
         for gap in gaps_before.into_iter().filter(is_long) {
-            if is_hidden(gap) {
+            if self.pyramid_hides(image, gap, sought) {
                 looked.hidden.push(gap);
                 continue;
             }
             let parts: Vec<[f64; 2]> = image.parts(gap, longest).collect();
-            match parts.len() {
-                1 => looked.open.push(gap),
-                _ => parts.into_iter().for_each(|part| {
-                    if is_hidden(part) { &mut looked.hidden } else { &mut looked.open }.push(part);
-                }),
+            let is_whole = parts.len() == 1;
+            for part in parts {
+                if !is_whole && self.pyramid_hides(image, part, sought) {
+                    looked.hidden.push(part);
+                    continue;
+                }
+                let hidden = self.hidden_by_foremost(index, image, part, sought);
+                if hidden != [part] && self.one_hides(index, image, part, sought, last) {
+                    looked.hidden.push(part);
+                    continue;
+                }
+                looked.open.extend(gaps(part, &hidden).into_iter().filter(is_long));
+                looked.hidden.extend(hidden);
             }
         }
         looked
@@ -162,7 +182,7 @@ impl Lines<'_> {
 
     /// Whether one face of those before the middle of a part hides all of it for sure. Asked where there are many.
     fn one_hides(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought, last: &LastHider) -> bool {
-        if self.face_images.is_empty() || sought == Sought::Any {
+        if self.foremost.is_none() || sought == Sought::Any {
             return false;
         }
         let feature = &self.features[index];
@@ -186,24 +206,16 @@ impl Lines<'_> {
         is_hidden
     }
 
+    /// What of a part the nearest faces hide for sure. Asked where there are many.
+    fn hidden_by_foremost(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought) -> Vec<[f64; 2]> {
+        let Some(foremost) = self.foremost else { return Vec::new() };
+        let stretch = |part: [f64; 2]| self.stretch(index, image, part, sought);
+        foremost.hidden(self.space, self.faces, part, stretch, Foremost::ASKED)
+    }
+
     fn stretch(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought) -> Stretch {
-        let feature = &self.features[index];
-        let corners = feature.own.corners(self.faces);
-        let is_at = |end: usize, px: DVec2| self.space.project(feature.ends[end]).0 == px;
-        let is_at_end = [part[0] == 0.0 && is_at(0, image.a), part[1] == 1.0 && is_at(1, image.b)];
-        Stretch {
-            part,
-            corners: [0, 1].map(|end| if is_at_end[end] { corners[end] } else { u32::MAX }),
-            near_corner: NEAR_CORNER * self.space.size.max_element() / image.length(),
-            px: part.map(|place| image.at(place)),
-            view: part.map(|place| self.space.point(image.at(place), image.key(place))),
-            own: feature.own,
-            line_length: feature.ends[0].distance(feature.ends[1]),
-            weld: feature.weld,
-            touch_px: image.touch_px(self.space),
-            noise_px: image.noise_px,
-            is_nearer_sought: sought == Sought::Nearer,
-        }
+        let &Feature { own, ends, weld, .. } = &self.features[index];
+        Stretch::new(self.space, self.faces, Line { own, ends, weld }, image, part, sought)
     }
 
     /// Finds what of a part faces hide for sure, and what they may hide.
@@ -274,12 +286,47 @@ impl Lines<'_> {
     }
 }
 
+impl Own {
+    /// So near to its end what a face hides of a line is hidden up to there, a share of its length. An intersection ends where an edge passes
+    /// through a face, often in a plane in which others lie, too, and behind none of these for sure.
+    pub(super) fn tip(self, space: &Space, length_px: f64) -> f64 {
+        match self {
+            Self::Edge(_) => 0.0,
+            Self::Faces(_) => TIP * space.size.max_element() / length_px,
+        }
+    }
+}
+
 impl Stretch {
-    /// A range that a face hides, up to where the line ends in one of its corners: there both touch, and nothing comes between.
-    fn up_to_corners(&self, mut range: [f64; 2], corners: [u32; 3]) -> [f64; 2] {
-        for (place, (end, corner)) in range.iter_mut().zip(self.part.iter().zip(&self.corners)) {
-            if (*place - *end).abs() <= self.near_corner && corners.contains(corner) {
-                *place = *end;
+    /// The part between two places of the line's image.
+    pub(super) fn new(space: &Space, faces: &Faces, line: Line, image: &Image, part: [f64; 2], sought: Sought) -> Self {
+        let Line { own, ends, weld } = line;
+        let (corners, length_px) = (own.corners(faces), image.length());
+        let is_at = |end: usize, px: DVec2| space.project(ends[end]).0 == px;
+        let is_at_end = [part[0] == 0.0 && is_at(0, image.a), part[1] == 1.0 && is_at(1, image.b)];
+        Self {
+            part,
+            corners: [0, 1].map(|end| if is_at_end[end] { corners[end] } else { u32::MAX }),
+            near_corner: NEAR_CORNER * space.size.max_element() / length_px,
+            tips: is_at_end.map(|is_at_end| if is_at_end { own.tip(space, length_px) } else { 0.0 }),
+            px: part.map(|place| image.at(place)),
+            view: part.map(|place| space.point(image.at(place), image.key(place))),
+            own,
+            line_length: ends[0].distance(ends[1]),
+            weld,
+            touch_px: image.touch_px(space),
+            noise_px: image.noise_px,
+            is_nearer_sought: sought == Sought::Nearer,
+        }
+    }
+
+    /// A range that a face hides, up to where the line ends in one of its corners, for there both touch, and nothing comes between; and up
+    /// to any end that is very near.
+    fn up_to_ends(&self, mut range: [f64; 2], corners: [u32; 3]) -> [f64; 2] {
+        for end in 0..2 {
+            let left = (range[end] - self.part[end]).abs();
+            if left <= self.tips[end] || left <= self.near_corner && corners.contains(&self.corners[end]) {
+                range[end] = self.part[end];
             }
         }
         range
@@ -289,15 +336,23 @@ impl Stretch {
 impl Lines<'_> {
     /// What of a part of a line a face hides for sure, on both sides, and what it may hide.
     fn hidden_ranges(&self, face: u32, stretch: &Stretch) -> [Option<[f64; 2]>; 2] {
-        match self.face_images.get(face as usize) {
-            Some(image) => self.faces.hidden_ranges(self.space, face, image, stretch),
+        match self.foremost {
+            Some(foremost) => {
+                self.faces.hidden_ranges(self.space, face, &foremost.image(self.space, self.faces, face), stretch)
+            }
             None => self.faces.hidden_ranges(self.space, face, &FaceImage::of(self.space, self.faces, face), stretch),
         }
     }
 }
 
 impl Faces {
-    fn hidden_ranges(&self, space: &Space, face: u32, image: &FaceImage, stretch: &Stretch) -> [Option<[f64; 2]>; 2] {
+    pub(super) fn hidden_ranges(
+        &self,
+        space: &Space,
+        face: u32,
+        image: &FaceImage,
+        stretch: &Stretch,
+    ) -> [Option<[f64; 2]>; 2] {
         const NOTHING: [Option<[f64; 2]>; 2] = [None; 2];
         let is_cut = !self.cut_by_near.is_empty() && self.cut_by_near.binary_search(&face).is_ok();
         // How far inside of each side both ends are; most faces in the box of a part lie beside it.
@@ -359,6 +414,6 @@ impl Faces {
             let behind = above_zero([0.0, 1.0], behind.map(|behind| behind - margin))?.map(place);
             common(range?, behind)
         };
-        [clip(sure, 2.0 * contact).map(|sure| stretch.up_to_corners(sure, numbers)), clip(may, 0.5 * contact)]
+        [clip(sure, 2.0 * contact).map(|sure| stretch.up_to_ends(sure, numbers)), clip(may, 0.5 * contact)]
     }
 }

@@ -189,11 +189,19 @@ impl<'a> Strokes<'a> {
         let is_side = |branch: &&Branch| branch.length < self.least(branch, |stroke| stroke.least_side);
         let mut sides: Vec<&Branch> = wholes.iter().filter(is_side).chain(&spans).collect();
         sides.sort_by(|a, b| a.length.total_cmp(&b.length));
+        let places_touched = in_chunks(sides.len(), LOOKED_AT_ONCE, cores(), |range| {
+            let places = |side: usize| match progress.go_on_drawing() {
+                Ok(()) => <[DVec2; 2]>::try_from(self.places_touched(sides[side])).ok(),
+                Err(_) => None,
+            };
+            range.map(places).collect::<Vec<_>>()
+        });
+        progress.go_on_drawing()?;
         let mut is_needed = vec![false; self.strokes.len()];
         let mut ways = Ways::new(self);
         progress.begin(Phase::TooShort, sides.len());
         let mut before = steps();
-        for branch in sides {
+        for (branch, places) in sides.into_iter().zip(places_touched.into_iter().flatten()) {
             progress.go_on_drawing()?;
             let now = steps();
             progress.advance(1, now.wrapping_sub(before));
@@ -201,7 +209,7 @@ impl<'a> Strokes<'a> {
             if branch.strokes.iter().any(|stroke| is_needed[*stroke] || is_gone[*stroke]) {
                 continue;
             }
-            let &[from, to] = self.places_touched(branch).as_slice() else { continue };
+            let Some([from, to]) = places else { continue };
             let may_use = |stroke: usize| !is_gone[stroke] && !branch.strokes.contains(&stroke);
             if let Some(route) = ways.shortest(self, branch, [from, to], may_use) {
                 route.into_iter().for_each(|stroke| is_needed[stroke] = true);

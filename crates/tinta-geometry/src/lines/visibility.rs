@@ -5,9 +5,9 @@
 
 use super::beside::Beside;
 use super::bundles::Bundles;
-use super::face_image::FaceImage;
 use super::faces::{Faces, Own, Probe};
 use super::features::Feature;
+use super::foremost::Foremost;
 use super::image::{Image, LineParts, LineTree};
 use super::intersections::Piercing;
 use super::occluders::Occluders;
@@ -40,8 +40,8 @@ pub(super) struct Lines<'a> {
     pub(super) pyramid: Option<&'a Pyramid>,
     /// What hides others; `None` where the faces as they are do.
     occluders: Option<Occluders>,
-    /// The faces' images by their places, where each is asked for often; else they are made each time.
-    pub(super) face_images: Vec<FaceImage>,
+    /// Which faces are nearest; `None` where little lies in front of one another.
+    pub(super) foremost: Option<&'a Foremost>,
     /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
     pub(super) beside: LineTree,
     /// Many lines that lie on one another.
@@ -79,7 +79,7 @@ impl<'a> Lines<'a> {
         faces: &'a Faces,
         features: &'a [Feature],
         piercings: &[Piercing],
-        pyramid: Option<&'a Pyramid>,
+        (pyramid, foremost): (Option<&'a Pyramid>, Option<&'a Foremost>),
         settings: &LineSettings,
         progress: &Progress,
     ) -> Result<Self> {
@@ -87,7 +87,7 @@ impl<'a> Lines<'a> {
         let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
         let side = space.size.max_element();
         let hubs = hubs(features);
-        let occluders = Occluders::new(space, faces, pyramid);
+        let occluders = foremost.map(|_| Occluders::new(space, faces, pyramid));
         // Where much lies behind one another a box is asked for by many.
         let rim_px = side / PARTS_OF_PICTURE / if occluders.is_some() { 4.0 } else { 1.0 };
         let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
@@ -129,7 +129,6 @@ impl<'a> Lines<'a> {
         memory::check_lines((rims.len() + beside.len()) * BYTES_A_PART, memory::free())?;
         let is_wanted = |index: usize| features[index].class.is_some();
         let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * TOUCH * side);
-        let face_images = if occluders.is_some() { FaceImage::of_all(space, faces) } else { Vec::new() };
         let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
         for piercing in piercings {
             pierced.entry(piercing.edge).or_default().push(piercing.point);
@@ -143,7 +142,7 @@ impl<'a> Lines<'a> {
             rims: rims.tree(progress),
             pyramid,
             occluders,
-            face_images,
+            foremost,
             beside: beside.tree(progress),
             bundles,
             shortest_px: SHORTEST_LINE * side,

@@ -1,21 +1,17 @@
 //! Ways along strokes from one place to another near it, for [slivers' sides](super): the shortest first, by A*, over the
 //! places where strokes touch.
 //!
-//! A stroke leads from each place on it to the next on either side. On a long stroke these are looked for no farther than a way may reach, about
-//! a stroke's width; what lies on a short one, and which strokes go through a place, is found when it is first asked for and kept. So each way
-//! costs what is on it and beside it, however much else lies in the picture.
+//! A stroke leads from each place on it to the next on either side. What lies on a stroke, and which strokes go through a place, is found when
+//! it is first asked for and kept. So each way costs what is on it and beside it, however much else lies in the picture.
 
 use super::{Branch, JOINED_PX, Stroke, Strokes};
 use crate::bvh::add_steps;
 use glam::DVec2;
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::BinaryHeap;
 
 /// Places looked at for one way; where there are more, there is none, and what might have gone stays.
 const MOST_PLACES: usize = 512;
-
-/// Up to which length all meetings on a stroke are found at once, pixels.
-const SHORT_PX: f64 = 8.0;
 
 /// The ends of the way, among places that are meetings otherwise.
 const FROM: usize = usize::MAX - 1;
@@ -27,10 +23,15 @@ type Along = (f64, usize);
 /// What is known of places; nothing of those that nobody has asked about.
 pub(super) struct Ways {
     meetings: MeetingGrid,
-    /// On each short stroke the meetings in their order along it.
+    /// On each stroke the meetings in their order along it.
     on_strokes: Vec<Option<Box<[Along]>>>,
     /// The strokes through each meeting.
     through: Vec<Option<Box<[usize]>>>,
+    /// The places that the way being looked for has reached.
+    reached: Vec<Reached>,
+    /// Of each meeting for which way it was reached last, and its place among the reached ones then.
+    known: Vec<[u32; 2]>,
+    way: u32,
 }
 
 /// The meetings by the cell of the picture in which they lie, row by row: about one in each.
@@ -41,22 +42,26 @@ struct MeetingGrid {
     /// Where each cell's begin among all, and where the last one's end.
     starts: Vec<u32>,
     meetings: Vec<u32>,
+    /// Where these are.
+    places: Vec<DVec2>,
 }
 
-/// How a place was reached: by how long a way, and from which other place along which stroke at last.
+/// How a place was reached: by how long a way, and from which other reached one along which stroke at last.
 #[derive(Clone, Copy)]
 struct Reached {
+    place: usize,
     length: f64,
     by: Option<(usize, usize)>,
     is_done: bool,
 }
 
-/// A place to go on from; the one with the shortest way over it comes first.
+/// A reached place to go on from; the one with the shortest way over it comes first.
 #[derive(PartialEq)]
 struct Open {
     /// The way to it, and from there straight on.
     length: f64,
     place: usize,
+    number: usize,
 }
 
 impl Eq for Open {}
@@ -79,7 +84,31 @@ impl Ways {
             meetings: MeetingGrid::new(strokes),
             on_strokes: vec![None; strokes.strokes.len()],
             through: vec![None; strokes.ends.len()],
+            reached: Vec::new(),
+            known: vec![[0; 2]; strokes.ends.len()],
+            way: 0,
         }
+    }
+
+    /// Notes a way to a place, if it is shorter than the one that is known; returns the place's number among the reached ones then.
+    fn reach(&mut self, place: usize, length: f64, by: Option<(usize, usize)>) -> Option<usize> {
+        let reached = Reached { place, length, by, is_done: false };
+        let known = match place {
+            // The end is the one place without a meeting that may be reached again.
+            FROM | TO => self.reached.iter().position(|reached| reached.place == place),
+            meeting => Some(self.known[meeting]).filter(|[way, _]| *way == self.way).map(|[_, number]| number as usize),
+        };
+        match known {
+            Some(number) if length < self.reached[number].length => self.reached[number] = reached,
+            Some(_) => return None,
+            None => {
+                if place < FROM {
+                    self.known[place] = [self.way, self.reached.len() as u32];
+                }
+                self.reached.push(reached);
+            }
+        }
+        Some(known.unwrap_or(self.reached.len() - 1))
     }
 
     /// The strokes of the shortest way between two places beside a branch, as wide and also too short; `None` where there is none.
@@ -93,47 +122,64 @@ impl Ways {
         let least = strokes.least(branch, |stroke| stroke.least_side);
         let width = branch.strokes.iter().map(|stroke| strokes.strokes[*stroke].width).fold(0.0, f64::max);
         let is_way = |stroke: usize| strokes.strokes[stroke].width >= width && may_use(stroke);
-        let [through_from, through_to] = [from, to].map(|place| strokes.through(place, 2.0 * JOINED_PX));
+        let [mut through_from, through_to] = [from, to].map(|place| Box::from(strokes.through(place, 2.0 * JOINED_PX)));
         let px = |place: usize| match place {
             FROM => from,
             TO => to,
             meeting => strokes.place(meeting),
         };
-        let mut reached = HashMap::from([(FROM, Reached { length: 0.0, by: None, is_done: false })]);
-        let mut open = BinaryHeap::from([Open { length: from.distance(to), place: FROM }]);
-        while let Some(Open { place: here, .. }) = open.pop() {
+        self.way += 1;
+        self.reached.clear();
+        self.reach(FROM, 0.0, None);
+        let mut open = BinaryHeap::from([Open { length: from.distance(to), place: FROM, number: 0 }]);
+        while let Some(Open { place: here, number, .. }) = open.pop() {
             if here == TO {
-                return Some(way_back(&reached));
+                return Some(self.way_back(number));
             }
-            let Some(at) = reached.get_mut(&here).filter(|at| !at.is_done) else { continue };
-            at.is_done = true;
-            let length = at.length;
-            if reached.len() > MOST_PLACES {
+            let Reached { length, is_done, .. } = &mut self.reached[number];
+            if std::mem::replace(is_done, true) {
+                continue;
+            }
+            let length = *length;
+            if self.reached.len() > MOST_PLACES {
                 return None;
             }
             let through = match here {
-                FROM => &through_from[..],
+                FROM => std::mem::take(&mut through_from),
                 meeting => {
-                    &**self.through[meeting].get_or_insert_with(|| strokes.through(px(meeting), JOINED_PX).into())
+                    self.through[meeting].take().unwrap_or_else(|| strokes.through(px(meeting), JOINED_PX).into())
                 }
             };
             for &stroke in through.iter().filter(|stroke| is_way(**stroke)) {
-                let known = &mut self.on_strokes[stroke];
-                let at = (here, px(here));
-                let next = self.meetings.next_on(known, strokes, &strokes.strokes[stroke], at, least - length);
+                let on_it =
+                    self.on_strokes[stroke].get_or_insert_with(|| self.meetings.on_stroke(&strokes.strokes[stroke]));
+                let next = neighbours(on_it, here, px(here).distance(strokes.strokes[stroke].ends[0]));
                 let to = through_to.contains(&stroke).then_some(TO);
                 for next in next.into_iter().flatten().chain(to) {
                     let length = length + px(here).distance(px(next));
                     let over = length + px(next).distance(px(TO));
-                    let is_shorter = reached.get(&next).is_none_or(|known| length < known.length);
-                    if over < least && is_shorter {
-                        reached.insert(next, Reached { length, by: Some((here, stroke)), is_done: false });
-                        open.push(Open { length: over, place: next });
+                    let is_near = over < least;
+                    if let Some(number) = is_near.then(|| self.reach(next, length, Some((number, stroke)))).flatten() {
+                        open.push(Open { length: over, place: next, number });
                     }
                 }
             }
+            if here != FROM {
+                self.through[here] = Some(through);
+            }
         }
         None
+    }
+
+    /// The strokes by which a place was reached, the last one first.
+    fn way_back(&self, number: usize) -> Vec<usize> {
+        let mut strokes = Vec::new();
+        let mut by = self.reached[number].by;
+        while let Some((before, stroke)) = by {
+            strokes.push(stroke);
+            by = self.reached[before].by;
+        }
+        strokes
     }
 }
 
@@ -142,7 +188,8 @@ impl MeetingGrid {
         let count = strokes.ends.len();
         let cell_px = (strokes.border.element_product() / count.max(1) as f64).sqrt();
         let [columns, rows] = strokes.border.to_array().map(|side| (side / cell_px).ceil().max(1.0) as usize);
-        let mut grid = Self { cell_px, columns, rows, starts: vec![0; columns * rows + 1], meetings: vec![0; count] };
+        let (starts, meetings) = (vec![0; columns * rows + 1], vec![0; count]);
+        let mut grid = Self { cell_px, columns, rows, starts, meetings, places: Vec::new() };
         let cell_of = |grid: &Self, meeting: usize| {
             let [column, row] = grid.cell(strokes.place(meeting));
             row * columns + column
@@ -163,6 +210,7 @@ impl MeetingGrid {
             let place = grid.starts[cell] as usize;
             grid.meetings[place] = meeting as u32;
         }
+        grid.places = grid.meetings.iter().map(|meeting| strokes.place(*meeting as usize)).collect();
         grid
     }
 
@@ -172,64 +220,41 @@ impl MeetingGrid {
         [at(px.x, self.columns), at(px.y, self.rows)]
     }
 
-    /// The meetings in the cells between two places.
-    fn between(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = usize> {
+    /// The meetings on a stroke in their order along it.
+    fn on_stroke(&self, stroke: &Stroke) -> Box<[Along]> {
+        const MARGIN: f64 = 2.0 * JOINED_PX;
+        let [start, end] = stroke.ends;
+        let (low, high) = (start.min(end) - MARGIN, start.max(end) + MARGIN);
         let ([left, top], [right, bottom]) = (self.cell(low), self.cell(high));
-        (top..=bottom).flat_map(move |row| {
+        let along = end - start;
+        let mut on_it = Vec::new();
+        for row in top..=bottom {
+            // What of the stroke is near the row, and the cells there.
+            let (mut from_x, mut to_x) = (low.x, high.x);
+            if along.y != 0.0 && top < bottom {
+                let share = |y: f64| ((y - start.y) / along.y).clamp(0.0, 1.0);
+                let of_border = |row: usize, margin: f64| match row {
+                    row if row == top && margin < 0.0 => low.y,
+                    row if row == bottom + 1 => high.y,
+                    row => row as f64 * self.cell_px + margin,
+                };
+                let [a, b] =
+                    [of_border(row, -MARGIN), of_border(row + 1, MARGIN)].map(|y| start.x + along.x * share(y));
+                (from_x, to_x) = (a.min(b) - MARGIN, a.max(b) + MARGIN);
+            }
+            let [left, right] =
+                [self.cell(DVec2::new(from_x, 0.0))[0].max(left), self.cell(DVec2::new(to_x, 0.0))[0].min(right)];
             let [first, end] = [left, right + 1].map(|column| self.starts[row * self.columns + column] as usize);
             add_steps((end - first) as u64 + 1);
-            self.meetings[first..end].iter().map(|meeting| *meeting as usize)
-        })
-    }
-
-    /// The meetings on a stroke next before and after a place on it, which may be a meeting, as far as they are within reach; `known`
-    /// are all on a short one.
-    fn next_on(
-        &self,
-        known: &mut Option<Box<[Along]>>,
-        strokes: &Strokes<'_>,
-        stroke: &Stroke,
-        (here, px): (usize, DVec2),
-        reach: f64,
-    ) -> [Option<usize>; 2] {
-        let along = px.distance(stroke.ends[0]);
-        if stroke.length > SHORT_PX {
-            return neighbours(&self.on_stroke(strokes, stroke, [along - reach, along + reach]), here, along);
-        }
-        neighbours(
-            known.get_or_insert_with(|| self.on_stroke(strokes, stroke, [0.0, stroke.length]).into()),
-            here,
-            along,
-        )
-    }
-
-    /// The meetings on a stroke in their order along it, from one distance from its first end to another.
-    fn on_stroke(&self, strokes: &Strokes<'_>, stroke: &Stroke, range: [f64; 2]) -> Vec<Along> {
-        let [start, end] = stroke.ends;
-        let direction = (end - start).normalize_or_zero();
-        let [from, to] = range.map(|along| start + direction * along.clamp(0.0, stroke.length));
-        let (low, high) = (from.min(to) - 2.0 * JOINED_PX, from.max(to) + 2.0 * JOINED_PX);
-        let mut on_it = Vec::new();
-        for meeting in self.between(low, high) {
-            let place = strokes.place(meeting);
-            if stroke.distance(place) <= JOINED_PX {
-                on_it.push((place.distance(start), meeting));
+            for (meeting, place) in self.meetings[first..end].iter().zip(&self.places[first..end]) {
+                if stroke.distance(*place) <= JOINED_PX {
+                    on_it.push((place.distance(start), *meeting as usize));
+                }
             }
         }
         on_it.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        on_it
+        on_it.into()
     }
-}
-
-/// The strokes by which the end was reached, the last one first.
-fn way_back(reached: &HashMap<usize, Reached>) -> Vec<usize> {
-    let mut strokes = Vec::new();
-    let mut place = TO;
-    while let Some((before, stroke)) = reached.get(&place).and_then(|at| at.by) {
-        strokes.push(stroke);
-        place = before;
-    }
-    strokes
 }
 
 /// The meetings on a stroke before and after a place, which may be one of them.
