@@ -2,18 +2,20 @@
 //!
 //! In: a [`LineJob`], all values. Out: ink to be laid over a picture of the same view. One view's lines are looked for at a time.
 //! When the view changes meanwhile they are given up if only a picture of the same view can take them; lines that are a picture
-//! by themselves are finished and shown, and those of the newest view are next.
+//! by themselves are finished and shown, and those of the newest view are next. Strokes keep their ids from view to view, so that it can
+//! be said how many stayed.
 
 use super::draw::Job;
 use super::line_style::LineStyle;
 use super::paint::{over, painted};
 use super::report::{Report, Reporter};
 use crate::error::Result;
-use crate::lines::{Progress, VisibleLines, strokes};
+use crate::lines::{LineSettings, Progress, StrokeIds, VisibleLines, chain, strokes, strokes_of_paths};
 use crate::picture::Picture;
 use crate::renderer::milliseconds_since;
 use crate::scene::{Scene, SceneSettings, Size};
-use std::sync::Arc;
+use std::collections::HashSet;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// Whose lines are wanted, drawn how.
@@ -31,8 +33,56 @@ impl LineJob {
         self.style == other.style && self.view.is_of_same_picture(&other.view)
     }
 
-    fn ink(&self, progress: &Progress) -> Result<Picture> {
-        ink(&self.view.scene()?, &self.style, progress)
+    /// The lines on nothing, and how many of their strokes are those of the view before.
+    fn find(&self, ids: &Mutex<Option<Kept>>, progress: &Progress) -> Result<(Picture, Stayed)> {
+        let (scene, drawing) = (self.view.scene()?, &self.style.drawing);
+        let lines = VisibleLines::with_progress(&scene, &self.style.wanted(), progress)?.without_specks(drawing)?;
+        let mut kept = ids.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_same = |kept: &Kept| Arc::ptr_eq(&kept.scene, &self.view.scene) && kept.settings == self.style.wanted();
+        if !kept.as_ref().is_some_and(is_same) {
+            *kept = None;
+        }
+        let kept = kept.get_or_insert_with(|| Kept {
+            scene: self.view.scene.clone(),
+            settings: self.style.wanted(),
+            ids: StrokeIds::new(&scene, &self.style.wanted()),
+            strokes: HashSet::new(),
+        });
+        let strokes: HashSet<u32> = kept.ids.next(&scene, &lines).iter().filter_map(|path| path.stroke).collect();
+        let stayed = strokes.intersection(&kept.strokes).count();
+        let stayed = Stayed { count: strokes.len(), new: strokes.len() - stayed, gone: kept.strokes.len() - stayed };
+        kept.strokes = strokes;
+        // As the file has them: a path that ends where a stroke does would begin its dashes anew.
+        let drawn = strokes_of_paths(&lines, chain(&lines.segments), drawing)?;
+        Ok((painted(&drawn, scene.size), stayed))
+    }
+}
+
+/// The strokes of the view before, for which settings of which models.
+#[derive(Debug)]
+struct Kept {
+    scene: Arc<Scene>,
+    settings: LineSettings,
+    ids: StrokeIds,
+    strokes: HashSet<u32>,
+}
+
+/// How the strokes of a view are those of the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stayed {
+    /// Strokes in this view.
+    pub count: usize,
+    /// Of these not in the one before; all in a first view.
+    pub new: usize,
+    /// Those of the one before that are not in this one.
+    pub gone: usize,
+}
+
+impl Stayed {
+    /// For the panel.
+    pub(super) fn text(self) -> String {
+        let Self { count, new, gone } = self;
+        format!("{count} strokes, {new} new, {gone} gone")
     }
 }
 
@@ -53,6 +103,8 @@ pub struct Found {
     pub job: LineJob,
     /// They on nothing.
     pub ink: Picture,
+    /// How many of their strokes are those of the view before.
+    pub stayed: Stayed,
     /// What that took, milliseconds.
     pub ms: f64,
 }
@@ -78,6 +130,8 @@ pub struct ExactLines {
     finding: Option<(LineJob, Arc<Progress>)>,
     /// Whose cannot be found, and why.
     refused: Option<(LineJob, String)>,
+    /// By which the next view's strokes are known again.
+    kept: Arc<Mutex<Option<Kept>>>,
     /// Counts what was found.
     pub number: u64,
 }
@@ -128,9 +182,11 @@ impl ExactLines {
     fn start(&mut self, job: LineJob, reporter: Reporter) {
         let progress = Arc::new(Progress::default());
         self.finding = Some((job.clone(), progress.clone()));
+        let kept = self.kept.clone();
         let work = move || {
             let start = Instant::now();
-            let found = job.ink(&progress).map(|ink| Found { ms: milliseconds_since(start), ink, job });
+            let found = job.find(&kept, &progress);
+            let found = found.map(|(ink, stayed)| Found { ms: milliseconds_since(start), ink, stayed, job });
             reporter.say(Report::Lines(Box::new(found)));
         };
         if let Err(error) = std::thread::Builder::new().name("lines".to_owned()).spawn(work) {
@@ -157,5 +213,37 @@ impl ExactLines {
         if let Some((_, progress)) = &self.finding {
             progress.cancel();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::window::Orbit;
+    use crate::{LoadOptions, load};
+
+    #[test]
+    fn strokes_stay_from_view_to_view_until_the_settings_change() {
+        let mesh = Arc::new(load("builtin:gear", &LoadOptions::default()).unwrap().mesh);
+        let settings = SceneSettings { size: Size { width: 160, height: 160 }, ..SceneSettings::default() };
+        let scene = Arc::new(Scene::new(vec![mesh], &settings).unwrap());
+        let (mut orbit, kept) = (Orbit::default(), Mutex::new(None));
+        let find = |orbit: &Orbit, style: LineStyle| {
+            let (scene, orbit, settings) = (scene.clone(), orbit.clone(), settings.clone());
+            let view = Job { scene, orbit, settings, drawings: Vec::new(), is_coarse: false };
+            LineJob { view, style }.find(&kept, &Progress::default()).unwrap().1
+        };
+        let first = find(&orbit, LineStyle::default());
+        assert!(first.count > 20 && (first.new, first.gone) == (first.count, 0), "{first:?}");
+        let same = find(&orbit, LineStyle::default());
+        assert_eq!((same.count, same.new, same.gone), (first.count, 0, 0));
+        orbit.turn(0.01, 0.0);
+        let turned = find(&orbit, LineStyle::default());
+        assert!(turned.new * 5 < turned.count && turned.gone * 5 < turned.count, "{turned:?}");
+        let mut creases = LineStyle::default();
+        creases.lines.classes = crate::edges::ClassSet::of(&[crate::edges::Class::Crease]);
+        let other = find(&orbit, creases);
+        assert_eq!((other.new, other.gone), (other.count, 0), "other lines are other strokes");
+        assert_eq!(turned.text(), format!("{} strokes, {} new, {} gone", turned.count, turned.new, turned.gone));
     }
 }

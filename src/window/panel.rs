@@ -22,6 +22,10 @@ pub(super) const HINT: Color32 = Color32::GRAY;
 const COARSE: &str =
     "while the model turns: half the width and height, without the faces that look away, three-pass in one pass";
 
+/// What is counted of exact lines.
+const STAYED: &str = "strokes of the exact lines in this view, and how many came and went since the view before; a stroke stays as long \
+                      as it runs along the same place of the model";
+
 /// Shows the panel's content.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     let state = &viewer.state;
@@ -56,6 +60,9 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
         if ui.checkbox(&mut is_over, "exact lines over it").changed() {
             events.push(ViewerEvent::Overlay(side, is_over));
         }
+    }
+    if let Some(found) = viewer.lines.found().filter(|_| lines != LinesShown::None) {
+        ui.label(found.stayed.text()).on_hover_text(STAYED);
     }
     let look = state.look().map_or("none", |look| look.name);
     let looks = LOOKS.into_iter().map(|look| (look.name, look.about));

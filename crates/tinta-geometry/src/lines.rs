@@ -90,7 +90,7 @@ pub use pdf::{pdf, pdf_of_paths};
 pub use progress::{Phase, Progress};
 pub use raster::{Raster, raster, raster_of_paths};
 pub use silhouettes::{SmoothSilhouette, smooth_silhouettes};
-pub use strokes::{Polyline, Strokes, strokes};
+pub use strokes::{Polyline, Strokes, strokes, strokes_of_paths};
 pub use svg::{Hidden, SvgSettings, svg, svg_of_paths};
 
 use crate::clock::{Instant, milliseconds_since};

@@ -323,10 +323,10 @@ impl Stretch {
     /// A range that a face hides, up to where the line ends in one of its corners, for there both touch, and nothing comes between; and up
     /// to any end that is very near.
     fn up_to_ends(&self, mut range: [f64; 2], corners: [u32; 3]) -> [f64; 2] {
-        for end in 0..2 {
-            let left = (range[end] - self.part[end]).abs();
+        for (end, place) in range.iter_mut().enumerate() {
+            let left = (*place - self.part[end]).abs();
             if left <= self.tips[end] || left <= self.near_corner && corners.contains(&self.corners[end]) {
-                range[end] = self.part[end];
+                *place = self.part[end];
             }
         }
         range

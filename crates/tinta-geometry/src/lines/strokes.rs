@@ -4,7 +4,7 @@
 //! their own.
 
 use super::VisibleLines;
-use super::chain::chain;
+use super::chain::{LinePath, chain};
 use super::drawing::{Drawing, DrawnLayer, GHOST_OPACITY};
 use super::layers::Layer;
 use super::pen::dashes;
@@ -44,7 +44,16 @@ pub struct Polyline {
 /// As [`super::svg`].
 pub fn strokes(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<Strokes>> {
     let lines = lines.without_specks(settings)?;
-    let drawing = Drawing::new(&lines, chain(&lines.segments), settings)?;
+    strokes_of_paths(&lines, chain(&lines.segments), settings)
+}
+
+/// The strokes of lines as they are, for which [`chain`] has made `paths`.
+///
+/// # Errors
+///
+/// As [`super::svg`].
+pub fn strokes_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSettings) -> Result<Vec<Strokes>> {
+    let drawing = Drawing::new(lines, paths, settings)?;
     Ok(drawing.layers.iter().map(|layer| of_layer(layer, settings)).collect())
 }
 
