@@ -331,3 +331,32 @@ fn the_time_left_follows_from_what_is_done() {
     // Of the soup alone there are some thousand lines, and looking at them takes no time beside that of a line.
     assert!(places > 20, "{places}");
 }
+
+#[test]
+fn triangles_of_one_plane_seen_edge_on_are_one_line_whose_cuts_are_those_of_what_is_near() {
+    let mut random = Random::seeded(11);
+    let corners: Vec<DVec3> = (0..900).map(|_| DVec3::new(random.number(), random.number(), 0.0)).collect();
+    let triangles = (0..300).map(|face| [face * 3, face * 3 + 1, face * 3 + 2]).collect();
+    let scene = scene_of(vec![mesh(corners, triangles)], view("top", false));
+    let found = seen(&scene);
+    let mut ranges: Vec<[f64; 2]> = found
+        .segments
+        .iter()
+        .map(|segment| segment.ends_px.map(|end| end.x))
+        .map(|[a, b]| [a.min(b), a.max(b)])
+        .collect();
+    ranges.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let (mut drawn, mut end) = (0.0, ranges[0][0]);
+    for range in &ranges {
+        drawn += (range[1] - range[0].max(end)).max(0.0);
+        end = end.max(range[1]);
+    }
+    let extent = end - ranges[0][0];
+    assert!(extent > 400.0 && extent - drawn < 0.01, "{drawn} px of {extent}");
+    let twice = ranges.iter().map(|[from, to]| to - from).sum::<f64>() - drawn;
+    assert!(twice < 0.05, "{twice} px are drawn twice");
+    // All 900 edges lie on one another: each is asked once for all, not once for each of their ends.
+    let each = found.times.compared as f64 / 900.0;
+    println!("{each:.0} boxes for each edge, {} pieces", found.segments.len());
+    assert!(each < 6_000.0, "{each:.0} boxes for each edge");
+}

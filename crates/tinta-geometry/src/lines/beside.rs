@@ -127,7 +127,8 @@ impl Lines<'_> {
         CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise
     }
 
-    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many.
+    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many. Where only
+    /// what is seen counts, not of those that are farther away for sure.
     pub(super) fn add_beside(
         &self,
         index: usize,
@@ -140,7 +141,10 @@ impl Lines<'_> {
         let touch_px = image.touch_px(self.space);
         let mut count = 0;
         self.any_beside(image, beside, part, |other_index| {
-            if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
+            let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
+            if let Some(other) =
+                self.images[other_index].filter(|other| other_index != index && !changes_nothing(other))
+            {
                 self.add_crossings(image, &other, touch_px.max(other.touch_px(self.space)), false, cuts);
                 count += 1;
             }
@@ -177,6 +181,14 @@ impl Lines<'_> {
         let least = self.clearly_behind(index, &other);
         let behind = |place: f64| image.key(place) - other.key(other.place_of(image.at(place))) - least;
         if range[0] < range[1] { above_zero(range, range.map(behind)) } else { None }
+    }
+
+    /// Whether a line that lies in the picture on another is farther away than that for sure, wherever it lies on it.
+    fn is_farther(&self, index: usize, image: &Image, nearer: &Image) -> bool {
+        let touch_px = nearer.touch_px(self.space).max(image.touch_px(self.space));
+        let Some(range) = nearer.overlap(image, touch_px) else { return false };
+        let least = self.clearly_behind(index, nearer);
+        range.into_iter().all(|place| image.key(image.place_of(nearer.at(place))) - nearer.key(place) > least)
     }
 
     /// By how much a line's key must be larger than another's for it not to touch it, nor anything that is nearer still.

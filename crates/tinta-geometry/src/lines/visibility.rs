@@ -67,6 +67,9 @@ pub(super) const PARTS_OF_PICTURE: f64 = 16.0;
 /// Parts' lines between two looks at the time.
 const LINES_A_GLANCE: usize = 64;
 
+/// Pieces of one line between two looks at the time.
+const PIECES_A_GLANCE: usize = 64;
+
 /// What a part of a line takes while its tree is built, at the most, bytes: box, nodes, numbers, and what building them needs.
 const BYTES_A_PART: usize = 320;
 
@@ -165,7 +168,9 @@ impl<'a> Lines<'a> {
                         break;
                     }
                     let before = steps();
-                    self.add_segments(index, &last, &mut segments);
+                    if self.add_segments(index, &last, progress, &mut segments).is_none() {
+                        break;
+                    }
                     progress.advance(1, steps().wrapping_sub(before));
                 }
                 segments
@@ -177,17 +182,24 @@ impl<'a> Lines<'a> {
         (segments, compared)
     }
 
-    fn add_segments(&self, index: usize, last: &LastHider, segments: &mut Vec<LineSegment>) {
+    /// Adds the pieces of a line; `None`, and nothing, where the time is over before all are decided.
+    fn add_segments(
+        &self,
+        index: usize,
+        last: &LastHider,
+        progress: &Progress,
+        segments: &mut Vec<LineSegment>,
+    ) -> Option<()> {
         let feature = &self.features[index];
-        let (Some(class), Some(image)) = (feature.class, self.images[index]) else { return };
-        let Some(inside) = image.inside(self.space.size, 0.0) else { return };
+        let (Some(class), Some(image)) = (feature.class, self.images[index]) else { return Some(()) };
+        let Some(inside) = image.inside(self.space.size, 0.0) else { return Some(()) };
         if image.length() * (inside[1] - inside[0]) <= self.shortest_px {
-            return;
+            return Some(());
         }
         let behind = self.behind_nearest(index, &image, inside);
         let looked = self.look(index, &image, inside, behind, Sought::Nearer, last);
         if !self.finds_hidden && looked.open.is_empty() {
-            return;
+            return Some(());
         }
         let beside = self.beside(index, &image, inside);
         let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, &beside, part, most, cuts);
@@ -203,7 +215,10 @@ impl<'a> Lines<'a> {
         }
         let mut pieces: Vec<Piece> = Vec::new();
         let places = self.places(&image, inside, std::mem::take(&mut cuts.places));
-        for place in places.windows(2) {
+        for (number, place) in places.windows(2).enumerate() {
+            if number % PIECES_A_GLANCE == PIECES_A_GLANCE - 1 && progress.is_over() {
+                return None;
+            }
             let [from, to] = [place[0], place[1]];
             let place = (from + to) * 0.5;
             let is_hidden = cuts.hides(place);
@@ -235,6 +250,7 @@ impl<'a> Lines<'a> {
                 false => add(piece),
             }
         }
+        Some(())
     }
 
     /// Where a part of a line begins, is cut and ends. A piece shorter than the shortest line belongs to its neighbour.
