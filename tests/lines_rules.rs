@@ -380,3 +380,25 @@ fn a_rail_of_up_to_four_thousand_vertices_on_one_open_edge_has_no_line_across() 
 fn a_rail_of_any_number_of_vertices_on_one_open_edge_has_no_line_across() {
     check_rails(&[10_000, 100_000]);
 }
+
+#[test]
+fn a_sheet_on_another_in_whose_corner_it_lies_shows_no_diagonal() {
+    // A square and a small one on it that shares a corner: the large one's sides are split where the small one ends, along its diagonal.
+    let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let positions = vec![
+        corner(0.0, 0.0),
+        corner(1.0, 0.0),
+        corner(1.0, 1.0),
+        corner(0.0, 1.0),
+        corner(0.8, 0.0),
+        corner(1.0, 0.2),
+        corner(0.8, 0.2),
+    ];
+    let scene = scene_of(vec![mesh(positions, vec![[0, 1, 2], [0, 2, 3], [4, 1, 5], [4, 5, 6]])], view("front", true));
+    let found = lines(&scene);
+    let is_aslant = |segment: &&LineSegment| (segment.ends_px[0] - segment.ends_px[1]).abs().min_element() > 1e-6;
+    assert_eq!(found.segments.iter().filter(is_aslant).count(), 0);
+    let drawn: f64 = found.segments.iter().filter(|segment| segment.is_visible).map(length).sum();
+    let side = 512.0 * 0.92;
+    assert!((drawn - 4.4 * side).abs() < 0.05, "{drawn} px, the sides are {side}");
+}

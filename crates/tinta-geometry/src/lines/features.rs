@@ -10,6 +10,7 @@ use crate::bvh::NO_FAMILY;
 use crate::edges::{Class, ClassCounts, ClassSet, EdgeList, Incidence, MeshEdges, SilhouetteRule};
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::{Object, Scene};
+use crate::tolerances::CONTACT;
 use glam::DVec3;
 use std::ops::Range;
 use std::sync::Arc;
@@ -86,10 +87,31 @@ impl Part<'_> {
         }
     }
 
-    /// Whether an edge runs through the inside of a face that was split.
+    /// Whether an edge runs through the inside of a face that was split. What lies on that face may have an edge there, too: it counts for
+    /// itself, and is none where two faces lie flat on either side.
     pub(super) fn is_within_a_face(&self, edge: u32) -> bool {
-        matches!(self.edges, Edges::Mended(_))
-            && matches!(self.edges.get().list().faces(edge), &[first, second] if self.whole_face(first) == self.whole_face(second))
+        if matches!(self.edges, Edges::OfScene(_)) {
+            return false;
+        }
+        let mut faces = self.edges.get().list().faces(edge).to_vec();
+        faces.sort_unstable_by_key(|face| self.whole_face(*face));
+        let of_wholes = faces.chunk_by(|a, b| self.whole_face(*a) == self.whole_face(*b));
+        let others: Vec<u32> = of_wholes.filter(|parts| parts.len() != 2).flatten().copied().collect();
+        others.len() < faces.len() && (others.is_empty() || self.lie_flat(edge, &others))
+    }
+
+    /// Whether two faces at an edge lie in one plane on either side of it.
+    fn lie_flat(&self, edge: u32, faces: &[u32]) -> bool {
+        let &[first, second] = faces else { return false };
+        let (edges, mesh) = (self.edges.get(), self.edges.get().mesh());
+        let ends = edges.list().positions()[edge as usize];
+        let [from, to] = ends.map(|end| mesh.positions[end as usize]);
+        // The normals as if both turned the same way round the edge: opposite ones where they lie on either side.
+        let normal = |face: u32| {
+            let third = mesh.triangles[face as usize].into_iter().find(|corner| !ends.contains(corner))?;
+            (to - from).cross(mesh.positions[third as usize] - from).try_normalize()
+        };
+        normal(first).zip(normal(second)).is_some_and(|(first, second)| (first + second).length() <= CONTACT)
     }
 }
 
