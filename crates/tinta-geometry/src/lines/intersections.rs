@@ -128,7 +128,9 @@ pub(super) fn intersections(
         !foremost.is_some_and(|foremost| foremost.hide(space, faces, line()))
     };
     let are_nearest = in_chunks(found.len(), FOUND_AT_ONCE, cores(), |range| {
-        range.map(|index| found[index].is_line && is_nearest(&found[index])).collect::<Vec<bool>>()
+        // Nobody asks for lines where the time is over.
+        let is_over = progress.is_over();
+        range.map(|index| !is_over && found[index].is_line && is_nearest(&found[index])).collect::<Vec<bool>>()
     });
     let are_nearest = are_nearest.concat();
     let lines = in_order().filter(|place| are_nearest[*place]).map(|place| &found[place]);
@@ -151,8 +153,8 @@ fn without_repeated(space: &Space, faces: &Faces, mut lines: Vec<Intersection>) 
     lines
 }
 
-/// What faces around one hub that may be seen have in common but for it: from the hub on, until a side opposite to it passes through a face. With
-/// how many boxes were looked at.
+/// What faces around one hub that may be seen have in common but for it: from the hub on, until a side opposite to it passes
+/// through a face. With how many boxes were looked at.
 fn around_hubs(
     space: &Space,
     faces: &Faces,
