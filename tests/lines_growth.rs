@@ -171,6 +171,8 @@ fn a_part_is_marked_in_every_file_and_a_whole_is_not() {
     let part = VisibleLines { undecided: 3, ..whole.clone() };
     let note = "partial: the time was over before 3 lines were decided";
     assert_eq!((part.partial_note().as_deref(), whole.partial_note()), (Some(note), None));
+    let with_specks = VisibleLines { has_specks: true, ..part.clone() };
+    assert_eq!(with_specks.partial_note(), Some(format!("{note} and specks were left out")));
     let settings = SvgSettings::default();
     let texts = |lines: &VisibleLines| {
         let pdf = tinta::lines::pdf(lines, &settings).unwrap();
@@ -237,7 +239,7 @@ fn planes_through_one_axis_have_one_line_there() {
 }
 
 #[test]
-fn leaving_out_specks_ends_when_asked_and_is_finished_where_a_part_is_wanted() {
+fn leaving_out_specks_ends_when_asked_and_goes_on_a_little_where_a_part_is_wanted() {
     let found = seen(&scene(family("hair"), 200));
     let settings = SvgSettings::default();
     let ended = |progress: &Progress| found.without_specks_with_progress(&settings, progress);
@@ -247,8 +249,9 @@ fn leaving_out_specks_ends_when_asked_and_is_finished_where_a_part_is_wanted() {
     assert!(matches!(ended(&Progress::within(Duration::ZERO)), Err(Error::OutOfTime { .. })));
     let whole = found.without_specks(&settings).unwrap();
     assert!(whole.segments.len() < found.segments.len(), "nothing to leave out");
-    let part = ended(&Progress::within_or_part(Duration::ZERO)).unwrap();
-    assert_eq!(part.segments, whole.segments);
+    // Whether a tenth of the time more is enough depends on the machine; what there is then does not.
+    let part = ended(&Progress::within_or_part(Duration::from_secs(3_600))).unwrap();
+    assert_eq!((part.segments, part.has_specks), (whole.segments, false));
     let partly = Progress::within_or_part(Duration::ZERO);
     partly.cancel();
     assert!(matches!(ended(&partly), Err(Error::Cancelled)));

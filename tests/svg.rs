@@ -32,6 +32,7 @@ pub fn lines(segments: Vec<LineSegment>) -> VisibleLines {
         changes: None,
         healed: None,
         undecided: 0,
+        has_specks: false,
         times: LineTimes::default(),
     }
 }

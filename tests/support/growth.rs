@@ -37,11 +37,12 @@ pub enum Seen {
 }
 
 /// All of them.
-pub const FAMILIES: [Family; 19] = [
+pub const FAMILIES: [Family; 20] = [
     Family { name: "soup", what: "random triangles as large as the scene", make: soup, seen: Seen::Aslant },
     Family { name: "confetti", what: "random triangles of a tenth of the scene", make: confetti, seen: Seen::Aslant },
     Family { name: "coplanar", what: "rectangles that overlap in four planes", make: coplanar, seen: Seen::Aslant },
     Family { name: "book", what: "triangles around one edge", make: book, seen: Seen::Aslant },
+    Family { name: "pages", what: "the same, seen along the edge", make: pages, seen: Seen::Along },
     Family {
         name: "fan",
         what: "triangles around one corner, that pass through others",
@@ -206,6 +207,13 @@ fn book(count: usize) -> Shape {
         shape.triangles.push([0, 1, leaf]);
     }
     shape
+}
+
+/// A book that lies, so that each leaf is seen edge-on.
+fn pages(count: usize) -> Shape {
+    let lie = |position: DVec3| DVec3::new(position.x, position.z, position.y);
+    let Shape { positions, triangles } = book(count);
+    Shape { positions: positions.into_iter().map(lie).collect(), triangles }
 }
 
 fn fan(count: usize) -> Shape {

@@ -273,6 +273,9 @@ pub struct VisibleLines {
     /// How many lines are missing because the time was over before they were decided: none but after
     /// [`Progress::within_or_part`]. What is there is as in the whole.
     pub undecided: usize,
+    /// Whether the time was over before what is too short to be a line was left out, so that all of it is there: not but after
+    /// [`Progress::within_or_part`] and [`VisibleLines::without_specks_with_progress`].
+    pub has_specks: bool,
     /// How it went.
     pub times: LineTimes,
 }
@@ -419,7 +422,7 @@ impl VisibleLines {
         }
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };
-        Ok(Self { size: scene.size, segments, edges, changes, healed, undecided, times })
+        Ok(Self { size: scene.size, segments, edges, changes, healed, undecided, has_specks: false, times })
     }
 
     /// What is said of gaps that were joined.
@@ -433,10 +436,17 @@ impl VisibleLines {
         Some(format!("{what} joined, {length_px:.1} px together"))
     }
 
-    /// What files say of lines of which some are missing, see [`VisibleLines::undecided`].
+    /// What files say of lines of which some are missing, see [`VisibleLines::undecided`], or specks are left.
     pub fn partial_note(&self) -> Option<String> {
         let lines = if self.undecided == 1 { "1 line was" } else { &format!("{} lines were", self.undecided) };
-        (self.undecided > 0).then(|| format!("partial: the time was over before {lines} decided"))
+        let specks = "specks were left out";
+        let before = match (self.undecided > 0, self.has_specks) {
+            (false, false) => return None,
+            (true, false) => format!("{lines} decided"),
+            (false, true) => specks.to_string(),
+            (true, true) => format!("{lines} decided and {specks}"),
+        };
+        Some(format!("partial: the time was over before {before}"))
     }
 
     /// Refuses lines that no drawing can hold: not finite, or outside the picture.

@@ -160,10 +160,6 @@ pub(super) fn run(
         Err(Error::Cancelled) => return Ok(stopped(stop.as_ref())),
         found => found?,
     };
-    let note = lines.partial_note();
-    if let Some(note) = &note {
-        say(&format!("tinta: {}: {note}", arguments.output));
-    }
     if let Some(healed) = lines.healed_note() {
         say(&format!("tinta: {}: {healed}", arguments.output));
     }
@@ -171,6 +167,19 @@ pub(super) fn run(
         say("tinta: no line of these classes is visible in this picture; see --classes, --eye and --target");
     }
 
+    let start = Instant::now();
+    let asked = svg_settings(arguments, None)?;
+    let keeps_all = format == Format::Json && asked.min_length.is_none();
+    let drawn_lines = || lines.without_specks_with_progress(&asked, &progress);
+    let lines = match if keeps_all { None } else { Some(watched(&progress, stop.as_ref(), drawn_lines)) } {
+        None => lines,
+        Some(Err(Error::Cancelled)) => return Ok(stopped(stop.as_ref())),
+        Some(drawn) => drawn?,
+    };
+    let note = lines.partial_note();
+    if let Some(note) = &note {
+        say(&format!("tinta: {}: {note}", arguments.output));
+    }
     let recipe = match format {
         // What there is of a part depends on the machine: nothing makes it again.
         _ if note.is_some() => None,
@@ -181,14 +190,6 @@ pub(super) fn run(
         Format::Json => None,
     };
     let drawn = svg_settings(arguments, recipe.as_ref())?;
-    let start = Instant::now();
-    let keeps_all = format == Format::Json && drawn.min_length.is_none();
-    let drawn_lines = || lines.without_specks_with_progress(&drawn, &progress);
-    let lines = match if keeps_all { None } else { Some(watched(&progress, stop.as_ref(), drawn_lines)) } {
-        None => lines,
-        Some(Err(Error::Cancelled)) => return Ok(stopped(stop.as_ref())),
-        Some(drawn) => drawn?,
-    };
     let is_chained = format != Format::Json || arguments.run.json || arguments.run.explain;
     let paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
     let counts = LineCounts::new(&lines, &paths);

@@ -7,9 +7,17 @@ use super::ranges::{above_zero, united};
 use super::visibility::{Lines, PARTS_OF_PICTURE};
 use crate::tolerances::CONTACT;
 use glam::DVec2;
+use std::cell::OnceCell;
 
-/// Lines that lie on one somewhere.
-pub(super) enum Beside {
+/// The lines that lie on one somewhere, looked for when somebody asks: of most hidden lines nobody does.
+pub(super) struct Beside {
+    /// The line with its image, and between which of its places they matter; `None` where nobody's do.
+    asked: Option<(usize, Image, [f64; 2])>,
+    found: OnceCell<Found>,
+}
+
+/// What was found.
+enum Found {
     /// These.
     Few(Vec<usize>),
     /// So many that they are looked for where they matter.
@@ -19,53 +27,83 @@ pub(super) enum Beside {
 /// From how many on there are many.
 const MANY: usize = 12;
 
-impl Beside {
-    pub(super) const NONE: Self = Self::Few(Vec::new());
+/// Lines looked at before it is worth asking first whether anything hides the line.
+const SOON: usize = 128;
 
-    pub(super) fn are_none(&self) -> bool {
-        matches!(self, Self::Few(lines) if lines.is_empty())
+impl Beside {
+    pub(super) fn new(index: usize, image: &Image, inside: [f64; 2]) -> Self {
+        Self { asked: Some((index, *image, inside)), found: OnceCell::new() }
+    }
+
+    /// No lines.
+    pub(super) fn none() -> Self {
+        Self { asked: None, found: OnceCell::new() }
+    }
+
+    fn found(&self, lines: &Lines) -> &Found {
+        self.found.get_or_init(|| self.look(lines, usize::MAX).unwrap_or(Found::Many))
+    }
+
+    /// What there is, unless more than so many lines are looked at for it.
+    fn look(&self, lines: &Lines, most: usize) -> Option<Found> {
+        match &self.asked {
+            Some((index, image, inside)) => lines.lying_on(*index, image, *inside, most),
+            None => Some(Found::Few(Vec::new())),
+        }
+    }
+
+    /// Whether it is known, or soon found.
+    fn is_soon_found(&self, lines: &Lines) -> bool {
+        if self.found.get().is_none()
+            && let Some(found) = self.look(lines, SOON)
+        {
+            self.found.get_or_init(|| found);
+        }
+        self.found.get().is_some()
+    }
+
+    pub(super) fn are_none(&self, lines: &Lines) -> bool {
+        matches!(self.found(lines), Found::Few(lines) if lines.is_empty())
     }
 }
 
 impl Lines<'_> {
-    /// The wanted lines that lie on one in what of it is between two places.
-    pub(super) fn beside(&self, index: usize, image: &Image, inside: [f64; 2]) -> Beside {
+    /// The wanted lines that lie on one in what of it is between two places; `None` where more than so many are looked at.
+    fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2], most: usize) -> Option<Found> {
+        let mut looked_at = 0;
         let touch_px = image.touch_px(self.space);
         let mut found: Vec<usize> = Vec::new();
-        let mut are_many = false;
         for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
-            are_many |= self.any_beside(image, &Beside::Many, part, |other_index| {
+            let are_many = self.any_of_its_direction(image, part, |other_index| {
                 let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
                 let lies_on_it = || image.overlap(&other, touch_px.max(other.touch_px(self.space))).is_some();
                 if !found.contains(&other_index) && lies_on_it() {
                     found.push(other_index);
                 }
-                found.len() >= MANY
+                looked_at += 1;
+                found.len() >= MANY || looked_at > most
             });
             if are_many {
-                return Beside::Many;
+                return (found.len() >= MANY).then_some(Found::Many);
             }
         }
-        Beside::Few(found)
+        Some(Found::Few(found))
     }
 
     /// Calls `visit` with each line that may lie on a part of one, perhaps several times, until it returns true; returns whether
-    /// it did. Lines that lie on it have its direction.
-    pub(super) fn any_beside(
-        &self,
-        image: &Image,
-        beside: &Beside,
-        part: [f64; 2],
-        mut visit: impl FnMut(usize) -> bool,
-    ) -> bool {
-        match beside {
-            Beside::Few(lines) => lines.iter().any(|line| visit(*line)),
-            Beside::Many => {
-                let touch_px = image.touch_px(self.space);
-                let mut directions = image.directions(touch_px);
-                directions.any(|directions| self.beside.any(&image.part_box(part, touch_px, directions), &mut visit))
-            }
+    /// it did.
+    fn any_beside(&self, image: &Image, beside: &Beside, part: [f64; 2], mut visit: impl FnMut(usize) -> bool) -> bool {
+        match beside.found(self) {
+            Found::Few(lines) => lines.iter().any(|line| visit(*line)),
+            Found::Many => self.any_of_its_direction(image, part, visit),
         }
+    }
+
+    /// The same of all lines that have its direction where it is, as those that lie on it have.
+    fn any_of_its_direction(&self, image: &Image, part: [f64; 2], mut visit: impl FnMut(usize) -> bool) -> bool {
+        let touch_px = image.touch_px(self.space);
+        let mut boxes = image.boxes_along(part, self.space, touch_px);
+        boxes.any(|around| self.beside.any(&around, &mut visit))
     }
 
     /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
@@ -127,8 +165,8 @@ impl Lines<'_> {
         CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise
     }
 
-    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many. Where only
-    /// what is seen counts, not of those that are farther away for sure.
+    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many, or too many to look at. Where
+    /// only what is seen counts, not of those that are farther away for sure.
     pub(super) fn add_beside(
         &self,
         index: usize,
@@ -140,6 +178,9 @@ impl Lines<'_> {
     ) -> bool {
         let touch_px = image.touch_px(self.space);
         let mut count = 0;
+        if most < usize::MAX && !beside.is_soon_found(self) {
+            return true;
+        }
         self.any_beside(image, beside, part, |other_index| {
             let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
             if let Some(other) =

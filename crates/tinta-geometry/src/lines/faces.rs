@@ -166,7 +166,9 @@ impl Faces {
 
     /// A face's corners in the eye's space.
     pub(super) fn corners(&self, face: u32) -> [DVec3; 3] {
-        self.triangles[face as usize].map(|corner| self.positions[corner as usize])
+        // Not by `map`, which is not inlined here.
+        let [a, b, c] = self.triangles[face as usize];
+        [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
     }
 
     /// Whether a line is seen at a point: on one side of it at least, no face hides what is beside it at its own depth.

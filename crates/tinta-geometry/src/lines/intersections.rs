@@ -74,12 +74,12 @@ pub(super) fn intersections(
     let is_seen = |place: u32| seen.as_ref().is_none_or(|seen| seen[place as usize]);
     let is_open = |ends: [DVec3; 2]| !pyramid.is_some_and(|pyramid| is_hidden(space, pyramid, ends));
     const GROUPS: usize = 64;
-    const FOUND_AT_ONCE: usize = 1024;
     const PAIRS_A_GLANCE: u32 = 1024;
     progress.begin(Phase::Intersections, faces.tree.group_count());
+    let meeting = Meeting { space, faces, foremost };
     let in_groups = |groups: std::ops::Range<usize>| {
         let (count, before) = (groups.len(), steps());
-        let (mut found, mut pairs) = (Vec::new(), 0u32);
+        let (mut kept, mut pairs) = (Kept::default(), 0u32);
         // Pairs come leaf by leaf, and the places in a leaf follow one another.
         let mut plates: [Option<Plate>; LARGEST_LEAF as usize] = Default::default();
         faces.tree.pairs(groups, |first, second| {
@@ -90,53 +90,70 @@ pub(super) fn intersections(
             if !is_seen(first) || !is_seen(second) {
                 return false;
             }
-            let kept = &mut plates[(first % LARGEST_LEAF) as usize];
-            if kept.as_ref().is_none_or(|plate| plate.place != first) {
-                *kept = Some(Plate::new(space, faces, first));
+            let plate = &mut plates[(first % LARGEST_LEAF) as usize];
+            if plate.as_ref().is_none_or(|plate| plate.place != first) {
+                *plate = Some(Plate::new(space, faces, first));
             }
-            let meeting = kept.as_ref().and_then(|first| first.meet(space, faces, second));
-            found.extend(meeting.filter(|meeting| is_open(meeting.ends)));
+            let found = plate.as_ref().and_then(|first| first.meet(space, faces, second));
+            found.filter(|found| is_open(found.ends)).into_iter().for_each(|found| kept.add(&meeting, found));
             false
         });
         progress.advance(count, steps().wrapping_sub(before));
-        found
+        kept
     };
-    let parts = spread_chunks(faces.tree.group_count(), GROUPS, cores(), |groups| counting_steps(|| in_groups(groups)));
-    let mut compared: u64 = parts.iter().map(|(_, steps)| steps).sum();
-    let mut found: Vec<Found> = Vec::with_capacity(parts.iter().map(|(found, _)| found.len()).sum());
-    parts.into_iter().for_each(|(some, _)| found.extend(some));
-    let (of_hubs, steps) = around_hubs(space, faces, is_seen, is_open, progress);
-    compared += steps;
-    found.extend(of_hubs);
+    let mut parts =
+        spread_chunks(faces.tree.group_count(), GROUPS, cores(), |groups| counting_steps(|| in_groups(groups)));
+    parts.extend(around_hubs(&meeting, is_seen, is_open, progress));
+    let compared = parts.iter().map(|(_, steps)| steps).sum();
     if progress.is_over() {
         return Intersections { compared, ..Intersections::default() };
     }
-    // By their places, for they are large; two of one pair are the same.
-    let number = |face: u32| faces.numbers[face as usize];
-    let mut order: Vec<([u32; 2], u32)> =
-        found.iter().zip(0..).map(|(found, place)| (found.faces.map(number), place)).collect();
-    order.sort_unstable();
-    let in_order = || order.iter().map(|(_, place)| *place as usize);
-    let piercings = in_order().flat_map(|place| found[place].piercings).flatten().collect();
-    let through = Through::new(space, faces, &found);
-    let is_nearest = |found: &Found| {
+    let mut all = Kept::default();
+    parts.into_iter().for_each(|(some, _)| all.append(some));
+    // A pair may have been found twice.
+    all.lines.sort_unstable_by_key(|found| found.faces.map(|face| faces.numbers[face as usize]));
+    all.lines.dedup_by_key(|found| found.faces);
+    let through = Through::new(space, faces, &all.touches);
+    let lines = all.lines.into_iter().filter(|found| through.allows(found));
+    let lines = lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect();
+    Intersections { lines: without_repeated(space, faces, lines), piercings: all.piercings, compared }
+}
+
+/// What is asked about faces that meet.
+struct Meeting<'a> {
+    space: &'a Space,
+    faces: &'a Faces,
+    foremost: Option<&'a Foremost>,
+}
+
+/// What is kept of what was found.
+#[derive(Default)]
+struct Kept {
+    /// Those that the nearest faces do not hide.
+    lines: Vec<Found>,
+    piercings: Vec<Piercing>,
+    touches: Vec<([u32; 2], u32)>,
+}
+
+impl Kept {
+    fn add(&mut self, &Meeting { space, faces, foremost }: &Meeting, found: Found) {
+        self.piercings.extend(found.piercings.into_iter().flatten());
+        self.touches.extend(found.touch);
         let line = || Line {
             own: Own::Faces(found.faces),
             ends: found.ends,
             weld: faces.weld(faces.triangles[found.faces[0] as usize][0]),
         };
-        !foremost.is_some_and(|foremost| foremost.hide(space, faces, line()))
-    };
-    let are_nearest = in_chunks(found.len(), FOUND_AT_ONCE, cores(), |range| {
-        // Nobody asks for lines where the time is over.
-        let is_over = progress.is_over();
-        range.map(|index| !is_over && found[index].is_line && is_nearest(&found[index])).collect::<Vec<bool>>()
-    });
-    let are_nearest = are_nearest.concat();
-    let lines = in_order().filter(|place| are_nearest[*place]).map(|place| &found[place]);
-    let lines = lines.filter(|found| through.allows(found));
-    let lines = lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect();
-    Intersections { lines: without_repeated(space, faces, lines), piercings, compared }
+        if found.is_line && !foremost.is_some_and(|foremost| foremost.hide(space, faces, line())) {
+            self.lines.push(found);
+        }
+    }
+
+    fn append(&mut self, other: Self) {
+        self.lines.extend(other.lines);
+        self.piercings.extend(other.piercings);
+        self.touches.extend(other.touches);
+    }
 }
 
 /// Of lines in the same place the first, which stands for all: spokes that end in one axis have one line there, not one for each two.
@@ -156,15 +173,15 @@ fn without_repeated(space: &Space, faces: &Faces, mut lines: Vec<Intersection>) 
 /// What faces around one hub that may be seen have in common but for it: from the hub on, until a side opposite to it passes
 /// through a face. With how many boxes were looked at.
 fn around_hubs(
-    space: &Space,
-    faces: &Faces,
+    meeting: &Meeting,
     is_seen: impl Fn(u32) -> bool + Sync,
     is_open: impl Fn([DVec3; 2]) -> bool + Sync,
     progress: &Progress,
-) -> (Vec<Found>, u64) {
-    const AT_ONCE: usize = 16;
+) -> Vec<(Kept, u64)> {
+    const AT_ONCE: usize = 64;
+    let &Meeting { space, faces, .. } = meeting;
     if faces.hubs.is_empty() {
-        return (Vec::new(), 0);
+        return Vec::new();
     }
     let spines = spines(faces);
     let is_asked = |place: u32| {
@@ -188,7 +205,7 @@ fn around_hubs(
     };
     let sides = filled(faces.hubs.len(), worth(faces.hubs.len()), None, side_box);
     let boxes = faces.tree.boxes();
-    let add_of = |place: usize, found: &mut Vec<Found>| {
+    let add_of = |place: usize, kept: &mut Kept| {
         let Some(side) = sides[place].filter(|_| !progress.is_over()) else { return };
         let plate = Plate::new(space, faces, place as u32);
         faces.tree.any(&side, |other| {
@@ -198,21 +215,19 @@ fn around_hubs(
             let comes_once =
                 place < other_place || !sides[other_place].is_some_and(|side| side.overlaps(&boxes[place]));
             if is_of_hub && comes_once && sides[other_place].is_some() {
-                found.extend(plate.meet(space, faces, other).filter(|found| is_open(found.ends)));
+                let found = plate.meet(space, faces, other).filter(|found| is_open(found.ends));
+                found.into_iter().for_each(|found| kept.add(meeting, found));
             }
             false
         });
     };
-    let parts = in_chunks(faces.hubs.len(), AT_ONCE, cores(), |range| {
+    in_chunks(faces.hubs.len(), AT_ONCE, cores(), |range| {
         counting_steps(|| {
-            let mut found = Vec::new();
-            range.for_each(|place| add_of(place, &mut found));
-            found
+            let mut kept = Kept::default();
+            range.for_each(|place| add_of(place, &mut kept));
+            kept
         })
-    });
-    let compared = parts.iter().map(|(_, steps)| steps).sum();
-    let found = parts.into_iter().map(|(found, _)| found);
-    (found.into_iter().flatten().collect(), compared)
+    })
 }
 
 /// Hubs whose faces all have a second corner in common: an edge, and nothing else.
@@ -244,10 +259,10 @@ struct Through {
 }
 
 impl Through {
-    fn new(space: &Space, faces: &Faces, found: &[Found]) -> Self {
+    fn new(space: &Space, faces: &Faces, touches: &[([u32; 2], u32)]) -> Self {
         let mut touched: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
-        for (edge, face) in found.iter().filter_map(|found| found.touch) {
-            touched.entry(edge).or_default().push(face);
+        for (edge, face) in touches {
+            touched.entry(*edge).or_default().push(*face);
         }
         let mut through = HashSet::new();
         let sides = |triangle: &[u32; 3]| {
@@ -410,8 +425,9 @@ impl Plate {
     }
 
     /// Points' distances from the plane, times the normal's length.
-    fn raw_distances(&self, points: [DVec3; 3]) -> [f64; 3] {
-        points.map(|point| self.normal.dot(point - self.corners[0]))
+    fn raw_distances(&self, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
+        let distance = |point: DVec3| self.normal.dot(point - self.corners[0]);
+        [distance(a), distance(b), distance(c)]
     }
 }
 

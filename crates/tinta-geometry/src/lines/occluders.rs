@@ -3,6 +3,9 @@
 //! The box of a large face seen aslant, or of a long thin one, holds much that the face does not: whoever asks what is in front of
 //! a point would look at most of the scene. So faces are halved across their longest sides until their parts are short, and parts
 //! that the [pyramid](super::pyramid) hides are left out, for what they hide is hidden anyway.
+//!
+//! And what hides others where many faces are seen edge-on: all but those. They have no image that could hide anything, and the lines in
+//! them lie on one another, where the nearest is asked for.
 
 use super::faces::Faces;
 use super::pyramid::Pyramid;
@@ -24,15 +27,28 @@ const LONGEST: f64 = 1.0 / 24.0;
 const HALVINGS: u32 = 8;
 const MOST_PARTS: usize = 600_000;
 
+/// So many faces seen edge-on, and such a share of all, are worth a hierarchy of the others.
+const MANY_EDGE_ON: usize = 64;
+const SHARE_EDGE_ON: usize = 8;
+
 impl Occluders {
-    /// The parts of the faces.
-    pub(super) fn new(space: &Space, faces: &Faces, pyramid: Option<&Pyramid>) -> Self {
+    /// The faces that are not edge-on, in parts where much lies in front of one another; `None` where that spares nothing.
+    pub(super) fn new(space: &Space, faces: &Faces, pyramid: Option<&Pyramid>, are_many_layers: bool) -> Option<Self> {
         let boxes = faces.tree.boxes();
+        let edge_on = faces.edge_on_for_sure.len();
+        if !are_many_layers && (edge_on < MANY_EDGE_ON || edge_on * SHARE_EDGE_ON < boxes.len()) {
+            return None;
+        }
         let longest = space.size.max_element() * LONGEST;
-        let halvings = HALVINGS.min((MOST_PARTS / boxes.len().max(1)).max(1).ilog2());
+        let halvings = match are_many_layers {
+            true => HALVINGS.min((MOST_PARTS / boxes.len().max(1)).max(1).ilog2()),
+            false => 0,
+        };
+        let is_edge_on =
+            |place: usize| edge_on > 0 && faces.edge_on_for_sure.binary_search(&faces.numbers[place]).is_ok();
         let parts = in_chunks(boxes.len(), 256, cores(), |range| {
             let mut parts: Vec<(Box3, u32)> = Vec::new();
-            for place in range {
+            for place in range.filter(|place| !is_edge_on(*place)) {
                 if faces.cut_by_near.binary_search(&(place as u32)).is_ok() {
                     parts.push((boxes[place], place as u32));
                     continue;
@@ -75,7 +91,7 @@ impl Occluders {
         if !faces.hubs.is_empty() {
             tree.set_hubs(&places.iter().map(|place| faces.hubs[*place as usize]).collect::<Vec<u32>>());
         }
-        Self { tree, places }
+        Some(Self { tree, places })
     }
 
     /// As [`BoxTree::any_but`] of the faces' tree; a face may come several times.

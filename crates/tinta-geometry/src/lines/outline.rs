@@ -34,7 +34,7 @@ impl Lines<'_> {
             })
         };
         let looked = self.look(index, image, [piece.from, piece.to], Vec::new(), Sought::Any, &LastHider::default());
-        let mut cuts = self.search(index, image, looked, Sought::Any, &Beside::NONE, add);
+        let mut cuts = self.search(index, image, looked, Sought::Any, &Beside::none(), add);
         let mut parts: Vec<Piece> = Vec::new();
         let places = self.places(image, [piece.from, piece.to], std::mem::take(&mut cuts.places));
         for place in places.windows(2) {

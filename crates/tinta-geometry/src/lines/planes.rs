@@ -1,11 +1,12 @@
 //! Faces of one plane as groups: what lies in a plane hides nothing in it and passes through nothing in it, however much of it
 //! there is, and nobody needs to look at each pair.
 
-use super::faces::Faces;
+use super::faces::{Faces, worth};
 use super::space::Space;
 use crate::bvh::NO_FAMILY;
+use crate::threads::filled;
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Faces of one plane from which on they are a group.
 const LEAST: u32 = 16;
@@ -39,14 +40,19 @@ pub(super) fn planes(space: &Space, faces: &Faces, count: usize) -> Vec<u32> {
         let steps = |value: f64| (value / step).round() as i64;
         Some([normal.x * radius, normal.y * radius, normal.z * radius, normal.dot(a - centre)].map(steps))
     };
-    let keys: Vec<Option<[i64; 4]>> = large.iter().map(|place| plane(*place)).collect();
+    let keys = filled(large.len(), worth(large.len()), None, |index| plane(large[index]));
+    // Mostly there is no such plane, which numbers made of the keys show sooner.
+    let mut mixed: Vec<u64> = keys.iter().flatten().map(mix).collect();
+    mixed.sort_unstable();
+    let of_many: HashSet<u64> =
+        mixed.chunk_by(|a, b| a == b).filter(|run| run.len() >= LEAST as usize).map(|run| run[0]).collect();
+    if of_many.is_empty() {
+        return Vec::new();
+    }
     let mut counts: HashMap<[i64; 4], (u32, u32)> = HashMap::new();
-    for key in keys.iter().flatten() {
+    for key in keys.iter().flatten().filter(|key| of_many.contains(&mix(key))) {
         let number = counts.len() as u32;
         counts.entry(*key).or_insert((number, 0)).1 += 1;
-    }
-    if counts.values().all(|(_, count)| *count < LEAST) {
-        return Vec::new();
     }
     let mut planes = vec![NO_FAMILY; count];
     for (place, key) in large.iter().zip(keys) {
@@ -56,4 +62,10 @@ pub(super) fn planes(space: &Space, faces: &Faces, count: usize) -> Vec<u32> {
         }
     }
     planes
+}
+
+/// A number that differs for most keys that do.
+fn mix(key: &[i64; 4]) -> u64 {
+    const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
+    key.iter().fold(0, |mixed: u64, part| (mixed ^ *part as u64).wrapping_mul(ODD).rotate_left(29))
 }

@@ -33,6 +33,8 @@ pub struct Progress {
     is_cancelled: AtomicBool,
     deadline: Option<Deadline>,
     keeps_part: bool,
+    /// How much longer drawing what there is may take, where a part is asked for.
+    grace: Duration,
 }
 
 /// What work on lines is at.
@@ -68,8 +70,18 @@ impl Progress {
     /// Of work that then ends with what is done of it: lines that are decided stay, each as a whole, and
     /// [`VisibleLines::undecided`](super::VisibleLines::undecided) says how many are missing. While no line is decided, it ends
     /// with [`Error::OutOfTime`] nevertheless.
+    ///
+    /// Leaving out specks may take a tenth of the time longer, and half a second; what is not done by then is left, see
+    /// [`VisibleLines::has_specks`](super::VisibleLines::has_specks).
     pub fn within_or_part(limit: Duration) -> Self {
-        Self { keeps_part: true, ..Self::within(limit) }
+        const LEAST: Duration = Duration::from_millis(500);
+        Self { keeps_part: true, grace: (limit / 10).saturating_add(LEAST), ..Self::within(limit) }
+    }
+
+    /// The same without a moment more.
+    #[cfg(test)]
+    pub(crate) fn exactly_within_or_part(limit: Duration) -> Self {
+        Self { grace: Duration::ZERO, ..Self::within_or_part(limit) }
     }
 
     /// What the work is at.
@@ -126,9 +138,13 @@ impl Progress {
         }
     }
 
-    /// The same of what comes after the lines: where a part of them is asked for, that is finished after the time.
+    /// The same of what comes after the lines, which may take a little longer where a part of them is asked for.
     pub(crate) fn go_on_drawing(&self) -> Result<()> {
-        if self.keeps_part && !self.is_cancelled() { Ok(()) } else { self.go_on() }
+        let is_given_more = |deadline: &Deadline| deadline.end.elapsed() < self.grace;
+        if self.keeps_part && !self.is_cancelled() && self.deadline.as_ref().is_none_or(is_given_more) {
+            return Ok(());
+        }
+        self.go_on()
     }
 
     /// How many lines were not decided, of work that has ended.

@@ -9,7 +9,7 @@
 use super::faces::{Faces, worth};
 use super::space::Space;
 use crate::bvh::Box3;
-use crate::threads::filled;
+use crate::threads::{cores, filled, in_chunks};
 use crate::tolerances::{CONTACT, TOUCH};
 use glam::DVec2;
 
@@ -20,6 +20,9 @@ const FINE: usize = 10;
 /// So few faces that cover the picture so seldom hide so little that the cells cost more than they spare.
 const FEW: usize = 10_000;
 const FEW_LAYERS: f64 = 4.0;
+
+/// Faces that a thread looks at at once.
+const PLATES_AT_ONCE: usize = 4096;
 
 /// How often boxes of pixels and keys cover the picture.
 pub(super) fn layers<'a>(space: &Space, boxes: impl Iterator<Item = &'a Box3>) -> f64 {
@@ -53,6 +56,7 @@ struct Plate {
     beyond: f64,
     /// How far from a side a point must be to be inside for sure, pixels.
     margin: f64,
+    area_px: f64,
 }
 
 impl Plate {
@@ -92,8 +96,16 @@ impl Plate {
             nearest_key: ka.min(kb).min(kc),
             beyond,
             margin,
+            area_px: area.abs() * 0.5,
         };
         (growth.is_finite() && beyond.is_finite() && reach.is_finite()).then_some(plate)
+    }
+
+    /// Whether it is large enough to cover a cell; of what reaches out of the picture a part of a cell is enough. No triangle holds a square of
+    /// more than half its area.
+    fn may_cover(&self, cell_px: f64, size: DVec2) -> bool {
+        let reaches_out = self.low.cmplt(DVec2::ZERO).any() || self.high.cmpgt(size).any();
+        reaches_out || self.area_px >= 2.0 * cell_px * cell_px
     }
 
     /// Whether all of a rectangle, given by its middle and half its size, is inside.
@@ -129,9 +141,11 @@ impl Pyramid {
 
     fn of_cells(space: &Space, faces: &Faces, top: usize) -> Option<Self> {
         let cell_px = space.size.max_element() / f64::from(1u32 << top);
+        // Whether any cell lies in a box, as far as that is in the picture.
         let is_large = |around: &Box3| {
-            let [low, high] = around.corners();
-            (high - low).truncate().min_element() >= cell_px
+            let [low, high] = around.corners().map(|corner| corner.truncate().clamp(DVec2::ZERO, space.size));
+            let last = DVec2::select(high.cmpge(space.size), (high / cell_px).ceil(), (high / cell_px).floor());
+            (low / cell_px).ceil().cmplt(last).all()
         };
         let boxes = faces.tree.boxes();
         let large: Vec<u32> = (0..boxes.len() as u32).filter(|place| is_large(&boxes[*place as usize])).collect();
@@ -139,7 +153,13 @@ impl Pyramid {
         if large.len() < FEW && layers < FEW_LAYERS {
             return None;
         }
-        let mut plates: Vec<Plate> = large.iter().filter_map(|place| Plate::new(space, faces, *place)).collect();
+        let plates = in_chunks(large.len(), PLATES_AT_ONCE, cores(), |range| {
+            let plate = |index: usize| {
+                Plate::new(space, faces, large[index]).filter(|plate| plate.may_cover(cell_px, space.size))
+            };
+            range.filter_map(plate).collect::<Vec<Plate>>()
+        });
+        let mut plates: Vec<Plate> = plates.into_iter().flatten().collect();
         if plates.is_empty() {
             return None;
         }
@@ -147,9 +167,7 @@ impl Pyramid {
         let levels = (0..=top).map(|level| vec![f64::INFINITY; 1 << (2 * (top - level))]).collect();
         let mut pyramid = Self { levels, cell_px, size: space.size };
         pyramid.leave_out_what_lies_beside_the_picture();
-        plates.iter().for_each(|plate| {
-            pyramid.add(plate, top, 0, 0, f64::INFINITY);
-        });
+        plates.iter().for_each(|plate| pyramid.add_where_it_lies(plate));
         pyramid.settle();
         let is_of_use = pyramid.levels[0].iter().any(|key| key.is_finite());
         is_of_use.then_some(pyramid)
@@ -182,6 +200,39 @@ impl Pyramid {
 
     fn index(&self, level: usize, column: usize, row: usize) -> usize {
         (row << (self.top() - level)) + column
+    }
+
+    /// Lets a face hide what it covers: of the smallest cell that it lies in as a whole, and so of those around that.
+    fn add_where_it_lies(&mut self, plate: &Plate) {
+        let corner = |px: DVec2| {
+            let [column, row] = (px.clamp(DVec2::ZERO, self.size) / self.cell_px).to_array();
+            [column, row].map(|at| (at as usize).min((1 << self.top()) - 1))
+        };
+        let [low, high] = [corner(plate.low - plate.margin), corner(plate.high + plate.margin)];
+        let differing = (low[0] ^ high[0]) | (low[1] ^ high[1]);
+        let start = (usize::BITS - differing.leading_zeros()) as usize;
+        let cell = |level: usize| (low[0] >> level, low[1] >> level);
+        let around = |pyramid: &Self, level: usize| {
+            let (column, row) = cell(level);
+            pyramid.index(level, column, row)
+        };
+        let mut own = [f64::INFINITY; FINE + 2];
+        for level in (start..=self.top()).rev() {
+            own[level] = own[level + 1].min(self.levels[level][around(self, level)]);
+        }
+        let (column, row) = cell(start);
+        self.add(plate, start, column, row, own[start + 1]);
+        for level in start + 1..=self.top() {
+            let (column, row) = cell(level);
+            let children = [(0, 0), (1, 0), (0, 1), (1, 1)]
+                .map(|(right, down)| self.levels[level - 1][self.index(level - 1, column * 2 + right, row * 2 + down)]);
+            let key = own[level].min(children.into_iter().fold(f64::NEG_INFINITY, f64::max));
+            let index = around(self, level);
+            if key >= self.levels[level][index] {
+                break;
+            }
+            self.levels[level][index] = key;
+        }
     }
 
     /// Lets a face hide what it covers of a cell; returns the cell's key.
@@ -258,6 +309,10 @@ impl Pyramid {
 
     /// Whether a straight line between two pixels with these keys is hidden all along.
     pub(super) fn hides_line(&self, [from, to]: [(DVec2, f64); 2]) -> bool {
+        let is_open_at = |(px, key): (DVec2, f64)| !self.hides(px, px, key);
+        if is_open_at(from) || is_open_at(to) {
+            return false;
+        }
         let mut open = vec![[from, to]];
         while let Some([from, to]) = open.pop() {
             let (low, high) = (from.0.min(to.0), from.0.max(to.0));
@@ -298,5 +353,53 @@ impl Pyramid {
         let children = [(0, 0), (1, 0), (0, 1), (1, 1)];
         level == 0
             || children.iter().any(|(right, down)| self.sees(plate, level - 1, column * 2 + right, row * 2 + down))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::scene::{Scene, SceneSettings};
+    use glam::DVec3;
+    use std::sync::Arc;
+
+    #[test]
+    fn going_down_from_where_a_face_lies_hides_what_going_down_from_the_top_does() {
+        let mut state = 5u64;
+        let mut number = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 40) as f64 / f64::from(1 << 23) - 1.0
+        };
+        const FACES: u32 = 2_000;
+        // From a hundredth of the scene to all of it.
+        let corners = (0..FACES).flat_map(|face| {
+            let size = 0.01f64.powf(f64::from(face) / f64::from(FACES));
+            let place = DVec3::new(number(), number(), number());
+            [(); 3].map(|()| place + DVec3::new(number(), number(), number()) * size)
+        });
+        let positions: Vec<DVec3> = corners.collect();
+        let triangles = (0..FACES).map(|face| [face * 3, face * 3 + 1, face * 3 + 2]).collect();
+        let file_vertices = (0..FACES * 3).collect();
+        let (normals, triangle_normals) = (Vec::new(), Vec::new());
+        let mesh = Mesh { positions, triangles, file_vertices, normals, triangle_normals, ..Mesh::triangle() };
+        let size = "500x310".parse().unwrap();
+        let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings { size, ..SceneSettings::default() }).unwrap();
+        let space = Space::of(&scene);
+        let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
+        let found = Pyramid::new(&space, &faces).unwrap();
+        let mut plates: Vec<Plate> =
+            (0..faces.triangles.len() as u32).filter_map(|place| Plate::new(&space, &faces, place)).collect();
+        plates.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
+        let levels = (0..=COARSE).map(|level| vec![f64::INFINITY; 1 << (2 * (COARSE - level))]).collect();
+        let mut from_top = Pyramid { levels, cell_px: found.cell_px, size: found.size };
+        from_top.leave_out_what_lies_beside_the_picture();
+        plates.iter().for_each(|plate| {
+            from_top.add(plate, COARSE, 0, 0, f64::INFINITY);
+        });
+        from_top.settle();
+        let hidden = found.levels[0].iter().filter(|key| key.is_finite()).count();
+        assert!(hidden > 10_000, "only {hidden} cells hide anything");
+        assert_eq!(found.levels, from_top.levels);
     }
 }

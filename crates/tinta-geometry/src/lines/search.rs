@@ -49,7 +49,7 @@ const MOST: usize = 24;
 
 /// How often one face is sought that hides much of what is left of a part, and how many are asked each time.
 const PROBES: usize = 4;
-const ASKED: usize = 48;
+const ASKED: usize = 128;
 
 /// What a search looks for.
 #[derive(Clone, Copy, PartialEq)]
@@ -273,14 +273,14 @@ impl Lines<'_> {
                 false
             });
         }
-        if !self.finds_hidden && !beside.are_none() {
-            for gap in gaps(part, &united(hidden.clone())) {
-                if (gap[1] - gap[0]) * length > self.shortest_px {
-                    self.behind_lines(index, image, beside, gap, &mut hidden);
-                }
+        hidden = united(hidden);
+        if !self.finds_hidden {
+            let open = gaps(part, &hidden);
+            for gap in open.into_iter().filter(|gap| (gap[1] - gap[0]) * length > self.shortest_px) {
+                self.behind_lines(index, image, beside, gap, &mut hidden);
             }
         }
-        found.hidden.extend(united(hidden));
+        found.hidden.extend(hidden);
         found.maybe.extend(united(maybe));
         found.swept.push(part);
     }
@@ -356,7 +356,9 @@ impl Faces {
         const NOTHING: [Option<[f64; 2]>; 2] = [None; 2];
         let is_cut = !self.cut_by_near.is_empty() && self.cut_by_near.binary_search(&face).is_ok();
         // How far inside of each side both ends are; most faces in the box of a part lie beside it.
-        let inside = [0, 1, 2].map(|side| stretch.px.map(|px| image.inside(side, px)));
+        let [from, to] = stretch.px;
+        let of_side = |side: usize| [image.inside(side, from), image.inside(side, to)];
+        let inside = [of_side(0), of_side(1), of_side(2)];
         let outside = -2.0 * stretch.touch_px - image.rounding_px;
         let is_side = |side: usize| image.lengths_px[side] > 2.0 * stretch.touch_px;
         if !is_cut && (0..3).any(|side| is_side(side) && inside[side][0].max(inside[side][1]) < outside) {
@@ -368,7 +370,8 @@ impl Faces {
             Own::Edge(ends) => ends,
         };
         let numbers = self.triangles[face as usize];
-        let is_own = numbers.map(|number| own_ends.contains(&number));
+        let is_own_end = |number: u32| own_ends.contains(&number);
+        let is_own = [is_own_end(numbers[0]), is_own_end(numbers[1]), is_own_end(numbers[2])];
         if is_own.iter().filter(|is_own| **is_own).count() == 2 {
             return NOTHING;
         }
@@ -385,8 +388,9 @@ impl Faces {
             // A side that begins where the line ends runs beside it as near as one likes.
             let is_beside = stretch.is_nearer_sought && (is_own[side] || is_own[(side + 1) % 3]);
             let margin = if is_beside { 8.0 * stretch.noise_px } else { 2.0 * stretch.touch_px } + image.rounding_px;
-            sure = clipped(sure, stretch.part, inside[side].map(|inside| inside - margin));
-            may = clipped(may, stretch.part, inside[side].map(|inside| inside - outside));
+            let [start, end] = inside[side];
+            sure = clipped(sure, stretch.part, [start - margin, end - margin]);
+            may = clipped(may, stretch.part, [start - outside, end - outside]);
             if may.is_none() {
                 return NOTHING;
             }

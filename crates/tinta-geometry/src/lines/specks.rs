@@ -20,7 +20,7 @@ use super::progress::{Phase, Progress};
 use super::svg::SvgSettings;
 use super::{LineSegment, VisibleLines};
 use crate::bvh::{Box3, BoxTree, steps};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::JOINED_PX;
 use glam::DVec2;
@@ -40,7 +40,7 @@ impl VisibleLines {
     ///
     /// # Errors
     ///
-    /// Also [`Error::Cancelled`](crate::Error::Cancelled) and, but where a part is asked for, [`Error::OutOfTime`](crate::Error::OutOfTime).
+    /// Also [`Error::Cancelled`] and, but where a part is asked for, [`Error::OutOfTime`].
     pub fn without_specks_with_progress(&self, settings: &SvgSettings, progress: &Progress) -> Result<Self> {
         settings.check()?;
         self.check()?;
@@ -56,8 +56,13 @@ impl VisibleLines {
                 .map(|(number, segment)| Stroke::new(number, segment, settings, units))
                 .collect();
             let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));
-            for stroke in Strokes::new(&strokes, border).too_short(progress)? {
-                keeps[strokes[stroke].number] = false;
+            match Strokes::new(&strokes, border).too_short(progress) {
+                Ok(all) => all.into_iter().for_each(|stroke| keeps[strokes[stroke].number] = false),
+                // Some of them would depend on the machine.
+                Err(Error::OutOfTime { asked_for_part: true, .. }) => {
+                    return Ok(Self { has_specks: true, ..self.clone() });
+                }
+                Err(error) => return Err(error),
             }
         }
         let segments =
@@ -73,6 +78,7 @@ impl VisibleLines {
             changes: self.changes.clone(),
             healed: self.healed,
             undecided: self.undecided,
+            has_specks: self.has_specks,
             times: self.times,
         }
     }
@@ -172,6 +178,7 @@ impl<'a> Strokes<'a> {
     /// All that go.
     fn too_short(&self, progress: &Progress) -> Result<Vec<usize>> {
         progress.begin(Phase::TooShort, 0);
+        progress.go_on_drawing()?;
         let mut is_gone = vec![false; self.strokes.len()];
         let wholes = self.small_wholes();
         let barbs = self.barbs();
@@ -341,5 +348,29 @@ impl<'a> Strokes<'a> {
     fn any_near(&self, [a, b]: [DVec2; 2], distance: f64, mut visit: impl FnMut(usize) -> bool) -> bool {
         let query = Box3::new((a.min(b) - distance).extend(0.0), (a.max(b) + distance).extend(0.0));
         self.tree.any(&query, |place| visit(self.order[place as usize] as usize))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::progress::Progress;
+    use super::super::{LineSettings, VisibleLines};
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::scene::{Scene, SceneSettings};
+    use std::time::Duration;
+
+    #[test]
+    fn where_a_part_is_wanted_and_the_time_is_over_specks_stay_and_that_is_said() {
+        let scene = Scene::new(vec![Mesh::triangle()], &SceneSettings::default()).unwrap();
+        let whole = VisibleLines::of(&scene, &LineSettings::default()).unwrap();
+        let settings = SvgSettings { min_length: Some("2000".parse().unwrap()), ..SvgSettings::default() };
+        let ended = |progress: &Progress| whole.without_specks_with_progress(&settings, progress);
+        let part = ended(&Progress::exactly_within_or_part(Duration::ZERO)).unwrap();
+        assert_eq!(part, VisibleLines { has_specks: true, ..whole.clone() });
+        let note = "partial: the time was over before specks were left out";
+        assert_eq!(part.partial_note().as_deref(), Some(note));
+        let enough = ended(&Progress::exactly_within_or_part(Duration::from_secs(3_600))).unwrap();
+        assert_eq!((enough.partial_note(), enough.segments.len() < whole.segments.len()), (None, true));
     }
 }

@@ -100,6 +100,7 @@ mod tests {
             changes: None,
             healed: None,
             undecided: 0,
+            has_specks: false,
             times: LineTimes::default(),
         }
     }

@@ -42,7 +42,7 @@ pub(super) struct Lines<'a> {
     occluders: Option<Occluders>,
     /// Which faces are nearest; `None` where little lies in front of one another.
     pub(super) foremost: Option<&'a Foremost>,
-    /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
+    /// The wanted lines by [`Image::boxes_along`]: what a line may lie on.
     pub(super) beside: LineTree,
     /// Many lines that lie on one another.
     pub(super) bundles: Bundles,
@@ -90,9 +90,9 @@ impl<'a> Lines<'a> {
         let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
         let side = space.size.max_element();
         let hubs = hubs(features);
-        let occluders = foremost.map(|_| Occluders::new(space, faces, pyramid));
+        let occluders = Occluders::new(space, faces, pyramid, foremost.is_some());
         // Where much lies behind one another a box is asked for by many.
-        let rim_px = side / PARTS_OF_PICTURE / if occluders.is_some() { 4.0 } else { 1.0 };
+        let rim_px = side / PARTS_OF_PICTURE / if foremost.is_some() { 4.0 } else { 1.0 };
         let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
             let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
             for index in range {
@@ -103,7 +103,7 @@ impl<'a> Lines<'a> {
                 let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
                     continue;
                 };
-                let (touch_px, margin) = (image.touch_px(space), image.noise_px);
+                let margin = image.noise_px;
                 let ends = |part: [f64; 2]| part.map(|place| (image.at(place), image.key(place)));
                 for part in image.parts(range, side / PARTS_OF_PICTURE) {
                     let is_hidden = LazyCell::new(|| pyramid.is_some_and(|pyramid| pyramid.hides_line(ends(part))));
@@ -115,9 +115,8 @@ impl<'a> Lines<'a> {
                         rims.add_of_families(around, index, feature.plane, hub_of(&hubs, feature.own));
                     }
                     if is_beside {
-                        for directions in image.directions(touch_px) {
-                            beside.add(image.part_box(part, margin, directions), index);
-                        }
+                        let boxes = image.boxes_along(part, space, margin);
+                        boxes.for_each(|around| beside.add(around, index));
                     }
                 }
             }
@@ -201,7 +200,7 @@ impl<'a> Lines<'a> {
         if !self.finds_hidden && looked.open.is_empty() {
             return Some(());
         }
-        let beside = self.beside(index, &image, inside);
+        let beside = Beside::new(index, &image, inside);
         let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, &beside, part, most, cuts);
         let mut cuts = self.search(index, &image, looked, Sought::Nearer, &beside, add);
         self.add_piercings(index, &image, &mut cuts.places);
@@ -276,7 +275,7 @@ impl<'a> Lines<'a> {
         cuts: &Cuts,
     ) -> Option<bool> {
         let probe = LazyCell::new(|| self.probe(index, image, place));
-        let is_nearest = beside.are_none() || self.is_nearest(index, image, beside, probe.px, -probe.view.z)?;
+        let is_nearest = beside.are_none(self) || self.is_nearest(index, image, beside, probe.px, -probe.view.z)?;
         let leave_open = || {
             let planes = self.features[index].planes;
             self.faces.leave_open(self.space, &probe, |column, visit| self.any_occluder(column, planes, visit))

@@ -62,14 +62,14 @@ pub(super) fn run(
             Err(Error::Cancelled) => return Ok(stopped(stop, number - 1, views)),
             found => found?,
         };
-        let note = lines.partial_note();
-        if let Some(note) = &note {
-            say(&format!("tinta: {name}: {note}"));
-        }
         let lines = match watched(&progress, stop, || lines.without_specks_with_progress(&drawn, &progress)) {
             Err(Error::Cancelled) => return Ok(stopped(stop, number - 1, views)),
             drawn => drawn?,
         };
+        let note = lines.partial_note();
+        if let Some(note) = &note {
+            say(&format!("tinta: {name}: {note}"));
+        }
         let paths = ids.next(&scene, &lines);
         if is_stopped(stop) {
             return Ok(stopped(stop, number - 1, views));

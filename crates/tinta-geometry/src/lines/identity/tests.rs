@@ -88,6 +88,7 @@ fn creases(of: &[[f64; 2]]) -> VisibleLines {
         changes: None,
         healed: None,
         undecided: 0,
+        has_specks: false,
         times: LineTimes::default(),
     }
 }
