@@ -338,24 +338,33 @@ fn a_part_is_written_where_it_is_asked_for_and_says_so() {
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_ends_the_search_for_lines_with_a_sentence_and_no_file() {
+fn a_signal_ends_the_search_for_lines_with_a_sentence_and_no_file() {
     use std::io::Write;
     use std::process::{Command, Stdio};
     let folder = Folder::new();
     let out = folder.path("a.svg");
-    let mut process = Command::new(env!("CARGO_BIN_EXE_tinta"))
-        .args(["render", "-", "-o", &out, "--hidden", "dashed"])
-        .stdin(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // More than a pipe holds: when it is written the program reads, and takes signals.
-    let model = slow_model(3_000);
-    assert!(model.len() > 200_000);
-    process.stdin.take().unwrap().write_all(model.as_bytes()).unwrap();
-    assert!(Command::new("kill").args(["-s", "INT", &process.id().to_string()]).status().unwrap().success());
-    let output = process.wait_with_output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!((output.status.code(), said.trim_end()), (Some(130), "tinta: stopped by a signal; nothing was written"));
-    assert!(!Path::new(&out).exists());
+    // A scheduler's signal comes twice: to the program and to its group.
+    for (signal, times, code) in [("INT", 1, 130), ("TERM", 2, 143)] {
+        let mut process = Command::new(env!("CARGO_BIN_EXE_tinta"))
+            .args(["render", "-", "-o", &out, "--hidden", "dashed"])
+            .stdin(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // More than a pipe holds: when it is written the program reads, and takes signals.
+        let model = slow_model(3_000);
+        assert!(model.len() > 200_000);
+        process.stdin.take().unwrap().write_all(model.as_bytes()).unwrap();
+        for _ in 0..times {
+            let kill = Command::new("kill").args(["-s", signal, &process.id().to_string()]).status();
+            assert!(kill.unwrap().success());
+        }
+        let output = process.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(
+            (output.status.code(), said.trim_end()),
+            (Some(code), "tinta: stopped by a signal; nothing was written")
+        );
+        assert!(!Path::new(&out).exists());
+    }
 }

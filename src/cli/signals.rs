@@ -1,7 +1,14 @@
-//! Signal handling: the first signal lets work that takes a while end in good order, with its sentence; the second stops at once.
+//! Signal handling: the first signal lets work that takes a while end in good order, with its sentence; another one, half a second later or
+//! more, stops at once. Schedulers and `timeout` send one signal to a program and to its group, so that it comes twice.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread::sleep;
+use std::time::Duration;
+
+/// How soon a signal is noticed after which another one stops at once, and how long after that it does.
+const NOTICED: Duration = Duration::from_millis(200);
+const SAME_SIGNAL: Duration = Duration::from_millis(500);
 
 /// Whether the run is asked to stop, by Ctrl-C or by a scheduler.
 pub(super) struct Stop {
@@ -15,12 +22,22 @@ impl Stop {
         use signal_hook::consts::{SIGINT, SIGTERM};
         use signal_hook::flag::{register, register_conditional_shutdown, register_usize};
         let stop = Self { is_asked: Arc::default(), signal: Arc::default() };
+        let is_long_ago: Arc<AtomicBool> = Arc::default();
         for signal in [SIGINT, SIGTERM] {
-            // In this order: the first signal finds the flag unset. Where a handler cannot be had, a signal ends the run as ever.
-            let _ = register_conditional_shutdown(signal, 128 + signal, stop.is_asked.clone());
+            // Where a handler cannot be had, a signal ends the run as ever.
+            let _ = register_conditional_shutdown(signal, 128 + signal, is_long_ago.clone());
             let _ = register_usize(signal, stop.signal.clone(), signal.unsigned_abs() as usize);
             let _ = register(signal, stop.is_asked.clone());
         }
+        // A handler cannot look at the clock. Nobody waits for this thread; without it signals only ask.
+        let is_asked = stop.is_asked.clone();
+        let _ = std::thread::Builder::new().spawn(move || {
+            while !is_asked.load(Ordering::Relaxed) {
+                sleep(NOTICED);
+            }
+            sleep(SAME_SIGNAL);
+            is_long_ago.store(true, Ordering::Relaxed);
+        });
         stop
     }
 

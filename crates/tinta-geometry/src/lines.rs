@@ -368,7 +368,7 @@ impl VisibleLines {
 
         let clock = Instant::now();
         let mut pyramid = Pyramid::new(&space, &faces);
-        let foremost = Foremost::new(&space, &faces);
+        let foremost = Foremost::new(&space, &faces, progress);
         let hides = pyramid.as_ref().filter(|_| !settings.finds_hidden);
         let nearest = foremost.as_ref().filter(|_| !settings.finds_hidden);
         let mut intersections = intersections::intersections(&space, &faces, hides, nearest, progress);

@@ -7,6 +7,7 @@
 use super::face_image::FaceImage;
 use super::faces::Faces;
 use super::image::Image;
+use super::progress::Progress;
 use super::pyramid::layers;
 use super::ranges::{gaps, united};
 use super::search::{Line, Sought, Stretch};
@@ -25,6 +26,9 @@ const SAMPLES: f64 = 512.0;
 /// Rows of samples that a thread fills at once.
 const ROWS_AT_ONCE: usize = 32;
 
+/// Faces between two looks at the time.
+const FACES_A_GLANCE: u32 = 1024;
+
 /// The nearest faces, and the images of all.
 pub(super) struct Foremost {
     /// By their places; of none where these are too many to keep.
@@ -40,8 +44,8 @@ impl Foremost {
     pub(super) const ASKED: usize = 16;
     const ASKED_OF_WHOLE: usize = 4;
 
-    /// `None` where little lies in front of one another.
-    pub(super) fn new(space: &Space, faces: &Faces) -> Option<Self> {
+    /// `None` where little lies in front of one another; of some faces where the time is over before.
+    pub(super) fn new(space: &Space, faces: &Faces, progress: &Progress) -> Option<Self> {
         if layers(space, faces.tree.boxes().iter()) < LAYERS {
             return None;
         }
@@ -49,16 +53,19 @@ impl Foremost {
         let sample_px = space.size.max_element() / SAMPLES;
         let [columns, rows] = (space.size / sample_px).ceil().to_array().map(|count| count as usize);
         let foremost = Self { images, sample_px, columns, nearest: Vec::new() };
-        let bands = in_chunks(rows, ROWS_AT_ONCE, cores(), |rows| foremost.band(space, faces, rows));
+        let bands = in_chunks(rows, ROWS_AT_ONCE, cores(), |rows| foremost.band(space, faces, rows, progress));
         Some(Self { nearest: bands.concat(), ..foremost })
     }
 
     /// Some rows of samples.
-    fn band(&self, space: &Space, faces: &Faces, rows: std::ops::Range<usize>) -> Vec<u32> {
+    fn band(&self, space: &Space, faces: &Faces, rows: std::ops::Range<usize>, progress: &Progress) -> Vec<u32> {
         let mut nearest = vec![(f64::INFINITY, NO_FAMILY); rows.len() * self.columns];
         let [top_px, bottom_px] = [rows.start, rows.end].map(|row| row as f64 * self.sample_px);
         let is_cut = |face: u32| !faces.cut_by_near.is_empty() && faces.cut_by_near.binary_search(&face).is_ok();
         for (face, around) in (0..).zip(faces.tree.boxes()) {
+            if face % FACES_A_GLANCE == 0 && progress.is_over() {
+                break;
+            }
             let [low, high] = around.corners();
             if high.y < top_px || low.y > bottom_px || is_cut(face) {
                 continue;
@@ -184,7 +191,6 @@ mod tests {
     use super::super::cast::{first_hit, first_hits};
     use super::super::faces::Own;
     use super::super::intersections::intersections;
-    use super::super::progress::Progress;
     use super::*;
     use crate::mesh::Mesh;
     use crate::scene::{Scene, SceneSettings};
@@ -211,7 +217,7 @@ mod tests {
         let scene = soup();
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
-        let foremost = Foremost::new(&space, &faces).unwrap();
+        let foremost = Foremost::new(&space, &faces, &Progress::default()).unwrap();
         assert_eq!((foremost.sample_px, foremost.columns), (1.0, 512), "samples are the pixels' middles");
         let hits = first_hits(&scene);
         assert_eq!(hits.len(), foremost.nearest.len());
@@ -227,7 +233,7 @@ mod tests {
         let scene = soup();
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
-        let foremost = Foremost::new(&space, &faces).unwrap();
+        let foremost = Foremost::new(&space, &faces, &Progress::default()).unwrap();
         let all = intersections(&space, &faces, None, None, &Progress::default()).lines;
         let (mut hidden, mut points) = (0, 0);
         for line in &all {
