@@ -278,13 +278,14 @@ impl Sorted {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
         let to_eye = space.to_eye(a);
-        let height = normal.dot(to_eye);
-        let (area, distance) = (normal.length_squared(), to_eye.length_squared());
+        // No squares of products, which scenes of 1e58 do not hold.
+        let height = normal.dot(to_eye).abs();
+        let (length, distance) = (normal.length(), to_eye.length());
         let square = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
-        let noise = 4.0 * space.noise;
-        if height * height <= (space.edge_on * space.edge_on * area + noise * noise * square) * distance {
+        let (for_sure, perhaps) = (space.edge_on * length, 4.0 * space.noise * square.sqrt());
+        if height <= (for_sure + perhaps) * distance && height <= for_sure.hypot(perhaps) * distance {
             self.edge_on.push(number);
-            if height * height <= space.edge_on * space.edge_on * area * distance && area > (CONTACT * square).powi(2) {
+            if height <= for_sure * distance && length > CONTACT * square {
                 self.edge_on_for_sure.push(number);
             }
         }

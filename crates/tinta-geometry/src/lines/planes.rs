@@ -6,7 +6,7 @@ use super::space::Space;
 use crate::bvh::NO_FAMILY;
 use crate::threads::filled;
 use glam::DVec3;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// Faces of one plane from which on they are a group.
 const LEAST: u32 = 16;
@@ -41,16 +41,13 @@ pub(super) fn planes(space: &Space, faces: &Faces, count: usize) -> Vec<u32> {
         Some([normal.x * radius, normal.y * radius, normal.z * radius, normal.dot(a - centre)].map(steps))
     };
     let keys = filled(large.len(), worth(large.len()), None, |index| plane(large[index]));
-    // Mostly there is no such plane, which numbers made of the keys show sooner.
-    let mut mixed: Vec<u64> = keys.iter().flatten().map(mix).collect();
-    mixed.sort_unstable();
-    let of_many: HashSet<u64> =
-        mixed.chunk_by(|a, b| a == b).filter(|run| run.len() >= LEAST as usize).map(|run| run[0]).collect();
-    if of_many.is_empty() {
-        return Vec::new();
-    }
+    // Mostly there is no such plane, which shows sooner where few keys have one remainder.
+    let remainders = keys.len().next_power_of_two();
+    let remainder = |key: &[i64; 4]| mix(key) as usize & (remainders - 1);
+    let mut of_remainder = vec![0u32; remainders];
+    keys.iter().flatten().for_each(|key| of_remainder[remainder(key)] += 1);
     let mut counts: HashMap<[i64; 4], (u32, u32)> = HashMap::new();
-    for key in keys.iter().flatten().filter(|key| of_many.contains(&mix(key))) {
+    for key in keys.iter().flatten().filter(|key| of_remainder[remainder(key)] >= LEAST) {
         let number = counts.len() as u32;
         counts.entry(*key).or_insert((number, 0)).1 += 1;
     }
@@ -67,5 +64,6 @@ pub(super) fn planes(space: &Space, faces: &Faces, count: usize) -> Vec<u32> {
 /// A number that differs for most keys that do.
 fn mix(key: &[i64; 4]) -> u64 {
     const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
-    key.iter().fold(0, |mixed: u64, part| (mixed ^ *part as u64).wrapping_mul(ODD).rotate_left(29))
+    let mixed = key.iter().fold(0, |mixed: u64, part| (mixed ^ *part as u64).wrapping_mul(ODD).rotate_left(29));
+    mixed ^ (mixed >> 32)
 }
