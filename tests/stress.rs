@@ -7,12 +7,6 @@ use std::sync::OnceLock;
 use tinta::Backend;
 use tinta::stress::{Group, Row, StressSettings, Summary, run};
 
-/// All cases, carried out once for all exhaustive tests.
-fn all() -> &'static Summary {
-    static SUMMARY: OnceLock<Summary> = OnceLock::new();
-    SUMMARY.get_or_init(|| run(&StressSettings::default(), |_, _| {}).unwrap_or_else(|error| panic!("{error}")))
-}
-
 /// One case of each kind, carried out once for all quick tests; but for turns, of which one takes half a minute.
 /// `lines_invariance.rs` draws exact lines in other sizes.
 fn few() -> &'static Summary {
@@ -68,12 +62,6 @@ fn a_case_of_each_kind_ends_as_it_must_on_both_backends() {
     check_ends(few(), 9);
 }
 
-#[test]
-#[ignore = "exhaustive: all cases of tinta stress, by both backends"]
-fn every_case_ends_as_it_must_on_both_backends() {
-    check_ends(all(), 60);
-}
-
 fn check_compared(summary: &Summary) {
     let compared = |figure: &str| summary.cases.iter().filter(|row| row.figures.contains_key(figure)).count();
     let is_drawn = |row: &&Row| row.verdict == "rendered" && row.group != Group::Files;
@@ -93,12 +81,6 @@ fn pictures_of_a_few_cases_are_compared_between_backends_and_against_the_whole_p
     check_compared(few());
 }
 
-#[test]
-#[ignore = "exhaustive: all cases of tinta stress, by both backends"]
-fn pictures_of_stiff_cases_are_compared_between_backends_and_against_the_whole_plan() {
-    check_compared(all());
-}
-
 fn check_jitter(summary: &Summary, least_rows: usize, least_flips: f64) {
     let (mut flipped, mut edges_rows) = (0.0, 0);
     for row in summary.cases.iter().filter(|row| row.figures.contains_key("edges_flipped")) {
@@ -115,12 +97,6 @@ fn check_jitter(summary: &Summary, least_rows: usize, least_flips: f64) {
 #[test]
 fn no_edge_of_a_few_cases_flips_under_jitter_unless_its_predicate_changes_its_sign() {
     check_jitter(few(), 20, 0.0);
-}
-
-#[test]
-#[ignore = "exhaustive: all cases of tinta stress, by both backends"]
-fn no_edge_flips_under_jitter_unless_its_predicate_changes_its_sign() {
-    check_jitter(all(), 300, 100.0);
 }
 
 /// The mean of one figure less another over the turns of a style, of which there are so many at least.
@@ -146,12 +122,6 @@ fn check_flicker(summary: &Summary, least_rows: usize) {
     assert!(mended < published / 2.0, "{mended} of published {published}");
 }
 
-#[test]
-#[ignore = "exhaustive: all cases of tinta stress, by both backends"]
-fn the_mended_forms_flicker_less_than_the_published_ones() {
-    check_flicker(all(), 4);
-}
-
 fn check_depth(summary: &Summary, ratios: &[&str]) {
     let f1 = |case: &str, style: &str| {
         let is_it = |row: &&Row| row.name == case && row.style == style && row.figures.contains_key("f1");
@@ -170,12 +140,6 @@ fn check_depth(summary: &Summary, ratios: &[&str]) {
 #[test]
 fn deeper_maps_hold_where_eight_bits_have_lost_the_steps_of_one_range() {
     check_depth(few(), &["1e3"]);
-}
-
-#[test]
-#[ignore = "exhaustive: all cases of tinta stress, by both backends"]
-fn deeper_maps_hold_where_eight_bits_have_lost_every_step_in_depth() {
-    check_depth(all(), &["1e2", "1e3", "1e4"]);
 }
 
 fn check_ink(summary: &Summary, least_broken: usize) {
@@ -199,12 +163,6 @@ fn ink_holds_where_the_published_passes_break_in_the_plane_of_a_face() {
     check_ink(few(), 1);
 }
 
-#[test]
-#[ignore = "exhaustive: all cases of tinta stress, by both backends"]
-fn ink_holds_where_the_published_passes_break() {
-    check_ink(all(), 5);
-}
-
 fn check_scale(summary: &Summary) {
     let scaled = summary.cases.iter().filter(|row| row.group == Group::Scale && row.name.starts_with("a gear"));
     let mut count = 0;
@@ -215,10 +173,18 @@ fn check_scale(summary: &Summary) {
     assert!(count > 0);
 }
 
+/// In one test, for others would wait until all cases are carried out.
 #[test]
 #[ignore = "exhaustive: all cases of tinta stress, by both backends"]
-fn exact_lines_do_not_change_with_scale() {
-    check_scale(all());
+fn all_cases_hold_what_one_of_each_kind_does_and_more() {
+    let all = run(&StressSettings::default(), |_, _| {}).unwrap_or_else(|error| panic!("{error}"));
+    check_ends(&all, 60);
+    check_compared(&all);
+    check_jitter(&all, 300, 100.0);
+    check_flicker(&all, 4);
+    check_depth(&all, &["1e2", "1e3", "1e4"]);
+    check_ink(&all, 5);
+    check_scale(&all);
 }
 
 #[test]
