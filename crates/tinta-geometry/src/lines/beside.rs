@@ -27,9 +27,6 @@ enum Found {
 /// From how many on there are many.
 const MANY: usize = 12;
 
-/// Lines looked at before it is worth asking first whether anything hides the line.
-const SOON: usize = 128;
-
 impl Beside {
     pub(super) fn new(index: usize, image: &Image, inside: [f64; 2]) -> Self {
         Self { asked: Some((index, *image, inside)), found: OnceCell::new() }
@@ -41,25 +38,10 @@ impl Beside {
     }
 
     fn found(&self, lines: &Lines) -> &Found {
-        self.found.get_or_init(|| self.look(lines, usize::MAX).unwrap_or(Found::Many))
-    }
-
-    /// What there is, unless more than so many lines are looked at for it.
-    fn look(&self, lines: &Lines, most: usize) -> Option<Found> {
-        match &self.asked {
-            Some((index, image, inside)) => lines.lying_on(*index, image, *inside, most),
-            None => Some(Found::Few(Vec::new())),
-        }
-    }
-
-    /// Whether it is known, or soon found.
-    fn is_soon_found(&self, lines: &Lines) -> bool {
-        if self.found.get().is_none()
-            && let Some(found) = self.look(lines, SOON)
-        {
-            self.found.get_or_init(|| found);
-        }
-        self.found.get().is_some()
+        self.found.get_or_init(|| match &self.asked {
+            Some((index, image, inside)) => lines.lying_on(*index, image, *inside),
+            None => Found::Few(Vec::new()),
+        })
     }
 
     pub(super) fn are_none(&self, lines: &Lines) -> bool {
@@ -68,9 +50,8 @@ impl Beside {
 }
 
 impl Lines<'_> {
-    /// The wanted lines that lie on one in what of it is between two places; `None` where more than so many are looked at.
-    fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2], most: usize) -> Option<Found> {
-        let mut looked_at = 0;
+    /// The wanted lines that lie on one in what of it is between two places.
+    fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2]) -> Found {
         let touch_px = image.touch_px(self.space);
         let mut found: Vec<usize> = Vec::new();
         for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
@@ -80,14 +61,13 @@ impl Lines<'_> {
                 if !found.contains(&other_index) && lies_on_it() {
                     found.push(other_index);
                 }
-                looked_at += 1;
-                found.len() >= MANY || looked_at > most
+                found.len() >= MANY
             });
             if are_many {
-                return (found.len() >= MANY).then_some(Found::Many);
+                return Found::Many;
             }
         }
-        Some(Found::Few(found))
+        Found::Few(found)
     }
 
     /// Calls `visit` with each line that may lie on a part of one, perhaps several times, until it returns true; returns whether
@@ -102,8 +82,8 @@ impl Lines<'_> {
     /// The same of all lines that have its direction where it is, as those that lie on it have.
     fn any_of_its_direction(&self, image: &Image, part: [f64; 2], mut visit: impl FnMut(usize) -> bool) -> bool {
         let touch_px = image.touch_px(self.space);
-        let mut boxes = image.boxes_along(part, self.space, touch_px);
-        boxes.any(|around| self.beside.any(&around, &mut visit))
+        let mut directions = image.directions(touch_px);
+        directions.any(|directions| self.beside.any(&image.part_box(part, touch_px, directions), &mut visit))
     }
 
     /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
@@ -165,8 +145,8 @@ impl Lines<'_> {
         CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise
     }
 
-    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many, or too many to look at. Where
-    /// only what is seen counts, not of those that are farther away for sure.
+    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many. Where only
+    /// what is seen counts, not of those that are farther away for sure.
     pub(super) fn add_beside(
         &self,
         index: usize,
@@ -178,9 +158,6 @@ impl Lines<'_> {
     ) -> bool {
         let touch_px = image.touch_px(self.space);
         let mut count = 0;
-        if most < usize::MAX && !beside.is_soon_found(self) {
-            return true;
-        }
         self.any_beside(image, beside, part, |other_index| {
             let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
             if let Some(other) =

@@ -81,36 +81,20 @@ impl Image {
         ((start < 0.0) != (end < 0.0)).then(|| start / (start - end))
     }
 
-    /// Where lines may lie that lie on a part of this one: the box around it, wider by a margin in pixels, with the line's distance from a
-    /// fixed point for a third coordinate, so that lines side by side are told apart; and the same once more for a line seen the other way
-    /// round, where its direction is near to where directions begin. Of two lines that lie on one another one has what the other has then.
-    pub(super) fn boxes_along(
-        &self,
-        part: [f64; 2],
-        space: &Space,
-        margin_px: f64,
-    ) -> impl Iterator<Item = Box3> + use<> {
+    /// The directions that a line may have which touches this one at two places, from where to where, as the third coordinate of
+    /// boxes; and the same once more half a turn away where they reach over an end. Of two lines one has what the other has then.
+    pub(super) fn directions(&self, touch_px: f64) -> impl Iterator<Item = [f64; 2]> + use<> {
         /// Far more than rounding turns a line by.
         const LEAST: f64 = 1e-6;
-        /// The fixed point, shares of the picture: hardly any scene has lines around it.
-        const FROM: DVec2 = DVec2::new(0.3183, -0.1357);
+        /// Pixels that a radian counts: lines apart by their directions are then apart in the hierarchy, too.
+        const PX: f64 = 1024.0;
         let along = self.b - self.a;
-        let spread = (2.0 * self.touch_px(space) / along.length() + LEAST).min(PI);
         let direction = along.y.atan2(along.x).rem_euclid(PI);
-        let is_turned = along.y < 0.0 || along.y == 0.0 && along.x < 0.0;
-        let across = along.normalize_or_zero().perp() * if is_turned { -1.0 } else { 1.0 };
-        let from = FROM * space.size;
-        let ends = part.map(|place| self.at(place) - from);
-        // So far a line moves there that is turned by the spread.
-        let margin = margin_px + spread * ends[0].length().max(ends[1].length());
-        let distances = ends.map(|end| across.dot(end));
+        let spread = (2.0 * touch_px / along.length() + LEAST).min(PI);
+        let turned = if direction < PI * 0.5 { direction + PI } else { direction - PI };
         let reaches_over = direction < spread || direction + spread > PI;
-        let whole = self.part_box(part, margin_px, [0.0; 2]).corners();
-        let (nearest, farthest) = (distances[0].min(distances[1]) - margin, distances[0].max(distances[1]) + margin);
-        let all = [Some([nearest, farthest]), reaches_over.then_some([-farthest, -nearest])];
-        all.into_iter().flatten().map(move |[nearest, farthest]| {
-            Box3::new(whole[0].truncate().extend(nearest), whole[1].truncate().extend(farthest))
-        })
+        let all = [Some(direction), reaches_over.then_some(turned)];
+        all.into_iter().flatten().map(move |direction| [(direction - spread) * PX, (direction + spread) * PX])
     }
 
     /// The pixel at a place from 0 to 1.

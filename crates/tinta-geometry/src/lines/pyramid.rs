@@ -222,11 +222,11 @@ impl Pyramid {
         }
         let (column, row) = cell(start);
         self.add(plate, start, column, row, own[start + 1]);
-        for level in start + 1..=self.top() {
+        for (level, own) in own.into_iter().enumerate().take(self.top() + 1).skip(start + 1) {
             let (column, row) = cell(level);
             let children = [(0, 0), (1, 0), (0, 1), (1, 1)]
                 .map(|(right, down)| self.levels[level - 1][self.index(level - 1, column * 2 + right, row * 2 + down)]);
-            let key = own[level].min(children.into_iter().fold(f64::NEG_INFINITY, f64::max));
+            let key = own.min(children.into_iter().fold(f64::NEG_INFINITY, f64::max));
             let index = around(self, level);
             if key >= self.levels[level][index] {
                 break;

@@ -42,7 +42,7 @@ pub(super) struct Lines<'a> {
     occluders: Option<Occluders>,
     /// Which faces are nearest; `None` where little lies in front of one another.
     pub(super) foremost: Option<&'a Foremost>,
-    /// The wanted lines by [`Image::boxes_along`]: what a line may lie on.
+    /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
     pub(super) beside: LineTree,
     /// Many lines that lie on one another.
     pub(super) bundles: Bundles,
@@ -115,8 +115,9 @@ impl<'a> Lines<'a> {
                         rims.add_of_families(around, index, feature.plane, hub_of(&hubs, feature.own));
                     }
                     if is_beside {
-                        let boxes = image.boxes_along(part, space, margin);
-                        boxes.for_each(|around| beside.add(around, index));
+                        for directions in image.directions(image.touch_px(space)) {
+                            beside.add(image.part_box(part, margin, directions), index);
+                        }
                     }
                 }
             }
