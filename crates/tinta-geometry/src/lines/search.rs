@@ -49,7 +49,7 @@ const MOST: usize = 24;
 
 /// How often one face is sought that hides much of what is left of a part, and how many are asked each time.
 const PROBES: usize = 4;
-const ASKED: usize = 128;
+const ASKED: usize = 48;
 
 /// What a search looks for.
 #[derive(Clone, Copy, PartialEq)]
