@@ -69,6 +69,16 @@ pub(crate) struct BoxTree {
     planes: Vec<u32>,
 }
 
+/// Below which nodes of a hierarchy there is something wanted: by default below all.
+#[derive(Default)]
+pub(crate) struct Wanted(Vec<u32>);
+
+impl Wanted {
+    fn any_below(&self, node: u32) -> bool {
+        family(&self.0, node) == NO_FAMILY
+    }
+}
+
 /// Of things that belong to no family.
 pub(crate) const NO_FAMILY: u32 = u32::MAX;
 
@@ -140,6 +150,13 @@ impl BoxTree {
         self.planes = self.of_nodes(plane_of);
     }
 
+    /// Below which nodes there is something wanted, of the thing at each place.
+    pub(crate) fn wanted(&self, is_wanted: &[bool]) -> Wanted {
+        const UNWANTED: u32 = 0;
+        let families: Vec<u32> = is_wanted.iter().map(|is| if *is { NO_FAMILY } else { UNWANTED }).collect();
+        Wanted(self.of_nodes(&families))
+    }
+
     /// Of each node the family that all things below it are of, or [`NO_FAMILY`].
     fn of_nodes(&self, family_of: &[u32]) -> Vec<u32> {
         let nodes = &self.nodes.nodes;
@@ -195,13 +212,24 @@ impl BoxTree {
     /// Calls `visit` with each pair of things whose boxes overlap, one of them in one of these groups, until it returns true;
     /// over all groups each pair comes once. Returns whether it did. Pairs of one hub or plane are left out as far as whole
     /// leaves are of it.
-    pub(crate) fn pairs(&self, groups: std::ops::Range<usize>, mut visit: impl FnMut(u32, u32) -> bool) -> bool {
-        self.leaves[groups].iter().any(|index| {
+    pub(crate) fn pairs(&self, groups: std::ops::Range<usize>, visit: impl FnMut(u32, u32) -> bool) -> bool {
+        self.wanted_pairs(groups, &Wanted::default(), visit)
+    }
+
+    /// The same without what lies below nodes of which nothing is wanted.
+    pub(crate) fn wanted_pairs(
+        &self,
+        groups: std::ops::Range<usize>,
+        wanted: &Wanted,
+        mut visit: impl FnMut(u32, u32) -> bool,
+    ) -> bool {
+        self.leaves[groups].iter().filter(|index| wanted.any_below(**index)).any(|index| {
             let node = &self.nodes.nodes[*index as usize];
             let own = range(node.first_index, node.prim_count);
             let (hub, plane) = (family(&self.hubs, *index), family(&self.planes, *index));
             let is_other = |node: u32| {
-                (hub == NO_FAMILY || family(&self.hubs, node) != hub)
+                wanted.any_below(node)
+                    && (hub == NO_FAMILY || family(&self.hubs, node) != hub)
                     && (plane == NO_FAMILY || family(&self.planes, node) != plane)
             };
             self.any_leaf(&Box3(*node.aabb()), is_other, |leaf| {

@@ -11,7 +11,7 @@ use super::progress::{Phase, Progress};
 use super::pyramid::Pyramid;
 use super::search::Line;
 use super::space::Space;
-use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY, counting_steps, steps};
+use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY, Wanted, counting_steps, steps};
 use crate::threads::{cores, filled, in_chunks, spread_chunks};
 use crate::tolerances::CONTACT;
 use glam::DVec3;
@@ -72,6 +72,7 @@ pub(super) fn intersections(
 ) -> Intersections {
     let seen = pyramid.map(|pyramid| pyramid.seen(space, faces));
     let is_seen = |place: u32| seen.as_ref().is_none_or(|seen| seen[place as usize]);
+    let wanted = seen.as_ref().map_or_else(Wanted::default, |seen| faces.tree.wanted(seen));
     let is_open = |ends: [DVec3; 2]| !pyramid.is_some_and(|pyramid| is_hidden(space, pyramid, ends));
     const GROUPS: usize = 64;
     const PAIRS_A_GLANCE: u32 = 1024;
@@ -82,7 +83,7 @@ pub(super) fn intersections(
         let (mut kept, mut pairs) = (Kept::default(), 0u32);
         // Pairs come leaf by leaf, and the places in a leaf follow one another.
         let mut plates: [Option<Plate>; LARGEST_LEAF as usize] = Default::default();
-        faces.tree.pairs(groups, |first, second| {
+        faces.tree.wanted_pairs(groups, &wanted, |first, second| {
             pairs = pairs.wrapping_add(1);
             if pairs % PAIRS_A_GLANCE == 0 && progress.is_over() {
                 return true;
