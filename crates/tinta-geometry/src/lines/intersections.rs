@@ -111,9 +111,7 @@ pub(super) fn intersections(
     }
     let mut all = Kept::default();
     parts.into_iter().for_each(|(some, _)| all.append(some));
-    // A pair may have been found twice.
     all.lines.sort_unstable_by_key(|found| found.faces.map(|face| faces.numbers[face as usize]));
-    all.lines.dedup_by_key(|found| found.faces);
     let through = Through::new(space, faces, &all.touches);
     let lines = all.lines.into_iter().filter(|found| through.allows(found));
     let lines = lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect();

@@ -280,7 +280,7 @@ impl Lines<'_> {
                 self.behind_lines(index, image, beside, gap, &mut hidden);
             }
         }
-        found.hidden.extend(hidden);
+        found.hidden.extend(united(hidden));
         found.maybe.extend(united(maybe));
         found.swept.push(part);
     }
