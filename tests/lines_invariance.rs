@@ -1,6 +1,6 @@
 //! The visible lines do not change with what does not change the picture.
 
-use crate::lines_support::{length, lines, scene_of, view};
+use crate::lines_support::{explicit, length, lines, scene_of, shuffled, view};
 use crate::shapes::{Random, cuboid, icosphere};
 use crate::support::{public_models, skip};
 use glam::{DMat3, DVec3};
@@ -13,20 +13,6 @@ use tinta::{CameraSettings, LoadOptions, Mesh, Scene, SceneSettings, load};
 /// The scene of a model, with the camera given in numbers so that it can be moved with it.
 fn seen(mesh: &Mesh, camera: &CameraSettings) -> Scene {
     scene_of(vec![mesh.clone()], camera.clone())
-}
-
-/// The fitted camera as settings.
-pub fn explicit(scene: &Scene, parallel: bool) -> CameraSettings {
-    let camera = &scene.camera;
-    CameraSettings {
-        eye: Some(camera.eye),
-        target: Some(camera.target),
-        up: Some(camera.up),
-        near: Some(camera.near),
-        far: Some(camera.far),
-        parallel,
-        ..CameraSettings::default()
-    }
 }
 
 /// A mesh and its camera under a similarity.
@@ -173,35 +159,6 @@ fn lines_a_million_units_away_are_the_same_as_far_as_numbers_reach() {
             let actual = lines(&seen(&mesh, &view("33,17", parallel)));
             assert_same_sums(&expected, &actual, 1e-5, &format!("{name} parallel {parallel}"));
         }
-    }
-}
-
-/// The mesh with its positions and faces in another order, each face beginning at another corner.
-pub fn shuffled(mesh: &Mesh, random: &mut Random) -> Mesh {
-    let mut order = |count: usize| {
-        let mut order: Vec<usize> = (0..count).collect();
-        (1..count).rev().for_each(|last| order.swap(last, (random.number() * (last + 1) as f64) as usize));
-        order
-    };
-    let (of_positions, of_faces) = (order(mesh.positions.len()), order(mesh.triangles.len()));
-    let mut place = vec![0; of_positions.len()];
-    of_positions.iter().enumerate().for_each(|(new, old)| place[*old] = new as u32);
-    let turned = |face: usize, mut corners: [u32; 3]| {
-        corners.rotate_left(face % 3);
-        corners
-    };
-    let of_corners = |list: &Vec<[u32; 3]>| -> Vec<[u32; 3]> {
-        of_faces.iter().filter_map(|face| Some(turned(*face, *list.get(*face)?))).collect()
-    };
-    let triangles: Vec<[u32; 3]> = of_corners(&mesh.triangles);
-    Mesh {
-        positions: of_positions.iter().map(|old| mesh.positions[*old]).collect(),
-        file_vertices: of_positions.iter().map(|old| mesh.file_vertices[*old]).collect(),
-        triangles: triangles.into_iter().map(|corners| corners.map(|corner| place[corner as usize])).collect(),
-        triangle_normals: of_corners(&mesh.triangle_normals),
-        triangle_texture_coordinates: of_corners(&mesh.triangle_texture_coordinates),
-        triangle_materials: of_faces.iter().filter_map(|face| mesh.triangle_materials.get(*face).copied()).collect(),
-        ..mesh.clone()
     }
 }
 

@@ -5,8 +5,7 @@
 //! on one another, corners and faces that touch.
 
 use crate::lines_families::{FAMILIES, Family};
-use crate::lines_invariance::{explicit, shuffled};
-use crate::lines_support::{length, published_lines, px, scene_of, scenes_wanted};
+use crate::lines_support::{explicit, length, published_lines, px, scene_of, scenes_wanted, shuffled};
 use crate::shapes::Random;
 use crate::support::{public_models, skip};
 use glam::{DVec2, DVec3};

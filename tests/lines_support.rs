@@ -1,5 +1,6 @@
 //! What the tests of the visible lines share: scenes of meshes, projections of their own, sums of lengths.
 
+use crate::shapes::Random;
 use glam::{DVec2, DVec3};
 use tinta::edges::{Class, ClassSet};
 use tinta::lines::{LineSegment, LineSettings, VisibleLines};
@@ -15,6 +16,20 @@ pub fn scenes_wanted() -> Option<u64> {
 pub fn scene_of(meshes: Vec<Mesh>, camera: CameraSettings) -> Scene {
     let settings = SceneSettings { camera, size: Size { width: 512, height: 512 }, ..SceneSettings::default() };
     Scene::new(meshes, &settings).unwrap()
+}
+
+/// The fitted camera as settings.
+pub fn explicit(scene: &Scene, parallel: bool) -> CameraSettings {
+    let camera = &scene.camera;
+    CameraSettings {
+        eye: Some(camera.eye),
+        target: Some(camera.target),
+        up: Some(camera.up),
+        near: Some(camera.near),
+        far: Some(camera.far),
+        parallel,
+        ..CameraSettings::default()
+    }
 }
 
 /// A named view or one by angles, in either projection.
@@ -98,4 +113,33 @@ pub fn pierce(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<
     let q = from_a.cross(ab);
     let v = direction.dot(q) / determinant;
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| ac.dot(q) / determinant)
+}
+
+/// The mesh with its positions and faces in another order, each face beginning at another corner.
+pub fn shuffled(mesh: &Mesh, random: &mut Random) -> Mesh {
+    let mut order = |count: usize| {
+        let mut order: Vec<usize> = (0..count).collect();
+        (1..count).rev().for_each(|last| order.swap(last, (random.number() * (last + 1) as f64) as usize));
+        order
+    };
+    let (of_positions, of_faces) = (order(mesh.positions.len()), order(mesh.triangles.len()));
+    let mut place = vec![0; of_positions.len()];
+    of_positions.iter().enumerate().for_each(|(new, old)| place[*old] = new as u32);
+    let turned = |face: usize, mut corners: [u32; 3]| {
+        corners.rotate_left(face % 3);
+        corners
+    };
+    let of_corners = |list: &Vec<[u32; 3]>| -> Vec<[u32; 3]> {
+        of_faces.iter().filter_map(|face| Some(turned(*face, *list.get(*face)?))).collect()
+    };
+    let triangles: Vec<[u32; 3]> = of_corners(&mesh.triangles);
+    Mesh {
+        positions: of_positions.iter().map(|old| mesh.positions[*old]).collect(),
+        file_vertices: of_positions.iter().map(|old| mesh.file_vertices[*old]).collect(),
+        triangles: triangles.into_iter().map(|corners| corners.map(|corner| place[corner as usize])).collect(),
+        triangle_normals: of_corners(&mesh.triangle_normals),
+        triangle_texture_coordinates: of_corners(&mesh.triangle_texture_coordinates),
+        triangle_materials: of_faces.iter().filter_map(|face| mesh.triangle_materials.get(*face).copied()).collect(),
+        ..mesh.clone()
+    }
 }

@@ -31,6 +31,7 @@ pub fn lines(segments: Vec<LineSegment>) -> VisibleLines {
         edges: ClassCounts::default(),
         changes: None,
         healed: None,
+        covered_triangles: 0,
         undecided: 0,
         has_specks: false,
         times: LineTimes::default(),

@@ -31,6 +31,7 @@ mod chain;
 mod changes;
 pub mod closed_forms;
 mod contours;
+mod covered;
 mod crossings;
 mod curves;
 mod drawing;
@@ -266,6 +267,8 @@ pub struct VisibleLines {
     pub segments: Vec<LineSegment>,
     /// How many edges there are of each class, each counted in its first one.
     pub edges: ClassCounts,
+    /// How many triangles others cover in one plane, as in models made to be seen from both sides; each region counts once.
+    pub covered_triangles: usize,
     /// Where along silhouettes what is seen begins and ends, if that was asked for.
     pub changes: Option<VisibilityChanges>,
     /// Which gaps were joined, if that was asked for.
@@ -371,7 +374,7 @@ impl VisibleLines {
         let foremost = Foremost::new(&space, &faces, progress);
         let hides = pyramid.as_ref().filter(|_| !settings.finds_hidden);
         let nearest = foremost.as_ref().filter(|_| !settings.finds_hidden);
-        let mut intersections = intersections::intersections(&space, &faces, hides, nearest, progress);
+        let mut intersections = intersections::intersections(&space, &faces, &parts, (hides, nearest), progress);
         progress.go_on()?;
         if hides.is_some() && intersections.lines.len() > MANY_INTERSECTIONS {
             pyramid = Pyramid::fine(&space, &faces);
@@ -422,7 +425,9 @@ impl VisibleLines {
         }
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };
-        Ok(Self { size: scene.size, segments, edges, changes, healed, undecided, has_specks: false, times })
+        let covered_triangles = parts.iter().map(Part::covered).sum();
+        let has_specks = false;
+        Ok(Self { size: scene.size, segments, edges, covered_triangles, changes, healed, undecided, has_specks, times })
     }
 
     /// What is said of gaps that were joined.

@@ -65,6 +65,10 @@ pub const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;
 /// crease angle of drawings.
 pub const CREASE_DIGITS: f64 = 1e-5;
 
+/// What six printed digits may move a coordinate by, as a share of the model's bounding-box diagonal: corners of one polygon may lie
+/// that far from its plane.
+pub const PRINTED_DIGITS: f64 = 5e-6;
+
 /// Distance of a point from a face, as a share of the shorter of the face's longest side and the line's length, below which
 /// they touch: then the face does not hide the line, and does not pass through its neighbour. Models that stand on one
 /// another meet as well as six printed digits let them.

@@ -7,11 +7,14 @@ use super::intersections::Intersection;
 use super::mend::Mended;
 use super::space::Space;
 use crate::bvh::NO_FAMILY;
-use crate::edges::{Class, ClassCounts, ClassSet, EdgeList, Incidence, MeshEdges, SilhouetteRule};
+use crate::edges::{
+    Class, ClassCounts, ClassSet, EdgeList, Eye, Incidence, MeshEdges, Side, SilhouetteRule, side_of_face,
+};
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::{Object, Scene};
 use crate::tolerances::CONTACT;
 use glam::DVec3;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -53,11 +56,37 @@ pub(super) struct MendedEdges {
     edges: MeshEdges,
     shape: Arc<Mesh>,
     whole_faces: Vec<u32>,
+    /// Edges of two faces, one of which at least is a part of a face, ascending.
+    at_split_faces: Vec<u32>,
+    on_edges: BTreeMap<[u32; 2], Vec<u32>>,
+    covered: usize,
 }
 
 impl MendedEdges {
     pub(super) fn new(mended: Mended) -> Self {
-        Self { edges: MeshEdges::new(mended.split), shape: mended.shape, whole_faces: mended.whole_faces }
+        let Mended { shape, split, whole_faces, on_edges, covered } = mended;
+        let edges = MeshEdges::new(split);
+        let is_split = |face: &u32| {
+            let whole = whole_faces[*face as usize];
+            edges.mesh().triangles[*face as usize] != shape.triangles[whole as usize]
+        };
+        let is_at_one = |edge: &u32| matches!(edges.list().faces(*edge), faces @ [_, _] if faces.iter().any(is_split));
+        let at_split_faces = (0..edges.list().len() as u32).filter(is_at_one).collect();
+        Self { edges, shape, whole_faces, at_split_faces, on_edges, covered }
+    }
+
+    /// Whether of the two faces at an edge one is seen from the front and the other is not: of split faces the whole decides, for
+    /// rounding turns their parts.
+    fn is_silhouette(&self, edge: u32, eye: Eye) -> bool {
+        let &[first, second] = self.edges.list().faces(edge) else { return false };
+        let side = |face: u32| {
+            let corners = self.shape.triangles[self.whole_faces[face as usize] as usize];
+            side_of_face(corners.map(|corner| self.shape.positions[corner as usize]), eye)
+        };
+        // Turned the other way round, the second face shows its back.
+        let is_reversed = self.edges.list().incidence()[edge as usize] == Incidence::InnerReversed;
+        let front_of_second = if is_reversed { Side::Back } else { Side::Front };
+        (side(first) == Side::Front) != (side(second) == front_of_second)
     }
 }
 
@@ -84,6 +113,34 @@ impl Part<'_> {
         match &self.edges {
             Edges::OfScene(_) => face,
             Edges::Mended(mended) => mended.whole_faces[face as usize],
+        }
+    }
+
+    /// The vertices on an edge of the shape where its faces were split, in their order along it; the edge's lower position first.
+    pub(super) fn on_edge(&self, edge: [u32; 2]) -> &[u32] {
+        match &self.edges {
+            Edges::OfScene(_) => &[],
+            Edges::Mended(mended) => mended.on_edges.get(&edge).map_or(&[], Vec::as_slice),
+        }
+    }
+
+    /// The exact silhouette edges for an eye, ascending.
+    fn silhouette(&self, eye: Eye) -> Vec<u32> {
+        let mut silhouette = self.edges.get().silhouette(eye, SilhouetteRule::Exact);
+        if let Edges::Mended(mended) = &self.edges {
+            let at_split_faces = &mended.at_split_faces;
+            silhouette.retain(|edge| at_split_faces.binary_search(edge).is_err());
+            silhouette.extend(at_split_faces.iter().filter(|edge| mended.is_silhouette(**edge, eye)));
+            silhouette.sort_unstable();
+        }
+        silhouette
+    }
+
+    /// How many of the mesh's faces others cover, which were left out.
+    pub(super) fn covered(&self) -> usize {
+        match &self.edges {
+            Edges::OfScene(_) => 0,
+            Edges::Mended(mended) => mended.covered,
         }
     }
 
@@ -141,7 +198,7 @@ pub(super) fn edge_features(
         let edges = part.edges.get();
         let list = edges.list();
         let classes = edges.classes(settings.crease_angle, asked(settings));
-        let silhouette = edges.silhouette(scene.eye(part.object, SilhouetteRule::Exact), SilhouetteRule::Exact);
+        let silhouette = part.silhouette(scene.eye(part.object, SilhouetteRule::Exact));
         let (mesh, first_number) = (edges.mesh(), first_face);
         let number_of = |face: u32| first_number + part.whole_face(face);
         first_face += part.shape().triangles.len() as u32;
@@ -152,9 +209,11 @@ pub(super) fn edge_features(
             if part.is_within_a_face(edge) {
                 continue;
             }
-            let is_beside_edge_on =
-                || edge_on.binary_search(&edge).is_ok() && ends_edge_on(faces, list, edge, number_of);
-            if silhouette.binary_search(&edge).is_ok() || is_beside_edge_on() {
+            let by_edge_on = match edge_on.binary_search(&edge) {
+                Ok(_) => at_edge_on(faces, mesh, list, edge, number_of),
+                Err(_) => None,
+            };
+            if by_edge_on.unwrap_or_else(|| silhouette.binary_search(&edge).is_ok()) {
                 of_edge = of_edge.or(ClassSet::of(&[Class::Silhouette]));
             }
             let occludes = !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
@@ -291,11 +350,17 @@ fn edges_of_edge_on_faces(
     }
 }
 
-/// Whether of an edge's two faces one is seen edge-on and the other is not: to an eye just beside this one the first shows its
-/// front or its back, whatever the last digit says of it here, and to one of both the edge is silhouette.
-fn ends_edge_on(faces: &Faces, list: &EdgeList, edge: u32, number_of: impl Fn(u32) -> u32) -> bool {
+/// Whether an edge is silhouette, if one of its two faces at least is seen edge-on, whatever the last digit says of it: to an eye
+/// just beside this one such a face shows its front or its back, so that the edge is silhouette to one of both. Two edge-on
+/// faces at an edge lie in one plane; where they are folded onto one another, one of both is always turned away.
+fn at_edge_on(faces: &Faces, mesh: &Mesh, list: &EdgeList, edge: u32, number_of: impl Fn(u32) -> u32) -> Option<bool> {
+    let &[first, second] = list.faces(edge) else { return None };
     let is_edge_on = |face: u32| faces.edge_on_for_sure.binary_search(&number_of(face)).is_ok();
-    matches!(list.faces(edge), &[first, second] if is_edge_on(first) != is_edge_on(second))
+    match (is_edge_on(first), is_edge_on(second)) {
+        (false, false) => None,
+        (true, true) => Some(angle(mesh, list, edge).is_some_and(|degrees| degrees > 90.0)),
+        _ => Some(true),
+    }
 }
 
 /// The angle between an edge's two faces, of one orientation, degrees.

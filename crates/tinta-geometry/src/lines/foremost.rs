@@ -234,7 +234,8 @@ mod tests {
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
         let foremost = Foremost::new(&space, &faces, &Progress::default()).unwrap();
-        let all = intersections(&space, &faces, None, None, &Progress::default()).lines;
+        let parts = super::super::parts(&scene);
+        let all = intersections(&space, &faces, &parts, (None, None), &Progress::default()).lines;
         let (mut hidden, mut points) = (0, 0);
         for line in &all {
             let own = Own::Faces(line.faces);

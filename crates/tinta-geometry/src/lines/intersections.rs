@@ -1,11 +1,12 @@
 //! Where faces pass through one another.
 //!
-//! Two faces do if each has corners on both sides of the other's plane and their parts of the line common to both planes
-//! overlap. Corners nearer to a plane than what counts as touching are taken to lie above it, so that where vertices lie
-//! exactly on another surface the line is found once, on one side; faces of which neither has corners clearly on both sides
-//! of the other lie on one another and do not intersect.
+//! Two faces do if each reaches across the other's plane and their parts of the line common to both planes overlap. A corner
+//! nearer to a plane than the contact distance lies in it. A face with an edge in the other's plane only touches the other face;
+//! there the *surfaces* decide: they intersect if their half-planes around that edge alternate. No rule depends on how a
+//! face is wound.
 
 use super::faces::{Faces, Own, worth};
+use super::features::Part;
 use super::foremost::Foremost;
 use super::progress::{Phase, Progress};
 use super::pyramid::Pyramid;
@@ -14,7 +15,7 @@ use super::space::Space;
 use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY, Wanted, counting_steps, steps};
 use crate::threads::{cores, filled, in_chunks, spread_chunks};
 use crate::tolerances::CONTACT;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::collections::{HashMap, HashSet};
 
 /// A piece of line common to two faces.
@@ -66,8 +67,8 @@ impl Intersections {
 pub(super) fn intersections(
     space: &Space,
     faces: &Faces,
-    pyramid: Option<&Pyramid>,
-    foremost: Option<&Foremost>,
+    parts: &[Part],
+    (pyramid, foremost): (Option<&Pyramid>, Option<&Foremost>),
     progress: &Progress,
 ) -> Intersections {
     let seen = pyramid.map(|pyramid| pyramid.seen(space, faces));
@@ -102,18 +103,18 @@ pub(super) fn intersections(
         progress.advance(count, steps().wrapping_sub(before));
         kept
     };
-    let mut parts =
+    let mut chunks =
         spread_chunks(faces.tree.group_count(), GROUPS, cores(), |groups| counting_steps(|| in_groups(groups)));
-    parts.extend(around_hubs(&meeting, is_seen, is_open, progress));
-    let compared = parts.iter().map(|(_, steps)| steps).sum();
+    chunks.extend(around_hubs(&meeting, is_seen, is_open, progress));
+    let compared = chunks.iter().map(|(_, steps)| steps).sum();
     if progress.is_over() {
         return Intersections { compared, ..Intersections::default() };
     }
     let mut all = Kept::default();
-    parts.into_iter().for_each(|(some, _)| all.append(some));
+    chunks.into_iter().for_each(|(some, _)| all.append(some));
     all.lines.sort_unstable_by_key(|found| found.faces.map(|face| faces.numbers[face as usize]));
-    let through = Through::new(space, faces, &all.touches);
-    let lines = all.lines.into_iter().filter(|found| through.allows(found));
+    let touched = HalfPlanes::at_touched_edges(parts, &all.lines);
+    let lines = all.lines.into_iter().filter(|found| touched.pass_through(space, faces, found));
     let lines = lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect();
     Intersections { lines: without_repeated(space, faces, lines), piercings: all.piercings, compared }
 }
@@ -131,13 +132,11 @@ struct Kept {
     /// Those that the nearest faces do not hide.
     lines: Vec<Found>,
     piercings: Vec<Piercing>,
-    touches: Vec<([u32; 2], u32)>,
 }
 
 impl Kept {
     fn add(&mut self, &Meeting { space, faces, foremost }: &Meeting, found: Found) {
         self.piercings.extend(found.piercings.into_iter().flatten());
-        self.touches.extend(found.touch);
         let line = || Line {
             own: Own::Faces(found.faces),
             ends: found.ends,
@@ -151,7 +150,6 @@ impl Kept {
     fn append(&mut self, other: Self) {
         self.lines.extend(other.lines);
         self.piercings.extend(other.piercings);
-        self.touches.extend(other.touches);
     }
 }
 
@@ -247,44 +245,111 @@ struct Found {
     /// Whether it is long enough, and between faces high enough, to be a line: needles are cut but draw none.
     is_line: bool,
     piercings: [Option<Piercing>; 2],
-    /// Where the line is an edge that touches the other face: the edge, and that face.
-    touch: Option<([u32; 2], u32)>,
+    /// Each face's edge that lies in the other's plane, if one does.
+    touching: [Option<[u32; 2]>; 2],
 }
 
-/// For edges that touch a face from one side, whether another face goes on from them to the other side: only then the
-/// surface passes through.
-struct Through {
-    through: HashSet<([u32; 2], u32)>,
+/// The faces at each edge that lies in another face's plane: how the surface goes on there, T-junctions mended.
+struct HalfPlanes {
+    /// Each edge in pieces, as it was split.
+    pieces: HashMap<[u32; 2], Vec<[u32; 2]>>,
+    /// The third corners of all faces at a piece.
+    thirds: HashMap<[u32; 2], Vec<u32>>,
 }
 
-impl Through {
-    fn new(space: &Space, faces: &Faces, touches: &[([u32; 2], u32)]) -> Self {
-        let mut touched: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
-        for (edge, face) in touches {
-            touched.entry(*edge).or_default().push(*face);
+impl HalfPlanes {
+    fn at_touched_edges(parts: &[Part], lines: &[Found]) -> Self {
+        let touched = lines.iter().flat_map(|found| found.touching.into_iter().flatten());
+        let mut pieces: HashMap<[u32; 2], Vec<[u32; 2]>> = touched.map(|edge| (edge, Vec::new())).collect();
+        let mut thirds: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
+        if pieces.is_empty() {
+            return Self { pieces, thirds };
         }
-        let mut through = HashSet::new();
-        let sides = |triangle: &[u32; 3]| {
-            let [a, b, c] = *triangle;
-            [([a, b], c), ([b, c], a), ([c, a], b)].map(|([a, b], c)| ([a.min(b), a.max(b)], c))
-        };
-        let all = if touched.is_empty() { &[][..] } else { &faces.triangles[..] };
-        for (place, triangle) in all.iter().enumerate() {
-            for (edge, third) in sides(triangle) {
-                for face in touched.get(&edge).into_iter().flatten() {
-                    let (plate, own) = (Plate::new(space, faces, *face), Plate::new(space, faces, place as u32));
-                    let distance = plate.raw_distances([faces.positions[third as usize]; 3])[0];
-                    if distance > plate.contact(space, &own) * plate.normal_length {
-                        through.insert((edge, *face));
+        let starts: Vec<u32> = parts
+            .iter()
+            .scan(0, |next, part| Some(std::mem::replace(next, *next + part.shape().positions.len() as u32)))
+            .collect();
+        for (edge, pieces) in &mut pieces {
+            let part = starts.partition_point(|start| *start <= edge[0]) - 1;
+            let on_edge = parts[part].on_edge(edge.map(|position| position - starts[part])).iter();
+            let way: Vec<u32> = std::iter::once(edge[0])
+                .chain(on_edge.map(|position| position + starts[part]))
+                .chain([edge[1]])
+                .collect();
+            pieces.extend(way.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]));
+            thirds.extend(pieces.iter().map(|piece| (*piece, Vec::new())));
+        }
+        for (part, start) in parts.iter().zip(&starts) {
+            for triangle in &part.edges.get().mesh().triangles {
+                let [a, b, c] = triangle.map(|corner| corner + start);
+                for (from, to, third) in [(a, b, c), (b, c, a), (c, a, b)] {
+                    if let Some(thirds) = thirds.get_mut(&[from.min(to), from.max(to)]) {
+                        thirds.push(third);
                     }
                 }
             }
         }
-        Self { through }
+        Self { pieces, thirds }
     }
 
-    fn allows(&self, found: &Found) -> bool {
-        found.touch.is_none_or(|touch| self.through.contains(&touch))
+    /// The third corners of the faces at the piece of an edge that is nearest to a point.
+    fn at(&self, faces: &Faces, edge: [u32; 2], point: DVec3) -> &[u32] {
+        let distance = |piece: &[u32; 2]| {
+            let [a, b] = piece.map(|position| faces.positions[position as usize]);
+            let share = (point - a).dot(b - a) / (b - a).length_squared();
+            a.lerp(b, share.clamp(0.0, 1.0)).distance_squared(point)
+        };
+        let piece = self.pieces[&edge].iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        piece.map_or(&[], |piece| &self.thirds[piece])
+    }
+
+    /// Whether the two surfaces pass through one another along a line: going round it, half-planes of one and of the other follow
+    /// one another twice. Half-planes of both that lie on one another count for neither.
+    fn pass_through(&self, space: &Space, faces: &Faces, found: &Found) -> bool {
+        if found.touching == [None; 2] {
+            return true;
+        }
+        let [start, end] = found.ends;
+        let Some(along) = (end - start).try_normalize() else { return false };
+        let (right, up) = along.any_orthonormal_pair();
+        let around = |point: DVec3| {
+            let across = point - start;
+            DVec2::new(across.dot(right), across.dot(up))
+        };
+        let farthest = |corners: [DVec2; 3], towards: DVec2| {
+            let reach = |corner: &DVec2| corner.dot(towards);
+            corners.into_iter().max_by(|a, b| reach(a).total_cmp(&reach(b))).unwrap_or_default()
+        };
+        // Each half-plane by its farthest point, seen along the line.
+        let half_planes = |side: usize| -> Vec<DVec2> {
+            match found.touching[side] {
+                Some(edge) => {
+                    let thirds = self.at(faces, edge, start.lerp(end, 0.5)).iter();
+                    thirds.map(|third| around(faces.positions[*third as usize])).collect()
+                }
+                None => {
+                    let corners = faces.corners(found.faces[side]).map(around);
+                    let some = corners.into_iter().max_by(|a, b| a.length().total_cmp(&b.length())).unwrap_or_default();
+                    [some, -some].map(|towards| farthest(corners, towards)).to_vec()
+                }
+            }
+        };
+        let [first, second] = [half_planes(0), half_planes(1)];
+        let plates = found.faces.map(|place| Plate::new(space, faces, place));
+        let contact = plates[0].contact(space, &plates[1]);
+        let lie_on_one_another = |a: DVec2, b: DVec2| {
+            let (short, long) = if a.length() <= b.length() { (a, b) } else { (b, a) };
+            short.dot(long) > 0.0 && short.perp_dot(long).abs() <= contact * long.length()
+        };
+        let without = |some: &[DVec2], others: &[DVec2]| -> Vec<f64> {
+            let apart = some.iter().filter(|a| !others.iter().any(|b| lie_on_one_another(**a, *b)));
+            apart.map(|towards| towards.to_angle()).collect()
+        };
+        let (first_apart, second_apart) = (without(&first, &second), without(&second, &first));
+        let mut round: Vec<(f64, bool)> = first_apart.into_iter().map(|angle| (angle, false)).collect();
+        round.extend(second_apart.into_iter().map(|angle| (angle, true)));
+        round.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        (0..round.len()).filter(|index| round[*index].1 != round[(index + 1) % round.len()].1).count() >= 4
     }
 }
 
@@ -303,7 +368,7 @@ struct Plate {
     loose: f64,
 }
 
-/// Two faces of which each has corners on both sides of the other's plane.
+/// Two faces of which each reaches across the other's plane or has an edge in it.
 struct Pair<'a> {
     faces: &'a Faces,
     places: [u32; 2],
@@ -315,6 +380,8 @@ struct Pair<'a> {
     shared: Option<[usize; 2]>,
     /// Length below which nothing is a line.
     shortest: f64,
+    /// Each face's edge that lies in the other's plane.
+    touching: [Option<[u32; 2]>; 2],
 }
 
 /// Where a side of one face passes the other's plane.
@@ -368,47 +435,59 @@ impl Plate {
             (false, true) => return other.needle_through(faces, self, contact),
             (false, false) => {}
         }
-        let second = Sides::of(raw, own, contact * self.normal_length);
-        if !second.straddle {
-            return None;
-        }
+        let second = Sides::of(raw, own, contact * self.normal_length)?;
         let raw = other.raw_distances(self.corners);
-        let first = Sides::of(raw, shared.map(|[i, _]| i), contact * other.normal_length);
-        // Two faces that only touch one another's plane lie on one another, as well as their coordinates say.
-        if !first.straddle || !(first.clearly || second.clearly) {
+        let first = Sides::of(raw, shared.map(|[i, _]| i), contact * other.normal_length)?;
+        // Where each only touches the other's plane they have a line in common if both edges lie on one another.
+        if let (Some(edge), Some(other_edge)) = (first.edge, second.edge)
+            && !lie_on_one_line(edge.map(|i| self.corners[i]), other_edge.map(|i| other.corners[i]), contact)
+        {
             return None;
         }
-        let (plates, distances) = match faces.in_order(self.place, other.place) {
-            true => ([self, &other], [first.distances, second.distances]),
-            false => ([&other, self], [second.distances, first.distances]),
+        let (plates, sides) = match faces.in_order(self.place, other.place) {
+            true => ([self, &other], [first, second]),
+            false => ([&other, self], [second, first]),
         };
+        let touching = [0, 1].map(|face| {
+            let [a, b] = sides[face].edge?.map(|corner| plates[face].numbers[corner]);
+            Some([a.min(b), a.max(b)])
+        });
         Pair {
             faces,
             places: plates.map(|plate| plate.place),
-            distances,
+            distances: sides.map(|sides| sides.distances),
             direction: plates[0].normal.cross(plates[1].normal),
             shared: if plates[0].place == self.place { shared } else { shared.map(|[i, j]| [j, i]) },
             shortest: contact,
+            touching,
         }
         .common()
     }
 
     /// Where the sides of this face, too thin to have a plane, pass through another.
     fn needle_through(&self, faces: &Faces, other: &Self, contact: f64) -> Option<Found> {
-        let distances = Sides::of(other.raw_distances(self.corners), None, contact * other.normal_length).distances;
+        let distances = Sides::of(other.raw_distances(self.corners), None, contact * other.normal_length)?.distances;
         let (places, kept) = match faces.in_order(self.place, other.place) {
             true => ([self.place, other.place], [distances, [0.0; 3]]),
             false => ([other.place, self.place], [[0.0; 3], distances]),
         };
         let face = usize::from(places[1] == self.place);
-        let pair = Pair { faces, places, distances: kept, direction: DVec3::ZERO, shared: None, shortest: contact };
+        let pair = Pair {
+            faces,
+            places,
+            distances: kept,
+            direction: DVec3::ZERO,
+            shared: None,
+            shortest: contact,
+            touching: [None; 2],
+        };
         let mut piercings = (0..3)
             .filter_map(|corner| pair.crossing(face, corner, (corner + 1) % 3))
             .map(|crossing| crossing.piercing)
             .filter(|piercing| other.contains(piercing.point));
         let piercings = [piercings.next(), piercings.next()];
         let point = piercings[0]?.point;
-        Some(Found { faces: places, ends: [point; 2], is_line: false, piercings, touch: None })
+        Some(Found { faces: places, ends: [point; 2], is_line: false, piercings, touching: [None; 2] })
     }
 
     /// Whether a point of the plane lies in the face, or so near its rim that a cut too many is all that comes of it.
@@ -430,32 +509,39 @@ impl Plate {
     }
 }
 
-/// On which sides of a plane a face's corners lie.
+/// How a face that reaches another's plane lies to it.
 struct Sides {
-    /// 0 for those that touch it, which count as above.
+    /// 0 for corners that touch the plane, below it where all others lie on one side.
     distances: [f64; 3],
-    /// Whether there are some on both sides.
-    straddle: bool,
-    /// Whether there are even without those that touch it.
-    clearly: bool,
+    /// The two corners that touch it, where the third lies clearly on one side: the face ends or bends there.
+    edge: Option<[usize; 2]>,
 }
 
 impl Sides {
-    /// Of distances, without that of the corner the faces share.
-    fn of(mut distances: [f64; 3], shared: Option<usize>, touching: f64) -> Self {
-        let (mut below, mut clearly_above, mut above) = (false, false, false);
+    /// Of a face with corners on both sides of a plane, or with an edge in it. Where two faces share a corner, that lies in both planes.
+    fn of(mut distances: [f64; 3], shared: Option<usize>, touching: f64) -> Option<Self> {
+        let (mut below, mut above) = (false, false);
         for (index, distance) in distances.iter_mut().enumerate() {
             if shared == Some(index) || distance.abs() <= touching {
                 *distance = 0.0;
-                above |= shared != Some(index);
-            } else if *distance < 0.0 {
-                below = true;
-            } else {
-                (above, clearly_above) = (true, true);
             }
+            below |= *distance < 0.0;
+            above |= *distance > 0.0;
         }
-        Self { distances, straddle: below && above, clearly: below && clearly_above }
+        if below && above {
+            return Some(Self { distances, edge: None });
+        }
+        let third = distances.iter().position(|distance| *distance != 0.0)?;
+        let edge = [(third + 1) % 3, (third + 2) % 3];
+        let touches = edge.iter().all(|corner| distances[*corner] == 0.0);
+        touches.then(|| Self { distances: distances.map(|distance| -distance.abs()), edge: Some(edge) })
     }
+}
+
+/// Whether the ends of an edge are nearer to the line through another than a distance.
+fn lie_on_one_line([a, b]: [DVec3; 2], other: [DVec3; 2], distance: f64) -> bool {
+    let along = (b - a).normalize_or_zero();
+    other.iter().all(|end| along.cross(*end - a).length() <= distance)
 }
 
 impl Pair<'_> {
@@ -491,18 +577,7 @@ impl Pair<'_> {
         };
         let piercings = [low, high].map(|piercing| (piercing.edge[0] != u32::MAX).then_some(piercing));
         let is_line = overlap && low.point.distance(high.point) > self.shortest;
-        Some(Found { faces: self.places, ends: [low.point, high.point], is_line, piercings, touch: self.touch() })
-    }
-
-    /// The edge of one face that touches the other all along, if there is one.
-    fn touch(&self) -> Option<([u32; 2], u32)> {
-        (0..2).find_map(|face| {
-            let zeros: Vec<usize> = (0..3).filter(|corner| self.distances[face][*corner] == 0.0).collect();
-            let &[first, second] = zeros.as_slice() else { return None };
-            let numbers = self.faces.triangles[self.places[face] as usize];
-            let (first, second) = (numbers[first], numbers[second]);
-            Some(([first.min(second), first.max(second)], self.places[1 - face]))
-        })
+        Some(Found { faces: self.places, ends: [low.point, high.point], is_line, piercings, touching: self.touching })
     }
 
     /// Where a face's rim passes the other's plane: the lower place along the common line first.

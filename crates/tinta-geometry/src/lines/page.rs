@@ -294,6 +294,7 @@ mod tests {
             edges: ClassCounts::default(),
             changes: None,
             healed: None,
+            covered_triangles: 0,
             undecided: 0,
             has_specks: false,
             times: LineTimes::default(),

@@ -77,6 +77,7 @@ impl VisibleLines {
             edges: self.edges,
             changes: self.changes.clone(),
             healed: self.healed,
+            covered_triangles: self.covered_triangles,
             undecided: self.undecided,
             has_specks: self.has_specks,
             times: self.times,

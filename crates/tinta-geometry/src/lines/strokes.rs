@@ -99,6 +99,7 @@ mod tests {
             edges: Default::default(),
             changes: None,
             healed: None,
+            covered_triangles: 0,
             undecided: 0,
             has_specks: false,
             times: LineTimes::default(),

@@ -87,6 +87,7 @@ fn creases(of: &[[f64; 2]]) -> VisibleLines {
         edges: ClassCounts::default(),
         changes: None,
         healed: None,
+        covered_triangles: 0,
         undecided: 0,
         has_specks: false,
         times: LineTimes::default(),

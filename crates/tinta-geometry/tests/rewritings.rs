@@ -1,0 +1,100 @@
+//! The same surface, written another way, has the same lines.
+//!
+//! Every rewriting below changes a model's file and not its surface. The drawing must keep its visible length per class
+//! and every visible piece.
+
+extern crate tinta_geometry as tinta;
+
+#[allow(dead_code, reason = "shared with the tests of the whole program")]
+#[path = "../../../tests/lines_families.rs"]
+mod lines_families;
+#[allow(dead_code, reason = "shared with the tests of the whole program")]
+#[path = "../../../tests/lines_random.rs"]
+mod lines_random;
+#[allow(dead_code, reason = "shared with the tests of the whole program")]
+#[path = "../../../tests/lines_support.rs"]
+mod lines_support;
+#[path = "rewritings/model.rs"]
+mod model;
+#[path = "rewritings/rules.rs"]
+mod rules;
+#[path = "rewritings/same.rs"]
+mod same;
+#[allow(dead_code, reason = "shared with the tests of the whole program")]
+#[path = "../../../tests/shapes.rs"]
+mod shapes;
+
+use lines_families::FAMILIES;
+use lines_support::{lines, scenes_wanted};
+use model::Model;
+use rules::REWRITINGS;
+use same::difference;
+use shapes::Random;
+
+/// A scene of one of the families, numbered through all of them.
+fn scene(number: usize, random: &mut Random) -> (String, Model) {
+    let kind = number % (FAMILIES.len() + 4);
+    match FAMILIES.get(kind) {
+        Some((name, make)) => ((*name).to_owned(), Model::of(&make(random))),
+        None => {
+            let kind = kind - FAMILIES.len();
+            (format!("random scenes {kind}"), Model::of(&lines_random::random_scene(kind as u32, random)))
+        }
+    }
+}
+
+/// Rewrites one scene by a chain of rules and returns what differs.
+fn failure(seed: u64, number: usize, chain: &[usize]) -> Option<String> {
+    let mut random = Random::seeded(seed);
+    let (name, model) = scene(number, &mut random);
+    let expected = lines(&model.scene());
+    let mut rewritten = model.clone();
+    for rule in chain {
+        rewritten = (REWRITINGS[*rule].rewrite)(rewritten, &mut random);
+    }
+    let actual = lines(&rewritten.scene());
+    let difference = difference(&expected, &actual, rewritten.is_mirrored)?;
+    if let Ok(folder) = std::env::var("TINTA_REWRITTEN") {
+        model.write(&format!("{folder}/{seed}-before"));
+        rewritten.write(&format!("{folder}/{seed}-after"));
+    }
+    let rules: Vec<&str> = chain.iter().map(|rule| REWRITINGS[*rule].name).collect();
+    Some(format!("{name}, seed {seed}, scene {number}, rules {chain:?} ({}): {difference}", rules.join(", ")))
+}
+
+fn check(cases: impl IntoIterator<Item = (u64, usize, Vec<usize>)>) {
+    let (mut count, mut failures) = (0, Vec::new());
+    for (seed, number, chain) in cases {
+        count += 1;
+        failures.extend(failure(seed, number, &chain));
+    }
+    println!("{} of {count} scenes differ", failures.len());
+    let failed = failures.len();
+    failures.truncate(40);
+    assert!(failures.is_empty(), "{failed} of {count} scenes differ: {failures:#?}");
+}
+
+fn chains(count: u64) -> impl Iterator<Item = (u64, usize, Vec<usize>)> {
+    (1..=count).map(|seed| {
+        let mut random = Random::seeded(seed ^ 0xC4A1);
+        let rule = |_| (random.number() * REWRITINGS.len() as f64) as usize;
+        (seed, seed as usize, (0..3).map(rule).collect())
+    })
+}
+
+#[test]
+fn every_rewriting_leaves_the_lines_of_every_family_as_they_are() {
+    let kinds = FAMILIES.len() + 4;
+    check((0..kinds).flat_map(|number| (0..REWRITINGS.len()).map(move |rule| (7 + number as u64, number, vec![rule]))));
+}
+
+#[test]
+fn chains_of_three_rewritings_leave_the_lines_as_they_are() {
+    check(chains(scenes_wanted().unwrap_or(120)));
+}
+
+#[test]
+#[ignore = "exhaustive: 2,000 scenes, or as many as TINTA_LINE_SCENES says"]
+fn chains_of_three_rewritings_leave_the_lines_of_many_scenes_as_they_are() {
+    check(chains(scenes_wanted().unwrap_or(2000)));
+}

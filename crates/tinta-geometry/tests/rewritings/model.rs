@@ -1,0 +1,93 @@
+//! A scene that can be written in other ways.
+
+use crate::lines_support::explicit;
+use crate::rules::edges;
+use crate::shapes::joined;
+use glam::{DMat3, DVec3};
+use std::sync::Arc;
+use tinta::camera::Projection;
+use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
+
+#[derive(Clone)]
+pub struct Model {
+    pub meshes: Vec<Mesh>,
+    pub camera: CameraSettings,
+    pub size: Size,
+    /// Whether the picture is the mirror image of the original.
+    pub is_mirrored: bool,
+    /// Whether a surface has a rim.
+    pub is_open: bool,
+}
+
+impl Model {
+    pub fn of(scene: &Scene) -> Self {
+        let parallel = matches!(scene.camera.projection, Projection::Parallel { .. });
+        // As readers make them: no two positions in one place.
+        let placed = |object: &tinta::scene::Object| {
+            let positions = object.mesh.positions.iter().map(|point| *point + object.offset).collect();
+            joined(&[Mesh { positions, ..(*object.mesh).clone() }])
+        };
+        let mut camera = explicit(scene, parallel);
+        match scene.camera.projection {
+            Projection::Parallel { height } => camera.height = Some(height),
+            Projection::Perspective { fov_y_degrees } => camera.fov_y_degrees = fov_y_degrees,
+        }
+        let meshes: Vec<Mesh> = scene.objects.iter().map(placed).collect();
+        let is_open = meshes.iter().any(|mesh| edges(mesh).values().any(|faces| faces.len() == 1));
+        Self { meshes, camera, size: scene.size, is_mirrored: false, is_open }
+    }
+
+    pub fn scene(&self) -> Scene {
+        let settings = SceneSettings { camera: self.camera.clone(), size: self.size, ..SceneSettings::default() };
+        Scene::new(self.meshes.iter().cloned().map(Arc::new).collect::<Vec<_>>(), &settings).unwrap()
+    }
+
+    /// Writes each mesh as an OBJ and the options of its picture, to look into a scene that differs.
+    pub fn write(&self, path: &str) {
+        let mut command = String::from("tinta render");
+        for (number, mesh) in self.meshes.iter().enumerate() {
+            let vertex = |DVec3 { x, y, z }: &DVec3| format!("v {x:?} {y:?} {z:?}\n");
+            let face = |[a, b, c]: &[u32; 3]| format!("f {} {} {}\n", a + 1, b + 1, c + 1);
+            let text: String = mesh.positions.iter().map(vertex).chain(mesh.triangles.iter().map(face)).collect();
+            std::fs::write(format!("{path}-{number}.obj"), text).unwrap();
+            command += &format!(" {path}-{number}.obj");
+        }
+        let camera = &self.camera;
+        let vector = |vector: Option<DVec3>| vector.map(|DVec3 { x, y, z }| format!("{x:?},{y:?},{z:?}")).unwrap();
+        command += &format!(" --weld 0 --size {}x{}", self.size.width, self.size.height);
+        command +=
+            &format!(" --eye={} --target={} --up={}", vector(camera.eye), vector(camera.target), vector(camera.up));
+        command += &format!(" --near={:?} --far={:?}", camera.near.unwrap(), camera.far.unwrap());
+        match camera.parallel {
+            true => command += &format!(" --parallel --height={:?}", camera.height.unwrap()),
+            false => command += &format!(" --fov={:?}", camera.fov_y_degrees),
+        }
+        std::fs::write(format!("{path}.txt"), command).unwrap();
+    }
+
+    /// Model and camera under a similarity.
+    pub fn moved(mut self, turn: DMat3, scale: f64, shift: DVec3) -> Self {
+        let place = |point: DVec3| turn * point * scale + shift;
+        for mesh in &mut self.meshes {
+            mesh.positions.iter_mut().for_each(|point| *point = place(*point));
+        }
+        let camera = &mut self.camera;
+        camera.eye = camera.eye.map(place);
+        camera.target = camera.target.map(place);
+        camera.up = camera.up.map(|up| turn * up);
+        camera.near = camera.near.map(|near| near * scale);
+        camera.far = camera.far.map(|far| far * scale);
+        camera.height = camera.height.map(|height| height * scale);
+        self
+    }
+}
+
+/// The mesh of some triangles with the positions that they use.
+pub fn compact(mesh: &Mesh, triangles: Vec<[u32; 3]>) -> Mesh {
+    let mut used = triangles.as_flattened().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    let number = |corner: u32| used.binary_search(&corner).unwrap() as u32;
+    let triangles = triangles.into_iter().map(|corners| corners.map(number)).collect();
+    crate::shapes::mesh(used.iter().map(|corner| mesh.positions[*corner as usize]).collect(), triangles)
+}

@@ -1,0 +1,279 @@
+//! Ways to write a model that leave its surface as it is.
+
+use crate::lines_support::shuffled;
+use crate::model::Model;
+use crate::shapes::{Random, joined, mesh};
+use glam::{DMat3, DVec3};
+use std::collections::BTreeMap;
+use tinta::Mesh;
+
+/// A rule by its name.
+pub struct Rewriting {
+    pub name: &'static str,
+    pub rewrite: fn(Model, &mut Random) -> Model,
+}
+
+pub const REWRITINGS: [Rewriting; 15] = [
+    Rewriting { name: "faces turned", rewrite: turn_faces },
+    Rewriting { name: "parts inside out", rewrite: turn_parts },
+    Rewriting { name: "faces from another corner", rewrite: rotate_faces },
+    Rewriting { name: "other diagonals", rewrite: flip_diagonals },
+    Rewriting { name: "edges split on one side", rewrite: split_one_side },
+    Rewriting { name: "edges split on both sides", rewrite: split_both_sides },
+    Rewriting { name: "faces repeated", rewrite: repeat_faces },
+    Rewriting { name: "all faces repeated with other diagonals, turned", rewrite: repeat_all },
+    Rewriting { name: "vertices split and welded", rewrite: split_and_weld },
+    Rewriting { name: "parts as objects", rewrite: parts_as_objects },
+    Rewriting { name: "objects as one", rewrite: objects_as_one },
+    Rewriting { name: "another order", rewrite: reorder },
+    Rewriting { name: "moved with its camera", rewrite: move_rigidly },
+    Rewriting { name: "mirrored", rewrite: mirror },
+    Rewriting { name: "another size", rewrite: resize },
+];
+
+fn each(mut model: Model, mut change: impl FnMut(&mut Mesh)) -> Model {
+    model.meshes.iter_mut().for_each(&mut change);
+    model
+}
+
+fn turn_faces(model: Model, random: &mut Random) -> Model {
+    each(model, |mesh| {
+        mesh.triangles.iter_mut().filter(|_| random.number() < 0.5).for_each(|corners| corners.reverse());
+    })
+}
+
+fn turn_parts(model: Model, random: &mut Random) -> Model {
+    each(model, |mesh| {
+        let parts = parts(mesh);
+        let is_turned: Vec<bool> = (0..mesh.triangles.len()).map(|_| random.number() < 0.5).collect();
+        for (corners, part) in mesh.triangles.iter_mut().zip(parts) {
+            if is_turned[part] {
+                corners.reverse();
+            }
+        }
+    })
+}
+
+fn rotate_faces(model: Model, random: &mut Random) -> Model {
+    each(model, |mesh| {
+        mesh.triangles.iter_mut().for_each(|corners| corners.rotate_left((random.number() * 3.0) as usize));
+    })
+}
+
+/// For each edge its faces.
+pub fn edges(mesh: &Mesh) -> BTreeMap<[u32; 2], Vec<usize>> {
+    let mut edges: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
+    for (face, [a, b, c]) in mesh.triangles.iter().enumerate() {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            edges.entry([*from.min(to), *from.max(to)]).or_default().push(face);
+        }
+    }
+    edges
+}
+
+/// The corner of a face that is not on an edge.
+fn third(mesh: &Mesh, face: usize, edge: [u32; 2]) -> u32 {
+    mesh.triangles[face].into_iter().find(|corner| !edge.contains(corner)).unwrap()
+}
+
+/// The faces of triangles that are parts of flat quadrangles, with the other diagonal, half of them.
+fn flip_diagonals(model: Model, random: &mut Random) -> Model {
+    each(model, |mesh| {
+        let mut is_changed = vec![false; mesh.triangles.len()];
+        let old = mesh.clone();
+        for (edge, faces) in edges(&old) {
+            let &[first, second] = faces.as_slice() else { continue };
+            // Faces of one layer follow one another; those of two layers could be mixed so that no layer is whole.
+            let runs_up = |face: usize| {
+                let at = old.triangles[face].iter().position(|corner| *corner == edge[0]).unwrap();
+                old.triangles[face][(at + 1) % 3] == edge[1]
+            };
+            let are_of_one_layer = runs_up(first) != runs_up(second);
+            if is_changed[first] || is_changed[second] || !are_of_one_layer || random.number() < 0.5 {
+                continue;
+            }
+            let ([a, b], c, d) = (edge, third(&old, first, edge), third(&old, second, edge));
+            let point = |corner: u32| old.positions[corner as usize];
+            let normal = |x: u32, y: u32, z: u32| (point(y) - point(x)).cross(point(z) - point(x));
+            let normals = [normal(a, b, c), normal(b, a, d), normal(a, d, c), normal(b, c, d)];
+            let largest = normals.iter().map(|normal| normal.length()).fold(0.0, f64::max);
+            let is_flat = normals.iter().all(|other| other.cross(normals[0]).length() <= 1e-14 * largest * largest);
+            // The other diagonal lies well inside.
+            let is_convex = normals.iter().all(|other| other.dot(normals[0]) > 0.01 * largest * normals[0].length());
+            // An edge that is there must not get two more faces.
+            let is_new = c != d && !edges(mesh).contains_key(&[c.min(d), c.max(d)]);
+            if is_flat && is_convex && is_new {
+                // Each as the face was wound that it stands for.
+                let is_up = |face: usize, [x, y, z]: [u32; 3]| {
+                    let corners = old.triangles[face];
+                    let of_face = normal(corners[0], corners[1], corners[2]);
+                    if normal(x, y, z).dot(of_face) > 0.0 { [x, y, z] } else { [x, z, y] }
+                };
+                mesh.triangles[first] = is_up(first, [a, d, c]);
+                mesh.triangles[second] = is_up(second, [b, c, d]);
+                (is_changed[first], is_changed[second]) = (true, true);
+            }
+        }
+    })
+}
+
+/// Splits a face at a vertex on an edge of it.
+fn split_face(mesh: &mut Mesh, face: usize, edge: [u32; 2], vertex: u32) {
+    let corners = mesh.triangles[face];
+    let with = |old: u32| corners.map(|corner| if corner == old { vertex } else { corner });
+    mesh.triangles[face] = with(edge[0]);
+    mesh.triangles.push(with(edge[1]));
+}
+
+fn split_edges(
+    model: Model,
+    random: &mut Random,
+    split: impl Fn(&mut Mesh, &mut Random, [u32; 2], &[usize], u32),
+) -> Model {
+    each(model, |mesh| {
+        for _ in 0..1 + mesh.triangles.len() / 10 {
+            let edges = edges(mesh);
+            let (edge, faces) = edges.iter().nth((random.number() * edges.len() as f64) as usize).unwrap();
+            let [a, b] = edge.map(|end| mesh.positions[end as usize]);
+            let point = a.lerp(b, 0.1 + 0.8 * random.number());
+            let vertex = mesh.positions.len() as u32;
+            mesh.positions.push(point);
+            mesh.file_vertices.push(vertex);
+            split(mesh, random, *edge, faces, vertex);
+        }
+    })
+}
+
+fn split_one_side(model: Model, random: &mut Random) -> Model {
+    split_edges(model, random, |mesh, random, edge, faces, vertex| {
+        let face = faces[(random.number() * faces.len() as f64) as usize];
+        split_face(mesh, face, edge, vertex);
+    })
+}
+
+fn split_both_sides(model: Model, random: &mut Random) -> Model {
+    split_edges(model, random, |mesh, _, edge, faces, vertex| {
+        faces.iter().for_each(|face| split_face(mesh, *face, edge, vertex));
+    })
+}
+
+fn repeat_faces(model: Model, random: &mut Random) -> Model {
+    each(model, |mesh| {
+        for face in 0..mesh.triangles.len() {
+            if random.number() < 0.3 {
+                let mut corners = mesh.triangles[face];
+                if random.number() < 0.5 {
+                    corners.reverse();
+                }
+                mesh.triangles.push(corners);
+            }
+        }
+    })
+}
+
+fn repeat_all(model: Model, random: &mut Random) -> Model {
+    let other = flip_diagonals(model.clone(), random);
+    let mut others = other.meshes.into_iter();
+    each(model, |mesh| {
+        let other = others.next().unwrap();
+        mesh.triangles.extend(other.triangles.into_iter().map(|[a, b, c]| [c, b, a]));
+    })
+}
+
+fn split_and_weld(model: Model, random: &mut Random) -> Model {
+    each(model, |whole| {
+        let corners = whole.triangles.as_flattened().iter().map(|corner| whole.positions[*corner as usize]).collect();
+        let faces = (0..whole.triangles.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
+        let apart = shuffled(&mesh(corners, faces), random);
+        // Objects that were put together stay apart.
+        let is_welded = joined(std::slice::from_ref(whole)).positions.len() == whole.positions.len();
+        if is_welded {
+            *whole = joined(&[apart]);
+        }
+    })
+}
+
+/// For each face the first face it hangs together with, over common positions.
+fn parts(mesh: &Mesh) -> Vec<usize> {
+    let mut first_at: Vec<usize> = (0..mesh.positions.len()).collect();
+    fn root(parents: &mut [usize], mut one: usize) -> usize {
+        while parents[one] != one {
+            parents[one] = parents[parents[one]];
+            one = parents[one];
+        }
+        one
+    }
+    for [a, b, c] in &mesh.triangles {
+        for other in [b, c] {
+            let (one, other) = (root(&mut first_at, *a as usize), root(&mut first_at, *other as usize));
+            first_at[one.max(other)] = one.min(other);
+        }
+    }
+    let mut first_face: BTreeMap<usize, usize> = BTreeMap::new();
+    let part_of = |(face, corners): (usize, &[u32; 3])| {
+        *first_face.entry(root(&mut first_at, corners[0] as usize)).or_insert(face)
+    };
+    mesh.triangles.iter().enumerate().map(part_of).collect()
+}
+
+/// Leaves open surfaces as they are: within one mesh, rims that meet at a T-junction are joined, so that sheets side by side are one
+/// surface; those of several objects each keep their rim. That is a rule of docs/lines.md, and no rewriting.
+fn parts_as_objects(mut model: Model, _: &mut Random) -> Model {
+    if model.is_open {
+        return model;
+    }
+    let apart = |mesh: &Mesh| -> Vec<Mesh> {
+        let parts = parts(mesh);
+        let mut numbers = parts.clone();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let of_part = |number: usize| {
+            let faces = mesh.triangles.iter().zip(&parts).filter(|(_, part)| **part == number);
+            crate::model::compact(mesh, faces.map(|(corners, _)| *corners).collect())
+        };
+        numbers.into_iter().map(of_part).collect()
+    };
+    model.meshes = model.meshes.iter().flat_map(apart).collect();
+    model
+}
+
+/// Leaves open surfaces as they are, for the same reason.
+fn objects_as_one(mut model: Model, _: &mut Random) -> Model {
+    if model.is_open {
+        return model;
+    }
+    let mut all = mesh(Vec::new(), Vec::new());
+    for one in &model.meshes {
+        let first = all.positions.len() as u32;
+        all.positions.extend(&one.positions);
+        all.triangles.extend(one.triangles.iter().map(|corners| corners.map(|corner| corner + first)));
+    }
+    all.file_vertices = (0..all.positions.len() as u32).collect();
+    model.meshes = vec![all];
+    model
+}
+
+fn reorder(mut model: Model, random: &mut Random) -> Model {
+    let turn = (random.number() * model.meshes.len() as f64) as usize;
+    model.meshes.rotate_left(turn);
+    each(model, |mesh| *mesh = shuffled(mesh, random))
+}
+
+fn move_rigidly(model: Model, random: &mut Random) -> Model {
+    let turn = DMat3::from_axis_angle(random.direction(), random.number() * 6.0);
+    // Some sizes away, so that no coordinate loses more than a digit.
+    let reach = model.meshes.iter().map(|mesh| mesh.bounds()).map(|(low, high)| low.distance(high)).fold(0.0, f64::max);
+    let shift = random.direction() * 5.0 * reach;
+    model.moved(turn, 1.0, shift)
+}
+
+fn mirror(model: Model, _: &mut Random) -> Model {
+    let mut mirrored = model.moved(DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0)), 1.0, DVec3::ZERO);
+    mirrored.is_mirrored ^= true;
+    mirrored
+}
+
+fn resize(model: Model, random: &mut Random) -> Model {
+    let scale = if random.number() < 0.5 { 1e-6 } else { 1e6 };
+    model.moved(DMat3::IDENTITY, scale, DVec3::ZERO)
+}
