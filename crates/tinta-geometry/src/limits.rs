@@ -66,9 +66,6 @@ pub const CROSSING_CORNERS: usize = 1024;
 /// Longest header of a PLY file, bytes.
 pub const PLY_HEADER_BYTES: usize = 64 << 10;
 
-/// Longest line of a text STL file, bytes; the names of its solids aside.
-pub const STL_LINE_BYTES: usize = 1024;
-
 /// Most materials of a model.
 pub const MATERIALS: usize = 16_384;
 

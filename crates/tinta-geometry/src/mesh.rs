@@ -33,6 +33,7 @@ mod ply;
 mod skin;
 mod soup;
 mod stl;
+mod text;
 mod three_ds;
 mod triangulate;
 mod vertices;

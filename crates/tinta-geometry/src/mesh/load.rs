@@ -4,7 +4,7 @@ use super::folder::Folder;
 use super::format::Format;
 #[cfg(feature = "gltf")]
 use super::gltf;
-use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, three_ds};
+use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, text, three_ds};
 use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
 use crate::files;
@@ -443,9 +443,7 @@ fn soup(
     if bytes.is_empty() {
         return Err(Error::model(path, "the file is empty; export the model again"));
     }
-    // Some programs begin UTF-8 files with a byte order mark.
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").filter(|_| !stl::is_binary(bytes));
-    let bytes = text.unwrap_or(bytes);
+    let bytes = &*text::decoded(bytes);
     let named = Format::by_name(path);
     let found =
         Format::by_content(bytes).filter(|found| !matches!(named, Some(Format::Assimp(_))) || found.is_unmistakable());
@@ -470,7 +468,7 @@ fn soup(
             Soup { may_lie: true, ..soup }
         }
         Format::Ply => Soup { may_lie: true, ..ply::read(bytes, path)? },
-        Format::Stl => from_z_up(stl::read(bytes, path)?, options),
+        Format::Stl => from_z_up(stl::read(bytes, path, remarks)?, options),
         Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
         Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,
         #[cfg(feature = "gltf")]
