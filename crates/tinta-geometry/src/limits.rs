@@ -66,6 +66,9 @@ pub const CROSSING_CORNERS: usize = 1024;
 /// Longest header of a PLY file, bytes.
 pub const PLY_HEADER_BYTES: usize = 64 << 10;
 
+/// Most colours of a PLY file's faces that are materials; more, as of a photograph, are averaged at the vertices.
+pub const FACE_COLORS: usize = 256;
+
 /// Most materials of a model.
 pub const MATERIALS: usize = 16_384;
 

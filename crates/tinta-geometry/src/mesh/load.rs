@@ -433,6 +433,20 @@ fn from_z_up(mut soup: Soup, options: &LoadOptions) -> Soup {
     soup
 }
 
+/// With the pictures that its materials name, unless another is given for all.
+fn with_pictures(
+    mut soup: Soup,
+    options: &LoadOptions,
+    folder: &Folder<'_>,
+    path: &str,
+    remarks: &mut Vec<String>,
+) -> Soup {
+    if options.skin.is_none() {
+        skin::find_all(&mut soup, folder, path, remarks);
+    }
+    soup
+}
+
 fn soup(
     bytes: &[u8],
     path: &str,
@@ -461,13 +475,13 @@ fn soup(
     }
     let soup = match format {
         Format::Obj => {
-            let mut soup = obj::read(bytes, path, folder, remarks)?;
-            if options.skin.is_none() {
-                skin::find_all(&mut soup, folder, path, remarks);
-            }
-            Soup { may_lie: true, ..soup }
+            let soup = obj::read(bytes, path, folder, remarks)?;
+            Soup { may_lie: true, ..with_pictures(soup, options, folder, path, remarks) }
         }
-        Format::Ply => Soup { may_lie: true, ..ply::read(bytes, path)? },
+        Format::Ply => {
+            let soup = ply::read(bytes, path, remarks)?;
+            Soup { may_lie: true, ..with_pictures(soup, options, folder, path, remarks) }
+        }
         Format::Stl => from_z_up(stl::read(bytes, path, remarks)?, options),
         Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
         Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,

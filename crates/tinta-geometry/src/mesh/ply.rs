@@ -1,20 +1,23 @@
-//! PLY, text and binary: vertices with normals and texture coordinates, polygon faces, triangle strips.
+//! PLY, text and binary: vertices with normals, colours and texture coordinates, polygon faces, triangle strips.
 //!
-//! `header.rs` reads the header, `payload.rs` what follows it.
+//! `header.rs` reads the header, `payload.rs` what follows it, `paint.rs` what faces have besides their corners.
 
 mod header;
+mod paint;
 mod payload;
 
 use super::NONE;
 use super::soup::{Corner, Soup, is_too_much};
 use crate::error::{Error, Result};
+use crate::files::shown;
 use crate::limits::PLY_HEADER_BYTES;
 use glam::{DVec3, Vec2, Vec3};
 use header::{Element, Header, PropertyType, ScalarType};
+use paint::Paint;
 use payload::{Damage, Payload, Value};
 
-/// Reads a PLY file's bytes. `path` is for messages.
-pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
+/// Reads a PLY file's bytes. `path` is for messages; `remarks` gets a sentence for what is passed over.
+pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     if !bytes.starts_with(b"ply") {
         return Err(Error::model(
             path,
@@ -31,6 +34,9 @@ pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
         Error::model(path, format!("it is damaged or cut off ({cause}); export it again")).at(line)
     };
     let header = Header::read(head).map_err(|(line, cause)| damaged(Some(line), cause))?;
+    if let Some(line) = header.foreign {
+        remarks.push(format!("{path}: line {line} of its header is none of PLY and was passed over"));
+    }
     check_header(&header).map_err(|problem| Error::model(path, problem))?;
     let mut payload = Payload::new(&bytes[header.bytes..], header.encoding, header.lines);
     let mut contents = Contents::new(&header);
@@ -43,10 +49,27 @@ pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
             _ => (0..element.count).try_for_each(|_| payload.element(element, |_, _| {})),
         };
         read.map_err(|Damage(cause)| {
-            damaged(payload.line(), &format!("{cause} of the file's {} {name}", element.count))
+            damaged(payload.line(), &format!("{cause} of the file's {}", many(element.count, name)))
         })?;
     }
-    Ok(contents.soup)
+    let mut soup = contents.soup;
+    contents.paint.put_on(&mut soup);
+    let has_coordinates = soup.corners.iter().any(|corner| corner.texture != NONE);
+    if has_coordinates && soup.materials.is_empty() && soup.colors.is_empty() {
+        remarks.push(format!("{path}: it has texture coordinates but names no picture; --skin FILE puts one on"));
+    }
+    Ok(soup)
+}
+
+/// So many elements, in words.
+fn many(count: usize, name: &str) -> String {
+    let (one, several) = match name {
+        "vertex" => ("vertex", "vertices"),
+        "face" => ("face", "faces"),
+        "tristrips" => ("triangle strip", "triangle strips"),
+        _ => return format!("{count} elements {}", shown(name)),
+    };
+    format!("{count} {}", if count == 1 { one } else { several })
 }
 
 /// Refuses what would otherwise be misread or never end.
@@ -78,12 +101,13 @@ struct Contents {
     has_texture: bool,
     /// What a colour's full strength is in the file; `None` where vertices have no colours.
     full_color: Option<f64>,
+    paint: Paint,
 }
 
 /// What stands for a channel's full strength: in whole numbers the largest of its type, else 1; `None` without all three channels.
-fn full_color(vertex: &Element) -> Option<f64> {
+fn full_color(element: &Element) -> Option<f64> {
     let types = |names: [&str; 3]| -> Option<Vec<PropertyType>> {
-        let of = |name| vertex.properties.iter().find(|own| own.name == name).map(|own| own.data_type);
+        let of = |name| element.properties.iter().find(|own| own.name == name).map(|own| own.data_type);
         names.into_iter().map(of).collect()
     };
     let types = types(["red", "green", "blue"]).or_else(|| types(["diffuse_red", "diffuse_green", "diffuse_blue"]))?;
@@ -93,6 +117,12 @@ fn full_color(vertex: &Element) -> Option<f64> {
         PropertyType::Scalar(ScalarType::Float | ScalarType::Double) => Some(1.0),
         _ => None,
     }
+}
+
+/// A colour of the file as shares of its full strength.
+fn share(color: DVec3, full: f64) -> [f32; 3] {
+    let share = (color / full).clamp(DVec3::ZERO, DVec3::ONE);
+    if share.is_finite() { share.as_vec3().to_array() } else { [1.0; 3] }
 }
 
 impl Contents {
@@ -107,6 +137,7 @@ impl Contents {
                 .into_iter()
                 .any(|names| names.into_iter().all(has)),
             full_color: vertex.and_then(full_color),
+            paint: Paint::of(header),
         }
     }
 
@@ -140,10 +171,7 @@ impl Contents {
             if self.has_normals {
                 self.soup.normals.push(normal);
             }
-            if let Some(full) = self.full_color {
-                let share = (color / full).clamp(DVec3::ZERO, DVec3::ONE);
-                self.soup.colors.push(if share.is_finite() { share.as_vec3().to_array() } else { [1.0; 3] });
-            }
+            self.soup.colors.extend(self.full_color.map(|full| share(color, full)));
             if self.has_texture {
                 self.soup.texture_coordinates.push(texture);
             }
@@ -152,7 +180,7 @@ impl Contents {
     }
 
     fn faces(&mut self, payload: &mut Payload<'_>, element: &Element) -> std::result::Result<(), Damage> {
-        let Self { soup, vertices, has_normals, has_texture, .. } = self;
+        let Self { soup, vertices, has_normals, has_texture, paint, .. } = self;
         /// Corners for which there is room before a face is read.
         const LIST: usize = 1024;
         let with = |used: bool, index: u32| if used { index } else { NONE };
@@ -175,8 +203,10 @@ impl Contents {
         for _ in 0..element.count {
             let start = soup.corners.len();
             let mut is_in_range = true;
+            paint.begin();
             payload.element(element, |name, value| {
                 if !is_list(name) {
+                    paint.take(name, value);
                     return;
                 }
                 match value {
@@ -194,12 +224,13 @@ impl Contents {
                         soup.corners.push(Corner { position: index, normal, texture });
                     }
                     Value::Item(_) => is_in_range = false,
-                    Value::Scalar(_) => {}
+                    Value::Number(_) | Value::Scalar(_) => {}
                 }
             })?;
             let count = soup.corners.len() - start;
             if count >= 3 && is_in_range {
                 soup.polygon_sizes.push(count as u32);
+                paint.end(soup, start);
                 continue;
             }
             soup.corners.truncate(start);
@@ -283,10 +314,44 @@ mod tests {
     #[test]
     fn a_text_file_with_polygons_and_foreign_elements_is_read() {
         let text = format!("{HEADER}0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4 0 1 2 3 9\n3 0 1 7 9\n5\n");
-        let soup = read(text.as_bytes(), "t.ply").unwrap();
+        let soup = read(text.as_bytes(), "t.ply", &mut Vec::new()).unwrap();
         assert_eq!(soup.positions[2], DVec3::new(1.0, 1.0, 0.5));
         assert_eq!(soup.polygon_sizes, [4]);
         assert_eq!(soup.defects.out_of_range_faces, 1);
+    }
+
+    #[test]
+    fn empty_lines_faces_of_several_lines_and_any_order_of_elements_are_understood() {
+        let xyz = "property float x\nproperty float y\nproperty float z\n";
+        let (vertex, face) =
+            (format!("element vertex 3\n{xyz}"), "element face 1\nproperty list uchar int vertex_indices\n");
+        let camera = format!("element camera 1\n{xyz}");
+        let (points, corners) = ("0 0 0\n1 0 0 0 7\n0 1 0\n", "3 0 1 2\n");
+        for text in [
+            format!("ply\nformat ascii 1.0\n{vertex}{face}end_header\n\n{points}\n \n{corners}"),
+            format!("ply\nformat ascii 1.0\n\n{vertex}\n{face}end_header\n{points}3 0\n\n1\n2"),
+            format!("ply\nformat ascii 1.0\n{face}{vertex}end_header\n{corners}{points}"),
+            format!("ply\nformat ascii 1.0\n{camera}{vertex}{face}end_header\n9 9 9\n{points}{corners}"),
+            format!("ply\nformat ascii 1.0\n{vertex}{face}{camera}end_header\n{points}{corners}9 9 9"),
+        ] {
+            for text in [text.clone(), text.replace('\n', "\r"), text.replace('\n', "\r\n")] {
+                let soup = read(text.as_bytes(), "t.ply", &mut Vec::new()).unwrap();
+                assert_eq!(soup.positions, [DVec3::ZERO, DVec3::X, DVec3::Y], "{text}");
+                assert_eq!(soup.corners.iter().map(|corner| corner.position).collect::<Vec<_>>(), [0, 1, 2], "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn coordinates_without_a_picture_and_foreign_header_lines_are_said() {
+        let text = "ply\nformat ascii 1.0\nCreated by a program\nelement vertex 3\nproperty float x\nproperty float y\n\
+            property float z\nproperty float s\nproperty float t\nelement face 1\n\
+            property list uchar int vertex_indices\nend_header\n0 0 0 0 0\n1 0 0 0 0\n0 1 0 0 0\n3 0 1 2\n";
+        let mut remarks = Vec::new();
+        read(text.as_bytes(), "t.ply", &mut remarks).unwrap();
+        let foreign = "t.ply: line 3 of its header is none of PLY and was passed over";
+        let picture = "t.ply: it has texture coordinates but names no picture; --skin FILE puts one on";
+        assert_eq!(remarks, [foreign, picture]);
     }
 
     #[test]
@@ -308,7 +373,7 @@ mod tests {
                 file.extend(has_color.then_some(7));
             }
             file.push(1);
-            read(&file, "t.ply").unwrap()
+            read(&file, "t.ply", &mut Vec::new()).unwrap()
         };
         for (faces, kept, wrong) in [
             (&[(3, [0, 1, 2]), (3, [3, 2, 1])][..], 2, [0, 0]),
@@ -341,13 +406,16 @@ mod tests {
                  element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 {written}\n1 0 0 {written}\n\
                  0 1 0 {written}\n3 0 1 2\n"
             );
-            let soup = read(text.as_bytes(), "t.ply").unwrap();
+            let soup = read(text.as_bytes(), "t.ply", &mut Vec::new()).unwrap();
             assert_eq!(soup.colors, [expected; 3], "{kind}");
             let mesh = soup.into_mesh("t.ply", &crate::LoadOptions::default()).unwrap();
             assert_eq!(mesh.position_colors, [expected; 3], "{kind}");
         }
         let without = format!("{HEADER}0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4 0 1 2 3 9\n3 0 1 7 9\n5\n");
-        assert!(read(without.as_bytes(), "t.ply").unwrap().colors.is_empty(), "a face's red is no vertex's");
+        assert!(
+            read(without.as_bytes(), "t.ply", &mut Vec::new()).unwrap().colors.is_empty(),
+            "a face's red is no vertex's"
+        );
     }
 
     #[test]
@@ -376,7 +444,7 @@ mod tests {
                     let in_order: Vec<u8> = if is_big { bytes.iter().rev().copied().collect() } else { bytes.to_vec() };
                     file.extend(in_order);
                 }
-                let soup = read(&file, "t.ply").unwrap();
+                let soup = read(&file, "t.ply", &mut Vec::new()).unwrap();
                 assert_eq!(soup.positions, [DVec3::new(largest, smallest, largest)], "{name} in {encoding}");
             }
         }
@@ -384,15 +452,17 @@ mod tests {
 
     #[test]
     fn a_cut_off_file_is_an_error_with_its_line() {
-        let message = read(format!("{HEADER}0 0 0\n1 0\n").as_bytes(), "t.ply").unwrap_err().to_string();
-        assert!(message.starts_with("t.ply: line 15: it is damaged or cut off"), "{message}");
+        let message =
+            read(format!("{HEADER}0 0 0\n1 0\n").as_bytes(), "t.ply", &mut Vec::new()).unwrap_err().to_string();
+        let sentence = "line 15: it is damaged or cut off (it ends before the last of the file's 4 vertices)";
+        assert!(message.starts_with(&format!("t.ply: {sentence}")), "{message}");
     }
 
     #[test]
     fn headers_that_cannot_be_a_model_are_refused_with_the_reason() {
         let refused = |header: &str, reason: &str| {
             let text = format!("ply\nformat ascii 1.0\n{header}end_header\n");
-            let message = read(text.as_bytes(), "t.ply").unwrap_err().to_string();
+            let message = read(text.as_bytes(), "t.ply", &mut Vec::new()).unwrap_err().to_string();
             assert!(message.contains(reason), "{message}");
             assert!(!message.contains('{'), "{message}");
         };
@@ -441,7 +511,7 @@ mod tests {
         let as_faces = format!("{head}element face {}\n{list}{vertices}{of_faces}", faces.len());
         let as_strips = format!("{head}element tristrips 1\n{list}{vertices}{} {}\n", strip.len(), strip.join(" "));
         let corners = |text: &str| {
-            let soup = read(text.as_bytes(), "t.ply").unwrap();
+            let soup = read(text.as_bytes(), "t.ply", &mut Vec::new()).unwrap();
             assert!(soup.polygon_sizes.iter().all(|size| *size == 3) && soup.defects.is_empty());
             // The same way round, whichever corner comes first.
             let mut triangles: Vec<[u32; 3]> = soup
@@ -460,7 +530,10 @@ mod tests {
         assert_eq!(corners(&as_faces).len(), 24);
         assert_eq!(corners(&as_strips), corners(&as_faces));
         let (before, _) = as_strips.trim_end().rsplit_once(' ').unwrap();
-        assert_eq!(read(format!("{before} 20\n").as_bytes(), "t.ply").unwrap().defects.out_of_range_faces, 1);
+        assert_eq!(
+            read(format!("{before} 20\n").as_bytes(), "t.ply", &mut Vec::new()).unwrap().defects.out_of_range_faces,
+            1
+        );
     }
 
     #[test]
@@ -474,7 +547,7 @@ mod tests {
         let count = 1_000_000;
         file.extend(i32::to_le_bytes(count));
         file.extend((0..count).map(|place| (place % 3) as u8));
-        let soup = read(&file, "t.ply").unwrap();
+        let soup = read(&file, "t.ply", &mut Vec::new()).unwrap();
         assert!(soup.polygon_sizes.len() < count as usize, "no more is kept than shows that it is too much");
         let message = soup.check_memory(file.len(), "t.ply").unwrap_err().to_string();
         assert!(message.contains("times the file's size in memory"), "{message}");
@@ -484,9 +557,9 @@ mod tests {
     fn a_header_that_promises_billions_is_refused_without_the_memory() {
         let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n\
             property float z\nend_header\nabc";
-        assert!(read(text.as_bytes(), "t.ply").is_err());
+        assert!(read(text.as_bytes(), "t.ply", &mut Vec::new()).is_err());
         let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nend_header\n";
-        let message = read(text.as_bytes(), "t.ply").unwrap_err().to_string();
+        let message = read(text.as_bytes(), "t.ply", &mut Vec::new()).unwrap_err().to_string();
         assert!(message.contains("element without properties"), "{message}");
     }
 }
