@@ -401,7 +401,7 @@ fn made(
     }
     // Missing materials have had a remark of their own from the reader, which knows their names.
     let others = Defects { missing_materials: 0, ..mesh.defects.clone() };
-    if !others.is_empty() {
+    if others != Defects::default() {
         remarks.push(format!("{path}: {others}"));
     }
     Ok(Loaded { mesh, frames, files, remarks, stages: Vec::new() })

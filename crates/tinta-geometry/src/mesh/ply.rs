@@ -7,11 +7,11 @@ mod paint;
 mod payload;
 
 use super::NONE;
-use super::soup::{Corner, Soup, is_too_much};
+use super::soup::{Corner, Soup, direction, is_too_much};
 use crate::error::{Error, Result};
 use crate::files::shown;
 use crate::limits::PLY_HEADER_BYTES;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2};
 use header::{Element, Header, PropertyType, ScalarType};
 use paint::Paint;
 use payload::{Damage, Payload, Value};
@@ -148,7 +148,7 @@ impl Contents {
         self.soup.texture_coordinates.reserve_exact(if self.has_texture { count } else { 0 });
         self.soup.colors.reserve_exact(if self.full_color.is_some() { count } else { 0 });
         for _ in 0..element.count {
-            let (mut position, mut normal, mut texture) = (DVec3::ZERO, Vec3::ZERO, Vec2::ZERO);
+            let (mut position, mut normal, mut texture) = (DVec3::ZERO, DVec3::ZERO, Vec2::ZERO);
             let mut color = DVec3::ZERO;
             payload.element(element, |name, value| {
                 let Value::Scalar(number) = value else { return };
@@ -156,9 +156,9 @@ impl Contents {
                     "x" => position.x = number,
                     "y" => position.y = number,
                     "z" => position.z = number,
-                    "nx" => normal.x = number as f32,
-                    "ny" => normal.y = number as f32,
-                    "nz" => normal.z = number as f32,
+                    "nx" => normal.x = number,
+                    "ny" => normal.y = number,
+                    "nz" => normal.z = number,
                     "red" | "diffuse_red" => color.x = number,
                     "green" | "diffuse_green" => color.y = number,
                     "blue" | "diffuse_blue" => color.z = number,
@@ -169,7 +169,7 @@ impl Contents {
             })?;
             self.soup.positions.push(position);
             if self.has_normals {
-                self.soup.normals.push(normal);
+                self.soup.normals.push(direction(normal));
             }
             self.soup.colors.extend(self.full_color.map(|full| share(color, full)));
             if self.has_texture {

@@ -38,12 +38,27 @@ pub(super) struct Soup {
     pub frames: Vec<String>,
     /// What the reader already found.
     pub defects: Defects,
+    /// Points and lines of the file, which are not drawn.
+    pub points_and_lines: usize,
     /// Whether nothing says which axis of it is up.
     pub may_lie: bool,
     /// The files that were read besides the model's own: its material libraries, its data.
     pub files: Vec<PathBuf>,
     /// Bytes of those that hold vertices and faces.
     pub bytes_beside: usize,
+}
+
+/// A normal of a file, of any length, as one whose length f32 can square: scaled by a power of two, so that nothing is
+/// rounded. What has no direction stays so.
+pub(super) fn direction(file: DVec3) -> Vec3 {
+    let largest = file.abs().max_element();
+    if !(file.is_finite() && largest > 0.0) {
+        return file.as_vec3();
+    }
+    let power = largest.log2().floor();
+    // In two halves, since the whole may be beyond what f64 holds.
+    let half = (-power / 2.0).floor();
+    (file * half.exp2() * (-power - half).exp2()).as_vec3()
 }
 
 /// One corner of a polygon: indices into the soup's arrays, [`NONE`] where it has none.
@@ -137,12 +152,14 @@ impl Soup {
         let mut defects = std::mem::take(&mut self.defects);
         defects.non_finite_vertices += finite.iter().filter(|finite| !**finite).count();
 
+        self.drop_unusable(&mut defects);
         let used = self.used(&finite);
         let welded = self.welded(&used, options.weld, name)?;
         let mut pieces = Pieces::of(&self, &finite, &welded);
         pieces.drop_duplicates(self.positions.len());
         defects.degenerate_triangles += pieces.degenerate;
         defects.long_polygons += pieces.too_long;
+        defects.repeated_corners += pieces.repeated_corners;
         defects.duplicate_triangles += pieces.duplicate;
         if pieces.triangles.is_empty() {
             return Err(nothing_to_draw(name, &self, &defects));
@@ -204,6 +221,27 @@ impl Soup {
         }
         let diagonal = if low.cmple(high).all() { (high - low).length() } else { 0.0 };
         Ok(weld::weld(&points, tolerance * diagonal))
+    }
+
+    /// Takes normals without a direction and texture coordinates that are not finite from the corners that have them.
+    fn drop_unusable(&mut self, defects: &mut Defects) {
+        let has_direction = |normal: &Vec3| normal.is_finite() && *normal != Vec3::ZERO;
+        if !self.normals.iter().all(has_direction) {
+            for corner in &mut self.corners {
+                if self.normals.get(corner.normal as usize).is_some_and(|normal| !has_direction(normal)) {
+                    corner.normal = NONE;
+                    defects.unusable_normals += 1;
+                }
+            }
+        }
+        if !self.texture_coordinates.iter().all(|pair| pair.is_finite()) {
+            for corner in &mut self.corners {
+                if self.texture_coordinates.get(corner.texture as usize).is_some_and(|pair| !pair.is_finite()) {
+                    corner.texture = NONE;
+                    defects.unusable_texture_coordinates += 1;
+                }
+            }
+        }
     }
 
     /// Which vertices are finite and named by a polygon.
@@ -295,19 +333,37 @@ impl Mesh {
 }
 
 fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
-    let problem = if soup.positions.is_empty() && soup.corners.is_empty() {
-        "it holds no vertices and no faces; is it the right file?".to_owned()
-    } else if soup.corners.is_empty() && defects.is_empty() {
-        format!("it holds {} vertices but no faces; export it with its faces", soup.positions.len())
-    } else {
-        let wanted = match defects.long_polygons {
-            0 => "faces that have area".to_owned(),
-            _ => format!(
-                "its faces cut into triangles, for one that is not convex may have {CONCAVE_CORNERS} corners, and \
-                 {CROSSING_CORNERS} if it crosses itself"
-            ),
+    // What else may be wrong is not why no face is left.
+    let of_faces = Defects {
+        unused_vertices: 0,
+        missing_materials: 0,
+        unusable_normals: 0,
+        unusable_texture_coordinates: 0,
+        ..defects.clone()
+    };
+    let others = match soup.points_and_lines {
+        0 => String::new(),
+        1 => " but 1 point or line, which is not drawn".to_owned(),
+        count => format!(" but {count} points or lines, which are not drawn"),
+    };
+    let problem = if !of_faces.is_empty() {
+        let wanted = if defects.long_polygons > 0 {
+            format!(
+                "its faces cut into triangles, for one that is not convex may have {CONCAVE_CORNERS} corners, and                  {CROSSING_CORNERS} if it crosses itself"
+            )
+        } else if defects.degenerate_triangles > 0 {
+            "faces that have area".to_owned()
+        } else {
+            "faces whose vertices it holds, all of them finite".to_owned()
         };
-        format!("nothing is left to draw ({defects}); export it again with {wanted}")
+        format!("nothing is left to draw ({of_faces}){others}; export it again with {wanted}")
+    } else if soup.positions.is_empty() && others.is_empty() {
+        "it holds no vertices and no faces; is it the right file?".to_owned()
+    } else if soup.positions.is_empty() {
+        format!("it holds no faces{others}; export it with its faces")
+    } else {
+        let vertices = if soup.positions.len() == 1 { "vertex" } else { "vertices" };
+        format!("it holds {} {vertices} and no faces{others}; export it with its faces", soup.positions.len())
     };
     Error::model(name, problem)
 }
@@ -371,6 +427,96 @@ mod tests {
         };
         assert_eq!(mesh.defects, expected);
         assert_eq!(mesh.file_vertices, [0, 1, 2, 3]);
+    }
+
+    #[test]
+    fn normals_of_any_length_have_their_direction_and_others_are_computed_and_counted() {
+        let expected = Vec3::new(0.6, 0.0, 0.8);
+        for length in [1e-320, 1e-100, 1e-30, 1e-3, 1.0, 1e20, 1e38, 1e100, 1e307] {
+            let mut soup = square();
+            soup.normals = vec![direction(DVec3::new(0.6, 0.0, 0.8) * length)];
+            soup.corners.iter_mut().for_each(|corner| corner.normal = 0);
+            let mesh = mesh(soup);
+            // Of 1e-320 a few digits are left.
+            assert!(mesh.normals[0].distance(expected) < if length < 1e-300 { 1e-3 } else { 1e-6 }, "{length}");
+            assert!(mesh.defects.is_empty(), "{length}");
+        }
+        for normal in [DVec3::ZERO, DVec3::NAN, DVec3::new(0.0, f64::INFINITY, 1.0)] {
+            let mut soup = square();
+            soup.normals = vec![direction(normal), Vec3::Z];
+            for (number, corner) in soup.corners.iter_mut().enumerate() {
+                corner.normal = u32::from(number > 1);
+            }
+            let mesh = mesh(soup);
+            assert_eq!((mesh.defects.unusable_normals, mesh.defects.unusable_texture_coordinates), (2, 0));
+            assert!(mesh.normals.iter().all(|normal| *normal == Vec3::Z));
+        }
+    }
+
+    #[test]
+    fn scaling_a_normal_rounds_nothing() {
+        for normal in [Vec3::new(0.1, -0.7, 0.3), Vec3::new(3.0, 1e-3, 200.0), Vec3::new(1.0, 1.0, 1.0)] {
+            assert_eq!(direction(normal.as_dvec3()).normalize(), normal.normalize());
+        }
+    }
+
+    #[test]
+    fn texture_coordinates_that_are_no_numbers_are_left_out_and_counted() {
+        for wrong in [f32::NAN, f32::INFINITY] {
+            let mut soup = square();
+            soup.texture_coordinates = vec![Vec2::new(0.5, wrong), Vec2::ONE];
+            for (number, corner) in soup.corners.iter_mut().enumerate() {
+                corner.texture = u32::from(number > 0);
+            }
+            let mesh = mesh(soup);
+            assert_eq!(mesh.triangle_texture_coordinates, [[NONE, 1, 1], [NONE, 1, 1]]);
+            assert_eq!(mesh.defects.to_string(), "1 corner without usable texture coordinates");
+        }
+    }
+
+    #[test]
+    fn a_corner_twice_in_a_row_is_said_and_no_reason_to_refuse() {
+        let corners = [[2.0, 4.0], [2.0, 2.0], [4.0, 2.0], [4.0, 0.0], [0.0, 0.0], [0.0, 4.0]];
+        let positions: Vec<DVec3> = corners.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).collect();
+        let strict = LoadOptions { strict: true, ..LoadOptions::default() };
+        for (polygon, triangles) in
+            [(vec![0, 1, 2, 3, 4, 5, 0], 4), (vec![0, 0, 1, 2, 2, 3, 4, 5], 4), (vec![0, 1, 2, 2], 1)]
+        {
+            let soup = Soup {
+                positions: positions[..polygon.iter().max().map_or(0, |last| *last as usize + 1)].to_vec(),
+                polygon_sizes: vec![polygon.len() as u32],
+                corners: polygon.into_iter().map(Corner::at).collect(),
+                ..Soup::default()
+            };
+            let mesh = soup.into_mesh("test", &strict).unwrap();
+            assert_eq!((mesh.triangles.len(), mesh.defects.degenerate_triangles), (triangles, 0));
+            assert_eq!(mesh.defects.to_string(), "1 polygon that names a corner twice in a row (harmless)");
+            assert!(mesh.defects.is_empty() && mesh.defects != Defects::default());
+        }
+        let soup = Soup { positions, corners: [0, 1, 1].map(Corner::at).to_vec(), ..Soup::default() };
+        assert!(soup.into_mesh("test", &strict).is_err(), "a triangle of two corners");
+    }
+
+    #[test]
+    fn why_nothing_is_left_is_said_and_no_other_defect() {
+        let message = |soup: Soup| soup.into_mesh("a", &LoadOptions::default()).unwrap_err().to_string();
+        let lines = Soup { points_and_lines: 2, ..Soup::default() };
+        assert_eq!(
+            message(lines),
+            "a: it holds no faces but 2 points or lines, which are not drawn; export it with its faces"
+        );
+        let (mut soup, mut empty) = (square(), square());
+        soup.corners.clear();
+        soup.polygon_sizes.clear();
+        soup.points_and_lines = 1;
+        soup.defects.missing_materials = 1;
+        let sentence =
+            "a: it holds 4 vertices and no faces but 1 point or line, which is not drawn; export it with its faces";
+        assert_eq!(message(soup), sentence);
+        empty.positions = vec![DVec3::ZERO; 4];
+        empty.defects.missing_materials = 1;
+        let sentence = "a: nothing is left to draw (2 degenerate triangles); export it again with faces that have area";
+        assert_eq!(message(empty), sentence);
     }
 
     #[test]
