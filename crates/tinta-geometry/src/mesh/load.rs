@@ -1,13 +1,14 @@
 //! From a path to a [`Mesh`]: built-in or file, its format found by content first and by name second.
 
 use super::folder::Folder;
-use super::format::Format;
+use super::format::{self, Format};
 #[cfg(feature = "gltf")]
 use super::gltf;
+use super::lying::TakenUp;
 use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, text, three_ds};
 use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
-use crate::files;
+use crate::files::{self, Failure};
 use crate::limits::MODEL_BYTES;
 use crate::memory;
 use crate::settings::{HasSettings, Setting, Table, under};
@@ -15,6 +16,7 @@ use crate::tolerances::{LARGEST_WELD, WELD};
 use glam::DVec3;
 use serde::{Serialize, Serializer};
 use std::cell::RefCell;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
@@ -277,8 +279,13 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
         watch(LoadStage::Reading);
         refuse_address(path)?;
         check_free(path, memory::free())?;
-        let bytes = files::read(Path::new(path), MODEL_BYTES)
-            .map_err(|failure| failure.into_error(FileKind::Model, path, "a model file"))?;
+        let bytes =
+            files::read(Path::new(path), MODEL_BYTES).map_err(|failure| match (&failure, format::unread(path)) {
+                (Failure::System(error), Some(format)) if error.kind() == ErrorKind::NotFound => {
+                    Error::model(path, format!("there is no such file, and {}", not_read(format)))
+                }
+                _ => failure.into_error(FileKind::Model, path, "a model file"),
+            })?;
         let mut remarks = Vec::new();
         let soup = parsed(&bytes, path, options, &mut remarks, watch)?;
         // They are a fifth of what a mesh in the making takes.
@@ -392,11 +399,11 @@ fn made(
     }
     let frames = std::mem::take(&mut soup.frames);
     let files = std::mem::take(&mut soup.files);
-    let may_lie = soup.may_lie && options.up_axis == UpAxis::Auto;
+    let taken_up = soup.taken_up.filter(|_| options.up_axis == UpAxis::Auto);
     let mesh = soup.into_mesh_watched(path, options, watch)?;
-    if may_lie && lying::seems_to_lie(&mesh) {
+    if let Some(axis) = taken_up.filter(|taken| lying::seems_to_lie(&mesh, *taken)).map(TakenUp::other) {
         remarks.push(format!(
-            "{path}: it may lie on its back, for its only flat end is at the lowest z; if so, --up-axis z stands it up"
+            "{path}: it may lie on its back, for its only flat end is at the lowest {axis}; if so, --up-axis {axis} stands it up"
         ));
     }
     // Missing materials have had a remark of their own from the reader, which knows their names.
@@ -433,6 +440,11 @@ fn from_z_up(mut soup: Soup, options: &LoadOptions) -> Soup {
     soup
 }
 
+/// What to do with a file of a format that is not read.
+fn not_read(format: &str) -> String {
+    format!("{format} is not read; export it as STL, OBJ or glTF from the program that made it")
+}
+
 /// With the pictures that its materials name, unless another is given for all.
 fn with_pictures(
     mut soup: Soup,
@@ -462,7 +474,11 @@ fn soup(
     let found =
         Format::by_content(bytes).filter(|found| !matches!(named, Some(Format::Assimp(_))) || found.is_unmistakable());
     let format = found.or(named).ok_or_else(|| {
-        Error::model(path, format!("this is not a model in a supported format; use an {} file", Format::NAMES))
+        let problem = match format::unread(path) {
+            Some(format) => not_read(format),
+            None => format!("this is not a model in a supported format; use an {} file", Format::NAMES),
+        };
+        Error::model(path, problem)
     })?;
     if let (Some(named), Some(found)) = (named, found)
         && named != found
@@ -476,13 +492,16 @@ fn soup(
     let soup = match format {
         Format::Obj => {
             let soup = obj::read(bytes, path, folder, remarks)?;
-            Soup { may_lie: true, ..with_pictures(soup, options, folder, path, remarks) }
+            Soup { taken_up: Some(TakenUp::Y), ..with_pictures(soup, options, folder, path, remarks) }
         }
         Format::Ply => {
             let soup = ply::read(bytes, path, remarks)?;
-            Soup { may_lie: true, ..with_pictures(soup, options, folder, path, remarks) }
+            Soup { taken_up: Some(TakenUp::Y), ..with_pictures(soup, options, folder, path, remarks) }
         }
-        Format::Stl => from_z_up(stl::read(bytes, path, remarks)?, options),
+        Format::Stl => {
+            let soup = stl::read(bytes, path, remarks)?;
+            Soup { taken_up: Some(TakenUp::Z), ..from_z_up(soup, options) }
+        }
         Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
         Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,
         #[cfg(feature = "gltf")]

@@ -229,7 +229,14 @@ mod tests {
         read(&format!("{text}f 1 2 3\n"), &mut remarks);
         assert_eq!(remarks, ["t.obj: not drawn: 3 statements of points or lines"]);
         let error = read(&text, &mut Vec::new()).into_mesh("t.obj", &crate::LoadOptions::default()).unwrap_err();
-        assert!(error.to_string().contains("4 vertices and no faces but 3 points or lines"), "{error}");
+        assert!(error.to_string().contains("4 vertices and no faces but points or lines"), "{error}");
+    }
+
+    #[test]
+    fn negative_indices_count_from_where_they_stand() {
+        let soup = soup("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -3\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf -1 -2 -3\n");
+        let positions: Vec<u32> = soup.corners.iter().map(|corner| corner.position).collect();
+        assert_eq!(positions, [2, 1, 0, 5, 4, 3]);
     }
 
     #[test]

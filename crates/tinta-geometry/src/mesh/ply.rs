@@ -343,6 +343,34 @@ mod tests {
     }
 
     #[test]
+    fn a_face_of_three_hundred_corners_is_read_from_every_kind_of_binary_file() {
+        let head = |encoding: &str| {
+            format!(
+                "ply\nformat {encoding} 1.0\nelement vertex 300\nproperty float x\nproperty float y\nproperty float z\n\
+                 element face 1\nproperty list ushort uint vertex_indices\nend_header\n"
+            )
+        };
+        let angle = |k: u16| f32::from(k) * std::f32::consts::TAU / 300.0;
+        let floats: Vec<f32> = (0..300).flat_map(|k| [angle(k).cos(), angle(k).sin(), 0.0]).collect();
+        for (encoding, is_big) in [("binary_little_endian", false), ("binary_big_endian", true)] {
+            let mut file = head(encoding).into_bytes();
+            let order = |mut bytes: Vec<u8>| {
+                if is_big {
+                    bytes.reverse();
+                }
+                bytes
+            };
+            floats.iter().for_each(|number| file.extend(order(number.to_le_bytes().to_vec())));
+            file.extend(order(300u16.to_le_bytes().to_vec()));
+            (0u32..300).for_each(|index| file.extend(order(index.to_le_bytes().to_vec())));
+            let soup = read(&file, "t.ply", &mut Vec::new()).unwrap();
+            assert_eq!((soup.polygon_sizes.as_slice(), soup.corners.len()), (&[300][..], 300), "{encoding}");
+            let mesh = soup.into_mesh("t.ply", &crate::LoadOptions::default()).unwrap();
+            assert_eq!(mesh.triangles.len(), 298, "{encoding}");
+        }
+    }
+
+    #[test]
     fn coordinates_without_a_picture_and_foreign_header_lines_are_said() {
         let text = "ply\nformat ascii 1.0\nCreated by a program\nelement vertex 3\nproperty float x\nproperty float y\n\
             property float z\nproperty float s\nproperty float t\nelement face 1\n\

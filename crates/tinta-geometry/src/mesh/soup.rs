@@ -3,6 +3,7 @@
 //! The one place where all formats are treated alike: bad faces are dropped and counted, vertices welded, polygons
 //! cut into triangles, missing normals computed, unused vertices left out.
 
+use super::lying::TakenUp;
 use super::normals::Splitting;
 use super::pieces::Pieces;
 use super::{Defects, LoadOptions, LoadStage, Material, Mesh, NONE, Normals, normals, weld};
@@ -40,8 +41,8 @@ pub(super) struct Soup {
     pub defects: Defects,
     /// Points and lines of the file, which are not drawn.
     pub points_and_lines: usize,
-    /// Whether nothing says which axis of it is up.
-    pub may_lie: bool,
+    /// Which axis was taken to be up, where nothing says it.
+    pub taken_up: Option<TakenUp>,
     /// The files that were read besides the model's own: its material libraries, its data.
     pub files: Vec<PathBuf>,
     /// Bytes of those that hold vertices and faces.
@@ -342,9 +343,8 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
         ..defects.clone()
     };
     let others = match soup.points_and_lines {
-        0 => String::new(),
-        1 => " but 1 point or line, which is not drawn".to_owned(),
-        count => format!(" but {count} points or lines, which are not drawn"),
+        0 => "",
+        _ => " but points or lines, which are not drawn",
     };
     let problem = if !of_faces.is_empty() {
         let wanted = if defects.long_polygons > 0 {
@@ -363,7 +363,8 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
         format!("it holds no faces{others}; export it with its faces")
     } else {
         let vertices = if soup.positions.len() == 1 { "vertex" } else { "vertices" };
-        format!("it holds {} {vertices} and no faces{others}; export it with its faces", soup.positions.len())
+        let joined = if others.is_empty() { "but" } else { "and" };
+        format!("it holds {} {vertices} {joined} no faces{others}; export it with its faces", soup.positions.len())
     };
     Error::model(name, problem)
 }
@@ -503,7 +504,7 @@ mod tests {
         let lines = Soup { points_and_lines: 2, ..Soup::default() };
         assert_eq!(
             message(lines),
-            "a: it holds no faces but 2 points or lines, which are not drawn; export it with its faces"
+            "a: it holds no faces but points or lines, which are not drawn; export it with its faces"
         );
         let (mut soup, mut empty) = (square(), square());
         soup.corners.clear();
@@ -511,7 +512,7 @@ mod tests {
         soup.points_and_lines = 1;
         soup.defects.missing_materials = 1;
         let sentence =
-            "a: it holds 4 vertices and no faces but 1 point or line, which is not drawn; export it with its faces";
+            "a: it holds 4 vertices and no faces but points or lines, which are not drawn; export it with its faces";
         assert_eq!(message(soup), sentence);
         empty.positions = vec![DVec3::ZERO; 4];
         empty.defects.missing_materials = 1;

@@ -128,13 +128,7 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
                 if all.len() >= most {
                     return None;
                 }
-                let material = Material {
-                    name: rest.to_owned(),
-                    color: None,
-                    texture: None,
-                    texture_within: None,
-                    embedded: None,
-                };
+                let material = Material { name: rest.to_owned(), color: None, ..Material::default() };
                 all.push(Described { material, placing: AS_IT_IS });
             }
             ("Kd", Some(Described { material, .. })) => {
@@ -149,6 +143,10 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
             }
             _ => {}
         }
+    }
+    for Described { material, .. } in &mut all {
+        // Nothing would be seen of a picture times black, which exporters write where they mean none.
+        material.texture_color = material.color.filter(|color| *color != [0.0; 3]);
     }
     Some(all)
 }

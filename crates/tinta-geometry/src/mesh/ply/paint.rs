@@ -104,7 +104,7 @@ impl Paint {
 }
 
 fn material(name: String, color: Option<[f32; 3]>, picture: Option<String>) -> Material {
-    Material { name, color, texture: picture.map(PathBuf::from), texture_within: None, embedded: None }
+    Material { name, color, texture: picture.map(PathBuf::from), ..Material::default() }
 }
 
 /// For each vertex the mean colour of the faces there.
