@@ -30,7 +30,7 @@ fn flat(corners: &[[f64; 2]]) -> Solid {
 /// The corners of a regular polygon about the z axis.
 fn ring(sides: u32, radius: f64, z: f64) -> Vec<DVec3> {
     let at = |k: u32| (TAU * f64::from(k) / f64::from(sides)).sin_cos();
-    (0..sides).map(|k| at(k)).map(|(sine, cosine)| DVec3::new(radius * cosine, radius * sine, z)).collect()
+    (0..sides).map(at).map(|(sine, cosine)| DVec3::new(radius * cosine, radius * sine, z)).collect()
 }
 
 /// The side of a prism between two rings, and its ends.

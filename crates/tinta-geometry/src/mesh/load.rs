@@ -4,7 +4,6 @@ use super::folder::Folder;
 use super::format::{self, Format};
 #[cfg(feature = "gltf")]
 use super::gltf;
-use super::lying::TakenUp;
 use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, text, three_ds};
 use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
@@ -399,11 +398,11 @@ fn made(
     }
     let frames = std::mem::take(&mut soup.frames);
     let files = std::mem::take(&mut soup.files);
-    let taken_up = soup.taken_up.filter(|_| options.up_axis == UpAxis::Auto);
+    let may_lie = soup.may_lie && options.up_axis == UpAxis::Auto;
     let mesh = soup.into_mesh_watched(path, options, watch)?;
-    if let Some(axis) = taken_up.filter(|taken| lying::seems_to_lie(&mesh, *taken)).map(TakenUp::other) {
+    if may_lie && lying::seems_to_lie(&mesh) {
         remarks.push(format!(
-            "{path}: it may lie on its back, for its only flat end is at the lowest {axis}; if so, --up-axis {axis} stands it up"
+            "{path}: it may lie on its back, for its only flat end is at the lowest z; if so, --up-axis z stands it up"
         ));
     }
     // Missing materials have had a remark of their own from the reader, which knows their names.
@@ -492,16 +491,13 @@ fn soup(
     let soup = match format {
         Format::Obj => {
             let soup = obj::read(bytes, path, folder, remarks)?;
-            Soup { taken_up: Some(TakenUp::Y), ..with_pictures(soup, options, folder, path, remarks) }
+            Soup { may_lie: true, ..with_pictures(soup, options, folder, path, remarks) }
         }
         Format::Ply => {
             let soup = ply::read(bytes, path, remarks)?;
-            Soup { taken_up: Some(TakenUp::Y), ..with_pictures(soup, options, folder, path, remarks) }
+            Soup { may_lie: true, ..with_pictures(soup, options, folder, path, remarks) }
         }
-        Format::Stl => {
-            let soup = stl::read(bytes, path, remarks)?;
-            Soup { taken_up: Some(TakenUp::Z), ..from_z_up(soup, options) }
-        }
+        Format::Stl => from_z_up(stl::read(bytes, path, remarks)?, options),
         Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
         Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,
         #[cfg(feature = "gltf")]

@@ -1,48 +1,24 @@
-//! Whether a model seems to lie on its back: it stands on a flat base, and that faces z instead of y, or y instead of z.
+//! Whether a model seems to lie on its back: it stands on a flat base, and that faces z instead of y.
 //!
-//! OBJ, PLY and STL do not say which axis is up. A bust or a figure made with z up has its base at the lowest z, and no flat
-//! end elsewhere. This only hints: a slab may well stand on its edge.
+//! OBJ and PLY do not say which axis is up. A bust or a figure made with z up has its base at the lowest z, and no flat end
+//! elsewhere. This only hints: a slab may well stand on its edge.
 
 use super::Mesh;
 use crate::tolerances::{BASE_DEPTH, BASE_FLATNESS, BASE_HEIGHT, BASE_SHARE, OTHER_ENDS_SHARE};
 
-/// Which axis a file was taken to have up, since its format does not say it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum TakenUp {
-    /// y, as in OBJ and PLY.
-    Y,
-    /// z, as in STL, whose y then points away from the viewer.
-    Z,
-}
+/// The place of the lowest z among the six ends of a model: the lowest of x, y and z, then the highest.
+const LOWEST_Z: usize = 2;
 
-impl TakenUp {
-    /// The axis that the file has up if it lies as read.
-    pub(super) fn other(self) -> &'static str {
-        match self {
-            Self::Y => "z",
-            Self::Z => "y",
-        }
-    }
-
-    /// Where the lowest end of that axis lies among the six ends of a mesh: the lowest of x, y and z, then the highest.
-    fn base(self) -> usize {
-        match self {
-            Self::Y => 2,
-            Self::Z => 5,
-        }
-    }
-}
-
-/// Whether the only flat end of a mesh is the lowest of the axis that may be up instead, and it is no slab.
-pub(super) fn seems_to_lie(mesh: &Mesh, taken: TakenUp) -> bool {
+/// Whether the only flat end of a mesh is its lowest z, and it is no slab.
+pub(super) fn seems_to_lie(mesh: &Mesh) -> bool {
     let (low, high) = mesh.bounds();
     let extent = high - low;
     if extent.z < BASE_HEIGHT * extent.max_element() {
         return false;
     }
     let shares = flat_shares(mesh);
-    let others = shares.iter().enumerate().filter(|(end, _)| *end != taken.base());
-    shares[taken.base()] >= BASE_SHARE && others.into_iter().all(|(_, share)| *share <= OTHER_ENDS_SHARE)
+    let others = shares.iter().enumerate().filter(|(end, _)| *end != LOWEST_Z);
+    shares[LOWEST_Z] >= BASE_SHARE && others.into_iter().all(|(_, share)| *share <= OTHER_ENDS_SHARE)
 }
 
 /// Of the bounding box's side at each end, the share that faces lying in it cover.
@@ -103,18 +79,9 @@ mod tests {
     }
 
     #[test]
-    fn an_stl_that_stands_on_its_lowest_y_seems_to_lie() {
-        // With y up in the file, which was then taken for z up.
-        let file = turned(&pyramid(true), UpAxis::Z);
-        assert!(!seems_to_lie(&file, TakenUp::Z), "upright");
-        let read = turned(&file, UpAxis::Z);
-        assert!(seems_to_lie(&read, TakenUp::Z) && !seems_to_lie(&read, TakenUp::Y));
-    }
-
-    #[test]
     fn only_what_stands_on_its_lowest_z_seems_to_lie() {
-        assert!(seems_to_lie(&pyramid(true), TakenUp::Y));
-        assert!(!seems_to_lie(&pyramid(false), TakenUp::Y), "without a base nobody knows");
+        assert!(seems_to_lie(&pyramid(true)));
+        assert!(!seems_to_lie(&pyramid(false)), "without a base nobody knows");
         for (up, lies) in [
             (UpAxis::Z, false),
             (UpAxis::MinusZ, false),
@@ -122,12 +89,12 @@ mod tests {
             (UpAxis::X, true),
             (UpAxis::MinusY, true),
         ] {
-            assert_eq!(seems_to_lie(&turned(&pyramid(true), up), TakenUp::Y), lies, "{up}");
+            assert_eq!(seems_to_lie(&turned(&pyramid(true), up)), lies, "{up}");
         }
-        assert!(!seems_to_lie(&Mesh::triangle(), TakenUp::Y), "flat all over");
+        assert!(!seems_to_lie(&Mesh::triangle()), "flat all over");
         let mut slab = pyramid(true);
         slab.positions.iter_mut().for_each(|point| point.z *= 0.4);
-        assert!(!seems_to_lie(&slab, TakenUp::Y), "lower than wide");
+        assert!(!seems_to_lie(&slab), "lower than wide");
     }
 
     #[test]
@@ -138,6 +105,6 @@ mod tests {
         let triangles = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
         let cube = Mesh { positions, triangles, ..Mesh::triangle() };
         assert_eq!(flat_shares(&cube), [1.0; 6]);
-        assert!(!seems_to_lie(&cube, TakenUp::Y));
+        assert!(!seems_to_lie(&cube));
     }
 }

@@ -187,22 +187,22 @@ fn texture(statement: &str) -> (&str, [Vec2; 2]) {
             "-blendu" | "-blendv" | "-boost" | "-bm" | "-cc" | "-clamp" | "-imfchan" | "-texres" | "-type" => (1, 1),
             _ => break,
         };
-        let of = match option.as_str() {
-            "-s" => Some(0),
-            "-o" => Some(1),
-            _ => None,
-        };
         // One to three numbers may follow; the last word is the name in any case.
-        for place in 0..most {
+        let mut numbers = [None; 3];
+        for (place, slot) in numbers.iter_mut().enumerate().take(most) {
             let Some((word, next)) = after.trim_start().split_once(char::is_whitespace) else { break };
             let number = word.parse::<f32>().ok().filter(|number| number.is_finite());
             if place >= least && number.is_none() {
                 break;
             }
-            if let (Some(of), Some(number), 0 | 1) = (of, number, place) {
-                placing[of][place] = number;
-            }
-            after = next;
+            (*slot, after) = (number, next);
+        }
+        let [x, y, _] = numbers;
+        let given = |own: Vec2| Vec2::new(x.unwrap_or(own.x), y.unwrap_or(own.y));
+        match option.as_str() {
+            "-s" => placing[0] = given(placing[0]),
+            "-o" => placing[1] = given(placing[1]),
+            _ => {}
         }
         rest = after.trim_start();
     }
