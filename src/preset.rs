@@ -91,6 +91,9 @@ impl Preset {
         if !path.metadata().map_err(cannot_read)?.is_file() {
             return Err(refused(name, "this is not a regular file; name a preset file"));
         }
+        if crate::mesh::is_model_name(name) {
+            return Err(refused(name, "this is a model, not a preset; name it without --preset"));
+        }
         let mut bytes = Vec::new();
         let file = std::fs::File::open(path).map_err(cannot_read)?;
         file.take(LARGEST_BYTES + 1).read_to_end(&mut bytes).map_err(cannot_read)?;

@@ -274,6 +274,16 @@ impl Style {
 
     /// What is to be known of this scene's pictures in this style, a sentence each.
     pub fn remarks(&self, scene: &Scene) -> Vec<String> {
+        let mut remarks = match self {
+            // It needs the edges in any case.
+            Self::Inking(_) => scene.crack_remarks(),
+            _ => Vec::new(),
+        };
+        remarks.extend(self.remarks_on_colors(scene));
+        remarks
+    }
+
+    fn remarks_on_colors(&self, scene: &Scene) -> Vec<String> {
         match self {
             Self::Charcoal(charcoal) | Self::Sand(charcoal) => charcoal.remarks(scene),
             _ if self.leaves_textures_out(scene) => {

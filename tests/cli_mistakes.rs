@@ -189,7 +189,7 @@ const MISTAKES: [(&str, &str); 75] = [
         "damaged.ply: it does not begin like a PLY file; it is damaged or misnamed, export it again",
     ),
     ("render strips.ply -o out.png", "strips.ply: its triangle strips have no list of vertex_indices; export it again"),
-    ("render cut.stl -o out.png", "cut.stl: it does not end with endsolid; it is damaged or cut off, export it again"),
+    ("render cut.stl -o out.png", "cut.stl: it ends within a facet; it is damaged or cut off, export it again"),
     (
         "render old.gltf -o out.png",
         "old.gltf: it is glTF 1.0, and only glTF 2 is read; convert it, for instance with: gltf-pipeline -i IN.gltf -o OUT.glb",

@@ -332,7 +332,7 @@ fn the_limits_are_documented_as_they_are() {
         ("CONCAVE_CORNERS", CONCAVE_CORNERS as u64),
         ("CROSSING_CORNERS", CROSSING_CORNERS as u64),
         ("PLY_HEADER_BYTES", PLY_HEADER_BYTES as u64),
-        ("STL_LINE_BYTES", STL_LINE_BYTES as u64),
+        ("FACE_COLORS", FACE_COLORS as u64),
         ("MATERIALS", MATERIALS as u64),
         ("MATERIAL_FILES", MATERIAL_FILES as u64),
         ("NODE_LEVELS", NODE_LEVELS as u64),

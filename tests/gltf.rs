@@ -6,8 +6,10 @@ use crate::hostile::scene;
 use crate::support::{public_models, renderer, skip};
 use glam::{DVec2, DVec3, dvec3};
 use serde_json::{Value, json};
+use std::sync::Arc;
 use tinta::mesh::{Loaded, NONE};
-use tinta::{Backend, LoadOptions, Mesh, Style, StyleName, load};
+use tinta::scene::Surface;
+use tinta::{Backend, CameraSettings, LoadOptions, Mesh, Scene, SceneSettings, Size, Style, StyleName, load};
 
 #[test]
 fn the_same_box_comes_out_of_json_with_a_file_or_with_its_data_and_out_of_glb() {
@@ -92,6 +94,74 @@ fn a_box_draws_the_same_picture_as_the_same_box_in_obj() {
         }
     }
     assert!(seen[0].difference(&seen[2]).unwrap().pixels > 1000, "styles draw differently");
+}
+
+#[test]
+fn what_other_programs_write_against_the_standard_does_no_harm() {
+    let whole = box_file().mesh();
+    let changed = |change: &dyn Fn(&mut File)| {
+        let mut file = box_file();
+        change(&mut file);
+        file.load().unwrap()
+    };
+    let no_stride = changed(&|file| file.json["bufferViews"][0]["byteStride"] = json!(0));
+    assert_eq!(no_stride.mesh.positions, whole.positions);
+    let other_scene = changed(&|file| {
+        file.push("scenes", json!({"name": "empty"}));
+        file.push("scenes", json!({"nodes": [0]}));
+        file.json["scene"] = json!(1);
+    });
+    assert_eq!(other_scene.mesh.positions, whole.positions);
+    let techniques = changed(&|file| {
+        for list in ["extensionsUsed", "extensionsRequired"] {
+            file.push(list, json!("KHR_techniques_webgl"));
+        }
+    });
+    assert_eq!(techniques.mesh.positions, whole.positions);
+    assert_eq!(techniques.remarks, ["file.gltf: not drawn: the extension KHR_techniques_webgl"]);
+}
+
+#[test]
+fn a_picture_is_multiplied_with_the_base_colour_and_white_where_its_alpha_leaves_it_out() {
+    let folder = Folder::new();
+    let texels = [[128, 128, 128, 255], [255, 255, 255, 255], [0, 0, 0, 0], [0, 0, 0, 255]];
+    // Quarters of many texels, as their borders are mixed.
+    let quarter = |x: u32, y: u32| image::Rgba(texels[(y / 8 * 2 + x / 8) as usize]);
+    let skin = image::RgbaImage::from_fn(16, 16, quarter);
+    skin.save(folder.path("skin.png")).unwrap();
+    let mut renderer = renderer(Backend::Auto);
+    let mut at_quarters = |alpha: &str| {
+        let mut file = File::new();
+        let positions = file.floats("VEC3", &[-1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0, 1.0, 0.0, -1.0, 1.0, 0.0]);
+        let coordinates = file.floats("VEC2", SQUARE.as_flattened());
+        let indices = file.shorts(&[0, 1, 2, 0, 2, 3]);
+        let more = json!({"attributes": {"TEXCOORD_0": coordinates}, "indices": indices, "material": 0});
+        square_file(positions, more, &mut file);
+        file.push("images", json!({"uri": "skin.png"}));
+        file.push("textures", json!({"source": 0}));
+        let metal = json!({"baseColorFactor": [1, 0, 0, 1], "baseColorTexture": {"index": 0}});
+        file.push("materials", json!({"pbrMetallicRoughness": metal, "alphaMode": alpha}));
+        let mesh = load(&folder.file("square.gltf", &file.text()), &LoadOptions::default()).unwrap().mesh;
+        let view = "front".parse().unwrap();
+        let camera = CameraSettings { view, ..CameraSettings::default() };
+        let settings = SceneSettings { camera, surface: Surface::Textured, ..SceneSettings::default() };
+        let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
+        let picture = renderer.render(&scene, &Style::named(StyleName::Ink)).unwrap();
+        let Size { width, height } = picture.size;
+        [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]: [u32; 2]| {
+            let at = |place: u32, side: u32| side / 2 - side / 8 + place * side / 4;
+            let pixel = &picture.pixels[((at(y, height) * width + at(x, width)) * 4) as usize..][..4];
+            [pixel[0], pixel[1], pixel[2]]
+        })
+    };
+    for (alpha, hidden) in [("OPAQUE", 0.0), ("MASK", 1.0), ("BLEND", 1.0)] {
+        let [half, whole, left_out, black] = at_quarters(alpha);
+        let red = f64::from(whole[0]);
+        assert!(red > 100.0 && whole[1] < 80 && whole[2] < 80, "{alpha}: {whole:?}");
+        assert!((f64::from(half[0]) / red - 128.0 / 255.0).abs() < 0.02, "{alpha}: {half:?} of {whole:?}");
+        assert!((f64::from(left_out[0]) / red - hidden).abs() < 0.02, "{alpha}: {left_out:?} of {whole:?}");
+        assert!(black[0] < 5, "{alpha}: {black:?}");
+    }
 }
 
 #[test]

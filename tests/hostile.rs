@@ -84,9 +84,9 @@ fn files_that_lie_about_their_counts_are_refused_without_the_memory() {
         (
             "vertices.ply",
             ply("binary_little_endian", header, &[0; 30]),
-            "ends before the last of the file's 4000000000 vertex",
+            "ends before the last of the file's 4000000000 vertices",
         ),
-        ("vertices-text.ply", ply("ascii", header, b"0 0 0\n"), "line 9: it is damaged or cut off"),
+        ("vertices-text.ply", ply("ascii", header, b"0 0 0\n"), "line 8: it is damaged or cut off"),
         ("faces.ply", ply("binary_big_endian", faces, &[0; 30]), "3000000000 face"),
         ("list.ply", ply("binary_little_endian", faces, &[0xff; 30]), "3000000000 face"),
         ("a.stl", [[b' '; 80].as_slice(), &words(&[u32::MAX]), &[0; 60]].concat(), "promises 4294967295 triangles"),

@@ -52,6 +52,7 @@ mod lines_invariance;
 mod lines_outline;
 mod lines_quality;
 mod lines_random;
+mod lines_reports;
 mod lines_rules;
 mod lines_shapes;
 mod lines_sides;

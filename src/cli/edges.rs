@@ -89,6 +89,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
         last = Some((edges, classes, silhouette));
     }
     let Some((edges, classes, silhouette)) = last else { return Ok(()) };
+    scene.edges(&scene.objects[0]).remark().iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     let mut counts = classes.counts();
     counts.silhouette = silhouette.len();
     let [build_ms, classify_ms, planes_ms, silhouette_ms, hierarchy_ms, silhouette_by_hierarchy_ms] =

@@ -3,7 +3,7 @@
 use super::Picture;
 use crate::error::Result;
 use crate::limits::{MEMORY_FACTOR, MODEL_PICTURES_BYTES};
-use crate::mesh::{EmbeddedPicture, Material};
+use crate::mesh::{EmbeddedPicture, Material, TextureAlpha};
 use crate::scene::{Object, ObjectIdentity};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -52,7 +52,7 @@ impl MaterialPictures {
 ///
 /// [`Error::File`](crate::Error::File) when one cannot be read.
 pub fn material_pictures(materials: &[Material]) -> Result<Vec<Option<Arc<Picture>>>> {
-    let mut known: HashMap<Source<'_>, Arc<Picture>> = HashMap::new();
+    let mut known: HashMap<(Source<'_>, TextureAlpha), Arc<Picture>> = HashMap::new();
     let (mut file_bytes, mut bytes) = (0u64, 0u64);
     let mut pictures = Vec::with_capacity(materials.len());
     for material in materials {
@@ -64,18 +64,19 @@ pub fn material_pictures(materials: &[Material]) -> Result<Vec<Option<Arc<Pictur
                 continue;
             }
         };
-        let picture = match known.entry(source) {
+        let picture = match known.entry((source, material.texture_alpha)) {
             Entry::Occupied(known) => known.get().clone(),
             Entry::Vacant(place) => {
                 let most = MODEL_PICTURES_BYTES.max(file_bytes.saturating_mul(MEMORY_FACTOR as u64));
                 let most = most.saturating_sub(bytes);
-                let (picture, size) = match (source, &material.embedded) {
+                let (mut picture, size) = match (source, &material.embedded) {
                     (Source::Embedded(_), Some(file)) => {
                         (Picture::from_bytes_of(&file.bytes, &file.name, most)?, file.bytes.len() as u64)
                     }
                     (Source::File(path, within), _) => Picture::read_within(path, within, most)?,
                     (Source::Embedded(_), None) => continue,
                 };
+                flatten(&mut picture, material.texture_alpha);
                 file_bytes += size;
                 bytes += picture.pixels.len() as u64;
                 place.insert(Arc::new(picture)).clone()
@@ -84,4 +85,48 @@ pub fn material_pictures(materials: &[Material]) -> Result<Vec<Option<Arc<Pictur
         pictures.push(Some(picture));
     }
     Ok(pictures)
+}
+
+/// Puts what a texture's alpha leaves out on white.
+fn flatten(picture: &mut Picture, alpha: TextureAlpha) {
+    const WHITE: u32 = 255;
+    let share = |own: u8| match alpha {
+        TextureAlpha::Ignored => WHITE,
+        TextureAlpha::Cutoff(least) => {
+            if own < least {
+                0
+            } else {
+                WHITE
+            }
+        }
+        TextureAlpha::Blended => u32::from(own),
+    };
+    for [red, green, blue, own] in picture.pixels.as_chunks_mut::<4>().0 {
+        let share = share(*own);
+        for channel in [red, green, blue] {
+            *channel = ((u32::from(*channel) * share + WHITE * (WHITE - share) + WHITE / 2) / WHITE) as u8;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Size;
+
+    #[test]
+    fn what_a_textures_alpha_leaves_out_is_white() {
+        let pixels = [[10, 20, 30, 255], [10, 20, 30, 0], [0, 100, 200, 51]];
+        let flat = |alpha| {
+            let size = Size { width: 3, height: 1 };
+            let mut picture = Picture { size, pixels: pixels.concat() };
+            flatten(&mut picture, alpha);
+            picture.pixels.chunks(4).map(|texel| [texel[0], texel[1], texel[2]]).collect::<Vec<_>>()
+        };
+        let [first, second, third] = pixels.map(|[red, green, blue, _]| [red, green, blue]);
+        assert_eq!(flat(TextureAlpha::Ignored), [first, second, third]);
+        assert_eq!(flat(TextureAlpha::Cutoff(51)), [first, [255; 3], third]);
+        assert_eq!(flat(TextureAlpha::Cutoff(52)), [first, [255; 3], [255; 3]]);
+        assert_eq!(flat(TextureAlpha::Blended), [first, [255; 3], [204, 224, 244]]);
+    }
 }

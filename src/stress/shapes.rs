@@ -327,8 +327,7 @@ fn with_picture(mesh: Mesh, folder: &Path) -> Result<Mesh> {
             name: "chequers".to_owned(),
             color: None,
             texture: Some(path),
-            texture_within: None,
-            embedded: None,
+            ..Material::default()
         }],
         triangle_materials: vec![0; mesh.triangles.len()],
         ..mesh

@@ -267,11 +267,11 @@ impl CameraSettings {
                 "eye",
                 "X,Y,Z",
                 "fitted",
-                "Position of the eye, in model units",
+                "Position of the eye, in model units, y up as drawn: after --up-axis",
                 |camera: &mut Self| &mut camera.eye,
             )
             .said("along --view, where the whole scene is visible"),
-            Setting::open_field("target", "X,Y,Z", "centre", "Point that the camera looks at", |camera: &mut Self| {
+            Setting::open_field("target", "X,Y,Z", "centre", "Point that the camera looks at, as --eye", |camera: &mut Self| {
                 &mut camera.target
             })
             .said("the scene's centre"),

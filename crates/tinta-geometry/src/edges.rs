@@ -20,6 +20,7 @@
 mod build;
 mod classes;
 mod cones;
+mod cracks;
 mod mesh_edges;
 mod orientation;
 mod silhouette;
@@ -27,6 +28,7 @@ mod smooth;
 
 pub use classes::{Class, ClassCounts, ClassSet, Classes, CreaseAngle};
 pub use cones::NormalCones;
+pub use cracks::cracks;
 pub use mesh_edges::MeshEdges;
 pub use orientation::{Eye, Side, side_of_face};
 pub use silhouette::{SilhouetteRule, Silhouettes};

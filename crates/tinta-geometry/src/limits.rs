@@ -66,8 +66,8 @@ pub const CROSSING_CORNERS: usize = 1024;
 /// Longest header of a PLY file, bytes.
 pub const PLY_HEADER_BYTES: usize = 64 << 10;
 
-/// Longest line of a text STL file, bytes; the names of its solids aside.
-pub const STL_LINE_BYTES: usize = 1024;
+/// Most colours of a PLY file's faces that are materials; more, as of a photograph, are averaged at the vertices.
+pub const FACE_COLORS: usize = 256;
 
 /// Most materials of a model.
 pub const MATERIALS: usize = 16_384;

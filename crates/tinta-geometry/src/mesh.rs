@@ -33,6 +33,7 @@ mod ply;
 mod skin;
 mod soup;
 mod stl;
+mod text;
 mod three_ds;
 mod triangulate;
 mod vertices;
@@ -53,6 +54,7 @@ pub use load::{
     LoadOptions, LoadStage, Loaded, Normals, UpAxis, load, load_watched, read_as, read_bytes, refuse_address,
 };
 pub use vertices::{Part, VertexArrays};
+pub(crate) use weld::weld;
 
 /// Stands in index arrays for "this corner has none".
 pub const NONE: u32 = u32::MAX;
@@ -87,7 +89,7 @@ pub struct Mesh {
 }
 
 /// What a file says about a surface; the styles of the three texts use colour and texture only.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Material {
     /// Its name in the file.
     pub name: String,
@@ -101,6 +103,24 @@ pub struct Material {
     /// The colour texture where the model's own file holds it (glTF); then `texture` is `None`.
     #[serde(skip)]
     pub embedded: Option<Arc<EmbeddedPicture>>,
+    /// What the colour texture is multiplied with, red, green, blue in [0, 1]: glTF's base colour, MTL's `Kd`; `None` for white.
+    #[serde(skip)]
+    pub texture_color: Option<[f32; 3]>,
+    /// What the texture's alpha means.
+    #[serde(skip)]
+    pub texture_alpha: TextureAlpha,
+}
+
+/// What the alpha of a material's texture means. Nothing is drawn transparent: what would show through is white, as paper.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub enum TextureAlpha {
+    /// Nothing: colours count as they are.
+    #[default]
+    Ignored,
+    /// Texels of less alpha, of 255, are not there; others count as they are.
+    Cutoff(u8),
+    /// Colours are mixed by it.
+    Blended,
 }
 
 impl Material {

@@ -386,7 +386,7 @@ impl Scene {
             return self.color;
         }
         match mesh.materials.get(material as usize) {
-            Some(material) if self.is_textured(mesh, material) => Color([1.0; 3]),
+            Some(material) if self.is_textured(mesh, material) => Color(material.texture_color.unwrap_or([1.0; 3])),
             material => material.and_then(|material| material.color).map_or(self.bare_color(mesh), Color),
         }
     }
@@ -429,6 +429,16 @@ impl Scene {
             });
         }
         Some(lists)
+    }
+
+    /// A sentence for each mesh whose open edges run beside one another as cracks do.
+    pub fn crack_remarks(&self) -> Vec<String> {
+        let objects = self.objects.iter().enumerate();
+        // Copies share a mesh.
+        let is_first = |(number, object): &(usize, &Object)| {
+            self.objects[..*number].iter().all(|earlier| !Arc::ptr_eq(&earlier.mesh, &object.mesh))
+        };
+        objects.filter(is_first).filter_map(|(_, object)| self.edges(object).remark()).collect()
     }
 
     /// Triangles of all objects together.

@@ -8,6 +8,10 @@
 /// Default of `--weld`, a share of the model's bounding-box diagonal: one unit in the last place of an f32 file.
 pub const WELD: f64 = 1e-7;
 
+/// How near each other open edges are taken for a crack, a share of the model's bounding-box diagonal: less than a tenth of a pixel of a
+/// picture a thousand wide, and far more than welding closes.
+pub const CRACK: f64 = 1e-4;
+
 /// Largest `--weld`: a tenth of the model would no longer be a model.
 pub const LARGEST_WELD: f64 = 0.1;
 

@@ -160,6 +160,7 @@ pub(super) fn run(
         Err(Error::Cancelled) => return Ok(stopped(stop.as_ref())),
         found => found?,
     };
+    scene.crack_remarks().iter().for_each(|remark| say(&format!("tinta: {remark}")));
     if let Some(healed) = lines.healed_note() {
         say(&format!("tinta: {}: {healed}", arguments.output));
     }

@@ -9,7 +9,8 @@ use glam::{DMat3, DMat4, DVec3, DVec4, Vec4Swizzles};
 const SLACK: f64 = 1e-4;
 
 impl CameraSettings {
-    /// The camera with this matrix to clip space: x to the right, y up, the depth of any kind, for a picture of `height` over `width` as
+    /// The camera with this matrix to clip space: x to the right, y up, the depth of any kind in perspective and growing away from the
+    /// eye in a parallel projection, for a picture of `height` over `width` as
     /// the matrix has it. Planes of depth are left to be fitted.
     ///
     /// # Errors
@@ -24,7 +25,7 @@ impl CameraSettings {
         let size = x.xyz().length().max(y.xyz().length());
         match w.xyz().length() > SLACK * SLACK * size {
             true => perspective(x, y, w),
-            false => parallel(x, y, w.w),
+            false => parallel(x, y, matrix.row(2).xyz(), w.w),
         }
     }
 }
@@ -69,13 +70,20 @@ fn perspective(x: DVec4, y: DVec4, w: DVec4) -> std::result::Result<CameraSettin
     })
 }
 
-fn parallel(x: DVec4, y: DVec4, w: f64) -> std::result::Result<CameraSettings, ParseError> {
+fn parallel(x: DVec4, y: DVec4, depth: DVec3, w: f64) -> std::result::Result<CameraSettings, ParseError> {
     if w == 0.0 {
         return Err("a camera's matrix has a last row that is not all zeros".to_owned().into());
     }
     let [x, y] = [x / w, y / w];
     let backward = x.xyz().cross(y.xyz()).try_normalize().unwrap_or(DVec3::ZERO);
     check(x.xyz(), y.xyz(), backward)?;
+    // Nothing else says from which side: a matrix whose depth grows the other way shows what it shows mirrored.
+    if (depth / w).dot(backward) > 0.0 {
+        return Err("a camera's matrix does not mirror: with x to the right and y up, depth grows away from the eye; \
+                    turn the sign of one of these rows"
+            .to_owned()
+            .into());
+    }
     // The point of the axis that is nearest to the origin.
     let middle = -x.xyz() * (x.w / x.xyz().length_squared()) - y.xyz() * (y.w / y.xyz().length_squared());
     let view = View {
@@ -132,6 +140,13 @@ mod tests {
         let matrix = matrix_of(&CameraSettings::default(), 1.0);
         let refused = |matrix: DMat4| CameraSettings::of_clip_from_world(&matrix).unwrap_err().to_string();
         assert!(refused(DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * matrix).contains("mirror"));
+        let front = CameraSettings { parallel: true, ..CameraSettings::default() };
+        for axis in [DVec3::new(-1.0, 1.0, 1.0), DVec3::new(1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, -1.0)] {
+            assert!(refused(DMat4::from_scale(axis) * matrix_of(&front, 1.0)).contains("mirror"), "{axis}");
+        }
+        // x to the left and the nearest at the largest z, as a mirror shows it.
+        let mirror = [-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 4.0];
+        assert!(refused(DMat4::from_cols_array(&mirror)).contains("mirror"));
         assert!(refused(DMat4::from_translation(DVec3::new(0.2, 0.0, 0.0)) * matrix).contains("middle"));
         assert!(refused(DMat4::ZERO).contains("matrix"));
         assert!(refused(DMat4::NAN).contains("finite"));

@@ -43,6 +43,20 @@ impl MeshEdges {
         &self.list
     }
 
+    /// A sentence where open edges run so closely beside one another that they were probably meant to be one.
+    pub fn remark(&self) -> Option<String> {
+        let (pairs, share) = match super::cracks(&self.mesh, &self.list) {
+            0 => return None,
+            1 => ("1 pair of open edges runs".to_owned(), crate::tolerances::CRACK),
+            count => (format!("{count} pairs of open edges run"), crate::tolerances::CRACK),
+        };
+        let percent = share * 100.0;
+        Some(format!(
+            "{}: {pairs} within {percent} % of the model's size of each other; --weld {share:e} joins them",
+            self.mesh.name
+        ))
+    }
+
     /// The static classes in `wanted`; those of the last setting asked for are kept.
     pub fn classes(&self, crease_angle: CreaseAngle, wanted: ClassSet) -> Arc<Classes> {
         let mut kept = self.classes.lock().unwrap_or_else(PoisonError::into_inner);

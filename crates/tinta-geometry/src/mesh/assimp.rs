@@ -69,7 +69,8 @@ pub(super) fn read(
     _: &mut Vec<String>,
 ) -> crate::Result<Soup> {
     let problem = format!(
-        "{format} is read by libassimp; install libassimp5 and build with --features assimp, or save it as OBJ"
+        "{format} is read by libassimp: install libassimp5 and build tinta by cargo build --release --features assimp, \
+         or save it as OBJ"
     );
     Err(crate::Error::model(path, problem))
 }

@@ -16,18 +16,24 @@ pub struct Defects {
     pub duplicate_triangles: usize,
     /// Vertices with a coordinate that is NaN or infinite; the faces that use them are left out.
     pub non_finite_vertices: usize,
-    /// Faces that name a vertex, normal or texture coordinate the file does not hold, left out.
+    /// Faces that name a vertex the file does not hold, left out.
     pub out_of_range_faces: usize,
     /// Vertices that no face uses, left out.
     pub unused_vertices: usize,
+    /// Corners whose normal the file does not hold, or that is zero or not finite; a computed one takes its place.
+    pub unusable_normals: usize,
+    /// Corners whose texture coordinates the file does not hold, or that are not finite.
+    pub unusable_texture_coordinates: usize,
+    /// Polygons that name a corner twice in a row, which counts once: harmless, so that `is_empty` passes over them.
+    pub repeated_corners: usize,
     /// Material files or materials that are named but not there; those faces get the default colour.
     pub missing_materials: usize,
 }
 
 impl Defects {
-    /// Whether the file is clean.
+    /// Whether the file is clean; what is harmless does not count.
     pub fn is_empty(&self) -> bool {
-        *self == Self::default()
+        *self == Self { repeated_corners: self.repeated_corners, ..Self::default() }
     }
 }
 
@@ -40,6 +46,9 @@ impl<'a> std::iter::Sum<&'a Self> for Defects {
             non_finite_vertices: sum.non_finite_vertices + one.non_finite_vertices,
             out_of_range_faces: sum.out_of_range_faces + one.out_of_range_faces,
             unused_vertices: sum.unused_vertices + one.unused_vertices,
+            unusable_normals: sum.unusable_normals + one.unusable_normals,
+            unusable_texture_coordinates: sum.unusable_texture_coordinates + one.unusable_texture_coordinates,
+            repeated_corners: sum.repeated_corners + one.repeated_corners,
             missing_materials: sum.missing_materials + one.missing_materials,
         })
     }
@@ -54,6 +63,17 @@ impl fmt::Display for Defects {
             (self.non_finite_vertices, "vertex that is not finite", "vertices that are not finite"),
             (self.out_of_range_faces, "face with an index out of range", "faces with an index out of range"),
             (self.unused_vertices, "unused vertex", "unused vertices"),
+            (self.unusable_normals, "corner without a usable normal", "corners without a usable normal"),
+            (
+                self.unusable_texture_coordinates,
+                "corner without usable texture coordinates",
+                "corners without usable texture coordinates",
+            ),
+            (
+                self.repeated_corners,
+                "polygon that names a corner twice in a row (harmless)",
+                "polygons that name a corner twice in a row (harmless)",
+            ),
             (self.missing_materials, "missing material", "missing materials"),
         ];
         let mut separator = "";

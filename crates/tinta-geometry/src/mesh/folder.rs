@@ -83,6 +83,25 @@ impl<'a> Folder<'a> {
         }
     }
 
+    /// The file of this name as seen from a folder above the model's: games name pictures from where they are installed.
+    pub(super) fn find_from_above(&self, name: &Path) -> Found {
+        let Place::Disk { path, within } = &self.place else { return Found::Nowhere };
+        let (Ok(real), true) = (listed(path).canonicalize(), name.is_relative()) else { return Found::Nowhere };
+        let places = real.ancestors().skip(1).take(name.components().count()).map(|above| above.join(name));
+        match places.into_iter().find(|place| place.is_file()) {
+            None => Found::Nowhere,
+            Some(place) if within.as_ref().is_some_and(|within| !files::is_within(&place, within)) => Found::Outside,
+            Some(place) => Found::Here(place),
+        }
+    }
+
+    /// The name of the folder that a file of the disk lies in.
+    pub(super) fn name_of_parent(&self, file: &Path) -> Option<String> {
+        let Place::Disk { .. } = self.place else { return None };
+        let real = listed(file.parent()?).canonicalize().ok()?;
+        Some(real.file_name()?.to_string_lossy().into_owned())
+    }
+
     /// Reads the file of this name.
     pub(super) fn read(&self, name: &Path, limit: u64) -> Result<Cow<'a, [u8]>, Failure> {
         match &self.place {

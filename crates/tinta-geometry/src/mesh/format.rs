@@ -19,6 +19,28 @@ pub(super) enum Format {
     Assimp(&'static str),
 }
 
+/// What people call a format that is not read, by how the name ends: they hold curved surfaces, or belong to one program.
+pub(super) fn unread(path: &str) -> Option<&'static str> {
+    Some(match Path::new(path).extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "step" | "stp" => "STEP",
+        "iges" | "igs" => "IGES",
+        "brep" => "BREP",
+        "fcstd" => "FreeCAD",
+        "sldprt" | "sldasm" => "SolidWorks",
+        "f3d" => "Fusion",
+        "ipt" | "iam" => "Inventor",
+        "dwg" => "DWG",
+        "skp" => "SketchUp",
+        "3dm" => "Rhino",
+        "scad" => "OpenSCAD",
+        "max" => "3ds Max",
+        "ma" | "mb" => "Maya",
+        "c4d" => "Cinema 4D",
+        "usd" | "usda" | "usdc" | "usdz" => "USD",
+        _ => return None,
+    })
+}
+
 /// Whether a file of this name is a model by how the name ends.
 pub fn is_model_name(name: &str) -> bool {
     Format::by_name(name).is_some()

@@ -63,10 +63,18 @@ fn contents(
     let mut soup =
         Soup { materials: list, files: buffers.files.clone(), bytes_beside: buffers.bytes_beside, ..Soup::default() };
     let outlines = nodes.outlines(&root, &accessors, &coordinates)?;
+    if outlines.is_empty() {
+        return Err(match root.meshes.len() {
+            0 => "it holds no meshes; is it the right file?".to_owned(),
+            1 => "its scene does not show its mesh; export it with a node that does".to_owned(),
+            count => format!("its scene shows none of its {count} meshes; export it with nodes that do"),
+        });
+    }
     refuse_too_much(&outlines, bytes.len() + buffers.bytes_beside)?;
     let mut left_out = LeftOut { unread_pictures, ..LeftOut::of(&root) };
     for (outline, places) in &outlines {
         left_out.primitives += outline.others;
+        soup.points_and_lines += outline.others;
         parts::put(&mut soup, outline, places, &accessors, &nodes)?;
     }
     remarks.extend(left_out.sentence(path));
@@ -75,7 +83,7 @@ fn contents(
 
 /// Refuses what cannot be understood without an extension that is not read, and says how to do without it.
 fn refuse_unknown_extensions(root: &Root) -> std::result::Result<(), String> {
-    match root.extensions_required.iter().find(|name| !is_understood(name)) {
+    match root.extensions_required.iter().find(|name| !is_understood(name) && !is_of_materials(name)) {
         None => Ok(()),
         Some(name) => {
             let remedy = match name.as_str() {
@@ -96,6 +104,11 @@ fn refuse_unknown_extensions(root: &Root) -> std::result::Result<(), String> {
 fn is_understood(extension: &str) -> bool {
     // Materials' extensions add to the base colour what no style here draws.
     UNDERSTOOD.contains(&extension) || extension.starts_with("KHR_materials_")
+}
+
+/// Whether an extension describes materials alone: without it meshes are what they are.
+fn is_of_materials(extension: &str) -> bool {
+    ["KHR_techniques_webgl", "KHR_technique_webgl"].contains(&extension)
 }
 
 /// Refuses meshes that nodes repeat beyond what the file is worth, before anything is made of them.

@@ -1,13 +1,13 @@
 //! From a path to a [`Mesh`]: built-in or file, its format found by content first and by name second.
 
 use super::folder::Folder;
-use super::format::Format;
+use super::format::{self, Format};
 #[cfg(feature = "gltf")]
 use super::gltf;
-use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, three_ds};
+use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, text, three_ds};
 use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
-use crate::files;
+use crate::files::{self, Failure};
 use crate::limits::MODEL_BYTES;
 use crate::memory;
 use crate::settings::{HasSettings, Setting, Table, under};
@@ -15,6 +15,7 @@ use crate::tolerances::{LARGEST_WELD, WELD};
 use glam::DVec3;
 use serde::{Serialize, Serializer};
 use std::cell::RefCell;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
@@ -277,8 +278,13 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
         watch(LoadStage::Reading);
         refuse_address(path)?;
         check_free(path, memory::free())?;
-        let bytes = files::read(Path::new(path), MODEL_BYTES)
-            .map_err(|failure| failure.into_error(FileKind::Model, path, "a model file"))?;
+        let bytes =
+            files::read(Path::new(path), MODEL_BYTES).map_err(|failure| match (&failure, format::unread(path)) {
+                (Failure::System(error), Some(format)) if error.kind() == ErrorKind::NotFound => {
+                    Error::model(path, format!("there is no such file, and {}", not_read(format)))
+                }
+                _ => failure.into_error(FileKind::Model, path, "a model file"),
+            })?;
         let mut remarks = Vec::new();
         let soup = parsed(&bytes, path, options, &mut remarks, watch)?;
         // They are a fifth of what a mesh in the making takes.
@@ -401,7 +407,7 @@ fn made(
     }
     // Missing materials have had a remark of their own from the reader, which knows their names.
     let others = Defects { missing_materials: 0, ..mesh.defects.clone() };
-    if !others.is_empty() {
+    if others != Defects::default() {
         remarks.push(format!("{path}: {others}"));
     }
     Ok(Loaded { mesh, frames, files, remarks, stages: Vec::new() })
@@ -433,6 +439,25 @@ fn from_z_up(mut soup: Soup, options: &LoadOptions) -> Soup {
     soup
 }
 
+/// What to do with a file of a format that is not read.
+fn not_read(format: &str) -> String {
+    format!("{format} is not read; export it as STL, OBJ or glTF from the program that made it")
+}
+
+/// With the pictures that its materials name, unless another is given for all.
+fn with_pictures(
+    mut soup: Soup,
+    options: &LoadOptions,
+    folder: &Folder<'_>,
+    path: &str,
+    remarks: &mut Vec<String>,
+) -> Soup {
+    if options.skin.is_none() {
+        skin::find_all(&mut soup, folder, path, remarks);
+    }
+    soup
+}
+
 fn soup(
     bytes: &[u8],
     path: &str,
@@ -443,14 +468,16 @@ fn soup(
     if bytes.is_empty() {
         return Err(Error::model(path, "the file is empty; export the model again"));
     }
-    // Some programs begin UTF-8 files with a byte order mark.
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").filter(|_| !stl::is_binary(bytes));
-    let bytes = text.unwrap_or(bytes);
+    let bytes = &*text::decoded(bytes);
     let named = Format::by_name(path);
     let found =
         Format::by_content(bytes).filter(|found| !matches!(named, Some(Format::Assimp(_))) || found.is_unmistakable());
     let format = found.or(named).ok_or_else(|| {
-        Error::model(path, format!("this is not a model in a supported format; use an {} file", Format::NAMES))
+        let problem = match format::unread(path) {
+            Some(format) => not_read(format),
+            None => format!("this is not a model in a supported format; use an {} file", Format::NAMES),
+        };
+        Error::model(path, problem)
     })?;
     if let (Some(named), Some(found)) = (named, found)
         && named != found
@@ -463,14 +490,14 @@ fn soup(
     }
     let soup = match format {
         Format::Obj => {
-            let mut soup = obj::read(bytes, path, folder, remarks)?;
-            if options.skin.is_none() {
-                skin::find_all(&mut soup, folder, path, remarks);
-            }
-            Soup { may_lie: true, ..soup }
+            let soup = obj::read(bytes, path, folder, remarks)?;
+            Soup { may_lie: true, ..with_pictures(soup, options, folder, path, remarks) }
         }
-        Format::Ply => Soup { may_lie: true, ..ply::read(bytes, path)? },
-        Format::Stl => from_z_up(stl::read(bytes, path)?, options),
+        Format::Ply => {
+            let soup = ply::read(bytes, path, remarks)?;
+            Soup { may_lie: true, ..with_pictures(soup, options, folder, path, remarks) }
+        }
+        Format::Stl => from_z_up(stl::read(bytes, path, remarks)?, options),
         Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
         Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,
         #[cfg(feature = "gltf")]

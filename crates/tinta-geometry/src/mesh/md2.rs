@@ -154,8 +154,7 @@ pub(super) fn read(
         Some(_) => None,
         None => find_skin(skins.take(SKINS).map(name), path, folder, remarks),
     };
-    let mut skin =
-        Material { name: "skin".to_owned(), color: None, texture: None, texture_within: None, embedded: None };
+    let mut skin = Material { name: "skin".to_owned(), color: None, ..Material::default() };
     if let Some(found) = texture {
         folder.put_picture(&mut skin, found);
     }
@@ -229,18 +228,29 @@ fn find_skin(
 ) -> Option<PathBuf> {
     let own = Path::new(path).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let mut outside = Vec::new();
-    for name in names.filter(|name| !name.is_empty()).chain(own) {
+    for name in names.filter(|name| !name.is_empty()).chain(own.clone()) {
+        let from_above = folder.find_from_above(Path::new(&name.replace('\\', "/")));
+        if let Found::Here(place) = from_above {
+            return Some(place);
+        }
         match skin::find(folder, &name) {
-            Found::Here(place) => return Some(place),
-            Found::Outside => outside.push(skin::outside("skin", &name)),
-            Found::Nowhere => {}
+            Found::Here(place) => {
+                let sentence = skin::stand_in(folder, &name, &place, from_above == Found::Outside);
+                remarks.extend(sentence.map(|sentence| format!("{path}: {sentence}")));
+                return Some(place);
+            }
+            Found::Nowhere if from_above == Found::Nowhere => {}
+            _ => outside.push(skin::outside("skin", &name)),
         }
     }
     if outside.is_empty() && folder.is_some() {
         let extensions = skin::EXTENSIONS.join(", .");
+        let remedy = match skin::lying_there(folder, &own.unwrap_or_default()).as_slice() {
+            [] => "name one with --skin".to_owned(),
+            pictures => format!("--skin takes another, for instance of those there: {}", pictures.join(", ")),
+        };
         remarks.push(format!(
-            "{path}: no skin was found beside it, neither one it names nor a .{extensions} of its own name; name one \
-             with --skin"
+            "{path}: no skin was found beside it, neither one it names nor a .{extensions} of its own name; {remedy}"
         ));
     }
     skin::remark(path, outside, "skins were not read", remarks);

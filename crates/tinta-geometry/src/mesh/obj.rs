@@ -1,13 +1,14 @@
 //! Wavefront OBJ, with MTL colours and textures.
 //!
 //! The file is cut between lines into pieces, which are read at the same time on all cores: first what each piece declares
-//! is counted, so that each then knows its faces' indices. tobj, which reads the MTL files, reads the tests' second
-//! opinion of the OBJ files too (`twin.rs`): for everybody's files it takes three times as long on one core, stops at the
-//! first index out of range, knows no line numbers and invents normals for corners that have none.
+//! is counted, so that each then knows its faces' indices. tobj reads the tests' second opinion (`twin.rs`): for everybody's
+//! files it takes three times as long on one core, stops at the first index out of range, knows no line numbers and
+//! invents normals for corners that have none.
 
 #[cfg(test)]
 mod agreement;
 mod lines;
+mod materials;
 mod piece;
 mod quick;
 #[cfg(test)]
@@ -15,53 +16,19 @@ mod twin;
 
 use super::folder::Folder;
 use super::soup::Soup;
-use super::{Material, NONE, skin};
+use super::text;
 use crate::error::{Error, Result};
-use crate::files::{Failure, shown};
-use crate::limits::{MATERIAL_FILE_BYTES, MATERIAL_FILES, MATERIALS};
 use crate::threads::{cores, in_chunks};
 use piece::{Counts, Naming, Piece};
-use std::borrow::Cow;
-use std::collections::{HashMap, HashSet};
-use std::path::PathBuf;
 
 /// How much of a file is read in one go. Much less than a core's share, as another core opens the GL context meanwhile.
 const PIECE_BYTES: usize = 1 << 20;
-
-/// The text of a material library with its files, or a sentence why there is none; a name that is no file is taken for several
-/// names with blanks between them. Empty where there is nothing to look in.
-fn library<'a>(folder: &Folder<'a>, name: &str) -> std::result::Result<(Cow<'a, [u8]>, Vec<PathBuf>), String> {
-    if !folder.is_some() {
-        return Ok((Cow::Borrowed(b""), Vec::new()));
-    }
-    let read = |name: &str| folder.read_library(name, MATERIAL_FILE_BYTES);
-    let several = || -> Option<Vec<Cow<'_, [u8]>>> { name.split_whitespace().map(|name| read(name).ok()).collect() };
-    let failure = match read(name) {
-        Ok(text) => return Ok((text, folder.place_of(name).into_iter().collect())),
-        Err(failure) => failure,
-    };
-    match several() {
-        Some(texts) => {
-            let files = name.split_whitespace().filter_map(|name| folder.place_of(name)).collect();
-            Ok((Cow::Owned(texts.join(&b'\n')), files))
-        }
-        None => Err(match failure {
-            Failure::Outside => {
-                format!("{}; its faces get the default colour", skin::outside("material file", name))
-            }
-            Failure::TooLarge(_) | Failure::NoMemory(_) => {
-                format!("the material file {}: {}", shown(name), failure.problem("a material file"))
-            }
-            _ => format!("the material file {} is missing; its faces get the default colour", shown(name)),
-        }),
-    }
-}
 
 /// Whether the beginning of a file reads like OBJ: text with a line of one of its statements.
 pub(super) fn looks_like(head: &[u8]) -> bool {
     const STATEMENTS: [&[u8]; 10] = [b"v", b"vt", b"vn", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"vp"];
     !head.contains(&0)
-        && head.split(|byte| *byte == b'\n').any(|line| {
+        && head.split(|byte| matches!(byte, b'\n' | b'\r')).any(|line| {
             let word = line.trim_ascii_start().split(u8::is_ascii_whitespace).next().unwrap_or_default();
             STATEMENTS.contains(&word)
         })
@@ -69,7 +36,13 @@ pub(super) fn looks_like(head: &[u8]) -> bool {
 
 /// Reads an OBJ file's bytes. `path` is for messages; `remarks` gets a sentence for each missing material file.
 pub(super) fn read(bytes: &[u8], path: &str, folder: &Folder<'_>, remarks: &mut Vec<String>) -> Result<Soup> {
+    let bytes = &*text::with_newlines(bytes);
     let soup = read_in_pieces(bytes, PIECE_BYTES, path, folder, remarks)?;
+    if soup.points_and_lines > 0 && !soup.corners.is_empty() {
+        let count = soup.points_and_lines;
+        let statements = if count == 1 { "statement" } else { "statements" };
+        remarks.push(format!("{path}: not drawn: {count} {statements} of points or lines"));
+    }
     if ends_in_a_face(bytes) {
         remarks.push(format!("{path}: its last line is a face without three corners; the file may be cut off"));
     }
@@ -114,7 +87,7 @@ fn read_in_pieces(
         }
         remarks.push(format!("{path}: {left_out} not drawn; to see them, export them as polygons"));
     }
-    put_on_materials(&mut soup, &namings, path, folder, remarks)?;
+    materials::put_on(&mut soup, &namings, path, folder, remarks)?;
     Ok(soup)
 }
 
@@ -157,132 +130,19 @@ fn joined(pieces: Vec<Piece>) -> (Soup, Vec<(usize, Naming)>) {
         }
         soup.defects.degenerate_triangles += piece.degenerate_faces;
         soup.defects.out_of_range_faces += piece.out_of_range_faces;
+        soup.defects.unusable_normals += piece.lost[0];
+        soup.defects.unusable_texture_coordinates += piece.lost[1];
+        soup.points_and_lines += piece.points_and_lines;
     }
     (soup, namings)
-}
-
-/// Reads the material files named and gives the faces their materials.
-fn put_on_materials(
-    soup: &mut Soup,
-    namings: &[(usize, Naming)],
-    path: &str,
-    folder: &Folder<'_>,
-    remarks: &mut Vec<String>,
-) -> Result<()> {
-    let mut found = Vec::new();
-    // A name's material is the one that was read last, but only for faces that come after it.
-    let mut numbers: HashMap<String, usize> = HashMap::new();
-    let (mut libraries, mut used) = (HashSet::new(), HashSet::new());
-    let mut missing = Vec::new();
-    let mut current = NONE;
-    for (before, naming) in namings {
-        match naming {
-            // Exporters name one file before every part.
-            Naming::Library(name) if !libraries.insert(name.as_str()) => {}
-            Naming::Library(_) if libraries.len() > MATERIAL_FILES => {
-                let problem = format!("it names more than {MATERIAL_FILES} material files; merge them");
-                return Err(Error::model(path, problem));
-            }
-            Naming::Library(name) => {
-                let (text, files) = library(folder, name).unwrap_or_else(|sentence| {
-                    missing.push(sentence);
-                    (Cow::Borrowed(b""), Vec::new())
-                });
-                soup.files.extend(files);
-                let text = sound_material_lines(&text, MATERIALS - found.len())
-                    .ok_or_else(|| Error::model(path, format!("it has more than {MATERIALS} materials; merge some")))?;
-                let (more, more_numbers) = tobj::load_mtl_buf(&mut text.as_slice()).map_err(|error| {
-                    Error::model(path, format!("its materials cannot be read ({})", shown(&error.to_string())))
-                })?;
-                numbers.extend(more_numbers.into_iter().map(|(name, number)| (name, found.len() + number)));
-                found.extend(more);
-            }
-            Naming::Use(name) => {
-                soup.polygon_materials.resize(*before, current);
-                current = numbers.get(name).map_or(NONE, |number| *number as u32);
-                used.insert(name.as_str());
-            }
-        }
-    }
-    if !used.is_empty() {
-        soup.polygon_materials.resize(soup.polygon_count(), current);
-    }
-    let unknown = used.iter().filter(|name| !numbers.contains_key(**name)).count();
-    // A missing file's materials are missing with it: counted once, said once.
-    soup.defects.missing_materials = unknown.max(missing.len());
-    if unknown > 0 && missing.is_empty() {
-        remarks.push(format!(
-            "{path}: {unknown} of the materials it uses are in no material file; their faces get the default colour"
-        ));
-    }
-    skin::remark(path, missing, "material files are missing or were not read", remarks);
-    soup.materials = found.into_iter().map(material).collect();
-    Ok(())
-}
-
-fn material(material: tobj::Material) -> Material {
-    Material {
-        name: material.name,
-        color: material.diffuse.map(|color| color.map(|channel| channel.clamp(0.0, 1.0) as f32)),
-        texture: material.diffuse_texture.map(PathBuf::from),
-        texture_within: None,
-        embedded: None,
-    }
-}
-
-/// Only the material statements used here, and only where they are complete: tobj panics on `Kd 1`. `None` where there are
-/// more than `most` materials.
-fn sound_material_lines(text: &[u8], most: usize) -> Option<Vec<u8>> {
-    let (mut sound, mut count) = (String::new(), 0);
-    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
-    for line in String::from_utf8_lossy(text).lines() {
-        let line = line.trim();
-        let mut words = line.split_whitespace();
-        let number = |word: &str| word.parse::<f64>().ok().filter(|number| number.is_finite());
-        let (keyword, rest) = (words.next().unwrap_or_default(), line.split_once(char::is_whitespace));
-        let keep = match keyword {
-            "newmtl" | "map_Kd" => words.next().is_some(),
-            "Kd" => words.take(3).filter_map(number).count() == 3,
-            _ => false,
-        };
-        if let (true, Some((_, rest))) = (keep, rest) {
-            count += usize::from(keyword == "newmtl");
-            let rest = if keyword == "map_Kd" { texture_name(rest) } else { rest.trim() };
-            // tobj cuts names at fixed columns, so exactly one blank goes before them.
-            sound.push_str(&format!("{keyword} {rest}\n"));
-        }
-    }
-    (count <= most).then(|| sound.into_bytes())
-}
-
-/// The file's name, which may hold blanks, behind a texture statement's options and between its quotes, if it has any.
-fn texture_name(statement: &str) -> &str {
-    let mut rest = statement.trim();
-    while let Some((option, mut after)) = rest.split_once(char::is_whitespace) {
-        let (least, most) = match option.to_ascii_lowercase().as_str() {
-            "-o" | "-s" | "-t" => (1, 3),
-            "-mm" => (2, 2),
-            "-blendu" | "-blendv" | "-boost" | "-bm" | "-cc" | "-clamp" | "-imfchan" | "-texres" | "-type" => (1, 1),
-            _ => break,
-        };
-        // One to three numbers may follow; the last word is the name in any case.
-        for place in 0..most {
-            let Some((word, next)) = after.trim_start().split_once(char::is_whitespace) else { break };
-            if place >= least && word.parse::<f64>().is_err() {
-                break;
-            }
-            after = next;
-        }
-        rest = after.trim_start();
-    }
-    let quoted = rest.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).map(str::trim);
-    quoted.filter(|name| !name.is_empty()).unwrap_or(rest)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::NONE;
     use glam::{DVec3, Vec2};
+    use std::path::PathBuf;
 
     fn soup(text: &str) -> Soup {
         read(text.as_bytes(), "test.obj", &Folder::of_files(&[]), &mut Vec::new()).unwrap()
@@ -339,11 +199,51 @@ mod tests {
 
     #[test]
     fn faces_out_of_range_are_counted_and_the_others_kept() {
-        let soup =
-            soup(&format!("{SQUARE}f 1 2 9\nf 0 1 2\nf 1/7 2/7 3/7\nf 1//2 2//2 3//2\nf -9 1 2\nf 1 2 3\nf 1 2\n"));
+        let soup = soup(&format!("{SQUARE}f 1 2 9\nf 0 1 2\nf -9 1 2\nf 1 2 3\nf 1 2\n"));
         assert_eq!(soup.corners.len(), 3);
-        assert_eq!(soup.defects.out_of_range_faces, 5);
+        assert_eq!(soup.defects.out_of_range_faces, 3);
         assert_eq!(soup.defects.degenerate_triangles, 1);
+    }
+
+    #[test]
+    fn faces_keep_their_corners_where_normals_and_texture_coordinates_are_not_there() {
+        let soup = soup(&format!("{SQUARE}vn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 1//2 2//1 3\nf 1/7 2 9/7\n"));
+        let corners: Vec<_> = soup.corners.iter().map(|own| [own.position, own.texture, own.normal]).collect();
+        let quad = [0, 1, 2, 3].map(|position| [position, NONE, 0]);
+        assert_eq!(corners, [&quad[..], &[[0, NONE, NONE], [1, NONE, 0], [2, NONE, NONE]]].concat());
+        let defects = &soup.defects;
+        assert_eq!(
+            [defects.unusable_normals, defects.unusable_texture_coordinates, defects.out_of_range_faces],
+            [1, 4, 1]
+        );
+        let mesh = soup.into_mesh("t.obj", &crate::LoadOptions::default()).unwrap();
+        assert_eq!(mesh.triangles.len(), 2, "the other repeats one of the square's");
+    }
+
+    #[test]
+    fn points_and_lines_are_said_whether_there_are_faces_or_not() {
+        let mut remarks = Vec::new();
+        let text = format!("{SQUARE}l 1 2\np 1\nl 1 2 3\n");
+        let read =
+            |text: &str, remarks: &mut _| read(text.as_bytes(), "t.obj", &Folder::of_files(&[]), remarks).unwrap();
+        read(&format!("{text}f 1 2 3\n"), &mut remarks);
+        assert_eq!(remarks, ["t.obj: not drawn: 3 statements of points or lines"]);
+        let error = read(&text, &mut Vec::new()).into_mesh("t.obj", &crate::LoadOptions::default()).unwrap_err();
+        assert!(error.to_string().contains("4 vertices and no faces but points or lines"), "{error}");
+    }
+
+    #[test]
+    fn negative_indices_count_from_where_they_stand() {
+        let soup = soup("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -3\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf -1 -2 -3\n");
+        let positions: Vec<u32> = soup.corners.iter().map(|corner| corner.position).collect();
+        assert_eq!(positions, [2, 1, 0, 5, 4, 3]);
+    }
+
+    #[test]
+    fn carriage_returns_alone_end_lines() {
+        let text = format!("{SQUARE}f 1 2 3\n").replace('\n', "\r");
+        assert_eq!(soup(&text).corners.len(), 3);
+        assert!(looks_like(b"# a model\rv 1 2 3\r"));
     }
 
     #[test]
@@ -372,29 +272,6 @@ mod tests {
         assert_eq!(soup.polygon_materials, [0, NONE]);
         assert_eq!(soup.materials[0].color, Some([1.0, 0.5, 0.0]));
         assert_eq!(soup.materials[0].texture, Some(PathBuf::from("skin.png")));
-    }
-
-    #[test]
-    fn texture_names_stand_behind_options_and_may_hold_blanks_and_backslashes() {
-        let names = [
-            ("skin.png", "skin.png"),
-            ("-s 1 1 1 skin.png", "skin.png"),
-            ("-s 2 skin.png", "skin.png"),
-            ("-o 0.5 0 my skin.png", "my skin.png"),
-            ("-blendu on -mm 0 1  -clamp off art\\my skin.png ", "art\\my skin.png"),
-            ("-t 1 2 3 4.png", "4.png"),
-            ("-s 1 1 1 2 faces.png", "2 faces.png"),
-            ("\"my skin.png\"", "my skin.png"),
-            ("-s 1 1 1", "1"),
-            ("-clamp", "-clamp"),
-        ];
-        for (statement, name) in names {
-            assert_eq!(texture_name(statement), name, "{statement}");
-            let text = format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1 2 3\n");
-            let mtl = sound_material_lines(format!("newmtl a\nmap_Kd\t{statement}\r\n").as_bytes(), 9).unwrap();
-            let soup = read(text.as_bytes(), "t.obj", &Folder::of_files(&[("t.mtl", &mtl)]), &mut Vec::new()).unwrap();
-            assert_eq!(soup.materials[0].texture, Some(PathBuf::from(name)));
-        }
     }
 
     #[test]

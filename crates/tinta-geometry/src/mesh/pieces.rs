@@ -23,6 +23,8 @@ pub(super) struct Pieces {
     pub too_long: usize,
     /// How many repeated another.
     pub duplicate: usize,
+    /// How many polygons named a corner twice in a row.
+    pub repeated_corners: usize,
 }
 
 impl Pieces {
@@ -33,7 +35,7 @@ impl Pieces {
         let pieces = in_parallel(count, threads_for(count), |polygons| {
             let mut pieces = Self::default();
             pieces.reserve(polygons.len(), soup);
-            let (mut earcut, mut cut, mut points) = (Earcut::new(), Vec::new(), Vec::new());
+            let (mut earcut, mut cut, mut points, mut once) = (Earcut::new(), Vec::new(), Vec::new(), Vec::new());
             for polygon in polygons {
                 let corners = match starts.as_slice() {
                     [] => &soup.corners[polygon * 3..][..3],
@@ -45,6 +47,21 @@ impl Pieces {
                 }
                 if let [a, b, c] = *corners {
                     pieces.push(soup, welded, [a, b, c], material);
+                    continue;
+                }
+                once.clear();
+                once.extend_from_slice(corners);
+                once.dedup_by_key(|corner| corner.position);
+                while once.len() > 1 && once.first().map(|own| own.position) == once.last().map(|own| own.position) {
+                    once.pop();
+                }
+                pieces.repeated_corners += usize::from(once.len() < corners.len());
+                let corners = once.as_slice();
+                if corners.len() <= 3 {
+                    match *corners {
+                        [a, b, c] => pieces.push(soup, welded, [a, b, c], material),
+                        _ => pieces.degenerate += 1,
+                    }
                     continue;
                 }
                 points.clear();
@@ -106,6 +123,7 @@ impl Pieces {
         self.texture_coordinates.append(&mut other.texture_coordinates);
         self.materials.append(&mut other.materials);
         self.degenerate += other.degenerate;
+        self.repeated_corners += other.repeated_corners;
     }
 
     /// Drops triangles that repeat an earlier one with the same orientation; the opposite side is another triangle.

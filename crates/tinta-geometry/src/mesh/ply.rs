@@ -1,20 +1,23 @@
-//! PLY, text and binary: vertices with normals and texture coordinates, polygon faces, triangle strips.
+//! PLY, text and binary: vertices with normals, colours and texture coordinates, polygon faces, triangle strips.
 //!
-//! `header.rs` reads the header, `payload.rs` what follows it.
+//! `header.rs` reads the header, `payload.rs` what follows it, `paint.rs` what faces have besides their corners.
 
 mod header;
+mod paint;
 mod payload;
 
 use super::NONE;
-use super::soup::{Corner, Soup, is_too_much};
+use super::soup::{Corner, Soup, direction, is_too_much};
 use crate::error::{Error, Result};
+use crate::files::shown;
 use crate::limits::PLY_HEADER_BYTES;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2};
 use header::{Element, Header, PropertyType, ScalarType};
+use paint::Paint;
 use payload::{Damage, Payload, Value};
 
-/// Reads a PLY file's bytes. `path` is for messages.
-pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
+/// Reads a PLY file's bytes. `path` is for messages; `remarks` gets a sentence for what is passed over.
+pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     if !bytes.starts_with(b"ply") {
         return Err(Error::model(
             path,
@@ -31,6 +34,9 @@ pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
         Error::model(path, format!("it is damaged or cut off ({cause}); export it again")).at(line)
     };
     let header = Header::read(head).map_err(|(line, cause)| damaged(Some(line), cause))?;
+    if let Some(line) = header.foreign {
+        remarks.push(format!("{path}: line {line} of its header is none of PLY and was passed over"));
+    }
     check_header(&header).map_err(|problem| Error::model(path, problem))?;
     let mut payload = Payload::new(&bytes[header.bytes..], header.encoding, header.lines);
     let mut contents = Contents::new(&header);
@@ -43,10 +49,27 @@ pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
             _ => (0..element.count).try_for_each(|_| payload.element(element, |_, _| {})),
         };
         read.map_err(|Damage(cause)| {
-            damaged(payload.line(), &format!("{cause} of the file's {} {name}", element.count))
+            damaged(payload.line(), &format!("{cause} of the file's {}", many(element.count, name)))
         })?;
     }
-    Ok(contents.soup)
+    let mut soup = contents.soup;
+    contents.paint.put_on(&mut soup);
+    let has_coordinates = soup.corners.iter().any(|corner| corner.texture != NONE);
+    if has_coordinates && soup.materials.is_empty() && soup.colors.is_empty() {
+        remarks.push(format!("{path}: it has texture coordinates but names no picture; --skin FILE puts one on"));
+    }
+    Ok(soup)
+}
+
+/// So many elements, in words.
+fn many(count: usize, name: &str) -> String {
+    let (one, several) = match name {
+        "vertex" => ("vertex", "vertices"),
+        "face" => ("face", "faces"),
+        "tristrips" => ("triangle strip", "triangle strips"),
+        _ => return format!("{count} elements {}", shown(name)),
+    };
+    format!("{count} {}", if count == 1 { one } else { several })
 }
 
 /// Refuses what would otherwise be misread or never end.
@@ -78,12 +101,13 @@ struct Contents {
     has_texture: bool,
     /// What a colour's full strength is in the file; `None` where vertices have no colours.
     full_color: Option<f64>,
+    paint: Paint,
 }
 
 /// What stands for a channel's full strength: in whole numbers the largest of its type, else 1; `None` without all three channels.
-fn full_color(vertex: &Element) -> Option<f64> {
+fn full_color(element: &Element) -> Option<f64> {
     let types = |names: [&str; 3]| -> Option<Vec<PropertyType>> {
-        let of = |name| vertex.properties.iter().find(|own| own.name == name).map(|own| own.data_type);
+        let of = |name| element.properties.iter().find(|own| own.name == name).map(|own| own.data_type);
         names.into_iter().map(of).collect()
     };
     let types = types(["red", "green", "blue"]).or_else(|| types(["diffuse_red", "diffuse_green", "diffuse_blue"]))?;
@@ -93,6 +117,12 @@ fn full_color(vertex: &Element) -> Option<f64> {
         PropertyType::Scalar(ScalarType::Float | ScalarType::Double) => Some(1.0),
         _ => None,
     }
+}
+
+/// A colour of the file as shares of its full strength.
+fn share(color: DVec3, full: f64) -> [f32; 3] {
+    let share = (color / full).clamp(DVec3::ZERO, DVec3::ONE);
+    if share.is_finite() { share.as_vec3().to_array() } else { [1.0; 3] }
 }
 
 impl Contents {
@@ -107,6 +137,7 @@ impl Contents {
                 .into_iter()
                 .any(|names| names.into_iter().all(has)),
             full_color: vertex.and_then(full_color),
+            paint: Paint::of(header),
         }
     }
 
@@ -117,7 +148,7 @@ impl Contents {
         self.soup.texture_coordinates.reserve_exact(if self.has_texture { count } else { 0 });
         self.soup.colors.reserve_exact(if self.full_color.is_some() { count } else { 0 });
         for _ in 0..element.count {
-            let (mut position, mut normal, mut texture) = (DVec3::ZERO, Vec3::ZERO, Vec2::ZERO);
+            let (mut position, mut normal, mut texture) = (DVec3::ZERO, DVec3::ZERO, Vec2::ZERO);
             let mut color = DVec3::ZERO;
             payload.element(element, |name, value| {
                 let Value::Scalar(number) = value else { return };
@@ -125,9 +156,9 @@ impl Contents {
                     "x" => position.x = number,
                     "y" => position.y = number,
                     "z" => position.z = number,
-                    "nx" => normal.x = number as f32,
-                    "ny" => normal.y = number as f32,
-                    "nz" => normal.z = number as f32,
+                    "nx" => normal.x = number,
+                    "ny" => normal.y = number,
+                    "nz" => normal.z = number,
                     "red" | "diffuse_red" => color.x = number,
                     "green" | "diffuse_green" => color.y = number,
                     "blue" | "diffuse_blue" => color.z = number,
@@ -138,12 +169,9 @@ impl Contents {
             })?;
             self.soup.positions.push(position);
             if self.has_normals {
-                self.soup.normals.push(normal);
+                self.soup.normals.push(direction(normal));
             }
-            if let Some(full) = self.full_color {
-                let share = (color / full).clamp(DVec3::ZERO, DVec3::ONE);
-                self.soup.colors.push(if share.is_finite() { share.as_vec3().to_array() } else { [1.0; 3] });
-            }
+            self.soup.colors.extend(self.full_color.map(|full| share(color, full)));
             if self.has_texture {
                 self.soup.texture_coordinates.push(texture);
             }
@@ -152,7 +180,7 @@ impl Contents {
     }
 
     fn faces(&mut self, payload: &mut Payload<'_>, element: &Element) -> std::result::Result<(), Damage> {
-        let Self { soup, vertices, has_normals, has_texture, .. } = self;
+        let Self { soup, vertices, has_normals, has_texture, paint, .. } = self;
         /// Corners for which there is room before a face is read.
         const LIST: usize = 1024;
         let with = |used: bool, index: u32| if used { index } else { NONE };
@@ -175,8 +203,10 @@ impl Contents {
         for _ in 0..element.count {
             let start = soup.corners.len();
             let mut is_in_range = true;
+            paint.begin();
             payload.element(element, |name, value| {
                 if !is_list(name) {
+                    paint.take(name, value);
                     return;
                 }
                 match value {
@@ -194,12 +224,13 @@ impl Contents {
                         soup.corners.push(Corner { position: index, normal, texture });
                     }
                     Value::Item(_) => is_in_range = false,
-                    Value::Scalar(_) => {}
+                    Value::Number(_) | Value::Scalar(_) => {}
                 }
             })?;
             let count = soup.corners.len() - start;
             if count >= 3 && is_in_range {
                 soup.polygon_sizes.push(count as u32);
+                paint.end(soup, start);
                 continue;
             }
             soup.corners.truncate(start);
@@ -273,220 +304,4 @@ impl Strip {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const HEADER: &str = "ply\nformat ascii 1.0\ncomment test\nelement vertex 4\nproperty float x\nproperty float y\n\
-        property double z\nelement face 2\nproperty list uchar int vertex_indices\nproperty uchar red\n\
-        element edge 1\nproperty int a\nend_header\n";
-
-    #[test]
-    fn a_text_file_with_polygons_and_foreign_elements_is_read() {
-        let text = format!("{HEADER}0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4 0 1 2 3 9\n3 0 1 7 9\n5\n");
-        let soup = read(text.as_bytes(), "t.ply").unwrap();
-        assert_eq!(soup.positions[2], DVec3::new(1.0, 1.0, 0.5));
-        assert_eq!(soup.polygon_sizes, [4]);
-        assert_eq!(soup.defects.out_of_range_faces, 1);
-    }
-
-    #[test]
-    fn triangles_read_at_once_are_those_read_one_by_one() {
-        // With a colour behind each face none are read at once.
-        let file = |faces: &[(u8, [i32; 3])], has_color: bool| {
-            let color = if has_color { "property uchar red\n" } else { "" };
-            let mut file = format!(
-                "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
-                 property float z\nproperty float s\nproperty float t\nelement face {}\n\
-                 property list uchar int vertex_indices\n{color}element other 1\nproperty uchar a\nend_header\n",
-                faces.len()
-            )
-            .into_bytes();
-            file.extend([0u8; 4 * 20]);
-            for (count, corners) in faces {
-                file.push(*count);
-                file.extend(corners[..usize::from(*count)].iter().flat_map(|corner| corner.to_le_bytes()));
-                file.extend(has_color.then_some(7));
-            }
-            file.push(1);
-            read(&file, "t.ply").unwrap()
-        };
-        for (faces, kept, wrong) in [
-            (&[(3, [0, 1, 2]), (3, [3, 2, 1])][..], 2, [0, 0]),
-            (&[(3, [0, 1, 2]), (3, [3, 2, 4]), (3, [1, 2, 3])], 2, [1, 0]),
-            (&[(3, [0, 1, -1]), (3, [3, 2, 1])], 1, [1, 0]),
-            (&[(3, [0, 1, 2]), (2, [3, 2, 0]), (3, [1, 2, 3])], 2, [0, 1]),
-        ] {
-            let [at_once, one_by_one] = [false, true].map(|has_color| {
-                let soup = file(faces, has_color);
-                let corners: Vec<_> = soup.corners.iter().map(|own| [own.position, own.normal, own.texture]).collect();
-                assert_eq!(soup.defects.out_of_range_faces, wrong[0]);
-                assert_eq!(soup.defects.degenerate_triangles, wrong[1]);
-                (corners, soup.polygon_count())
-            });
-            assert_eq!(at_once, one_by_one);
-            assert_eq!(at_once.1, kept);
-        }
-    }
-
-    #[test]
-    fn colours_at_vertices_are_shares_of_their_types_largest_number() {
-        for (kind, written, expected) in [
-            ("uchar", "255 51 0", [1.0, 0.2, 0.0]),
-            ("ushort", "65535 13107 0", [1.0, 0.2, 0.0]),
-            ("float", "1 0.2 -3", [1.0, 0.2, 0.0]),
-        ] {
-            let colors = ["red", "green", "blue"].map(|name| format!("property {kind} {name}\n")).concat();
-            let text = format!(
-                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n{colors}\
-                 element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 {written}\n1 0 0 {written}\n\
-                 0 1 0 {written}\n3 0 1 2\n"
-            );
-            let soup = read(text.as_bytes(), "t.ply").unwrap();
-            assert_eq!(soup.colors, [expected; 3], "{kind}");
-            let mesh = soup.into_mesh("t.ply", &crate::LoadOptions::default()).unwrap();
-            assert_eq!(mesh.position_colors, [expected; 3], "{kind}");
-        }
-        let without = format!("{HEADER}0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4 0 1 2 3 9\n3 0 1 7 9\n5\n");
-        assert!(read(without.as_bytes(), "t.ply").unwrap().colors.is_empty(), "a face's red is no vertex's");
-    }
-
-    #[test]
-    fn every_type_of_number_is_read_at_its_extremes_from_both_kinds_of_binary_file() {
-        /// A value with its bytes, little end first.
-        type Written = (f64, &'static [u8]);
-        // Of each type its largest and its smallest value.
-        let types: [(&str, Written, Written); 8] = [
-            ("char", (127.0, &[0x7f]), (-128.0, &[0x80])),
-            ("uchar", (255.0, &[0xff]), (0.0, &[0])),
-            ("short", (32_767.0, &[0xff, 0x7f]), (-32_768.0, &[0, 0x80])),
-            ("ushort", (65_535.0, &[0xff, 0xff]), (0.0, &[0, 0])),
-            ("int", (2_147_483_647.0, &[0xff, 0xff, 0xff, 0x7f]), (-2_147_483_648.0, &[0, 0, 0, 0x80])),
-            ("uint", (4_294_967_295.0, &[0xff; 4]), (0.0, &[0; 4])),
-            ("float", (1.5, &[0, 0, 0xc0, 0x3f]), (-1.5, &[0, 0, 0xc0, 0xbf])),
-            ("double", (1.5, &[0, 0, 0, 0, 0, 0, 0xf8, 0x3f]), (-1.5, &[0, 0, 0, 0, 0, 0, 0xf8, 0xbf])),
-        ];
-        for (name, (largest, largest_bytes), (smallest, smallest_bytes)) in types {
-            for (encoding, is_big) in [("binary_little_endian", false), ("binary_big_endian", true)] {
-                let mut file = format!(
-                    "ply\nformat {encoding} 1.0\nelement vertex 1\nproperty {name} x\nproperty {name} y\n\
-                     property {name} z\nend_header\n"
-                )
-                .into_bytes();
-                for bytes in [largest_bytes, smallest_bytes, largest_bytes] {
-                    let in_order: Vec<u8> = if is_big { bytes.iter().rev().copied().collect() } else { bytes.to_vec() };
-                    file.extend(in_order);
-                }
-                let soup = read(&file, "t.ply").unwrap();
-                assert_eq!(soup.positions, [DVec3::new(largest, smallest, largest)], "{name} in {encoding}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_cut_off_file_is_an_error_with_its_line() {
-        let message = read(format!("{HEADER}0 0 0\n1 0\n").as_bytes(), "t.ply").unwrap_err().to_string();
-        assert!(message.starts_with("t.ply: line 15: it is damaged or cut off"), "{message}");
-    }
-
-    #[test]
-    fn headers_that_cannot_be_a_model_are_refused_with_the_reason() {
-        let refused = |header: &str, reason: &str| {
-            let text = format!("ply\nformat ascii 1.0\n{header}end_header\n");
-            let message = read(text.as_bytes(), "t.ply").unwrap_err().to_string();
-            assert!(message.contains(reason), "{message}");
-            assert!(!message.contains('{'), "{message}");
-        };
-        let xyz = "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
-        refused("element vertex 1\nproperty float x\nproperty float y\n", "no x, y and z");
-        refused(&format!("{xyz}element face 1\nproperty int a\n"), "no list of vertex_indices");
-        refused(&format!("{xyz}element tristrips 1\nproperty int a\n"), "its triangle strips have no list");
-        refused("forma", "damaged");
-    }
-
-    #[test]
-    fn a_strip_turns_every_other_triangle_and_begins_anew_behind_a_negative_index() {
-        let triangles = |indices: &[i64]| {
-            let mut strip = Strip::default();
-            indices.iter().filter_map(|index| strip.triangle(*index)).collect::<Vec<_>>()
-        };
-        assert_eq!(triangles(&[4, 5, 6, 7, 8]), [[4, 5, 6], [6, 5, 7], [6, 7, 8]]);
-        assert_eq!(triangles(&[0, 1, 2, -1, 3, 4, 5, 6]), [[0, 1, 2], [3, 4, 5], [5, 4, 6]]);
-        assert!(triangles(&[0, 1, -1, 2, 3, -1]).is_empty());
-    }
-
-    #[test]
-    fn strips_are_the_faces_that_they_stand_for() {
-        // A field of 5 by 4 vertices, row by row: the first two rows as one strip, the others stitched to one.
-        let (columns, rows) = (5, 4);
-        let vertices: String = (0..columns * rows).map(|i| format!("{} {} 0\n", i % columns, i / columns)).collect();
-        let (mut faces, mut strip) = (Vec::new(), Vec::<String>::new());
-        for row in 0..rows - 1 {
-            for column in 0..columns {
-                let (below, above) = (row * columns + column, (row + 1) * columns + column);
-                if row == 2 && column == 0 {
-                    let last = strip.last().unwrap().clone();
-                    strip.extend([last, above.to_string()]);
-                }
-                strip.extend([above.to_string(), below.to_string()]);
-                if column > 0 {
-                    faces.push([above - 1, below - 1, above]);
-                    faces.push([above, below - 1, below]);
-                }
-            }
-            strip.extend((row == 0).then(|| "-1".to_owned()));
-        }
-        let head = "ply\nformat ascii 1.0\nelement vertex 20\nproperty float x\nproperty float y\nproperty float z\n";
-        let list = "property list int int vertex_indices\nend_header\n";
-        let of_faces: String = faces.iter().map(|[a, b, c]| format!("3 {a} {b} {c}\n")).collect();
-        let as_faces = format!("{head}element face {}\n{list}{vertices}{of_faces}", faces.len());
-        let as_strips = format!("{head}element tristrips 1\n{list}{vertices}{} {}\n", strip.len(), strip.join(" "));
-        let corners = |text: &str| {
-            let soup = read(text.as_bytes(), "t.ply").unwrap();
-            assert!(soup.polygon_sizes.iter().all(|size| *size == 3) && soup.defects.is_empty());
-            // The same way round, whichever corner comes first.
-            let mut triangles: Vec<[u32; 3]> = soup
-                .corners
-                .chunks(3)
-                .map(|corners| {
-                    let mut triangle = [corners[0].position, corners[1].position, corners[2].position];
-                    let least = (0..3).min_by_key(|place| triangle[*place]).unwrap();
-                    triangle.rotate_left(least);
-                    triangle
-                })
-                .collect();
-            triangles.sort_unstable();
-            triangles
-        };
-        assert_eq!(corners(&as_faces).len(), 24);
-        assert_eq!(corners(&as_strips), corners(&as_faces));
-        let (before, _) = as_strips.trim_end().rsplit_once(' ').unwrap();
-        assert_eq!(read(format!("{before} 20\n").as_bytes(), "t.ply").unwrap().defects.out_of_range_faces, 1);
-    }
-
-    #[test]
-    fn a_strip_of_more_triangles_than_its_bytes_are_worth_is_refused() {
-        let mut file = b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
-            property float z\nelement tristrips 1\nproperty list int uchar vertex_indices\nend_header\n"
-            .to_vec();
-        file.extend(
-            [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].as_flattened().iter().flat_map(|x| x.to_le_bytes()),
-        );
-        let count = 1_000_000;
-        file.extend(i32::to_le_bytes(count));
-        file.extend((0..count).map(|place| (place % 3) as u8));
-        let soup = read(&file, "t.ply").unwrap();
-        assert!(soup.polygon_sizes.len() < count as usize, "no more is kept than shows that it is too much");
-        let message = soup.check_memory(file.len(), "t.ply").unwrap_err().to_string();
-        assert!(message.contains("times the file's size in memory"), "{message}");
-    }
-
-    #[test]
-    fn a_header_that_promises_billions_is_refused_without_the_memory() {
-        let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n\
-            property float z\nend_header\nabc";
-        assert!(read(text.as_bytes(), "t.ply").is_err());
-        let text = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nend_header\n";
-        let message = read(text.as_bytes(), "t.ply").unwrap_err().to_string();
-        assert!(message.contains("element without properties"), "{message}");
-    }
-}
+mod tests;

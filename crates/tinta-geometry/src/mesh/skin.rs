@@ -32,6 +32,46 @@ pub(super) fn find(folder: &Folder<'_>, name: &str) -> Found {
     best
 }
 
+/// A sentence where a picture that was found beside a model stands for one of another folder: one that is there, or that a name
+/// reaches by `..`. Any other name may be where its author's disk had the model.
+pub(super) fn stand_in(folder: &Folder<'_>, name: &str, found: &Path, is_outside: bool) -> Option<String> {
+    let slashes = name.replace('\\', "/");
+    if !is_outside && slashes.split('/').all(|part| part != "..") {
+        return None;
+    }
+    let mut folders: Vec<&str> = Vec::new();
+    for part in slashes.split('/').filter(|part| !part.is_empty() && *part != ".") {
+        if part == ".." {
+            folders.pop();
+        } else {
+            folders.push(part);
+        }
+    }
+    folders.pop();
+    let (named, own) = (folders.last()?, folder.name_of_parent(found)?);
+    if named.eq_ignore_ascii_case(&own) {
+        return None;
+    }
+    let why =
+        if is_outside { "which is outside its folder; --allow-external reads that" } else { "which was not found" };
+    let base = found.file_name()?.to_string_lossy();
+    Some(format!("{} beside it stands for {}, {why}", shown(&base), shown(name)))
+}
+
+/// Pictures in a model's folder that may be its skin, a few of them: those that begin like it, and all PCX files.
+pub(super) fn lying_there(folder: &Folder<'_>, stem: &str) -> Vec<String> {
+    const MOST: usize = 3;
+    let stem = stem.to_lowercase();
+    let may_be = |name: &&String| {
+        let name = name.to_lowercase();
+        let extension = Path::new(&name).extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        EXTENSIONS.contains(&extension) && (name.starts_with(&stem) || extension == EXTENSIONS[0])
+    };
+    let mut names: Vec<&String> = folder.names().iter().filter(may_be).collect();
+    names.sort_unstable_by_key(|name| (!name.to_lowercase().starts_with(&stem), name.as_str()));
+    names.into_iter().take(MOST).map(|name| shown(name)).collect()
+}
+
 /// The picture of this name in a folder, in any case, or else the first with its stem and an extension of a picture.
 fn beside(folder: &Folder<'_>, base: &str) -> Found {
     let Some(stem) = Path::new(base).file_stem().and_then(|stem| stem.to_str()) else { return Found::Nowhere };
@@ -69,8 +109,8 @@ pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks
         let found = known.entry(name).or_insert_with_key(|name| {
             let name = name.to_string_lossy();
             let found = find(folder, &name);
-            match found {
-                Found::Here(_) => {}
+            match &found {
+                Found::Here(place) => lost.extend(stand_in(folder, &name, place, false)),
                 Found::Outside => lost.push(outside("picture", &name)),
                 Found::Nowhere => lost.push(format!(
                     "the picture {} is not beside it; its faces get the material's colour; --skin names another \
@@ -127,19 +167,14 @@ pub(super) fn put_on(soup: &mut Soup, skin: &Path, path: &str) -> Result<()> {
     }
     for material in &mut soup.materials {
         // Whoever names it himself may have it anywhere.
-        (material.texture, material.texture_within, material.embedded) = (Some(skin.to_path_buf()), None, None);
+        let Material { name, color, .. } = std::mem::take(material);
+        *material = Material { name, color, texture: Some(skin.to_path_buf()), ..Material::default() };
     }
     soup.polygon_materials.resize(soup.polygon_count(), NONE);
     if soup.polygon_materials.contains(&NONE) {
         let added = soup.materials.len() as u32;
         let texture = Some(skin.to_path_buf());
-        soup.materials.push(Material {
-            name: "skin".to_owned(),
-            color: None,
-            texture,
-            texture_within: None,
-            embedded: None,
-        });
+        soup.materials.push(Material { name: "skin".to_owned(), color: None, texture, ..Material::default() });
         soup.polygon_materials.iter_mut().filter(|material| **material == NONE).for_each(|material| *material = added);
     }
     Ok(())
@@ -203,13 +238,7 @@ mod tests {
     #[test]
     fn a_skin_goes_onto_all_materials_and_faces_without_one_get_one() {
         let corner = |position| Corner { texture: 0, ..Corner::at(position) };
-        let material = Material {
-            name: "red".to_owned(),
-            color: Some([1.0, 0.0, 0.0]),
-            texture: None,
-            texture_within: None,
-            embedded: None,
-        };
+        let material = Material { name: "red".to_owned(), color: Some([1.0, 0.0, 0.0]), ..Material::default() };
         let mut soup = Soup {
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
             texture_coordinates: vec![Vec2::ZERO],

@@ -38,12 +38,27 @@ pub(super) struct Soup {
     pub frames: Vec<String>,
     /// What the reader already found.
     pub defects: Defects,
+    /// Points and lines of the file, which are not drawn.
+    pub points_and_lines: usize,
     /// Whether nothing says which axis of it is up.
     pub may_lie: bool,
     /// The files that were read besides the model's own: its material libraries, its data.
     pub files: Vec<PathBuf>,
     /// Bytes of those that hold vertices and faces.
     pub bytes_beside: usize,
+}
+
+/// A normal of a file, of any length, as one whose length f32 can square: scaled by a power of two, so that nothing is
+/// rounded. What has no direction stays so.
+pub(super) fn direction(file: DVec3) -> Vec3 {
+    let largest = file.abs().max_element();
+    if !(file.is_finite() && largest > 0.0) {
+        return file.as_vec3();
+    }
+    let power = largest.log2().floor();
+    // In two halves, since the whole may be beyond what f64 holds.
+    let half = (-power / 2.0).floor();
+    (file * half.exp2() * (-power - half).exp2()).as_vec3()
 }
 
 /// One corner of a polygon: indices into the soup's arrays, [`NONE`] where it has none.
@@ -137,12 +152,14 @@ impl Soup {
         let mut defects = std::mem::take(&mut self.defects);
         defects.non_finite_vertices += finite.iter().filter(|finite| !**finite).count();
 
+        self.drop_unusable(&mut defects);
         let used = self.used(&finite);
         let welded = self.welded(&used, options.weld, name)?;
         let mut pieces = Pieces::of(&self, &finite, &welded);
         pieces.drop_duplicates(self.positions.len());
         defects.degenerate_triangles += pieces.degenerate;
         defects.long_polygons += pieces.too_long;
+        defects.repeated_corners += pieces.repeated_corners;
         defects.duplicate_triangles += pieces.duplicate;
         if pieces.triangles.is_empty() {
             return Err(nothing_to_draw(name, &self, &defects));
@@ -204,6 +221,27 @@ impl Soup {
         }
         let diagonal = if low.cmple(high).all() { (high - low).length() } else { 0.0 };
         Ok(weld::weld(&points, tolerance * diagonal))
+    }
+
+    /// Takes normals without a direction and texture coordinates that are not finite from the corners that have them.
+    fn drop_unusable(&mut self, defects: &mut Defects) {
+        let has_direction = |normal: &Vec3| normal.is_finite() && *normal != Vec3::ZERO;
+        if !self.normals.iter().all(has_direction) {
+            for corner in &mut self.corners {
+                if self.normals.get(corner.normal as usize).is_some_and(|normal| !has_direction(normal)) {
+                    corner.normal = NONE;
+                    defects.unusable_normals += 1;
+                }
+            }
+        }
+        if !self.texture_coordinates.iter().all(|pair| pair.is_finite()) {
+            for corner in &mut self.corners {
+                if self.texture_coordinates.get(corner.texture as usize).is_some_and(|pair| !pair.is_finite()) {
+                    corner.texture = NONE;
+                    defects.unusable_texture_coordinates += 1;
+                }
+            }
+        }
     }
 
     /// Which vertices are finite and named by a polygon.
@@ -295,174 +333,40 @@ impl Mesh {
 }
 
 fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
-    let problem = if soup.positions.is_empty() && soup.corners.is_empty() {
-        "it holds no vertices and no faces; is it the right file?".to_owned()
-    } else if soup.corners.is_empty() && defects.is_empty() {
-        format!("it holds {} vertices but no faces; export it with its faces", soup.positions.len())
-    } else {
-        let wanted = match defects.long_polygons {
-            0 => "faces that have area".to_owned(),
-            _ => format!(
-                "its faces cut into triangles, for one that is not convex may have {CONCAVE_CORNERS} corners, and \
-                 {CROSSING_CORNERS} if it crosses itself"
-            ),
+    // What else may be wrong is not why no face is left.
+    let of_faces = Defects {
+        unused_vertices: 0,
+        missing_materials: 0,
+        unusable_normals: 0,
+        unusable_texture_coordinates: 0,
+        ..defects.clone()
+    };
+    let others = match soup.points_and_lines {
+        0 => "",
+        _ => " but points or lines, which are not drawn",
+    };
+    let problem = if !of_faces.is_empty() {
+        let wanted = if defects.long_polygons > 0 {
+            format!(
+                "its faces cut into triangles, for one that is not convex may have {CONCAVE_CORNERS} corners, and                  {CROSSING_CORNERS} if it crosses itself"
+            )
+        } else if defects.degenerate_triangles > 0 {
+            "faces that have area".to_owned()
+        } else {
+            "faces whose vertices it holds, all of them finite".to_owned()
         };
-        format!("nothing is left to draw ({defects}); export it again with {wanted}")
+        format!("nothing is left to draw ({of_faces}){others}; export it again with {wanted}")
+    } else if soup.positions.is_empty() && others.is_empty() {
+        "it holds no vertices and no faces; is it the right file?".to_owned()
+    } else if soup.positions.is_empty() {
+        format!("it holds no faces{others}; export it with its faces")
+    } else {
+        let vertices = if soup.positions.len() == 1 { "vertex" } else { "vertices" };
+        let joined = if others.is_empty() { "but" } else { "and" };
+        format!("it holds {} {vertices} {joined} no faces{others}; export it with its faces", soup.positions.len())
     };
     Error::model(name, problem)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::UpAxis;
-
-    #[test]
-    fn a_mesh_that_memory_does_not_hold_is_refused_before_it_is_made() {
-        // 10 million triangles take 0.6 GiB beside the soup.
-        let check = |free| check_free(5_000_000, 30_000_000, 10_000_000, free, "a.obj");
-        let message = check(Some(500 << 20)).unwrap_err().to_string();
-        let sentence =
-            "a.obj: it takes 0.6 GiB of memory, and 0.5 GiB are free; close other programs, or make it smaller";
-        assert_eq!(message, sentence);
-        assert!(check(Some(800 << 20)).is_ok() && check(None).is_ok());
-        assert!(check_free(4, 12, 4, Some(0), "a.obj").is_ok(), "what is little is not looked at");
-    }
-
-    fn square() -> Soup {
-        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
-        let corners = (0..4).map(Corner::at).collect();
-        Soup { positions, corners, polygon_sizes: vec![4], ..Soup::default() }
-    }
-
-    fn mesh(soup: Soup) -> Mesh {
-        soup.into_mesh("test", &LoadOptions::default()).unwrap()
-    }
-
-    #[test]
-    fn a_square_becomes_two_triangles_over_four_positions() {
-        let mesh = mesh(square());
-        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
-        assert_eq!(mesh.normals, [Vec3::Z; 4]);
-        assert!(mesh.defects.is_empty());
-    }
-
-    #[test]
-    fn defects_are_counted_and_left_out() {
-        let mut soup = square();
-        soup.positions.extend([DVec3::splat(9.0), DVec3::new(f64::NAN, 0.0, 0.0), DVec3::X * 2.0]);
-        let mut face = |indices: &[u32]| {
-            soup.corners.extend(indices.iter().map(|index| Corner::at(*index)));
-            soup.polygon_sizes.push(indices.len() as u32);
-        };
-        face(&[1, 2, 0]); // repeats half of the square, turned
-        face(&[2, 1, 0]); // its other side
-        face(&[0, 1, 1]);
-        face(&[0, 1, 6]); // on one line
-        face(&[0, 1, 5]); // not finite
-        let mesh = mesh(soup);
-        assert_eq!(mesh.triangles.len(), 3);
-        let expected = Defects {
-            degenerate_triangles: 2,
-            duplicate_triangles: 1,
-            non_finite_vertices: 1,
-            unused_vertices: 1,
-            ..Defects::default()
-        };
-        assert_eq!(mesh.defects, expected);
-        assert_eq!(mesh.file_vertices, [0, 1, 2, 3]);
-    }
-
-    #[test]
-    fn strict_makes_a_defect_an_error_that_counts_it() {
-        let mut soup = square();
-        soup.positions.push(DVec3::splat(9.0));
-        let error = soup.into_mesh("a.obj", &LoadOptions { strict: true, ..LoadOptions::default() }).unwrap_err();
-        assert!(error.to_string().starts_with("a.obj: 1 unused vertex;"), "{error}");
-    }
-
-    #[test]
-    fn a_tiny_triangle_has_area_and_a_huge_one_too() {
-        for size in [1e-160, 1e-30, 1.0, 1e30, 1e59] {
-            let positions = [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p * size).to_vec();
-            let soup = Soup { positions, corners: (0..3).map(Corner::at).collect(), ..Soup::default() };
-            assert_eq!(mesh(soup).normals, [Vec3::Z; 3], "size {size}");
-        }
-    }
-
-    #[test]
-    fn a_stray_vertex_does_not_weld_a_far_away_model_together() {
-        let mut soup = square();
-        soup.positions.iter_mut().for_each(|position| *position += DVec3::new(5e5, 4.6e6, 0.0));
-        soup.positions.push(DVec3::ZERO);
-        let mesh = mesh(soup);
-        assert_eq!((mesh.triangles.len(), mesh.defects.unused_vertices), (2, 1));
-    }
-
-    #[test]
-    fn needles_have_unit_normals_and_coordinates_beyond_reason_are_refused() {
-        let soup = |points: [DVec3; 3]| Soup {
-            positions: points.to_vec(),
-            corners: (0..3).map(Corner::at).collect(),
-            ..Soup::default()
-        };
-        let needle = mesh(soup([DVec3::ZERO, DVec3::X, DVec3::new(0.5, 1e-200, 0.0)]));
-        assert_eq!(needle.normals, [Vec3::Z; 3]);
-        let huge = soup([DVec3::ZERO, DVec3::X * 1e200, DVec3::Y]);
-        let message = huge.into_mesh("huge.obj", &LoadOptions::default()).unwrap_err().to_string();
-        assert!(message.starts_with("huge.obj: its coordinates reach beyond"), "{message}");
-    }
-
-    #[test]
-    fn by_the_articles_rule_there_is_one_normal_a_vertex_whatever_the_file_says() {
-        let options = LoadOptions { normals: Normals::Dachsbacher, ..LoadOptions::default() };
-        let mut soup = square();
-        soup.normals = vec![Vec3::X];
-        soup.corners.iter_mut().for_each(|corner| corner.normal = 0);
-        // A wall along one side, its two corners given again, and a face without area.
-        soup.positions.extend([DVec3::ZERO, DVec3::Y, DVec3::Z]);
-        soup.corners.extend([4, 5, 6, 0, 1, 1].map(Corner::at));
-        soup.polygon_sizes.extend([3, 3]);
-        let mesh = soup.into_mesh("test", &options).unwrap();
-        assert_eq!((mesh.positions.len(), mesh.normals.len()), (5, 5));
-        assert_eq!(mesh.triangle_normals, mesh.triangles);
-        assert_eq!((mesh.defects.degenerate_triangles, mesh.normals[1]), (1, Vec3::Z));
-        // The square is cut from the first corner, so that two of its triangles meet the wall's there, and one at the other.
-        assert!(mesh.normals[0].distance(Vec3::new(1.0, 0.0, 2.0).normalize()) < 1e-6, "{}", mesh.normals[0]);
-        assert!(mesh.normals[3].distance(Vec3::new(1.0, 0.0, 1.0).normalize()) < 1e-6, "{}", mesh.normals[3]);
-    }
-
-    #[test]
-    fn a_model_that_is_z_up_is_turned_to_stand_with_its_front_towards_z() {
-        let options = LoadOptions { up_axis: UpAxis::Z, ..LoadOptions::default() };
-        let mut soup = square();
-        soup.normals = vec![Vec3::Z];
-        soup.corners.iter_mut().for_each(|corner| corner.normal = 0);
-        let mesh = soup.into_mesh("test", &options).unwrap();
-        assert_eq!(mesh.normals, [Vec3::Y]);
-        assert_eq!(mesh.positions[3], DVec3::NEG_Z, "the model's back, +y, is away from the front view");
-    }
-
-    #[test]
-    fn normals_that_only_repeat_the_faces_are_computed_where_creases_are_to_last() {
-        // Two triangles that meet at 20 degrees, each with its own normal in the file; then with one that leans.
-        let tilt = 20f64.to_radians();
-        let normals = [DVec3::Z, DVec3::new(tilt.sin(), 0.0, tilt.cos())].map(|normal| normal.as_vec3());
-        let shared = |normals: [Vec3; 2]| {
-            let mut soup = Soup {
-                positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(-tilt.cos(), 0.0, tilt.sin())],
-                normals: normals.to_vec(),
-                ..Soup::default()
-            };
-            for (normal, face) in [[0, 1, 2], [0, 2, 3]].into_iter().enumerate() {
-                let corner = |position| Corner { normal: normal as u32, ..Corner::at(position) };
-                soup.corners.extend(face.map(corner));
-            }
-            let options = LoadOptions { normals: Normals::Lasting, ..LoadOptions::default() };
-            let mesh = soup.into_mesh("test", &options).unwrap();
-            mesh.triangle_normals[0][0] == mesh.triangle_normals[1][0]
-        };
-        assert!(shared(normals), "computed, smooth at 20 degrees");
-        assert!(!shared([Vec3::Z, Vec3::new(0.5, 0.0, 1.0)]), "the file's own");
-    }
-}
+mod tests;

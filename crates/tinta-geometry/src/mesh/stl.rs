@@ -1,15 +1,15 @@
-//! STL: text through the stl_io crate, binary here, where the crate would want a copy of the file.
+//! STL, text and binary.
 //!
-//! The file's facet normals are not used: the corners' order says the same and is what edges are found by.
+//! The file's facet normals are not used: the corners' order says the same and is what edges are found by. Of a text only the
+//! vertices and where facets end count, so that what programs write around them does no harm: capitals, blanks before
+//! `solid`, `end loop` for `endloop`, a name or none.
 
 use super::soup::{Corner, Soup};
+use super::text;
 use crate::bytes::Bytes;
 use crate::error::{Error, Result};
-use crate::files::shown;
-use crate::limits::STL_LINE_BYTES;
 use crate::threads::{listed, threads_for};
 use glam::DVec3;
-use std::io::Cursor;
 
 const HEADER_BYTES: usize = 84;
 const FACET_BYTES: usize = 50;
@@ -21,8 +21,11 @@ pub(super) fn is_binary(bytes: &[u8]) -> bool {
 
 /// Whether the beginning of a file reads like text STL.
 pub(super) fn is_text(head: &[u8]) -> bool {
-    head.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !head.contains(&0)
+    head.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !head.contains(&0)
 }
+
+const NO_VERTEX: &str = "a vertex is not three numbers; correct this line or export the model again";
+const NO_TRIANGLE: &str = "the facet before it does not have three vertices; correct it or export the model again";
 
 fn facet_count(bytes: &[u8]) -> Option<usize> {
     let field = bytes.get(80..HEADER_BYTES)?;
@@ -34,32 +37,59 @@ fn whole_length(bytes: &[u8]) -> Option<u64> {
     Some(HEADER_BYTES as u64 + facet_count(bytes)? as u64 * FACET_BYTES as u64)
 }
 
-/// Reads an STL file's bytes. `path` is for messages.
-pub(super) fn read(bytes: &[u8], path: &str) -> Result<Soup> {
-    let damaged = |error: std::io::Error| {
-        Error::model(path, format!("it is damaged ({}); export it again", shown(&error.to_string())))
-    };
-    let mut non_finite = Vec::new();
+/// Reads an STL file's bytes. `path` is for messages; `remarks` gets a sentence where a text has no end.
+pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     // Some programs leave a few bytes behind the last facet.
     let holds_all = whole_length(bytes).is_some_and(|length| bytes.len() as u64 >= length);
-    let text = is_text(&bytes[..bytes.len().min(4096)]);
-    if is_binary(bytes) || (holds_all && !text) {
+    let is_text = is_text(&bytes[..bytes.len().min(4096)]);
+    if is_binary(bytes) || (holds_all && !is_text) {
         return Ok(binary(bytes));
     }
-    if !text {
+    if !is_text {
         return Err(Error::model(path, truncated(bytes)));
     }
-    let whole = one_solid(&String::from_utf8_lossy(bytes), path, &mut non_finite)?.into_bytes();
-    let mut cursor = Cursor::new(whole);
+    let bytes = text::with_newlines(bytes);
+    let (soup, has_end) = facets(&bytes).map_err(|(line, problem)| Error::model(path, problem).at(line))?;
+    if !has_end {
+        remarks.push(format!("{path}: it does not end with endsolid; the file may be cut off"));
+    }
+    Ok(soup)
+}
+
+/// All facets of a text, whatever solid they belong to, and whether the last solid ends; else the line at fault, and a sentence.
+fn facets(text: &[u8]) -> std::result::Result<(Soup, bool), (Option<u64>, &'static str)> {
     let mut soup = Soup::default();
-    for facet in stl_io::create_stl_reader(&mut cursor).map_err(damaged)? {
-        for vertex in facet.map_err(damaged)?.vertices {
-            soup.corners.push(Corner::at(soup.positions.len() as u32));
-            soup.positions.push(DVec3::from_array(vertex.0.map(f64::from)));
+    let (mut is_in_solid, mut is_in_facet) = (false, false);
+    for (number, line) in (1..).zip(text.split(|byte| *byte == b'\n')) {
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let keyword = words.next().unwrap_or_default().to_ascii_lowercase();
+        let ended =
+            if keyword == b"end" { words.clone().next().unwrap_or_default().to_ascii_lowercase() } else { vec![] };
+        match (keyword.as_slice(), ended.as_slice()) {
+            (b"vertex", _) => {
+                let mut coordinate = || std::str::from_utf8(words.next()?).ok()?.parse::<f32>().ok().map(f64::from);
+                let (Some(x), Some(y), Some(z)) = (coordinate(), coordinate(), coordinate()) else {
+                    return Err((Some(number), NO_VERTEX));
+                };
+                soup.corners.push(Corner::at(soup.positions.len() as u32));
+                soup.positions.push(DVec3::new(x, y, z));
+            }
+            (b"facet" | b"endfacet" | b"endsolid", _) | (_, b"facet" | b"solid")
+                if !soup.positions.len().is_multiple_of(3) =>
+            {
+                return Err((Some(number), NO_TRIANGLE));
+            }
+            (b"solid", _) => is_in_solid = true,
+            (b"facet", _) => is_in_facet = true,
+            (b"endfacet", _) | (_, b"facet") => is_in_facet = false,
+            (b"endsolid", _) | (_, b"solid") => is_in_solid = false,
+            _ => {}
         }
     }
-    non_finite.into_iter().for_each(|index: usize| soup.positions[index] = DVec3::NAN);
-    Ok(soup)
+    match is_in_facet && is_in_solid {
+        false => Ok((soup, !is_in_solid)),
+        true => Err((None, "it ends within a facet; it is damaged or cut off, export it again")),
+    }
 }
 
 /// A binary file's facets, which are all there.
@@ -80,46 +110,6 @@ fn binary(bytes: &[u8]) -> Soup {
         Some(())
     });
     Soup { positions: positions.unwrap_or_default(), corners: corners.unwrap_or_default(), ..Soup::default() }
-}
-
-/// Text STL the way stl_io wants it: one named solid without facet normals, and without numbers that are not finite, whose
-/// vertices are noted instead. stl_io reads the first solid of a file only and stops at the first normal that is not one.
-fn one_solid(text: &str, path: &str, non_finite: &mut Vec<usize>) -> Result<String> {
-    let mut whole = "solid x\n".to_owned();
-    let mut vertex_count = 0;
-    let mut last = "";
-    let lower = text.to_ascii_lowercase();
-    for (number, line) in (1..).zip(lower.lines()).map(|(number, line)| (number, line.trim())) {
-        if line.is_empty() {
-            continue;
-        }
-        let mut words = line.split_whitespace();
-        last = words.next().unwrap_or_default();
-        match last {
-            "solid" | "endsolid" => continue,
-            "facet" => whole.push_str("facet normal 0 0 0"),
-            "vertex" if words.by_ref().filter_map(|word| word.parse::<f32>().ok()).any(|x| !x.is_finite()) => {
-                non_finite.push(vertex_count);
-                whole.push_str("vertex 0 0 0");
-            }
-            // stl_io makes a text of every word.
-            _ if line.len() > STL_LINE_BYTES => {
-                return Err(Error::model(
-                    path,
-                    "it is longer than any line of an STL file; the file is damaged, export it again",
-                )
-                .at(Some(number)));
-            }
-            _ => whole.push_str(line),
-        }
-        vertex_count += usize::from(last == "vertex");
-        whole.push('\n');
-    }
-    if last != "endsolid" {
-        return Err(Error::model(path, "it does not end with endsolid; it is damaged or cut off, export it again"));
-    }
-    whole.push_str("endsolid x\n");
-    Ok(whole)
 }
 
 fn truncated(bytes: &[u8]) -> String {
@@ -154,7 +144,7 @@ mod tests {
     #[test]
     fn binary_files_are_read_also_when_their_header_begins_with_solid() {
         for header in [b"made by a test".as_slice(), b"solid but binary"] {
-            let soup = read(&binary(header, &[TRIANGLE; 2]), "t.stl").unwrap();
+            let soup = read(&binary(header, &[TRIANGLE; 2]), "t.stl", &mut Vec::new()).unwrap();
             assert_eq!(soup.positions.len(), 6);
             assert_eq!(soup.positions[5], DVec3::new(0.0, 1.0, 0.5));
         }
@@ -166,7 +156,7 @@ mod tests {
             let text = format!(
                 "SOLID{name}\nFacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid\n"
             );
-            let soup = read(text.as_bytes(), "t.stl").unwrap();
+            let soup = read(text.as_bytes(), "t.stl", &mut Vec::new()).unwrap();
             assert_eq!(soup.positions[2], DVec3::new(0.0, 1.0, 0.5));
         }
     }
@@ -178,28 +168,62 @@ mod tests {
                 "solid a\nfacet normal nan nan nan\nouter loop\nvertex {x} 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"
             )
         };
-        let soup = read((solid("2") + &solid("inf")).as_bytes(), "t.stl").unwrap();
+        let soup = read((solid("2") + &solid("inf")).as_bytes(), "t.stl", &mut Vec::new()).unwrap();
         assert_eq!(soup.positions.len(), 6);
         assert_eq!(soup.positions[0].x, 2.0);
-        assert!(soup.positions[3].is_nan());
+        assert!(!soup.positions[3].is_finite());
+    }
+
+    /// A text's positions and what is remarked about it.
+    fn of_text(text: &str) -> std::result::Result<(usize, usize), String> {
+        let mut remarks = Vec::new();
+        let soup = read(text.as_bytes(), "t.stl", &mut remarks).map_err(|error| error.to_string())?;
+        Ok((soup.corners.len(), remarks.len()))
+    }
+
+    const FACET: &str = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n";
+
+    #[test]
+    fn what_programs_write_around_the_facets_does_no_harm() {
+        let apart = FACET.replace("endloop", "end loop").replace("endfacet", "END facet");
+        for text in [
+            format!("solid x\n{FACET}endsolid x\n"),
+            format!(" solid\n{FACET}endsolid\n"),
+            format!("\n\t\nsolid x\n{FACET}\n  \nendsolid"),
+            format!("solid x\n{FACET}end solid x\n"),
+            format!("solid x\n{apart}endsolid x\n"),
+            format!("solid x\ncolor 1 0 0\n{FACET}endsolid x\n"),
+            format!("solid {}\n{FACET}endsolid\n", "x".repeat(3000)),
+            format!("solid x\n{FACET}endsolid x\n").replace('\n', "\r"),
+            format!("solid x\n{FACET}endsolid x\n").replace('\n', "\r\n"),
+        ] {
+            assert_eq!(of_text(&text), Ok((3, 0)), "{text}");
+        }
+        let no_end = format!("solid x\n{FACET}");
+        assert_eq!(of_text(&no_end), Ok((3, 1)), "a remark, for all of its facets are whole");
     }
 
     #[test]
-    fn lines_without_end_are_refused_by_number_and_not_quoted_without_end() {
-        let facet = format!("solid x\nsolidfacet {}\nendsolid x\n", "\u{4} ".repeat(400));
-        let message = read(facet.as_bytes(), "t.stl").unwrap_err().to_string();
-        assert!(message.starts_with("t.stl: it is damaged (") && message.len() < 1000, "{message}");
-        let vertex = format!("solid x\nfacet normal 0 0 1\nouter loop\nvertex{}\nendsolid x\n", " 0".repeat(1_000_000));
-        let message = read(vertex.as_bytes(), "t.stl").unwrap_err().to_string();
-        assert!(message.starts_with("t.stl: line 4: it is longer than any line"), "{message}");
+    fn a_text_that_ends_within_a_facet_or_has_one_of_other_corners_is_refused() {
+        let corner = "vertex 0 0 0\n";
+        for (text, sentence) in [
+            ("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0", "line 4: a vertex is not three numbers"),
+            ("solid x\nfacet normal 0 0 1\nouter loop\n", "it ends within a facet"),
+            (&format!("solid x\nfacet\n{corner}{corner}endfacet\nendsolid x\n"), "line 5: the facet before it"),
+            (&format!("solid x\nfacet\n{}endfacet\nendsolid x\n", corner.repeat(4)), "line 7: the facet before it"),
+            (&format!("solid x\nfacet\n{}", corner.repeat(3)), "it ends within a facet"),
+            ("solid x\nfacet\nvertex 0 0 x\n", "line 3: a vertex is not three numbers"),
+        ] {
+            let message = of_text(text).unwrap_err();
+            assert!(message.starts_with("t.stl: ") && message.contains(sentence), "{message}");
+        }
     }
 
     #[test]
     fn a_cut_off_file_is_refused_with_both_sizes() {
         let mut bytes = binary(b"x", &[TRIANGLE; 2]);
         bytes.truncate(150);
-        let message = read(&bytes, "t.stl").unwrap_err().to_string();
+        let message = read(&bytes, "t.stl", &mut Vec::new()).unwrap_err().to_string();
         assert!(message.contains("promises 2 triangles in 184 bytes but the file has 150"), "{message}");
-        assert!(read(b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0", "t.stl").is_err());
     }
 }

@@ -13,7 +13,7 @@ use crate::bytes::Bytes;
 use crate::error::{Error, Result};
 use crate::limits::MATERIALS;
 use glam::{DVec3, Vec2};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::PathBuf;
 
 /// The chunks that are looked into; all others are passed over.
@@ -22,6 +22,8 @@ mod chunk {
     pub(super) const VERSION: u16 = 0x0002;
     pub(super) const EDITOR: u16 = 0x3d3d;
     pub(super) const KEYFRAMER: u16 = 0xb000;
+    pub(super) const OBJECT_NODE: u16 = 0xb002;
+    pub(super) const NODE_HEADER: u16 = 0xb010;
     pub(super) const OBJECT: u16 = 0x4000;
     pub(super) const MESH: u16 = 0x4100;
     pub(super) const VERTICES: u16 = 0x4110;
@@ -77,6 +79,10 @@ struct Contents {
     soup: Soup,
     /// For each face the place of its material's name in `material_names`, or [`NONE`].
     face_materials: Vec<u32>,
+    /// The names of the objects that are meshes.
+    meshes: BTreeSet<String>,
+    /// How often the animation places each object.
+    places: BTreeMap<String, usize>,
     /// The names that faces use, as they come; a name may come more than once.
     material_names: Vec<String>,
 }
@@ -127,11 +133,25 @@ impl Contents {
     fn main(&mut self, bytes: Bytes<'_>) -> std::result::Result<(), Damage> {
         for item in chunks(bytes) {
             let (number, data) = item?;
-            if number == chunk::EDITOR {
-                self.editor(data)?;
+            match number {
+                chunk::EDITOR => self.editor(data)?,
+                chunk::KEYFRAMER => self.keyframer(data),
+                _ => {}
             }
         }
         Ok(())
+    }
+
+    /// Counts where the animation places objects; what is damaged of it harms nothing that is drawn.
+    fn keyframer(&mut self, bytes: Bytes<'_>) {
+        let parts = |bytes, kind| chunks(bytes).map_while(|item| item.ok()).filter(move |(number, _)| *number == kind);
+        for (_, node) in parts(bytes, chunk::OBJECT_NODE) {
+            for (_, mut header) in parts(node, chunk::NODE_HEADER) {
+                if let Some(name) = header.text() {
+                    *self.places.entry(name).or_default() += 1;
+                }
+            }
+        }
     }
 
     fn editor(&mut self, bytes: Bytes<'_>) -> std::result::Result<(), Damage> {
@@ -140,9 +160,10 @@ impl Contents {
                 (chunk::MATERIAL, _) if self.soup.materials.len() >= MATERIALS => return Err(Damage::Materials),
                 (chunk::MATERIAL, data) => self.soup.materials.push(material(data)?),
                 (chunk::OBJECT, mut data) => {
-                    data.text().ok_or(Damage::Part(chunk::OBJECT))?;
+                    let name = data.text().ok_or(Damage::Part(chunk::OBJECT))?;
                     for item in chunks(data) {
                         if let (chunk::MESH, data) = item? {
+                            self.meshes.insert(name.clone());
                             self.mesh(data)?;
                         }
                     }
@@ -215,7 +236,14 @@ impl Contents {
 
     /// Gives faces the materials of the names they use; materials may have come after them.
     fn with_materials(self, path: &str, remarks: &mut Vec<String>) -> Soup {
-        let Self { mut soup, face_materials, material_names } = self;
+        let Self { mut soup, face_materials, material_names, meshes, places } = self;
+        let several = places.iter().filter(|(name, count)| **count > 1 && meshes.contains(*name)).count();
+        if several > 0 {
+            let stand = if several == 1 { "mesh stands" } else { "meshes stand" };
+            remarks.push(format!(
+                "{path}: {several} {stand} in several places by its animation; each is drawn once, where it was modelled"
+            ));
+        }
         // Where a name comes more than once the first counts.
         let by_name: HashMap<&str, usize> =
             soup.materials.iter().enumerate().rev().map(|(place, material)| (material.name.as_str(), place)).collect();
@@ -224,8 +252,9 @@ impl Contents {
         let unknown: BTreeSet<&String> =
             material_names.iter().zip(&places).filter(|(_, place)| place.is_none()).map(|(name, _)| name).collect();
         if !unknown.is_empty() {
+            let (are, their) = if unknown.len() == 1 { ("is", "its") } else { ("are", "their") };
             remarks.push(format!(
-                "{path}: {} of the materials it uses are not in it; their faces get the default colour",
+                "{path}: {} of the materials it uses {are} not in it; {their} faces get the default colour",
                 unknown.len()
             ));
         }
@@ -252,8 +281,7 @@ fn face_material(mut bytes: Bytes<'_>) -> Option<(String, Vec<u16>)> {
 
 /// A material; its texture is the file's name for it until it is looked for.
 fn material(bytes: Bytes<'_>) -> std::result::Result<Material, Damage> {
-    let mut material =
-        Material { name: String::new(), color: None, texture: None, texture_within: None, embedded: None };
+    let mut material = Material { name: String::new(), color: None, ..Material::default() };
     for item in chunks(bytes) {
         match item? {
             (chunk::MATERIAL_NAME, mut data) => {

@@ -21,7 +21,7 @@ const SMALLEST_CELL: f64 = 1e-15;
 /// For each point the index of its representative: itself, or an earlier-swept point within `distance` of it.
 ///
 /// `distance` is in the points' units; 0 welds only equal points. Non-finite points stay alone.
-pub(super) fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
+pub(crate) fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
     // Equal points would be welded to the same, so that one of them is enough.
     let mut representative = earlier_equals(points);
     let mut sweep: Vec<(f64, u32)> = points

@@ -105,8 +105,7 @@ fn material(material: &ImportedMaterial) -> Material {
         name: material.name.clone(),
         color: color.map(|color| color.map(|channel| channel.clamp(0.0, 1.0))),
         texture: texture.map(Into::into),
-        texture_within: None,
-        embedded: None,
+        ..Material::default()
     }
 }
 

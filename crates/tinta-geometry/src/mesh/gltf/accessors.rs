@@ -187,7 +187,8 @@ impl<'a> Accessors<'a> {
     ) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, String> {
         let bytes = self.buffers.view(self.root, view)?;
         let given = self.root.get(view).and_then(|view| view.byte_stride).filter(|_| has_stride);
-        let stride = given.map_or(size, |stride| stride.0);
+        // 0 is not allowed, and means what no stride does: programs of Google wrote it.
+        let stride = given.filter(|stride| stride.0 > 0).map_or(size, |stride| stride.0);
         let bytes = usize::try_from(offset).ok().and_then(|offset| bytes.get(offset..));
         let needed = count.saturating_sub(1).checked_mul(stride).and_then(|bytes| bytes.checked_add(size));
         match (bytes, needed) {

@@ -72,7 +72,11 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, String> {
             json.len()
         ));
     }
-    let root = Root::from_slice(json).map_err(|error| {
+    let root = Root::from_slice(json).or_else(|error| {
+        // Optional by the standard, and not by the crate.
+        if error.to_string().starts_with("missing field `nodes`") { with_nodes(json) } else { Err(error) }
+    });
+    let root = root.map_err(|error| {
         let version = serde_json::from_slice::<Versioned>(json).ok().and_then(Versioned::version);
         match version {
             Some(version) if !is_read(&version) => old(&version),
@@ -83,6 +87,16 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, String> {
         version if !is_read(version) => Err(old(version)),
         _ => Ok(root),
     }
+}
+
+/// The JSON with a list of nodes in scenes that have none.
+fn with_nodes(json: &[u8]) -> Result<Root, serde_json::Error> {
+    let mut root: serde_json::Value = serde_json::from_slice(json)?;
+    let scenes = root.get_mut("scenes").and_then(|scenes| scenes.as_array_mut());
+    for scene in scenes.into_iter().flatten().filter_map(|scene| scene.as_object_mut()) {
+        scene.entry("nodes").or_insert_with(|| serde_json::Value::Array(Vec::new()));
+    }
+    serde_json::from_value(root)
 }
 
 /// Whether this is the version that is read.

@@ -3,7 +3,7 @@
 use super::buffers::Buffers;
 use super::uri::{self, Uri};
 use crate::limits::MATERIALS;
-use crate::mesh::{EmbeddedPicture, Material};
+use crate::mesh::{EmbeddedPicture, Material, TextureAlpha};
 use glam::{Mat2, Vec2};
 use gltf_json::material::AlphaMode;
 use gltf_json::texture::Info;
@@ -91,12 +91,27 @@ impl Materials {
                 Some(Image::Embedded(picture)) => (None, Some(picture)),
             };
             let [red, green, blue, _] = factor.map(to_srgb);
+            let mut color = [red, green, blue];
+            let texture_alpha = match material.alpha_mode {
+                Checked::Valid(AlphaMode::Mask) => {
+                    let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0);
+                    TextureAlpha::Cutoff((cutoff * 255.0).ceil() as u8)
+                }
+                Checked::Valid(AlphaMode::Blend) => TextureAlpha::Blended,
+                _ => TextureAlpha::Ignored,
+            };
+            if texture_alpha == TextureAlpha::Blended {
+                let alpha = if factor[3].is_finite() { factor[3].clamp(0.0, 1.0) } else { 1.0 };
+                color = color.map(|channel| channel * alpha + (1.0 - alpha));
+            }
             materials.list.push(Material {
                 name: material.name.clone().unwrap_or_else(|| format!("material {number}")),
-                color: Some([red, green, blue]),
+                color: Some(color),
                 texture: texture_file,
                 texture_within: None,
                 embedded,
+                texture_color: Some(color),
+                texture_alpha,
             });
             materials.coordinates.push(texture.map_or(Coordinates::DEFAULT, Coordinates::of));
         }

@@ -213,3 +213,57 @@ fn a_model_frame_of_a_file_with_one_frame_is_that_frame() {
     assert_eq!(soup.frames.len(), 1);
     assert!(ModelFrame::Number(0.5).find(&soup.frames, "test.md2").is_err());
 }
+
+#[test]
+fn a_skin_of_another_folder_is_taken_where_it_is_or_said_to_be_replaced() {
+    let root = tempfile::tempdir().unwrap();
+    let at = |name: &str| root.path().join(name);
+    for folder in ["a/tank", "a/ctank"] {
+        std::fs::create_dir_all(at(folder)).unwrap();
+    }
+    let mut made = made();
+    made.skins = vec!["a\\tank\\..\\ctank\\skin.pcx"];
+    let bytes = made.bytes();
+    let model = at("a/tank/tris.md2");
+    let skin = |allow_external| {
+        let mut remarks = Vec::new();
+        let path = model.to_str().unwrap();
+        let soup = read(&bytes, path, &options("0"), &Folder::of(path, allow_external), &mut remarks).unwrap();
+        let place = soup.materials[0].texture.as_ref().map(|found| found.canonicalize().unwrap());
+        (place, remarks.into_iter().map(|remark| remark.replace(path, "tris.md2")).collect::<Vec<_>>())
+    };
+    let write = |name: &str| {
+        std::fs::write(at(name), "").unwrap();
+        Some(at(name).canonicalize().unwrap())
+    };
+    let beside = write("a/tank/skin.pcx");
+    let stands = "tris.md2: skin.pcx beside it stands for a\\tank\\..\\ctank\\skin.pcx, which";
+    assert_eq!(skin(false), (beside.clone(), vec![format!("{stands} was not found")]));
+    let named = write("a/ctank/skin.pcx");
+    let sentence = format!("{stands} is outside its folder; --allow-external reads that");
+    assert_eq!(skin(false), (beside, vec![sentence]));
+    assert_eq!(skin(true), (named, vec![]));
+    std::fs::remove_file(at("a/tank/skin.pcx")).unwrap();
+    let (place, remarks) = skin(false);
+    assert!(place.is_none() && remarks[0].contains("is outside its folder and was not read"), "{remarks:?}");
+}
+
+#[test]
+fn pictures_beside_a_model_without_a_skin_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["a.pcx", "b.png", "hero2.bmp", "hero.txt"] {
+        std::fs::write(folder.path().join(name), "").unwrap();
+    }
+    let mut remarks = Vec::new();
+    read_at(folder.path().join("hero.md2").to_str().unwrap(), &mut remarks).unwrap();
+    assert!(remarks[0].ends_with("--skin takes another, for instance of those there: hero2.bmp, a.pcx"), "{remarks:?}");
+}
+
+#[test]
+fn a_file_without_skins_is_drawn_and_that_is_said() {
+    let made = Made { skins: Vec::new(), ..made() };
+    let mut remarks = Vec::new();
+    let soup = read(&made.bytes(), "a.md2", &options("0"), &Folder::of("nowhere/a.md2", false), &mut remarks).unwrap();
+    assert_eq!((soup.corners.len(), remarks.len()), (12, 1));
+    assert!(remarks[0].contains("no skin was found beside it"), "{remarks:?}");
+}

@@ -4,7 +4,7 @@
 //! negative indices count from and what others must stay below.
 
 use super::super::NONE;
-use super::super::soup::Corner;
+use super::super::soup::{Corner, direction};
 use super::lines::{Lines, plain, resolve};
 use super::quick;
 use glam::{DVec3, Vec2, Vec3};
@@ -96,10 +96,14 @@ pub(super) struct Piece {
     pub namings: Vec<(usize, Naming)>,
     /// Faces of fewer than three corners, left out.
     pub degenerate_faces: usize,
-    /// Faces with an index out of range, left out.
+    /// Faces with a vertex out of range, left out.
     pub out_of_range_faces: usize,
+    /// Corners whose normal and whose texture coordinate are out of range; they are kept without.
+    pub lost: [usize; 2],
     /// Free-form curves and surfaces, left out.
     pub free_form: [usize; 2],
+    /// Statements of points and lines, left out.
+    pub points_and_lines: usize,
 }
 
 impl Piece {
@@ -133,10 +137,11 @@ impl Piece {
             }
             "vn" => {
                 let normal = numbers(&plain(rest)).ok_or("a normal is not three numbers")?;
-                self.normals.push(DVec3::from_array(normal).as_vec3());
+                self.normals.push(direction(DVec3::from_array(normal)));
             }
             // The second is what the format of 1992 called the same.
             "f" | "fo" => self.take_face(&plain(rest), before)?,
+            "p" | "l" => self.points_and_lines += 1,
             "curv" | "cdc" => self.free_form[0] += 1,
             "surf" | "cdp" | "bzp" | "bsp" => self.free_form[1] += 1,
             "usemtl" | "mtllib" => {
@@ -195,7 +200,7 @@ impl Piece {
     fn take_face(&mut self, text: &str, before: Counts) -> Result<(), &'static str> {
         let [positions, textures, normals] = self.so_far(before);
         let start = self.corners.len();
-        let mut is_in_range = true;
+        let (mut is_in_range, mut lost) = (true, [0, 0]);
         for word in text.split_ascii_whitespace() {
             let mut fields = word.as_bytes().split(|byte| *byte == b'/');
             let mut index = |count: u32| fields.next().map_or(Some(NONE), |field| resolve(field, count));
@@ -203,8 +208,14 @@ impl Piece {
             let ((Some(position), Some(texture), Some(normal)), None) = (corner, fields.next()) else {
                 return Err("a face is not a list of vertex numbers");
             };
-            is_in_range &=
-                position < positions && (texture == NONE || texture < textures) && (normal == NONE || normal < normals);
+            is_in_range &= position < positions;
+            let within = |index: u32, count: u32, lost: &mut usize| {
+                let is_lost = index != NONE && index >= count;
+                *lost += usize::from(is_lost);
+                if is_lost { NONE } else { index }
+            };
+            let normal = within(normal, normals, &mut lost[0]);
+            let texture = within(texture, textures, &mut lost[1]);
             self.corners.push(Corner { position, normal, texture });
         }
         let count = self.corners.len() - start;
@@ -213,6 +224,7 @@ impl Piece {
             *(if is_in_range { &mut self.degenerate_faces } else { &mut self.out_of_range_faces }) += 1;
             return Ok(());
         }
+        self.lost = [self.lost[0] + lost[0], self.lost[1] + lost[1]];
         self.end_face(count);
         Ok(())
     }

@@ -2,9 +2,9 @@
 //! tobj does not tell. It read everybody's files once; what it shares with the reader now is MTL files and the mesh made.
 
 use super::super::folder::Folder;
-use super::super::soup::{Corner, Soup};
+use super::super::soup::{Corner, Soup, direction};
 use super::super::{NONE, skin};
-use super::{library, material, sound_material_lines};
+use super::materials::{described, library};
 use crate::error::{Error, Result};
 use glam::{DVec3, Vec2, Vec3};
 use std::borrow::Cow;
@@ -22,6 +22,7 @@ pub(super) fn read(bytes: &[u8], path: &str, folder: &Folder<'_>, remarks: &mut 
     let missing_files = RefCell::new(Vec::new());
     let known = RefCell::new(BTreeSet::new());
     let files = RefCell::new(Vec::new());
+    let materials = RefCell::new(Vec::new());
     let load_material = |name: &Path| {
         let text = match known.borrow_mut().insert(name.to_path_buf()) {
             true => match library(folder, name.to_str().unwrap()) {
@@ -36,7 +37,12 @@ pub(super) fn read(bytes: &[u8], path: &str, folder: &Folder<'_>, remarks: &mut 
             },
             false => Cow::Borrowed(b"".as_slice()),
         };
-        tobj::load_mtl_buf(&mut sound_material_lines(&text, usize::MAX).unwrap().as_slice())
+        let more = described(&text, usize::MAX).unwrap().into_iter().map(|one| one.material).collect::<Vec<_>>();
+        let named = |name: &String| tobj::Material { name: name.clone(), ..tobj::Material::default() };
+        let list = more.iter().map(|material| named(&material.name)).collect();
+        let numbers = more.iter().map(|material| material.name.clone()).zip(0..).collect();
+        materials.borrow_mut().extend(more);
+        Ok((list, numbers))
     };
     let (models, found) = tobj::load_obj_buf(&mut guard, &options, load_material)
         .map_err(|error| Error::model(path, in_words(&error)).at(Some(guard.line_number)))?;
@@ -47,12 +53,13 @@ pub(super) fn read(bytes: &[u8], path: &str, folder: &Folder<'_>, remarks: &mut 
     // A missing file's materials are missing with it: counted once, said once.
     soup.defects.missing_materials = unknown.max(missing_files.len());
     if unknown > 0 && missing_files.is_empty() {
+        let (are, their) = if unknown == 1 { ("is", "its") } else { ("are", "their") };
         remarks.push(format!(
-            "{path}: {unknown} of the materials it uses are in no material file; their faces get the default colour"
+            "{path}: {unknown} of the materials it uses {are} in no material file; {their} faces get the default colour"
         ));
     }
     skin::remark(path, missing_files, "", remarks);
-    soup.materials = found.into_iter().map(material).collect();
+    soup.materials = materials.into_inner();
     soup.files = files.into_inner();
     Ok(soup)
 }
@@ -89,7 +96,7 @@ fn into_soup(guard: Guard<'_>, models: &[tobj::Model], path: &str) -> Result<Sou
             soup.positions[position as usize] = DVec3::from_slice(&mesh.positions[from..from + 3]);
             if normal != NONE {
                 let from = mesh.normal_indices[local] as usize * 3;
-                soup.normals[normal as usize] = DVec3::from_slice(&mesh.normals[from..from + 3]).as_vec3();
+                soup.normals[normal as usize] = direction(DVec3::from_slice(&mesh.normals[from..from + 3]));
             }
             if texture != NONE {
                 let from = mesh.texcoord_indices[local] as usize * 2;
@@ -107,6 +114,8 @@ fn into_soup(guard: Guard<'_>, models: &[tobj::Model], path: &str) -> Result<Sou
     soup.corners = guard.corners;
     soup.defects.degenerate_triangles = guard.degenerate_faces;
     soup.defects.out_of_range_faces = guard.out_of_range_faces;
+    (soup.defects.unusable_normals, soup.defects.unusable_texture_coordinates) = (guard.lost[0], guard.lost[1]);
+    soup.points_and_lines = guard.points_and_lines;
     Ok(soup)
 }
 
@@ -130,8 +139,12 @@ struct Guard<'a> {
     pub materials: BTreeSet<String>,
     /// Faces of fewer than three corners, not handed on.
     pub degenerate_faces: usize,
-    /// Faces with an index out of range, not handed on.
+    /// Faces with a vertex out of range, not handed on.
     pub out_of_range_faces: usize,
+    /// Normals and texture coordinates out of range, not handed on.
+    pub lost: [usize; 2],
+    /// Statements of points and lines.
+    pub points_and_lines: usize,
 }
 
 impl<'a> Guard<'a> {
@@ -149,6 +162,8 @@ impl<'a> Guard<'a> {
             materials: BTreeSet::new(),
             degenerate_faces: 0,
             out_of_range_faces: 0,
+            lost: [0, 0],
+            points_and_lines: 0,
         }
     }
 
@@ -200,6 +215,10 @@ impl<'a> Guard<'a> {
         match keyword {
             "v" | "vt" | "vn" | "f" => self.accept_numbers(plain(line)),
             "o" | "g" => Some(ended(line)),
+            "p" | "l" => {
+                self.points_and_lines += 1;
+                None
+            }
             "usemtl" | "mtllib" => {
                 // Names may hold '#' and blanks; tobj wants exactly one blank before them.
                 let name = line.trim_start()[keyword.len()..].trim();
@@ -227,8 +246,13 @@ impl<'a> Guard<'a> {
             "vt" => self.texture_count += 1,
             "vn" => self.normal_count += 1,
             _ => {
+                let (start, lost) = (self.corners.len(), self.lost);
                 if !self.accept_face(words) {
                     return None;
+                }
+                if lost != self.lost {
+                    let words: Vec<String> = self.corners[start..].iter().map(written).collect();
+                    return Some(Cow::Owned(format!("f {}\n", words.join(" "))));
                 }
             }
         }
@@ -239,18 +263,22 @@ impl<'a> Guard<'a> {
     /// what is not a number goes to tobj, which says so.
     fn accept_face<'t>(&mut self, words: impl Iterator<Item = &'t str>) -> bool {
         let start = self.corners.len();
-        let mut in_range = true;
+        let (mut in_range, mut lost) = (true, [0, 0]);
         for word in words {
             let mut fields = word.as_bytes().split(|byte| *byte == b'/');
             let mut index = |count: u32| fields.next().map_or(Some(NONE), |field| resolve(field, count));
             let corner = (index(self.position_count), index(self.texture_count), index(self.normal_count));
-            let ((Some(position), Some(texture), Some(normal)), None) = (corner, fields.next()) else {
+            let ((Some(position), Some(mut texture), Some(mut normal)), None) = (corner, fields.next()) else {
                 self.corners.truncate(start);
                 return true;
             };
-            in_range &= position < self.position_count
-                && (texture == NONE || texture < self.texture_count)
-                && (normal == NONE || normal < self.normal_count);
+            in_range &= position < self.position_count;
+            for (index, count, place) in [(&mut normal, self.normal_count, 0), (&mut texture, self.texture_count, 1)] {
+                if *index != NONE && *index >= count {
+                    *index = NONE;
+                    lost[place] += 1;
+                }
+            }
             self.corners.push(Corner { position, normal, texture });
         }
         let count = self.corners.len() - start;
@@ -259,8 +287,19 @@ impl<'a> Guard<'a> {
             *(if in_range { &mut self.degenerate_faces } else { &mut self.out_of_range_faces }) += 1;
             return false;
         }
+        self.lost = [self.lost[0] + lost[0], self.lost[1] + lost[1]];
         self.polygon_sizes.push(count as u32);
         true
+    }
+}
+
+/// A corner as a file writes it.
+fn written(corner: &Corner) -> String {
+    let field = |index: u32| if index == NONE { String::new() } else { (index + 1).to_string() };
+    match corner {
+        Corner { texture: NONE, normal: NONE, .. } => field(corner.position),
+        Corner { normal: NONE, .. } => format!("{}/{}", field(corner.position), field(corner.texture)),
+        _ => format!("{}/{}/{}", field(corner.position), field(corner.texture), field(corner.normal)),
     }
 }
 

@@ -62,6 +62,10 @@ pub(super) struct Header {
     pub bytes: usize,
     /// Lines, its last among them.
     pub lines: u64,
+    /// The pictures that MeshLab names in comments, in order: what a face's `texnumber` counts in.
+    pub pictures: Vec<String>,
+    /// The first line that begins with no word of a header and was passed over.
+    pub foreign: Option<u64>,
 }
 
 impl Header {
@@ -77,7 +81,9 @@ impl Header {
     pub(super) fn read(file: &[u8]) -> Result<Self, (u64, &'static str)> {
         let (mut encoding, mut elements) = (None, Vec::<Element>::new());
         let (mut bytes, mut lines) = (0, 0);
-        for line in file.split_inclusive(|byte| *byte == b'\n') {
+        let (mut pictures, mut foreign) = (Vec::new(), None);
+        let end = line_end(file);
+        for line in file.split_inclusive(|byte| *byte == end) {
             bytes += line.len();
             lines += 1;
             let line = String::from_utf8_lossy(line);
@@ -86,7 +92,12 @@ impl Header {
             match words.as_slice() {
                 ["ply"] if lines == 1 => {}
                 _ if lines == 1 => return wrong("its first line is not ply"),
-                ["comment" | "obj_info", ..] => {}
+                ["comment", "TextureFile", ..] => {
+                    // A name may hold blanks.
+                    let name = line.split_once("TextureFile").map_or("", |(_, name)| name.trim());
+                    pictures.extend((!name.is_empty()).then(|| name.to_owned()));
+                }
+                [] | ["comment" | "obj_info", ..] => {}
                 ["format", name, version] => {
                     let found = match *name {
                         "ascii" => Encoding::Ascii,
@@ -114,12 +125,24 @@ impl Header {
                 }
                 ["end_header"] => {
                     let Some(encoding) = encoding else { return wrong("its header names no format") };
-                    return Ok(Self { encoding, elements, bytes, lines });
+                    return Ok(Self { encoding, elements, bytes, lines, pictures, foreign });
                 }
-                _ => return wrong("this is not a header line"),
+                ["ply" | "format" | "element" | "property" | "end_header", ..] => {
+                    return wrong("this is not a header line");
+                }
+                _ => foreign = foreign.or(Some(lines)),
             }
         }
         Err((lines.max(1), "its header has no end_header"))
+    }
+}
+
+/// The byte that ends each line of a file that begins with `ply` and the end of that line: a carriage return where it stands
+/// alone, as behind it a newline may be data.
+fn line_end(file: &[u8]) -> u8 {
+    match file.iter().position(|byte| matches!(byte, b'\r' | b'\n')).and_then(|first| file.get(first..)) {
+        Some([b'\r', rest @ ..]) if !rest.starts_with(b"\n") => b'\r',
+        _ => b'\n',
     }
 }
 
@@ -164,6 +187,27 @@ mod tests {
     }
 
     #[test]
+    fn empty_and_foreign_lines_are_passed_over_and_pictures_are_named() {
+        let text =
+            b"ply\nformat ascii 1.0\n\nCreated by Blender3D 247\ncomment TextureFile a skin.png\nend_header\n\n0";
+        let header = Header::read(text).unwrap();
+        assert_eq!((header.lines, header.foreign, &text[header.bytes..]), (6, Some(4), &b"\n0"[..]));
+        assert_eq!(header.pictures, ["a skin.png"]);
+    }
+
+    #[test]
+    fn where_lines_end_in_a_carriage_return_a_newline_behind_them_is_data() {
+        for (text, data) in [
+            (&b"ply\rformat binary_little_endian 1.0\rend_header\r\n7"[..], &b"\n7"[..]),
+            (b"ply\r\nformat binary_little_endian 1.0\r\nend_header\r\n\n7", b"\n7"),
+            (b"ply\nformat binary_little_endian 1.0\nend_header\n\r7", b"\r7"),
+        ] {
+            let header = Header::read(text).unwrap();
+            assert_eq!((&text[header.bytes..], header.lines), (data, 3));
+        }
+    }
+
+    #[test]
     fn every_wrong_line_is_named() {
         let after = |lines: &str| Header::read(format!("ply\nformat ascii 1.0\n{lines}").as_bytes()).unwrap_err();
         assert_eq!(Header::read(b"plyx\n").unwrap_err().0, 1);
@@ -177,8 +221,7 @@ mod tests {
             "element vertex -1\n",
             "element vertex\n",
             "property float x\n",
-            "nonsense\n",
-            "\n",
+            "end_header now\n",
         ] {
             assert_eq!(after(wrong).0, 3, "{wrong}");
         }

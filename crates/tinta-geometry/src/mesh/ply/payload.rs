@@ -4,7 +4,7 @@ use super::header::{Element, Encoding, PropertyType, ScalarType};
 use crate::bytes::Bytes;
 use crate::threads::{listed, threads_for};
 
-/// Why an element cannot be read, in words that go on with "of the file's 9 vertex".
+/// Why an element cannot be read, in words that go on with "of the file's 9 vertices".
 #[derive(Debug)]
 pub(super) struct Damage(pub &'static str);
 
@@ -23,19 +23,23 @@ pub(super) enum Value {
     },
     /// An item of a list of whole numbers.
     Item(i64),
+    /// An item of a list of other numbers.
+    Number(f64),
 }
 
 /// The part of a file behind its header, from where it was read to.
 pub(super) struct Payload<'a> {
     rest: Bytes<'a>,
     encoding: Encoding,
+    /// What is left of the line that was begun, where there are lines.
+    line: &'a [u8],
     /// The lines read so far, those of the header among them.
     lines: u64,
 }
 
 impl<'a> Payload<'a> {
     pub(super) fn new(bytes: &'a [u8], encoding: Encoding, lines: u64) -> Self {
-        Self { rest: Bytes(bytes), encoding, lines }
+        Self { rest: Bytes(bytes), encoding, line: &[], lines }
     }
 
     /// The line read last, where the file has lines.
@@ -100,34 +104,53 @@ impl<'a> Payload<'a> {
         Some(corners)
     }
 
+    /// An element's numbers: from the next line that has any on, over as many as they take; what else the last one holds is
+    /// passed over.
     fn line_of(&mut self, element: &Element, mut value: impl FnMut(&str, Value)) -> Result<(), Damage> {
-        self.lines += 1;
-        if self.rest.0.is_empty() {
-            return Err(TOO_FEW);
-        }
-        let end = memchr::memchr(b'\n', self.rest.0).map_or(self.rest.0.len(), |end| end + 1);
-        let line = self.rest.take(end).unwrap_or_default();
-        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-        let mut word = || words.next().and_then(|word| std::str::from_utf8(word).ok());
+        self.line = &[];
         for property in element.properties.iter() {
             let name = property.name.as_str();
             match &property.data_type {
                 PropertyType::Scalar(kind) => {
-                    value(name, Value::Scalar(word().and_then(|word| number(word, kind)).ok_or(NO_NUMBER)?));
+                    value(name, Value::Scalar(number(self.word()?, kind).ok_or(NO_NUMBER)?));
                 }
                 PropertyType::List(_, kind) => {
-                    let count: u64 = word().and_then(|word| word.parse().ok()).ok_or(NO_NUMBER)?;
-                    value(name, Value::List { at_most: line.len() / 2 + 1 });
+                    let count: u64 = self.word()?.parse().map_err(|_| NO_NUMBER)?;
+                    value(name, Value::List { at_most: (self.line.len() + self.rest.0.len()) / 2 + 1 });
                     for _ in 0..count {
-                        let item = word().and_then(|word| number(word, kind)).ok_or(NO_NUMBER)?;
-                        if is_whole(kind) {
-                            value(name, Value::Item(item as i64));
-                        }
+                        value(name, item(number(self.word()?, kind).ok_or(NO_NUMBER)?, kind));
                     }
                 }
             }
         }
         Ok(())
+    }
+
+    /// The next word of this line or of those behind it.
+    fn word(&mut self) -> Result<&'a str, Damage> {
+        loop {
+            let line = self.line.trim_ascii_start();
+            let (word, rest) = line.split_at(line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len()));
+            self.line = rest;
+            if !word.is_empty() {
+                return std::str::from_utf8(word).map_err(|_| NO_NUMBER);
+            }
+            self.line = self.next_line()?;
+        }
+    }
+
+    /// The bytes up to the next newline, carriage return, or both.
+    fn next_line(&mut self) -> Result<&'a [u8], Damage> {
+        let all = self.rest.0;
+        if all.is_empty() {
+            return Err(TOO_FEW);
+        }
+        self.lines += 1;
+        let end = memchr::memchr2(b'\n', b'\r', all).unwrap_or(all.len());
+        let (line, rest) = all.split_at(end);
+        let ended = rest.strip_prefix(b"\r\n").or_else(|| rest.get(1..)).unwrap_or_default();
+        self.rest = Bytes(ended);
+        Ok(line)
     }
 
     fn bytes_of<const IS_BIG: bool>(
@@ -151,15 +174,17 @@ impl<'a> Payload<'a> {
                     }
                     value(name, Value::List { at_most: self.rest.0.len() / size_of(kind) });
                     let items = self.rest.records(count as usize, size_of(kind)).ok_or(TOO_FEW)?;
-                    if is_whole(kind) {
-                        let item = |bytes| scalar::<IS_BIG>(&mut Bytes(bytes), kind).unwrap_or_default();
-                        items.for_each(|bytes| value(name, Value::Item(item(bytes) as i64)));
-                    }
+                    let number = |bytes| scalar::<IS_BIG>(&mut Bytes(bytes), kind).unwrap_or_default();
+                    items.for_each(|bytes| value(name, item(number(bytes), kind)));
                 }
             }
         }
         Ok(())
     }
+}
+
+fn item(number: f64, kind: &ScalarType) -> Value {
+    if is_whole(kind) { Value::Item(number as i64) } else { Value::Number(number) }
 }
 
 fn is_whole(kind: &ScalarType) -> bool {

@@ -174,3 +174,24 @@ fn every_truncation_is_refused_and_no_changed_byte_panics() {
         }
     }
 }
+
+#[test]
+fn meshes_that_the_animation_places_several_times_are_said_and_drawn_once() {
+    let node = |name: &str| {
+        let header = chunk(chunk::NODE_HEADER, &[name.as_bytes(), b"\0", &shorts(&[0, 0, 0xffff])]);
+        let instance = chunk(0xb011, &[b"copy\0"]);
+        chunk(chunk::OBJECT_NODE, &[&header, &instance])
+    };
+    let of_nodes = |nodes: &[&str]| {
+        let nodes: Vec<u8> = nodes.iter().flat_map(|name| node(name)).collect();
+        let editor = chunk(chunk::EDITOR, &[&object(0.0, &FACES, "red"), &material("red", &RED, None)]);
+        let (soup, remarks) =
+            soup_at(&chunk(chunk::MAIN, &[&editor, &chunk(chunk::KEYFRAMER, &[&nodes, &[7; 8]])]), "t.3ds");
+        assert_eq!(soup.positions[2], DVec3::new(1.0, 0.0, -2.0), "not moved by the mesh's matrix");
+        assert_eq!(soup.corners.len(), 6);
+        remarks
+    };
+    assert!(of_nodes(&["square", "$$$DUMMY", "$$$DUMMY"]).is_empty());
+    let sentence = "t.3ds: 1 mesh stands in several places by its animation; each is drawn once, where it was modelled";
+    assert_eq!(of_nodes(&["square", "square"]), [sentence]);
+}
