@@ -28,19 +28,63 @@ fn a_box_has_twelve_creases_and_six_flat_diagonals() {
 
 #[test]
 fn of_an_angle_iron_one_long_crease_is_concave() {
-    let outline = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
-    let positions = [0.0, 3.0].into_iter().flat_map(|z| outline.map(|[x, y]| DVec3::new(x, y, z))).collect();
-    let mut corners = vec![5, 4, 3, 2, 1, 0, 6, 7, 8, 9, 10, 11];
-    (0..6).for_each(|side: u32| corners.extend([side, (side + 1) % 6, (side + 1) % 6 + 6, side + 6]));
-    let sizes = vec![6, 6, 4, 4, 4, 4, 4, 4];
-    let iron = Mesh::of_polygons("angle iron", positions, &corners, sizes, &LoadOptions::default()).unwrap();
+    let iron = angle_iron(1.0);
     let (edges, counts) = counts(&iron);
     assert_eq!((counts.crease, counts.convex_crease, counts.concave_crease), (18, 17, 1));
     let only = ClassSet::of(&[Class::ConcaveCrease]);
     let classes = Classes::new(&iron, &edges, CreaseAngle::default(), only);
     let ends = edges.positions()[classes.marked[0] as usize].map(|end| iron.positions[end as usize].truncate());
-    assert_eq!((classes.marked.len(), ends), (1, [glam::DVec2::ONE; 2]));
+    assert_eq!((classes.marked.len(), ends), (1, [glam::DVec2::splat(0.5); 2]));
     assert_eq!(classes.of_edges[classes.marked[0] as usize], only);
+}
+
+/// The angle iron of the test before: 17 convex creases and one that is concave.
+fn angle_iron(scale: f64) -> Mesh {
+    let outline = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let corner = |[x, y]: [f64; 2], z: f64| (DVec3::new(x, y, z) - DVec3::new(0.5, 0.5, 1.5)) * scale;
+    let positions = [0.0, 3.0].into_iter().flat_map(|z| outline.map(|of| corner(of, z))).collect();
+    let mut corners = vec![5, 4, 3, 2, 1, 0, 6, 7, 8, 9, 10, 11];
+    (0..6).for_each(|side: u32| corners.extend([side, (side + 1) % 6, (side + 1) % 6 + 6, side + 6]));
+    Mesh::of_polygons("iron", positions, &corners, vec![6, 6, 4, 4, 4, 4, 4, 4], &LoadOptions::default()).unwrap()
+}
+
+/// The convex and the concave creases.
+fn turns(mesh: &Mesh) -> (usize, usize) {
+    let (_, counts) = counts(mesh);
+    (counts.convex_crease, counts.concave_crease)
+}
+
+/// A mesh with some of its faces turned round.
+fn turned(mesh: &Mesh, is_turned: impl Fn(usize) -> bool) -> Mesh {
+    let turn = |(face, [a, b, c]): (usize, &[u32; 3])| if is_turned(face) { [*a, *c, *b] } else { [*a, *b, *c] };
+    Mesh { triangles: mesh.triangles.iter().enumerate().map(turn).collect(), ..mesh.clone() }
+}
+
+#[test]
+fn which_creases_are_convex_follows_from_the_outside_and_not_from_the_winding() {
+    let (iron, mut random) = (angle_iron(1.0), Random(5));
+    assert_eq!(turns(&iron), (17, 1));
+    assert_eq!(turns(&turned(&iron, |_| true)), (17, 1), "inside out");
+    for face in 0..iron.triangles.len() {
+        assert_eq!(turns(&turned(&iron, |other| other == face)), (17, 1), "face {face} turned");
+    }
+    for round in 0..20 {
+        let which: Vec<bool> = iron.triangles.iter().map(|_| random.number() < 0.5).collect();
+        assert_eq!(turns(&turned(&iron, |face| which[face])), (17, 1), "round {round}");
+    }
+    // A hollow of the same shape: what is convex outside is concave inside, whichever way either is wound.
+    for (outer, inner) in [(false, false), (false, true), (true, false), (true, true)] {
+        let hollow = joined(&[turned(&iron, |_| outer), turned(&angle_iron(0.1), |_| inner)]);
+        assert_eq!(turns(&hollow), (18, 18), "{outer} {inner}");
+    }
+}
+
+#[test]
+fn an_open_shells_creases_are_convex_as_it_is_wound() {
+    let open_box = load("builtin:open-box", &LoadOptions::default()).unwrap().mesh;
+    let (convex, concave) = turns(&open_box);
+    assert_eq!((convex + concave, convex.min(concave)), (8, 0));
+    assert_eq!(turns(&turned(&open_box, |_| true)), (concave, convex));
 }
 
 #[test]

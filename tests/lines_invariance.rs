@@ -177,6 +177,20 @@ fn the_order_of_vertices_and_faces_does_not_matter() {
 }
 
 #[test]
+fn lines_need_no_depth_buffer_and_no_near_eye() {
+    for (name, mesh) in models() {
+        let seen_by = |camera: CameraSettings| lines(&seen(&mesh, &camera));
+        let (near, far) = (Some(1e-12), Some(1e12));
+        let expected = seen_by(view("33,17", false));
+        let actual = seen_by(CameraSettings { near, far, ..view("33,17", false) });
+        assert_same_sums(&expected, &actual, 1e-9, &format!("{name} between planes far apart"));
+        let expected = seen_by(view("33,17", true));
+        let from_afar = seen_by(CameraSettings { fov_y_degrees: 0.001, ..view("33,17", false) });
+        assert_same_sums(&expected, &from_afar, 1e-4, &format!("{name} from very far away"));
+    }
+}
+
+#[test]
 fn the_order_of_objects_does_not_matter() {
     let meshes = [builtin("builtin:gear"), builtin("builtin:ant"), cuboid(DVec3::splat(-0.4), DVec3::splat(0.6))];
     let expected = lines(&scene_of(meshes.to_vec(), view("iso", false)));

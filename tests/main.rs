@@ -47,6 +47,7 @@ mod lines_brute;
 mod lines_degenerate;
 mod lines_families;
 mod lines_growth;
+mod lines_hidden;
 mod lines_inking;
 mod lines_invariance;
 mod lines_outline;

@@ -117,6 +117,7 @@ impl Lines {
         column(&arrays, "code", of, |piece| piece.class as u8)?;
         column(&arrays, "visible", of, |piece| piece.is_visible)?;
         column(&arrays, "outline", of, |piece| piece.is_outline)?;
+        column(&arrays, "covered", of, |piece| piece.is_covered)?;
         column(&arrays, "angle", of, |piece| piece.angle_degrees.unwrap_or(f64::NAN))?;
         column(&arrays, "object", of, |piece| piece.object)?;
         Ok(arrays)

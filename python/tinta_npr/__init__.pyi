@@ -53,6 +53,7 @@ class Lines:
     segments: NDArray[np.float64]
     visible: NDArray[np.bool_]
     outline: NDArray[np.bool_]
+    covered: NDArray[np.bool_]
     edge: NDArray[np.int64]
     angle: NDArray[np.float64]
     object: NDArray[np.uint32]

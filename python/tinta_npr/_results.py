@@ -25,6 +25,8 @@ class Lines:
         The mesh of the list that was given.
     outline : ndarray (N,) of bool
         Whether it has nothing but background on one side; all False unless a width or colour of ``outline`` was asked for.
+    covered : ndarray (N,) of bool
+        Whether it is hidden and drawings leave it out, because another line lies on it in the picture.
     size : (width, height)
         Of the picture, pixels.
     counts : dict

@@ -83,7 +83,7 @@ pub struct LineCounts {
     pub hidden_segments: usize,
     /// Polylines seen.
     pub visible_paths: usize,
-    /// Polylines hidden, whether drawn or not.
+    /// Polylines hidden, as far as they are drawn: none without `--hidden`, and none of what lies under other lines.
     pub hidden_paths: usize,
 }
 
@@ -107,6 +107,7 @@ struct SegmentRecord {
     class: &'static str,
     visible: bool,
     outline: bool,
+    covered: bool,
     a: [f64; 2],
     b: [f64; 2],
     edge: Option<[u32; 2]>,
@@ -133,6 +134,7 @@ pub fn lines_json(lines: &VisibleLines, scene: &Scene) -> Result<String> {
             class: segment.class.name(),
             visible: segment.is_visible,
             outline: segment.is_outline,
+            covered: segment.is_covered,
             a,
             b,
             edge: segment.edge,

@@ -92,6 +92,7 @@ impl Drawer {
         plan: &Plan,
         work: impl FnOnce(&mut Frame<'_>) -> Result<T>,
     ) -> Result<T> {
+        scene.check_precision()?;
         let whole = scene.size.times(plan.supersample);
         if scene.size.pixel_count() > DRAWN_PIXELS {
             let problem = format!("the largest picture has {DRAWN_PIXELS} pixels; ask for a smaller one");

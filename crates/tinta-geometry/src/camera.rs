@@ -28,7 +28,7 @@ pub use framing::Framing;
 use crate::error::{Error, ParseError, Result};
 use crate::settings::{Kind, Problem, Setting, Value, under};
 use crate::tolerances::{
-    CAMERA_ALIGNMENT, DEPTH_MARGIN, LARGEST_COORDINATE, LARGEST_DISTANCE, NEAREST_FRACTION, SAME_POINT,
+    CAMERA_ALIGNMENT, DEPTH_MARGIN, LARGEST_COORDINATE, LARGEST_EXACT_DISTANCE, NEAREST_FRACTION, SAME_POINT,
 };
 use glam::dcamera::rh::proj::opengl;
 use glam::dcamera::rh::view::look_at_mat4;
@@ -354,11 +354,11 @@ impl CameraSettings {
                 needed.fold(0.0, f64::max).max(radius * NEAREST_FRACTION)
             }
         };
-        if self.eye.is_none() && distance.is_nan() | (distance > LARGEST_DISTANCE * radius) {
+        if self.eye.is_none() && distance.is_nan() | (distance > LARGEST_EXACT_DISTANCE * radius) {
             return Err(Error::value(
                 "fov",
                 self.fov_y_degrees,
-                "so small an angle puts the eye too far away for GL's precision; use --parallel instead",
+                "so small an angle puts the eye too far away for the precision of numbers; use --parallel instead",
             ));
         }
         let (near, far) = self.depth_range(distance, radius, frame.map(|p| distance - p.z))?;

@@ -23,6 +23,7 @@ mod cones;
 mod cracks;
 mod mesh_edges;
 mod orientation;
+mod outside;
 mod silhouette;
 mod smooth;
 

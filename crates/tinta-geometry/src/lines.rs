@@ -34,6 +34,7 @@ mod contours;
 mod covered;
 mod crossings;
 mod curves;
+mod doubled;
 mod drawing;
 mod face_image;
 mod faces;
@@ -236,6 +237,9 @@ pub struct LineSegment {
     pub is_visible: bool,
     /// Whether it is seen and has nothing but background on one side at least; `false` throughout unless outlines were asked for.
     pub is_outline: bool,
+    /// Whether it is hidden and another line lies on it in the picture, a visible one or a hidden one of an earlier class: that one is
+    /// drawn in its place.
+    pub is_covered: bool,
     /// Where it begins and ends in the picture: pixels from the upper left corner, y down. Pieces that meet at a vertex have
     /// bit for bit the same end there.
     pub ends_px: [DVec2; 2],
@@ -423,6 +427,7 @@ impl VisibleLines {
                 changes = Some(contour_lines.changes_of_edges(&segments));
             }
         }
+        let segments = doubled::marked(segments, &space, progress)?;
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };
         let covered_triangles = parts.iter().map(Part::covered).sum();

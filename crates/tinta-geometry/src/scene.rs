@@ -288,7 +288,7 @@ impl Scene {
             recolor: settings.color.is_some(),
             surface: settings.surface,
         };
-        scene.check_precision()?;
+        scene.check_distance()?;
         Ok(scene)
     }
 
@@ -581,16 +581,23 @@ mod tests {
     }
 
     #[test]
-    fn a_camera_beyond_f32_is_refused_by_name() {
-        let refused = |camera: CameraSettings| {
+    fn a_camera_beyond_the_precision_of_numbers_is_refused_by_name() {
+        let scene = |camera: CameraSettings| {
             let settings = SceneSettings { camera, ..SceneSettings::default() };
-            Scene::new(vec![Arc::new(Mesh::triangle())], &settings).unwrap_err().to_string()
+            Scene::new(vec![Arc::new(Mesh::triangle())], &settings)
         };
+        let refused = |camera: CameraSettings| scene(camera).unwrap_err().to_string();
         let base = CameraSettings::default;
         for fov_y_degrees in [1e-320, 1e-160, 1e-15] {
             assert!(refused(CameraSettings { fov_y_degrees, ..base() }).contains("fov"));
         }
         assert!(refused(CameraSettings { fov_y_degrees: 1e-6, ..base() }).contains("--parallel"));
         assert!(refused(CameraSettings { eye: Some(DVec3::Z * 1e30), ..base() }).contains("eye"));
+        // Exact lines can be found by these, GL cannot draw by them.
+        let by_gl = |camera: CameraSettings| scene(camera).unwrap().check_precision().unwrap_err().to_string();
+        assert!(by_gl(CameraSettings { fov_y_degrees: 1e-3, ..base() }).contains("GL can resolve"));
+        let (near, far) = (Some(1e-12), Some(1e12));
+        assert!(by_gl(CameraSettings { near, far, ..base() }).contains("depth buffer"));
+        assert!(scene(base()).unwrap().check_precision().is_ok());
     }
 }

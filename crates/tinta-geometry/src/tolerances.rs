@@ -45,9 +45,12 @@ pub const DEPTH_MARGIN: f64 = 0.01;
 /// eye inside the scene the depth buffer's 24 bits then still separate thousandths of the radius.
 pub const NEAREST_FRACTION: f64 = 1e-3;
 
-/// Largest distance of the eye from the scene's centre, scene radii: beyond it f32 depth in eye space has fewer than a
-/// thousand steps for the whole scene.
+/// Largest distance of the eye from the scene's centre in a picture by GL, scene radii: beyond it f32 depth in eye space has fewer
+/// than a thousand steps for the whole scene.
 pub const LARGEST_DISTANCE: f64 = 2e4;
+
+/// The same for exact lines: f64 then still places a point to a ten-thousandth of a pixel of 512.
+pub const LARGEST_EXACT_DISTANCE: f64 = 1e8;
 
 /// Least steps of a 24-bit depth buffer from the scene's nearest point to its farthest: with fewer, what is behind shows through
 /// what is in front of it.

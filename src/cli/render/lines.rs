@@ -192,7 +192,10 @@ pub(super) fn run(
     };
     let drawn = svg_settings(arguments, recipe.as_ref())?;
     let is_chained = format != Format::Json || arguments.run.json || arguments.run.explain;
-    let paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
+    let mut paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
+    if format != Format::Json && drawn.hidden == Hidden::None {
+        paths.retain(|path| path.is_visible);
+    }
     let counts = LineCounts::new(&lines, &paths);
     if is_stopped(stop.as_ref()) {
         return Ok(stopped(stop.as_ref()));

@@ -1,5 +1,6 @@
 //! The classes of an edge that do not depend on the view.
 
+use super::outside::fronts_outside;
 use super::{EdgeList, Incidence};
 use crate::choice::Choice;
 use crate::error::{Error, ParseError, Result};
@@ -342,7 +343,7 @@ impl Classes {
             edges,
             normals: &normals,
             cosine: crease_angle.cosine,
-            has_turns: wanted.contains(Class::ConvexCrease) || wanted.contains(Class::ConcaveCrease),
+            fronts_outside: (!wanted.and(TURNS).is_empty()).then(|| fronts_outside(mesh, edges)),
             seams: Seams::of(mesh, wanted),
         };
         let parts = in_parallel(edges.len(), threads, |range| {
@@ -405,13 +406,16 @@ struct Judge<'a> {
     edges: &'a EdgeList,
     normals: &'a [[f64; 3]],
     cosine: f64,
-    /// Whether creases are asked for that are convex, or concave.
-    has_turns: bool,
+    /// Of each face whether its front is outside, where creases are asked for that are convex, or concave.
+    fronts_outside: Option<Vec<bool>>,
     seams: Seams,
 }
 
 /// The classes of which an edge between two faces is one by their angle.
 const CREASES: ClassSet = ClassSet::of(&[Class::Crease, Class::ConvexCrease, Class::ConcaveCrease]);
+
+/// Those of them that are told apart by the side the outside is on.
+const TURNS: ClassSet = ClassSet::of(&[Class::ConvexCrease, Class::ConcaveCrease]);
 
 /// Which seams to look for: those wanted that this mesh can have.
 struct Seams {
@@ -449,8 +453,7 @@ impl Judge<'_> {
                     let cosine = first.dot(second);
                     let cosine = if incidence == Incidence::Inner { cosine } else { -cosine };
                     if cosine < self.cosine - PARALLEL_COSINE {
-                        classes =
-                            if self.has_turns { self.turn_at(edge, first) } else { ClassSet::of(&[Class::Crease]) };
+                        classes = self.turn_at(edge, first).or(ClassSet::of(&[Class::Crease]));
                     }
                 }
                 if self.seams.any() { classes.or(self.seams_at(edge, faces)) } else { classes }
@@ -458,14 +461,18 @@ impl Judge<'_> {
         }
     }
 
-    /// A crease's classes: convex where the second face's third corner is not in front of the first face, which has this normal.
+    /// Whether a crease is convex or concave, where that is asked: convex where the second face's third corner is not outside of the
+    /// first face, which has this normal.
     fn turn_at(&self, edge: usize, normal: DVec3) -> ClassSet {
+        let Some(fronts_outside) = &self.fronts_outside else { return ClassSet::default() };
         let ends = self.edges.positions[edge];
+        let is_front_outside = fronts_outside[self.edges.faces[edge][0] as usize];
         let second = self.mesh.triangles[self.edges.faces[edge][1] as usize];
         let position = |number: u32| self.mesh.positions[number as usize];
         let third = second.into_iter().find(|corner| !ends.contains(corner)).map(position);
-        let is_concave = third.is_some_and(|third| (third - position(ends[0])).dot(normal) > 0.0);
-        ClassSet::of(&[Class::Crease, if is_concave { Class::ConcaveCrease } else { Class::ConvexCrease }])
+        let before = third.map_or(0.0, |third| (third - position(ends[0])).dot(normal));
+        let is_concave = if is_front_outside { before > 0.0 } else { before < 0.0 };
+        ClassSet::of(&[if is_concave { Class::ConcaveCrease } else { Class::ConvexCrease }])
     }
 
     fn seams_at(&self, edge: usize, faces: [usize; 2]) -> ClassSet {

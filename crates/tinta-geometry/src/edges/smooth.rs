@@ -188,17 +188,17 @@ fn shells(mesh: &Mesh, edges: &EdgeList) -> (Vec<Shell>, Vec<u32>) {
 }
 
 /// Numbers in groups (union-find).
-struct Groups {
+pub(super) struct Groups {
     parents: Vec<u32>,
 }
 
 impl Groups {
-    fn new(count: usize) -> Self {
+    pub(super) fn new(count: usize) -> Self {
         Self { parents: (0..count as u32).collect() }
     }
 
     /// The lowest number of a group.
-    fn root(&mut self, mut number: u32) -> u32 {
+    pub(super) fn root(&mut self, mut number: u32) -> u32 {
         while self.parents[number as usize] != number {
             let above = self.parents[self.parents[number as usize] as usize];
             self.parents[number as usize] = above;
@@ -207,7 +207,7 @@ impl Groups {
         number
     }
 
-    fn unite(&mut self, first: u32, second: u32) {
+    pub(super) fn unite(&mut self, first: u32, second: u32) {
         let (first, second) = (self.root(first), self.root(second));
         let (root, other) = (first.min(second), first.max(second));
         self.parents[other as usize] = root;

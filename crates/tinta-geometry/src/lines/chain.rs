@@ -87,7 +87,8 @@ impl End {
     }
 }
 
-/// Joins pieces to paths, in the order of each path's first piece. Pieces without length are left out.
+/// Joins pieces to paths, in the order of each path's first piece. Pieces without length are left out, and hidden ones in whose place
+/// others are drawn.
 pub fn chain(segments: &[LineSegment]) -> Vec<LinePath> {
     chain_curves(segments, |_| 0)
 }
@@ -98,15 +99,15 @@ pub(super) fn chain_curves(segments: &[LineSegment], curve: impl Fn(&LineSegment
     let mut is_drawn = vec![false; segments.len()];
     let mut paths = Vec::new();
     for first in 0..segments.len() {
-        if !is_drawn[first] && has_length(&segments[first]) {
+        if !is_drawn[first] && is_drawn_itself(&segments[first]) {
             paths.push(walk(segments, &partners, first, &mut is_drawn));
         }
     }
     paths
 }
 
-fn has_length(segment: &LineSegment) -> bool {
-    segment.ends_px[0] != segment.ends_px[1]
+fn is_drawn_itself(segment: &LineSegment) -> bool {
+    !segment.is_covered && segment.ends_px[0] != segment.ends_px[1]
 }
 
 fn position(segments: &[LineSegment], end: usize) -> DVec2 {
@@ -116,7 +117,7 @@ fn position(segments: &[LineSegment], end: usize) -> DVec2 {
 /// The end each end is joined with, or [`FREE`].
 fn partners(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Vec<usize> {
     let mut ends = Vec::with_capacity(segments.len() * 2);
-    for (index, segment) in segments.iter().enumerate().filter(|(_, segment)| has_length(segment)) {
+    for (index, segment) in segments.iter().enumerate().filter(|(_, segment)| is_drawn_itself(segment)) {
         for (which, point) in segment.ends_px.iter().enumerate() {
             // Adding 0 makes -0 a 0, which is the same place.
             let [x, y] = [point.x, point.y].map(|value| (value + 0.0).to_bits());
@@ -232,6 +233,7 @@ mod tests {
             class: Class::Crease,
             is_visible: true,
             is_outline: false,
+            is_covered: false,
             ends_px: [a.into(), b.into()],
             ends_world: [a, b].map(|[x, y]| glam::DVec3::new(x, y, 0.0)),
             edge: Some([0, 1]),

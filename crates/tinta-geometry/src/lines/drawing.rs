@@ -91,7 +91,7 @@ impl<'a> Drawing<'a> {
 
 /// The page of a drawing: its lines fill a sheet.
 pub(super) fn page(lines: &VisibleLines, settings: &SvgSettings) -> Page {
-    let is_drawn = |segment: &LineSegment| settings.draws(segment.is_visible);
+    let is_drawn = |segment: &LineSegment| settings.draws(segment.is_visible) && !segment.is_covered;
     Page::new(lines, is_drawn, settings.page_size, settings.margin.0)
 }
 

@@ -52,7 +52,7 @@ impl VisibleLines {
                 .segments
                 .iter()
                 .enumerate()
-                .filter(|(_, segment)| segment.is_visible == is_visible)
+                .filter(|(_, segment)| segment.is_visible == is_visible && !segment.is_covered)
                 .map(|(number, segment)| Stroke::new(number, segment, settings, units))
                 .collect();
             let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));

@@ -86,6 +86,7 @@ impl ContourLines<'_> {
                 class: Class::Silhouette,
                 is_visible: stretch.is_visible,
                 is_outline: stretch.is_outline,
+                is_covered: false,
                 ends_px: [image.at(stretch.from), image.at(stretch.to)],
                 ends_world: image.ends_world(self.lines.space, [stretch.from, stretch.to]),
                 edge: self.edge_in_file(&self.contours.pieces[*piece]),

@@ -237,6 +237,7 @@ impl<'a> Lines<'a> {
                 class,
                 is_visible: piece.is_visible,
                 is_outline: piece.is_outline,
+                is_covered: false,
                 ends_px: [image.at(piece.from), image.at(piece.to)],
                 ends_world: image.ends_world(self.space, [piece.from, piece.to]),
                 edge: feature.edge,

@@ -1,14 +1,39 @@
-//! Refuses cameras beyond the precision of GL's numbers before anything is drawn.
+//! Refuses cameras beyond the precision of numbers: f64 for every scene, f32 and a depth buffer where GL draws it.
 
 use super::Scene;
 use crate::camera::{Camera, Projection};
 use crate::error::{Error, Result};
-use crate::tolerances::{LARGEST_DISTANCE, LEAST_DEPTH_STEPS};
+use crate::tolerances::{LARGEST_DISTANCE, LARGEST_EXACT_DISTANCE, LEAST_DEPTH_STEPS};
 
 impl Scene {
-    /// Refuses a camera whose matrices f32 cannot hold with the precision depth needs.
-    pub(super) fn check_precision(&self) -> Result<()> {
-        let distance = (self.camera.eye - self.centre).length() / self.radius;
+    /// The eye's distance from the scene's centre, scene radii.
+    fn distance(&self) -> f64 {
+        (self.camera.eye - self.centre).length() / self.radius
+    }
+
+    /// Refuses an eye so far away that f64 cannot place the scene in the picture.
+    pub(super) fn check_distance(&self) -> Result<()> {
+        let distance = self.distance();
+        match distance > LARGEST_EXACT_DISTANCE {
+            false => Ok(()),
+            true => Err(Error::settings(
+                &["fov", "eye"],
+                format!(
+                    "the eye is {distance:.3e} scene radii away, more than the {LARGEST_EXACT_DISTANCE:e} that numbers can resolve; \
+                     use --parallel, or bring it closer"
+                ),
+            )),
+        }
+    }
+
+    /// Refuses a camera that GL cannot draw this scene by: whose matrices f32 cannot hold with the precision depth needs, or
+    /// whose planes leave the depth buffer too few steps. Exact lines need neither.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] that names the options.
+    pub fn check_precision(&self) -> Result<()> {
+        let distance = self.distance();
         if distance > LARGEST_DISTANCE || !self.clip_from_view().is_finite() {
             return Err(Error::settings(
                 &["fov", "eye", "near", "far"],

@@ -34,7 +34,7 @@ impl Scene {
         });
         let room: Vec<DVec3> = room.map(|(up, corner, angle)| self.centre + axis * up + turn(corner, angle)).collect();
         let camera = settings.fit(self.centre, self.radius, self.size.aspect(), room.iter().copied())?;
-        Self { camera, ..self.clone() }.check_precision()?;
+        Self { camera, ..self.clone() }.check_distance()?;
         let view = |number: u32| {
             let angle = TAU * f64::from(number) / f64::from(views);
             let turned = |point: DVec3| self.centre + turn(point - self.centre, angle);
