@@ -145,12 +145,35 @@ fn line_of(segment: &LineSegment) -> Option<(u32, [u32; 2])> {
     segment.edge.map(|edge| (segment.object, edge))
 }
 
+/// Hidden pieces as they were before other lines were drawn in place of parts of them.
+fn uncut(segments: Vec<LineSegment>) -> Vec<LineSegment> {
+    let mut uncut: Vec<LineSegment> = Vec::new();
+    let mut was_covered = false;
+    for segment in segments {
+        let is_covered = segment.is_covered;
+        match uncut.last_mut() {
+            Some(last)
+                if [last.is_visible, segment.is_visible] == [false; 2]
+                    && was_covered != is_covered
+                    && (last.object, last.edge) == (segment.object, segment.edge)
+                    && last.ends_px[1] == segment.ends_px[0] =>
+            {
+                (last.ends_px[1], last.ends_world[1]) = (segment.ends_px[1], segment.ends_world[1]);
+            }
+            _ => uncut.push(LineSegment { is_covered: false, ..segment }),
+        }
+        was_covered = is_covered;
+    }
+    uncut
+}
+
 #[test]
 fn a_part_has_some_lines_of_the_whole_and_each_of_them_whole() {
     let scene = scene(family("hair"), 400);
     for finds_hidden in [false, true] {
         let settings = LineSettings { finds_hidden, ..LineSettings::default() };
-        let whole = VisibleLines::of(&scene, &settings).unwrap();
+        let mut whole = VisibleLines::of(&scene, &settings).unwrap();
+        whole.segments = uncut(whole.segments);
         let part = part(&scene, &settings);
         assert!(!part.segments.is_empty() && part.segments.len() < whole.segments.len());
         let mut rest = whole.segments.iter();

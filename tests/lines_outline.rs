@@ -1,14 +1,15 @@
 //! Outlines: the pieces of visible lines beyond which there is only background, on shapes whose outline is known and against a
 //! twin that casts rays beside points of lines.
 
+use crate::lines_invariance::shuffled;
 use crate::lines_support::{assert_near, length, lines, lines_with, pierce, px, scene_of, total, view};
-use crate::shapes::{Random, cuboid, icosphere, mesh};
+use crate::shapes::{Random, cuboid, icosphere, joined, mesh};
 use glam::{DMat4, DVec2, DVec3};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use tinta::edges::Class;
-use tinta::lines::{LineSegment, LineSettings, VisibleLines};
-use tinta::{Mesh, Scene};
+use tinta::lines::{ClassWidths, LineSegment, LineSettings, VisibleLines};
+use tinta::{Mesh, Scene, SvgSettings};
 
 const NEAR: f64 = 1e-6;
 
@@ -21,8 +22,8 @@ fn outline_of(lines: &VisibleLines, object: Option<u32>) -> f64 {
     lines.segments.iter().filter(is_meant).map(length).sum()
 }
 
-/// The length of the convex hull's border, by Andrew's chain.
-fn hull_length(mut points: Vec<DVec2>) -> f64 {
+/// The corners of the convex hull in their order, by Andrew's chain.
+fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let chain = |points: &mut dyn Iterator<Item = &DVec2>| {
         let mut hull: Vec<DVec2> = Vec::new();
@@ -34,9 +35,18 @@ fn hull_length(mut points: Vec<DVec2>) -> f64 {
             }
             hull.push(*point);
         }
-        hull.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>()
+        hull.pop();
+        hull
     };
-    chain(&mut points.iter()) + chain(&mut points.iter().rev())
+    let mut there = chain(&mut points.iter());
+    there.extend(chain(&mut points.iter().rev()));
+    there
+}
+
+/// The length of the convex hull's border.
+fn hull_length(points: Vec<DVec2>) -> f64 {
+    let corners = hull(points);
+    (0..corners.len()).map(|k| corners[k].distance(corners[(k + 1) % corners.len()])).sum()
 }
 
 #[test]
@@ -152,9 +162,11 @@ fn rays_beside_points_of_lines_find_the_same_outline() {
         let world_from_clip = camera.inverse();
         for segment in outlined(&scene).segments.iter().filter(|segment| segment.is_visible && length(segment) > 0.01) {
             let [a, b] = segment.ends_px;
-            let aside = (b - a).perp().normalize() * 1e-4;
-            // Near both ends too: a cut at the wrong place is seen there.
-            for share in [0.02, 0.37, 0.98] {
+            // As far beside as background counts.
+            let aside = (b - a).perp().normalize() * 512.0 * tinta::tolerances::BESIDE;
+            // Near both ends too: a cut at the wrong place is seen there. Parts shorter than five times that distance are none.
+            let end = 6.0 * aside.length() / length(segment);
+            for share in [end, 0.37, 1.0 - end].into_iter().filter(|_| end < 0.37) {
                 let at = a.lerp(b, share);
                 let is_covered = [at + aside, at - aside].map(|point| meets(&scene, &world_from_clip, point));
                 let is_outline = is_covered != [true; 2];
@@ -181,18 +193,18 @@ fn with_outlines_there_are_the_same_lines_as_without() {
             match joined.last_mut() {
                 Some(last)
                     if last.ends_px[1] == segment.ends_px[0]
-                        && last.is_outline != segment.is_outline
+                        && last.background != segment.background
                         && [last.is_visible, segment.is_visible] == [true; 2]
                         && (last.edge, last.object) == (segment.edge, segment.object) =>
                 {
                     last.ends_px[1] = segment.ends_px[1];
                     last.ends_world[1] = segment.ends_world[1];
-                    last.is_outline = segment.is_outline;
+                    last.background = segment.background;
                 }
                 _ => joined.push(segment),
             }
         }
-        joined.iter_mut().for_each(|segment| segment.is_outline = false);
+        joined.iter_mut().for_each(|segment| (segment.is_outline, segment.background) = (false, [false; 2]));
         assert_eq!(joined, without.segments, "scene {number}");
     }
 }
@@ -216,4 +228,227 @@ fn a_sheets_border_is_outline_where_nothing_is_behind_it() {
     assert_near(by_object[&(0, false)], 4.0 * unit, NEAR, "in front of the other");
     assert_near(by_object[&(1, true)], 8.0 * unit, NEAR, "the outer one");
     assert_eq!(by_object.len(), 2);
+}
+
+/// A prism with a regular polygon's corners, its axis upright; numbers as a file of f32 has them.
+fn prism(sides: u32, height: f64) -> Mesh {
+    let corner = |k: u32, y: f64| {
+        let angle = f64::from(k) / f64::from(sides) * TAU;
+        DVec3::new(f64::from((10.0 * angle.cos()) as f32), y, f64::from((10.0 * angle.sin()) as f32))
+    };
+    let positions = [0.0, height].into_iter().flat_map(|y| (0..sides).map(move |k| corner(k, y))).collect();
+    let ends = (1..sides - 1).flat_map(|k| [[0, k, k + 1], [sides, sides + k + 1, sides + k]]);
+    let around = (0..sides).flat_map(|k| {
+        let next = (k + 1) % sides;
+        [[k, sides + k, sides + next], [k, sides + next, next]]
+    });
+    mesh(positions, ends.chain(around).collect())
+}
+
+#[test]
+fn a_rim_is_outline_also_where_a_face_beside_it_is_edge_on_but_for_rounding() {
+    for sides_count in [6, 8, 12] {
+        for name in ["30,15", "90,15", "0,15", "0,90", "29.99999,15", "30.00001,20", "15,0"] {
+            for parallel in [true, false] {
+                let part = prism(sides_count, 7.0);
+                let corners = part.positions.clone();
+                let scene = scene_of(vec![part], view(name, parallel));
+                let found = outlined(&scene);
+                let outline: Vec<[DVec2; 2]> =
+                    found.segments.iter().filter(|s| s.is_outline).map(|s| s.ends_px).collect();
+                let around = hull(corners.iter().map(|corner| px(&scene, *corner)).collect());
+                let sides: Vec<[DVec2; 2]> =
+                    (0..around.len()).map(|k| [around[k], around[(k + 1) % around.len()]]).collect();
+                // Two rims may lie beside one another, nearer than background has to be.
+                let what = format!("{sides_count} sides from {name}, parallel {parallel}");
+                for (of, others) in [(&sides, &outline), (&outline, &sides)] {
+                    for at in of.iter().flat_map(|[a, b]| (0..=50).map(|k| a.lerp(*b, f64::from(k) / 50.0))) {
+                        let nearest = others.iter().map(|ends| distance(at, *ends)).fold(f64::MAX, f64::min);
+                        assert!(nearest < 0.06, "{what}: {nearest} px between the outline and the hull at {at}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Distance of a point from a line.
+fn distance(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
+    let share = (point - a).dot(b - a) / (b - a).length_squared().max(f64::MIN_POSITIVE);
+    point.distance(a.lerp(b, share.clamp(0.0, 1.0)))
+}
+
+/// The lines as they are drawn with an outline so many pixels wide, nothing else left out.
+fn drawn(lines: &VisibleLines, width: &str) -> VisibleLines {
+    let class_widths: ClassWidths = format!("outline={width}").parse().unwrap();
+    let min_length = Some("0".parse().unwrap());
+    lines.without_specks(&SvgSettings { class_widths, min_length, ..SvgSettings::default() }).unwrap()
+}
+
+/// Upright boxes in a row, 4 units high and 2 wide, with so many units of background between them.
+fn row(gaps: &[f64]) -> Vec<Mesh> {
+    let mut x = 0.0;
+    let mut boxes = Vec::new();
+    for gap in gaps.iter().chain([&0.0]) {
+        boxes.push(cuboid(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 2.0, 4.0, 1.0)));
+        x += 2.0 + gap;
+    }
+    boxes
+}
+
+#[test]
+fn what_borders_on_a_slit_that_ink_would_fill_is_no_outline() {
+    let scene = scene_of(row(&[0.05, 1.0]), view("front", true));
+    let unit = px(&scene, DVec3::X).x - px(&scene, DVec3::ZERO).x;
+    let found = outlined(&scene);
+    // Three boxes of 12 each have background all around.
+    assert_near(outline_of(&found, None), 36.0 * unit, NEAR, "as it is");
+    let slit = 0.05 * unit;
+    for (width, expected) in [(slit / 2.0, 36.0), (slit / 1.4, 28.0), (slit * 2.0, 28.0)] {
+        let drawn = drawn(&found, &width.to_string());
+        assert_near(
+            outline_of(&drawn, None),
+            expected * unit,
+            0.05,
+            &format!("{width} px wide, {slit} px of background"),
+        );
+        assert_near(total(&drawn, true), 36.0 * unit, NEAR, "nothing is left out");
+    }
+}
+
+/// Pieces along one line with their lengths, outline or not.
+fn chained(lengths: &[(f64, bool)], is_ring: bool) -> VisibleLines {
+    let mut found = outlined(&scene_of(vec![cuboid(DVec3::ZERO, DVec3::ONE)], view("front", true)));
+    let all: f64 = lengths.iter().map(|(length, _)| length).sum();
+    let at = |along: f64| match is_ring {
+        true => DVec2::splat(256.0) + DVec2::from_angle(along / all * TAU) * (all / TAU),
+        false => DVec2::new(10.0 + along, 50.0),
+    };
+    let mut from = 0.0;
+    let one = found.segments.iter().find(|segment| segment.is_visible).unwrap().clone();
+    found.segments = Vec::new();
+    for (length, is_outline) in lengths {
+        let steps = if is_ring { 40 } else { 1 };
+        for step in 0..steps {
+            let ends = [step, step + 1].map(|end| from + length * f64::from(end) / f64::from(steps));
+            let ends_px = ends.map(|end| at(if end >= all - 1e-9 && is_ring { 0.0 } else { end }));
+            let background = [*is_outline, false];
+            found.segments.push(LineSegment { is_outline: *is_outline, background, ends_px, ..one.clone() });
+        }
+        from += length;
+    }
+    found
+}
+
+#[test]
+fn a_run_shorter_than_four_widths_is_what_those_on_either_side_are() {
+    let outline = |lengths: &[(f64, bool)], is_ring: bool| {
+        let lines = chained(lengths, is_ring);
+        outline_of(&drawn(&lines, "3"), None) / total(&lines, true)
+    };
+    let near = |actual: f64, expected: f64| assert!((actual - expected).abs() < 1e-9, "{actual} instead of {expected}");
+    near(outline(&[(50.0, true), (11.0, false), (39.0, true)], false), 1.0);
+    near(outline(&[(50.0, true), (13.0, false), (37.0, true)], false), 0.87);
+    near(outline(&[(50.0, false), (11.0, true), (39.0, false)], false), 0.0);
+    near(outline(&[(50.0, false), (13.0, true), (37.0, false)], false), 0.13);
+    // The shortest first: what is left after that is long enough.
+    near(outline(&[(40.0, true), (10.0, false), (5.0, true), (10.0, false), (35.0, true)], false), 0.75);
+    // At an end nothing says what it should be.
+    near(outline(&[(5.0, true), (95.0, false)], false), 0.05);
+    // Around the end of a ring, too.
+    near(outline(&[(3.0, true), (90.0, false), (7.0, true)], true), 0.0);
+    near(outline(&[(3.0, false), (90.0, true), (7.0, false)], true), 1.0);
+    near(outline(&[(50.0, true)], true), 1.0);
+    near(outline(&[(8.0, true)], true), 0.0);
+}
+
+#[test]
+fn the_outline_goes_around_what_looks_out_by_a_little() {
+    // A bar across a wide plate, before it; its end looks out.
+    let plate = cuboid(DVec3::ZERO, DVec3::new(8.0, 6.0, 1.0));
+    let bar = |end: f64| cuboid(DVec3::new(4.0, 2.0, 2.0), DVec3::new(8.0 + end, 3.0, 3.0));
+    for end in [0.05, 2.0] {
+        let scene = scene_of(vec![plate.clone(), bar(end)], view("front", true));
+        let unit = px(&scene, DVec3::X).x - px(&scene, DVec3::ZERO).x;
+        for found in [outlined(&scene), drawn(&outlined(&scene), "3")] {
+            assert_near(
+                outline_of(&found, Some(1)),
+                (2.0 * end + 1.0) * unit,
+                NEAR,
+                &format!("the bar's end, {end} long"),
+            );
+            assert_near(outline_of(&found, Some(0)), (28.0 - 1.0) * unit, NEAR, "the plate");
+        }
+    }
+}
+
+#[test]
+fn a_corner_of_the_outline_that_is_nearly_closed_stays_outline() {
+    // An angle of 60 degrees seen from the front: near its inner corner background is as narrow as one likes.
+    let arm = |angle: f64| {
+        let turn = glam::DQuat::from_rotation_z(angle);
+        let one = cuboid(DVec3::new(0.0, 0.0, 0.0), DVec3::new(6.0, 0.5, 1.0));
+        mesh(one.positions.iter().map(|point| turn * *point).collect(), one.triangles)
+    };
+    let scene = scene_of(vec![arm(0.0), arm(TAU / 6.0)], view("front", true));
+    let found = outlined(&scene);
+    let all = outline_of(&found, None);
+    assert_near(outline_of(&drawn(&found, "3"), None), all, NEAR, "60 degrees");
+}
+
+#[test]
+fn a_drawing_without_a_word_on_its_outline_keeps_all_of_it() {
+    let found = outlined(&scene_of(row(&[0.05]), view("front", true)));
+    let settings = SvgSettings { min_length: Some("0".parse().unwrap()), ..SvgSettings::default() };
+    assert_eq!(found.without_specks(&settings).unwrap().segments, found.segments);
+}
+
+/// The outline's length as found and as drawn three pixels wide.
+fn outlines(meshes: Vec<Mesh>, camera: &tinta::CameraSettings) -> [f64; 2] {
+    let found = outlined(&scene_of(meshes, camera.clone()));
+    [outline_of(&found, None), outline_of(&drawn(&found, "3"), None)]
+}
+
+#[test]
+fn the_outline_does_not_change_with_how_a_scene_is_written() {
+    let mut random = Random(41 << 40 | 9);
+    let views = ["front", "top", "iso", "30,15", "0,15", "45,45", "90,20"];
+    let turned = |mesh: &Mesh, is_turned: &mut dyn FnMut() -> bool| {
+        let turn = |[a, b, c]: &[u32; 3]| if is_turned() { [*a, *c, *b] } else { [*a, *b, *c] };
+        Mesh { triangles: mesh.triangles.iter().map(turn).collect(), ..mesh.clone() }
+    };
+    for number in 0..40 {
+        let count = 2 + (random.number() * 3.0) as usize;
+        let mut parts: Vec<Mesh> = Vec::new();
+        for k in 0..count {
+            // Apart, so that no edge gets a third face when parts become one object.
+            let low = DVec3::new(random.number() * 4.0, random.number() * 4.0, 3.0 * k as f64);
+            let one = match (number + k) % 2 {
+                0 => cuboid(DVec3::ZERO, DVec3::new(1.0 + random.number() * 3.0, 2.0, 2.0)),
+                _ => {
+                    let one = prism(6 + (k as u32 % 3) * 2, 2.0 + random.number() * 10.0);
+                    mesh(one.positions.iter().map(|point| *point * 0.1 + 1.0).collect(), one.triangles)
+                }
+            };
+            parts.push(mesh(one.positions.iter().map(|point| *point + low).collect(), one.triangles));
+        }
+        let camera = view(views[number % views.len()], number % 3 != 0);
+        let expected = outlines(parts.clone(), &camera);
+        let rewritten = [
+            ("in another order", parts.iter().rev().cloned().collect()),
+            ("one part inside out", parts.iter().enumerate().map(|(k, part)| turned(part, &mut || k == 0)).collect()),
+            (
+                "some faces turned",
+                parts.iter().map(|part| turned(part, &mut || random.number() < 0.3)).collect::<Vec<Mesh>>(),
+            ),
+            ("faces in another order", parts.iter().map(|part| shuffled(part, &mut random)).collect()),
+            ("one object", vec![joined(&parts)]),
+        ];
+        for (what, meshes) in rewritten {
+            let actual = outlines(meshes, &camera);
+            for (k, how) in ["found", "drawn"].into_iter().enumerate() {
+                assert_near(actual[k], expected[k], 0.05, &format!("scene {number}, {what}, {how}"));
+            }
+        }
+    }
 }

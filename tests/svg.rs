@@ -15,6 +15,7 @@ pub fn segment(class: Class, is_visible: bool, a: [f64; 2], b: [f64; 2]) -> Line
         class,
         is_visible,
         is_outline: false,
+        background: [false; 2],
         is_covered: false,
         ends_px: [a.into(), b.into()],
         ends_world: [a, b].map(|[x, y]| glam::DVec3::new(x, y, 0.0)),

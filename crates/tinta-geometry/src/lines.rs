@@ -235,10 +235,13 @@ pub struct LineSegment {
     pub class: Class,
     /// Whether it is seen.
     pub is_visible: bool,
-    /// Whether it is seen and has nothing but background on one side at least; `false` throughout unless outlines were asked for.
+    /// Whether it is drawn as outline: it is seen and has nothing but background on one side at least; `false` throughout unless outlines
+    /// were asked for. A drawing leaves out runs that are too short to read, see [`VisibleLines::without_specks`].
     pub is_outline: bool,
+    /// On which sides it has nothing but background, on its right and on its left, seen from its first end.
+    pub background: [bool; 2],
     /// Whether it is hidden and another line lies on it in the picture, a visible one or a hidden one of an earlier class: that one is
-    /// drawn in its place.
+    /// drawn in its place. `false` throughout where lines are missing, see [`VisibleLines::undecided`].
     pub is_covered: bool,
     /// Where it begins and ends in the picture: pixels from the upper left corner, y down. Pieces that meet at a vertex have
     /// bit for bit the same end there.
@@ -427,7 +430,10 @@ impl VisibleLines {
                 changes = Some(contour_lines.changes_of_edges(&segments));
             }
         }
-        let segments = doubled::marked(segments, &space, progress)?;
+        // What lies on what is known of a whole only.
+        if undecided == 0 {
+            segments = doubled::marked(segments, &space, progress)?;
+        }
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };
         let covered_triangles = parts.iter().map(Part::covered).sum();

@@ -90,6 +90,10 @@ pub const TIE: f64 = 2e-11;
 /// error.
 pub const TOUCH: f64 = 1e-7;
 
+/// Distance beside a line, as a share of the picture's larger side, at which background makes it outline: a twentieth of a pixel at
+/// 512 x 512. Far more than a file's six digits move a line by, so that a face which is edge-on but for these hides no outline.
+pub const BESIDE: f64 = 1e-4;
+
 /// Distance along a line from a corner in which it ends, as a share of the picture's larger side, up to which a face with that
 /// corner hides it that does from there on: by the rule for contact alone it would be seen again beside the corner.
 pub const NEAR_CORNER: f64 = 4e-5;

@@ -233,6 +233,7 @@ mod tests {
             class: Class::Crease,
             is_visible: true,
             is_outline: false,
+            background: [false; 2],
             is_covered: false,
             ends_px: [a.into(), b.into()],
             ends_world: [a, b].map(|[x, y]| glam::DVec3::new(x, y, 0.0)),

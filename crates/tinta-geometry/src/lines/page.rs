@@ -282,6 +282,7 @@ mod tests {
             class: Class::Crease,
             is_visible: true,
             is_outline: false,
+            background: [false; 2],
             is_covered: false,
             ends_px: [a.into(), b.into()],
             edge: None,

@@ -16,6 +16,7 @@ mod ways;
 
 use super::layers::Layer;
 use super::length::Units;
+use super::outline::readable;
 use super::progress::{Phase, Progress};
 use super::svg::SvgSettings;
 use super::{LineSegment, VisibleLines};
@@ -27,7 +28,9 @@ use glam::DVec2;
 use ways::Ways;
 
 impl VisibleLines {
-    /// The lines without spurs and specks as a drawing's settings ask: what is shorter than [`SvgSettings::min_length`].
+    /// The lines without spurs and specks as a drawing's settings ask: what is shorter than [`SvgSettings::min_length`]. Where settings say
+    /// something of the outline, what cannot be read as outline is none: beside slits narrower than it, and in runs shorter than four
+    /// of its widths.
     ///
     /// # Errors
     ///
@@ -45,11 +48,14 @@ impl VisibleLines {
         settings.check()?;
         self.check()?;
         let units = super::drawing::page(self, settings).units;
-        let mut keeps = vec![true; self.segments.len()];
+        let segments = match settings.tells_outline() {
+            true => readable(&self.segments, settings.width_px(Layer::Outline, units), progress),
+            false => self.segments.clone(),
+        };
+        let mut keeps = vec![true; segments.len()];
         // Hidden lines lie in layers of their own, which may be switched off.
         for is_visible in [true, false] {
-            let strokes: Vec<Stroke> = self
-                .segments
+            let strokes: Vec<Stroke> = segments
                 .iter()
                 .enumerate()
                 .filter(|(_, segment)| segment.is_visible == is_visible && !segment.is_covered)
@@ -60,14 +66,13 @@ impl VisibleLines {
                 Ok(all) => all.into_iter().for_each(|stroke| keeps[strokes[stroke].number] = false),
                 // Some of them would depend on the machine.
                 Err(Error::OutOfTime { asked_for_part: true, .. }) => {
-                    return Ok(Self { has_specks: true, ..self.clone() });
+                    return Ok(Self { has_specks: true, segments, ..self.clone_without_segments() });
                 }
                 Err(error) => return Err(error),
             }
         }
-        let segments =
-            self.segments.iter().zip(&keeps).filter(|(_, keeps)| **keeps).map(|(segment, _)| segment.clone());
-        Ok(Self { segments: segments.collect(), ..self.clone_without_segments() })
+        let kept = segments.into_iter().zip(keeps).filter(|(_, keeps)| *keeps).map(|(segment, _)| segment);
+        Ok(Self { segments: kept.collect(), ..self.clone_without_segments() })
     }
 
     fn clone_without_segments(&self) -> Self {

@@ -87,6 +87,7 @@ mod tests {
             class: Class::Crease,
             is_visible,
             is_outline: false,
+            background: [false; 2],
             is_covered: false,
             ends_px: [DVec2::new(5.0, y), DVec2::new(95.0, y)],
             ends_world: [5.0, 95.0].map(|x| glam::DVec3::new(x, y, 0.0)),

@@ -36,7 +36,7 @@ pub(super) struct Stretch {
     pub from: f64,
     pub to: f64,
     pub is_visible: bool,
-    pub is_outline: bool,
+    pub background: [bool; 2],
 }
 
 /// A piece of contour in the picture.
@@ -85,7 +85,8 @@ impl ContourLines<'_> {
             segments.extend(drawn.map(|stretch| LineSegment {
                 class: Class::Silhouette,
                 is_visible: stretch.is_visible,
-                is_outline: stretch.is_outline,
+                is_outline: stretch.background != [false; 2],
+                background: stretch.background,
                 is_covered: false,
                 ends_px: [image.at(stretch.from), image.at(stretch.to)],
                 ends_world: image.ends_world(self.lines.space, [stretch.from, stretch.to]),
@@ -114,22 +115,34 @@ impl ContourLines<'_> {
         let whole = |stretches| Some(Decided { piece: number, image, stretches });
         let [from, to] = inside;
         if self.contours.is_inside(piece) {
-            return whole(vec![Stretch { from, to, is_visible: false, is_outline: false }]);
+            return whole(vec![Stretch { from, to, is_visible: false, background: [false; 2] }]);
         }
         let places = lines.places(&image, inside, self.cuts(piece, &image, inside));
         let mut stretches: Vec<Stretch> = Vec::new();
         for place in places.windows(2) {
             let probe = self.probe(piece, &image, (place[0] + place[1]) * 0.5);
             let is_visible = self.is_seen(&probe);
-            let touch_px = image.touch_px(lines.space);
-            let is_outline =
-                lines.finds_outline && is_visible && lines.faces.cover(lines.space, &probe, touch_px) != [true; 2];
+            let background =
+                if lines.finds_outline && is_visible { self.background(&image, &probe) } else { [false; 2] };
             match stretches.last_mut() {
-                Some(last) if last.is_visible == is_visible && last.is_outline == is_outline => last.to = place[1],
-                _ => stretches.push(Stretch { from: place[0], to: place[1], is_visible, is_outline }),
+                Some(last) if last.is_visible == is_visible && last.background == background => last.to = place[1],
+                _ => stretches.push(Stretch { from: place[0], to: place[1], is_visible, background }),
             }
         }
         whole(stretches)
+    }
+
+    /// On which sides of a piece there is background beyond its summit: on its right and on its left.
+    fn background(&self, image: &Image, summit: &Probe) -> [bool; 2] {
+        let lines = self.lines;
+        let outwards = DVec2::new(summit.aside.x, -summit.aside.y);
+        let px = summit.px + outwards * lines.beside_px();
+        let beside = Probe { px, view: lines.space.point(px, summit.key), ..*summit };
+        if lines.faces.is_covered(lines.space, &beside, image.touch_px(lines.space)) {
+            return [false; 2];
+        }
+        let is_right = (image.b - image.a).perp().dot(outwards) > 0.0;
+        [is_right, !is_right]
     }
 
     /// Where what is seen of a piece may change.

@@ -57,7 +57,8 @@ pub(super) struct Piece {
     pub from: f64,
     pub to: f64,
     pub is_visible: bool,
-    pub is_outline: bool,
+    /// On which sides there is nothing but background, on the right and on the left as it runs.
+    pub background: [bool; 2],
 }
 
 /// Parts of the picture's larger side in which long lines are asked for what crosses them, so that a diagonal one does not
@@ -228,7 +229,7 @@ impl<'a> Lines<'a> {
             let Some(is_visible) = self.state(index, &image, &beside, place, is_hidden, &cuts) else { continue };
             match pieces.last_mut() {
                 Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
-                _ => pieces.push(Piece { from, to, is_visible, is_outline: false }),
+                _ => pieces.push(Piece { from, to, is_visible, background: [false; 2] }),
             }
         }
         pieces.retain(|piece| piece.is_visible || self.finds_hidden);
@@ -236,7 +237,8 @@ impl<'a> Lines<'a> {
             segments.push(LineSegment {
                 class,
                 is_visible: piece.is_visible,
-                is_outline: piece.is_outline,
+                is_outline: piece.background != [false; 2],
+                background: piece.background,
                 is_covered: false,
                 ends_px: [image.at(piece.from), image.at(piece.to)],
                 ends_world: image.ends_world(self.space, [piece.from, piece.to]),

@@ -75,6 +75,7 @@ fn creases(of: &[[f64; 2]]) -> VisibleLines {
         class: Class::Crease,
         is_visible: true,
         is_outline: false,
+        background: [false; 2],
         is_covered: false,
         ends_px: ends.map(|x| DVec2::new(x * 10.0, 20.0)),
         ends_world: ends.map(|x| DVec3::new(x, 0.0, 0.0)),
