@@ -105,7 +105,8 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--hidden", "dotted"], &["--hidden", "none, dashed, ghost"]);
     refuse(&["--classes", "outline"], &["--classes", "apparent-ridge, or all"]);
     refuse(&["--crease-angle", "200"], &["--crease-angle 200"]);
-    refuse(&["--pen", "--line-width", "3"], &["--pen", "--line-width"]);
+    refuse(&["--line-width", "2x"], &["--line-width 2x", "--class-widths"]);
+    refuse(&["--min-length", "2x"], &["--min-length 2x", "--class-widths"]);
     refuse(&["--class-widths", "outlines=3"], &["--class-widths", "outline, hidden, or hidden-"]);
     refuse(&["--line-width", "0.5mm"], &["--line-width 0.5mm", "no size on paper", "--page A4"]);
     refuse(&["--min-length", "1mm"], &["--min-length 1mm", "--page A4"]);
@@ -117,6 +118,70 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--fit-curves", "0"], &["--fit-curves 0", "0.01 to 100"]);
     refuse(&["--fit-curves", "0.5", "--provenance"], &["--fit-curves", "--provenance"]);
     refuse(&["--silhouette", "round"], &["--silhouette", "exact, smooth"]);
+}
+
+/// Each layer's name and stroke width in pixels, and how many pixels a millimetre has.
+fn layer_widths(file: &str) -> (Vec<(String, f64)>, f64) {
+    let text = std::fs::read_to_string(file).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let root = document.root_element();
+    let number = |text: &str| text.trim_end_matches("mm").parse::<f64>().unwrap();
+    let box_px: Vec<f64> = root.attribute("viewBox").unwrap().split(' ').map(number).collect();
+    let layers = root.children().filter(|node| node.has_tag_name("g"));
+    let widths = layers.map(|layer| {
+        let width = number(layer.attribute("stroke-width").unwrap());
+        (layer.attribute("id").unwrap().to_owned(), width)
+    });
+    (widths.collect(), box_px[2] / number(root.attribute("width").unwrap()))
+}
+
+#[test]
+fn the_look_technical_has_one_ratio_of_widths_for_paper_pictures_and_pens() {
+    let folder = Folder::new();
+    let out = folder.path("gear.svg");
+    let draw = |options: &[&str]| {
+        let look = ["render", "builtin:gear", "-o", &out, "--look", "technical", "--hidden", "dashed"];
+        made(&[&look, options].concat());
+        layer_widths(&out)
+    };
+    for (options, outline_mm) in [
+        (&["--page", "A4"][..], 0.7),
+        (&["--page", "A3", "--line-width", "0.25mm"], 0.5),
+        (&["--page", "A5", "--pen"], 0.7),
+        (&["--width-mm", "90", "--pen", "--line-width", "0.25mm"], 0.5),
+    ] {
+        let (layers, px_per_mm) = draw(options);
+        let names: Vec<&str> = layers.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names.last(), Some(&"visible-outline"), "{options:?}");
+        assert!(names.contains(&"visible-crease") && names.contains(&"hidden-crease"), "{options:?} {names:?}");
+        for (name, width) in &layers {
+            let expected = if name == "visible-outline" { outline_mm } else { outline_mm / 2.0 };
+            assert!((width / px_per_mm - expected).abs() < 1e-3, "{options:?} {name}: {width} of {px_per_mm}");
+        }
+    }
+    let (layers, _) = draw(&["--line-width", "3"]);
+    assert!(
+        layers.iter().all(|(name, width)| *width == if name == "visible-outline" { 6.0 } else { 3.0 }),
+        "{layers:?}"
+    );
+}
+
+#[test]
+fn what_pens_a_drawing_needs_is_explained() {
+    let folder = Folder::new();
+    let out = folder.path("gear.svg");
+    let explain = |options: &[&str]| {
+        let all = [&["render", "builtin:gear", "-o", &out, "--explain", "--pen"], options].concat();
+        String::from_utf8(made(&all)).unwrap()
+    };
+    let said = explain(&["--look", "technical", "--page", "A4"]);
+    let pens = said.split("pen, layer").nth(1).unwrap();
+    let words: Vec<Vec<&str>> = pens.lines().skip(1).map(|line| line.split_whitespace().collect()).collect();
+    assert_eq!((&words[0][..], words[1][0]), (&["pen", "1", "0.35", "mm"][..], "visible-crease"), "{pens}");
+    let last = &words[words.len() - 2..];
+    assert_eq!((&last[0][..], last[1][0]), (&["pen", "2", "0.70", "mm"][..], "visible-outline"), "{pens}");
+    assert!(explain(&["--class-colors", "crease=red"]).contains("pen 2"), "a colour is a pen");
+    assert!(!explain(&[]).contains("pen 2"));
 }
 
 #[test]

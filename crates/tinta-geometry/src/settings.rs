@@ -60,12 +60,11 @@ impl OptionValue {
 }
 
 /// Settings that exclude each other: one, and those that cannot stand beside it.
-pub const EXCLUSIVE: [(&str, &[&str]); 6] = [
+pub const EXCLUSIVE: [(&str, &[&str]); 5] = [
     ("eye", &["view"]),
     ("transparent", &["background"]),
     ("width-mm", &["dpi"]),
     ("page", &["width-mm", "dpi"]),
-    ("pen", &["class-widths", "line-width"]),
     ("fit-curves", &["provenance"]),
 ];
 

@@ -1,7 +1,7 @@
 //! What `--explain` says of a plan's times, of what came before the first frame, and of exact lines.
 
 use tinta::edges::Class;
-use tinta::lines::{InconsistencyKind, VisibleLines};
+use tinta::lines::{InconsistencyKind, Polyline, Strokes, VisibleLines};
 use tinta::plan::Plan;
 use tinta::record::{LineCounts, Summary};
 use tinta::renderer::PassTime;
@@ -23,6 +23,28 @@ pub(super) fn frames(plan: &Plan, passes: &[PassTime], times: &Summary, frames: 
 pub(super) fn start(parts: &[(&str, f64)]) -> String {
     let rows: Vec<String> = parts.iter().map(|(name, ms)| format!("{name:<20}{ms:>10.3}\n")).collect();
     format!("\n{:<20}{:>10}  the model is read while the context opens\n{}", "start", "ms", rows.concat())
+}
+
+/// Which pens a plotter needs for which layers, from the first drawn to the last: as many as there are widths and colours.
+pub(super) fn pens(layers: &[Strokes]) -> String {
+    let mut pens: Vec<(&Strokes, Vec<&Strokes>)> = Vec::new();
+    for layer in layers {
+        match pens.iter_mut().find(|(first, _)| (first.width_px, first.color) == (layer.width_px, layer.color)) {
+            Some((_, layers)) => layers.push(layer),
+            None => pens.push((layer, vec![layer])),
+        }
+    }
+    let mut text = format!("\n{:<20}{:>10}{:>12}{:>12}\n", "pen, layer", "strokes", "length px", "width");
+    for (number, (first, layers)) in pens.iter().enumerate() {
+        let width = first.width_mm.map_or_else(|| format!("{:.2} px", first.width_px), |mm| format!("{mm:.2} mm"));
+        text.push_str(&format!("{:<44}{width:>10}\n", format!("pen {}", number + 1)));
+        for layer in layers {
+            let length: f64 = layer.polylines.iter().map(Polyline::length_px).sum();
+            let name = format!("  {}", layer.layer.words().join("-"));
+            text.push_str(&format!("{name:<20}{:>10}{length:>12.1}\n", layer.polylines.len()));
+        }
+    }
+    text
 }
 
 /// What the lines of a drawing are, how long each part took, and where what is seen of smooth silhouettes ends for no reason.

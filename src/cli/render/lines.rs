@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use tinta::edges::SilhouetteRule;
 use tinta::lines::{
     Hidden, LinePath, LineSettings, Phase, Progress as LineProgress, Raster, chain, pdf_of_paths, raster_of_paths,
-    svg_of_paths,
+    strokes_of_paths, svg_of_paths,
 };
 use tinta::picture::{Note, PictureFormat};
 use tinta::preset::Options;
@@ -200,11 +200,15 @@ pub(super) fn run(
     if is_stopped(stop.as_ref()) {
         return Ok(stopped(stop.as_ref()));
     }
+    let pens = match arguments.run.explain && drawn.is_for_pen {
+        true => explain::pens(&strokes_of_paths(&lines, paths.clone(), &drawn)?),
+        false => String::new(),
+    };
     let said = note.map(comment).or_else(|| recipe.as_ref().and_then(Recipe::note));
     write(arguments, format, &arguments.output, &scene, (&lines, paths), &drawn, said.as_ref())?;
     let lines_ms = milliseconds_since(start);
     if arguments.run.explain {
-        super::super::print(&explain::lines(&lines, &counts, load_ms, lines_ms))?;
+        super::super::print(&(explain::lines(&lines, &counts, load_ms, lines_ms) + &pens))?;
     }
     if !arguments.run.json {
         return Ok(Verdict::Good);

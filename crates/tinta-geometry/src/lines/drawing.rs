@@ -16,7 +16,7 @@ use glam::DVec2;
 /// Opacity of hidden lines drawn as ghosts.
 pub const GHOST_OPACITY: f32 = 0.3;
 
-/// Width of a pen's line, pixels: to look at; the pen has its own.
+/// Width of a pen's line where nothing is said, pixels: to look at; the pen has its own.
 const PEN_WIDTH_PX: f64 = 0.5;
 
 /// Dashes and the gaps between them, widths of their line; its round ends take one from each gap.
@@ -97,7 +97,8 @@ pub(super) fn page(lines: &VisibleLines, settings: &SvgSettings) -> Page {
 
 impl DrawnLayer {
     fn new(layer: Layer, mut paths: Vec<LinePath>, page: &Page, settings: &SvgSettings, size: Size) -> Self {
-        let width_px = if settings.is_for_pen { PEN_WIDTH_PX } else { settings.width_px(layer, page.units) };
+        let is_pens_own = settings.is_for_pen && !settings.says_width(layer);
+        let width_px = if is_pens_own { PEN_WIDTH_PX } else { settings.width_px(layer, page.units) };
         let is_dashed = !layer.is_visible() && settings.hidden == Hidden::Dashed;
         if settings.is_for_pen {
             if is_dashed {

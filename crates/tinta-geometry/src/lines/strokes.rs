@@ -7,6 +7,7 @@ use super::VisibleLines;
 use super::chain::{LinePath, chain};
 use super::drawing::{Drawing, DrawnLayer, GHOST_OPACITY};
 use super::layers::Layer;
+use super::length::Units;
 use super::pen::dashes;
 use super::svg::SvgSettings;
 use crate::error::Result;
@@ -22,6 +23,8 @@ pub struct Strokes {
     pub color: Color,
     /// How wide they are, pixels.
     pub width_px: f64,
+    /// The same in millimetres; `None` where the drawing has no size on paper.
+    pub width_mm: Option<f64>,
     /// 1 is opaque.
     pub opacity: f32,
     /// The strokes.
@@ -35,6 +38,15 @@ pub struct Polyline {
     pub points_px: Vec<DVec2>,
     /// Whether the last point is joined to the first.
     pub is_closed: bool,
+}
+
+impl Polyline {
+    /// How long it is, pixels.
+    pub fn length_px(&self) -> f64 {
+        let closing = self.points_px.first().zip(self.points_px.last()).filter(|_| self.is_closed);
+        let along = self.points_px.windows(2).map(|pair| pair[0].distance(pair[1]));
+        along.sum::<f64>() + closing.map_or(0.0, |(first, last)| first.distance(*last))
+    }
 }
 
 /// The strokes of a drawing from the lowest layer to the highest, without spurs and specks.
@@ -54,10 +66,10 @@ pub fn strokes(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<Strok
 /// As [`super::svg`].
 pub fn strokes_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSettings) -> Result<Vec<Strokes>> {
     let drawing = Drawing::new(lines, paths, settings)?;
-    Ok(drawing.layers.iter().map(|layer| of_layer(layer, settings)).collect())
+    Ok(drawing.layers.iter().map(|layer| of_layer(layer, settings, drawing.page.units)).collect())
 }
 
-fn of_layer(drawn: &DrawnLayer, settings: &SvgSettings) -> Strokes {
+fn of_layer(drawn: &DrawnLayer, settings: &SvgSettings, units: Units) -> Strokes {
     let polylines = drawn.paths.iter().flat_map(|path| match drawn.dash_px {
         Some([dash, gap]) => dashes(path, dash, gap)
             .into_iter()
@@ -69,6 +81,7 @@ fn of_layer(drawn: &DrawnLayer, settings: &SvgSettings) -> Strokes {
         layer: drawn.layer,
         color: drawn.color,
         width_px: drawn.width_px,
+        width_mm: units.px_per_mm.map(|px| drawn.width_px / px),
         opacity: if drawn.is_ghost { GHOST_OPACITY } else { 1.0 },
         polylines: polylines.collect(),
     }

@@ -41,8 +41,8 @@ pub struct SvgSettings {
     pub margin: Millimetres,
     /// Whether each path names its class, object, mesh edges and angles; then no point is left out. Default no.
     pub has_provenance: bool,
-    /// Whether it is for a plotter: thin lines in an order that spares empty ways, dashes as lines of their own, no
-    /// background; colours tell its pens apart. Default no.
+    /// Whether it is for a plotter: lines in an order that spares empty ways, dashes as lines of their own, no background; layers,
+    /// widths and colours tell its pens apart, and lines are half a pixel wide where nothing is said. Default no.
     pub is_for_pen: bool,
 }
 
@@ -142,8 +142,9 @@ impl SvgSettings {
             Setting::field(
                 "class-widths",
                 "WIDTHS",
-                "Widths of the lines by class: CLASS=WIDTH, separated by commas, in pixels of --size or millimetres on \
-                 paper (0.35mm); also outline (what has only background on one side), hidden, hidden-CLASS",
+                "Widths of the lines by class: CLASS=WIDTH, separated by commas, in pixels of --size, millimetres on paper \
+                 (0.35mm) or multiples of --line-width (2x); also outline (what has only background on one side), hidden, \
+                 hidden-CLASS",
                 |svg: &mut Self| &mut svg.class_widths,
             )
             .said("that of all lines, half of it for hidden ones"),
@@ -179,8 +180,8 @@ impl SvgSettings {
             ),
             Setting::flag(
                 "pen",
-                "Draw for a plotter: thin lines, ordered for short moves with the pen up, dashes as separate lines, no \
-                 background",
+                "Draw for a plotter: lines ordered for short moves with the pen up, dashes as separate lines, no background; the \
+                 outline is a layer for a second pen where --class-widths or a look says how wide it is",
                 |svg: &Self| svg.is_for_pen,
                 |svg, is_on| svg.is_for_pen = is_on,
             ),
@@ -221,7 +222,7 @@ impl SvgSettings {
     /// [`Error::Setting`] for a width, a length, a paper size or a resolution that is none, and for millimetres without paper.
     pub fn check(&self) -> Result<()> {
         let has_paper = self.page_size.is_set();
-        let is_wrong = |width: Length| !WIDTHS.contains(&width.number());
+        let is_wrong = |width: Length| !width.all(|number| WIDTHS.contains(&number));
         let refuse_width = |name: &str, value: String| {
             let limits = (WIDTHS.start(), WIDTHS.end());
             let problem = format!("a line's width is a number from {} to {}", limits.0, limits.1);
@@ -232,6 +233,7 @@ impl SvgSettings {
                 return refuse_width("line-width", width.to_string());
             }
             width.check_unit("line-width", has_paper)?;
+            width.check_is_no_multiple("line-width")?;
         }
         if let Some((name, width)) = self.class_widths.0.find(is_wrong) {
             return refuse_width("class-widths", format!("{name}={width}"));
@@ -241,7 +243,8 @@ impl SvgSettings {
         }
         if let Some(length) = self.min_length {
             length.check_unit("min-length", has_paper)?;
-            if !(length.number() >= 0.0 && length.number().is_finite()) {
+            length.check_is_no_multiple("min-length")?;
+            if !length.all(|number| number >= 0.0 && number.is_finite()) {
                 return Err(Error::value("min-length", length, "a length is a number, 0 or more"));
             }
         }
@@ -282,10 +285,16 @@ impl SvgSettings {
     pub(in crate::lines) fn width_px(&self, layer: Layer, units: Units) -> f64 {
         let px = |length: Length| length.px(units).unwrap_or(0.0);
         match (self.class_widths.0.of(layer), layer) {
+            (Some(Length::Times(times)), _) => times * px(self.width()),
             (Some(width), _) => px(width),
             (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), units) * HIDDEN_WIDTH,
             (None, _) => px(self.width()),
         }
+    }
+
+    /// Whether something is said of how wide a layer is.
+    pub(in crate::lines) fn says_width(&self, layer: Layer) -> bool {
+        self.line_width.is_some() || self.class_widths.0.of(layer).is_some()
     }
 
     /// A layer's colour: what is said of it; dashes are half as strong as their class. A pen has one ink for both, and ghosts
@@ -406,6 +415,24 @@ mod tests {
         assert_eq!(pen.color(hidden), Color([0.0; 3]), "a pen's ink does not thin");
         let on_black = SvgSettings { background: Background::Color(Color([0.0; 3])), ..told };
         assert_eq!(on_black.paper_color(), Color([0.0; 3]));
+    }
+
+    #[test]
+    fn widths_of_classes_may_be_multiples_of_all_lines_width() {
+        let class_widths = "outline=2x,hidden=1x".parse().unwrap();
+        let line_width = Some(Length::ScreenOrPaper { percent: 0.5, mm: 0.35 });
+        let settings = SvgSettings { class_widths, line_width, page_size: PageSize::Dpi(96.0), ..base() };
+        let layers = [Layer::Outline, Layer::Visible(Class::Crease), Layer::Hidden(Class::Crease)];
+        let widths = |settings: &SvgSettings, px_per_mm| layers.map(|layer| settings.width_px(layer, units(px_per_mm)));
+        assert_eq!(widths(&settings, Some(10.0)), [7.0, 3.5, 3.5]);
+        assert_eq!(widths(&settings, None), [5.12, 2.56, 2.56]);
+        let told = SvgSettings { line_width: Some(Length::Mm(0.25)), ..settings.clone() };
+        assert_eq!(widths(&told, Some(10.0)), [5.0, 2.5, 2.5]);
+        assert!(settings.check().is_ok() && told.check().is_ok());
+        let itself = SvgSettings { line_width: Some(Length::Times(2.0)), ..settings.clone() };
+        assert!(itself.check().unwrap_err().to_string().contains("line-width 2x"));
+        let nothing = SvgSettings { class_widths: "outline=0x".parse().unwrap(), ..settings };
+        assert!(nothing.check().unwrap_err().to_string().contains("outline=0x"));
     }
 
     #[test]
