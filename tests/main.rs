@@ -50,6 +50,7 @@ mod lines_growth;
 mod lines_hidden;
 mod lines_inking;
 mod lines_invariance;
+mod lines_lasting;
 mod lines_outline;
 mod lines_quality;
 mod lines_random;

@@ -8,9 +8,10 @@ use std::sync::LazyLock;
 pub(super) const LINES: &str = "lines";
 
 /// The settings of exact lines that a window shows and sets: the others are of files and of paper.
-pub const LINE_SETTINGS: [&str; 12] = [
+pub const LINE_SETTINGS: [&str; 13] = [
     "classes",
     "crease-angle",
+    "lasting-creases",
     "suggestive-threshold",
     "ridge-threshold",
     "apparent-ridge-threshold",

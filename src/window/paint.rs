@@ -125,6 +125,7 @@ mod tests {
             layer: LineLayer::Visible(Class::Crease),
             color: Color([0.0; 3]),
             width_px,
+            width_mm: None,
             opacity: 1.0,
             polylines: vec![Polyline { points_px, is_closed }],
         }

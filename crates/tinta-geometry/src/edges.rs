@@ -21,11 +21,14 @@ mod build;
 mod classes;
 mod cones;
 mod cracks;
+mod lasting;
 mod mesh_edges;
 mod orientation;
 mod outside;
 mod silhouette;
 mod smooth;
+
+pub(crate) use lasting::lasting_creases;
 
 pub use classes::{Class, ClassCounts, ClassSet, Classes, CreaseAngle};
 pub use cones::NormalCones;

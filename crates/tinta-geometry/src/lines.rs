@@ -126,6 +126,9 @@ pub struct LineSettings {
     pub classes: ClassSet,
     /// From which angle between faces an edge is a crease. Default 30 degrees; more find fewer lines.
     pub crease_angle: CreaseAngle,
+    /// Whether creases are drawn only where they last: closed or long ones, and those at which a flat face of several triangles ends. Default
+    /// no; then single folds of scans are drawn, too.
+    pub lasting_creases: bool,
     /// Where silhouettes run: exact ones, the default, are what the faces show; smooth ones are what a curved surface that the faces stand
     /// for would show. The listing's rule is refused: it knows no exact lines.
     pub silhouette: SilhouetteRule,
@@ -157,6 +160,7 @@ impl Default for LineSettings {
                 Class::Intersection,
             ]),
             crease_angle: CreaseAngle::of_drawings(),
+            lasting_creases: false,
             silhouette: SilhouetteRule::Exact,
             heal_px: 0.0,
             finds_hidden: true,
@@ -205,6 +209,12 @@ impl LineSettings {
         let edges = vec![
             ClassSet::setting(ClassSet::ALL, |lines: &mut Self| &mut lines.classes),
             CreaseAngle::setting(|lines: &mut Self| &mut lines.crease_angle),
+            Setting::flag(
+                "lasting-creases",
+                "Draw creases only where they are long or closed, or where a flat face ends: the folds of scans are left out",
+                |lines: &Self| lines.lasting_creases,
+                |lines, is_on| lines.lasting_creases = is_on,
+            ),
             SilhouetteRule::setting(|lines: &mut Self| &mut lines.silhouette)
                 .refusing(|lines| not_published(lines.silhouette))
                 .offering(&["exact", "smooth"]),

@@ -121,6 +121,12 @@ impl ClassSet {
         Self(self.0 | other.0)
     }
 
+    /// The classes in it but for these.
+    #[must_use]
+    pub fn without(self, classes: &[Class]) -> Self {
+        Self(self.0 & !Self::of(classes).0)
+    }
+
     /// The first class of [`Class::ALL`] in it: the one an edge of several is drawn as.
     pub fn first(self) -> Option<Class> {
         self.classes().next()

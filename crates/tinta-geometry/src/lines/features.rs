@@ -8,7 +8,8 @@ use super::mend::Mended;
 use super::space::Space;
 use crate::bvh::NO_FAMILY;
 use crate::edges::{
-    Class, ClassCounts, ClassSet, EdgeList, Eye, Incidence, MeshEdges, Side, SilhouetteRule, side_of_face,
+    Class, ClassCounts, ClassSet, Classes, EdgeList, Eye, Incidence, MeshEdges, Side, SilhouetteRule, lasting_creases,
+    side_of_face,
 };
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::{Object, Scene};
@@ -175,6 +176,15 @@ impl Part<'_> {
 /// Classes at which a surface ends or turns away.
 const OCCLUDING: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, Class::Silhouette]);
 
+/// Classes of edges that may have to last.
+const CREASES: [Class; 3] = [Class::Crease, Class::ConvexCrease, Class::ConcaveCrease];
+
+/// Of each edge of a mesh whether it is a crease that lasts, where only such are drawn.
+fn lasting(edges: &MeshEdges, classes: &Classes, settings: &LineSettings) -> Option<Vec<bool>> {
+    let is_crease = |edge: u32| !classes.of_edges[edge as usize].and(ClassSet::of(&CREASES)).is_empty();
+    settings.lasting_creases.then(|| lasting_creases(edges.mesh(), edges.list(), is_crease))
+}
+
 /// The classes of a mesh's edges that have to be known for some settings.
 pub(super) fn asked(settings: &LineSettings) -> ClassSet {
     let of_contours = if settings.has_smooth_contours() { ClassSet::of(&[Class::Crease]) } else { ClassSet::default() };
@@ -200,6 +210,7 @@ pub(super) fn edge_features(
         let classes = edges.classes(settings.crease_angle, asked(settings));
         let silhouette = part.silhouette(scene.eye(part.object, SilhouetteRule::Exact));
         let (mesh, first_number) = (edges.mesh(), first_face);
+        let lasting = lasting(edges, &classes, settings);
         let number_of = |face: u32| first_number + part.whole_face(face);
         first_face += part.shape().triangles.len() as u32;
         let edge_on = edges_of_edge_on_faces(faces, list, first_number..first_face, number_of);
@@ -208,6 +219,9 @@ pub(super) fn edge_features(
             let mut of_edge = classes.of_edges[edge as usize];
             if part.is_within_a_face(edge) {
                 continue;
+            }
+            if lasting.as_ref().is_some_and(|lasting| !lasting[edge as usize]) {
+                of_edge = of_edge.without(&CREASES);
             }
             let by_edge_on = match edge_on.binary_search(&edge) {
                 Ok(_) => at_edge_on(faces, mesh, list, edge, number_of),
