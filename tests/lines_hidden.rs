@@ -1,7 +1,6 @@
 //! Hidden lines as drawings have them: none under a visible line, and each once; the same whichever way a scene is written.
 
-use crate::lines_invariance::shuffled;
-use crate::lines_support::{assert_near, length, lines, px, scene_of, view};
+use crate::lines_support::{assert_near, length, lines, px, scene_of, shuffled, view};
 use crate::shapes::{Random, cuboid, joined, mesh};
 use glam::DVec3;
 use std::collections::BTreeMap;

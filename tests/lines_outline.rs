@@ -1,8 +1,7 @@
 //! Outlines: the pieces of visible lines beyond which there is only background, on shapes whose outline is known and against a
 //! twin that casts rays beside points of lines.
 
-use crate::lines_invariance::shuffled;
-use crate::lines_support::{assert_near, length, lines, lines_with, pierce, px, scene_of, total, view};
+use crate::lines_support::{assert_near, length, lines, lines_with, pierce, px, scene_of, shuffled, total, view};
 use crate::shapes::{Random, cuboid, icosphere, joined, mesh};
 use glam::{DMat4, DVec2, DVec3};
 use std::collections::BTreeMap;

@@ -142,9 +142,8 @@ impl SvgSettings {
             Setting::field(
                 "class-widths",
                 "WIDTHS",
-                "Widths of the lines by class: CLASS=WIDTH, separated by commas, in pixels of --size, millimetres on paper \
-                 (0.35mm) or multiples of --line-width (2x); also outline (what has only background on one side), hidden, \
-                 hidden-CLASS",
+                "Widths of the lines by class: CLASS=WIDTH, separated by commas, in pixels of --size, millimetres (0.35mm) or \
+                 line widths (2x); also outline (at the background), hidden, hidden-CLASS",
                 |svg: &mut Self| &mut svg.class_widths,
             )
             .said("that of all lines, half of it for hidden ones"),
