@@ -60,6 +60,30 @@ fn lines_are_written_as_json_and_their_record_is_printed() {
 }
 
 #[test]
+fn the_hidden_lines_that_are_drawn_are_counted_and_the_others_marked() {
+    let folder = Folder::new();
+    let cube = folder.path("cube.obj");
+    let corners = (0..8).map(|k| format!("v {} {} {}\n", k & 1, k >> 1 & 1, k >> 2)).collect::<String>();
+    let faces = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    std::fs::write(&cube, corners + faces).unwrap();
+    let svg = folder.path("a.svg");
+    let hidden_paths = |options: &[&str]| {
+        let all = [&["render", &cube, "-o", &svg, "--parallel", "--json"], options].concat();
+        let record: serde_json::Value = serde_json::from_slice(&made(&all)).unwrap();
+        record["counts"]["hidden_paths"].as_u64().unwrap()
+    };
+    assert_eq!(hidden_paths(&["--hidden", "dashed", "--view", "front"]), 0, "under the visible ones");
+    assert_eq!(hidden_paths(&["--view", "30,15"]), 0, "not drawn");
+    assert_eq!(hidden_paths(&["--hidden", "dashed", "--view", "30,15"]), 2, "three edges at one corner");
+    let out = folder.path("a.json");
+    made(&["render", &cube, "-o", &out, "--style", "lines", "--parallel", "--view", "front"]);
+    let lines: serde_json::Value = serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap();
+    let pieces = lines["segments"].as_array().unwrap();
+    assert_eq!(pieces.len(), 8);
+    assert!(pieces.iter().all(|piece| piece["covered"].as_bool().unwrap() != piece["visible"].as_bool().unwrap()));
+}
+
+#[test]
 fn styles_and_files_that_do_not_fit_are_refused() {
     let folder = Folder::new();
     let [svg, png, json] = ["a.svg", "a.png", "a.json"].map(|name| folder.path(name));
