@@ -52,7 +52,8 @@ pub(super) struct Soup {
 /// rounded. What has no direction stays so.
 pub(super) fn direction(file: DVec3) -> Vec3 {
     let largest = file.abs().max_element();
-    if !(file.is_finite() && largest > 0.0) {
+    let is_sound = (1e-12..1e12).contains(&largest);
+    if is_sound || !(file.is_finite() && largest > 0.0) {
         return file.as_vec3();
     }
     let power = largest.log2().floor();
