@@ -59,14 +59,15 @@ pub(super) fn are_of_lines(options: &Options) -> bool {
     options.get("style") == Some(&OptionValue::text(line_style::LINES))
 }
 
-/// Another style with the settings of a look that it has.
-pub(super) fn sibling(look: Look, name: StyleName) -> Result<Style> {
-    Style::with_options(name, &look.preset()?.options)
+/// Another style with the settings of a look that it has; as published where it cannot have them.
+pub(super) fn sibling(look: Look, name: StyleName) -> Style {
+    let options = look.preset().map(|preset| preset.options);
+    options.and_then(|options| Style::with_options(name, &options)).unwrap_or_else(|_| Style::named(name))
 }
 
 /// The look whose sibling a style is; the published one where it has no settings but its own.
 pub(super) fn look_of_sibling(style: &Style) -> Option<Look> {
-    let is_of = |look: &Look| sibling(*look, style.style_name()).is_ok_and(|sibling| sibling == *style);
+    let is_of = |look: &Look| sibling(*look, style.style_name()) == *style;
     // A style that a look says nothing of is as published.
     LOOKS.into_iter().rev().find(is_of)
 }

@@ -405,8 +405,7 @@ impl ViewerState {
         // A side that nobody has seen or changed begins with what fits the look.
         let other = if self.active == Side::Left { Side::Right } else { Side::Left };
         if self.layout == Layout::Single && controls::look_of_sibling(self.style(other)).is_some() {
-            let sibling = controls::sibling(look, self.chosen[other as usize]).map_err(|error| error.to_string())?;
-            self.put_style(other, sibling);
+            self.put_style(other, controls::sibling(look, self.chosen[other as usize]));
         }
         Ok(())
     }
