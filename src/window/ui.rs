@@ -189,9 +189,7 @@ fn panes(ui: &mut Ui, viewer: &Viewer, textures: &Textures, follows_window: bool
             divider(ui, corner + Vec2::X * (column as f32 / scale), area, events);
         }
     }
-    if !state.has_price {
-        label::show(ui, state, area, scale);
-    }
+    label::show(ui, state, area, scale);
     let height = f64::from(area.height().max(1.0));
     let delta = response.drag_delta();
     if delta != Vec2::ZERO {
