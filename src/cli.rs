@@ -183,7 +183,7 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
         #[cfg(feature = "measuring")]
         Command::Measure(arguments) => measure::run(&arguments, given, &mut Session::for_one()),
         #[cfg(feature = "judging")]
-        Command::Judge(arguments) => judge::run(&arguments, given),
+        Command::Judge(arguments) => return judge::run(&arguments, given),
         Command::Textures(arguments) => textures::run(&arguments),
         #[cfg(feature = "measuring")]
         Command::Figures(arguments) => figures::run(&arguments),

@@ -25,6 +25,7 @@
 //! ```
 
 mod distances;
+mod doubt;
 pub mod drawing;
 mod entry;
 mod fit;
@@ -32,6 +33,7 @@ mod ink_color;
 mod matching;
 mod thin;
 
+pub use doubt::Doubt;
 pub use entry::Entry;
 pub use fit::{Fit, LARGEST_SCALE, LARGEST_SHIFT};
 pub use ink_color::InkColor;
@@ -92,6 +94,9 @@ pub struct Judgement {
     pub hidden: Hidden,
     /// How the lines were moved onto the drawing, where that was looked for.
     pub fit: Option<Fit>,
+    /// Why the numbers probably say nothing of the drawing's lines.
+    #[serde(default)]
+    pub doubt: Option<Doubt>,
 }
 
 /// Boundary pixels matched one to one, as the Berkeley benchmark counts them (Martin, Fowlkes and Malik 2004): both drawings thinned to
@@ -156,6 +161,7 @@ pub fn judge(ink: &Ink, reference: &Reference, settings: &JudgeSettings) -> Resu
         hausdorff_95_px: both.map(|([_, there], [_, back])| there.max(back)),
         hidden,
         fit,
+        doubt: Doubt::of(ink, reference, &lines),
         lines,
     })
 }

@@ -53,8 +53,8 @@ impl Orbit {
     pub fn turn(&mut self, right: f64, down: f64) {
         let View { azimuth_degrees, elevation_degrees } = self.view;
         self.view = View {
-            azimuth_degrees: wrapped(azimuth_degrees - right * DEGREES_A_HEIGHT),
-            elevation_degrees: (elevation_degrees + down * DEGREES_A_HEIGHT).clamp(-90.0, 90.0),
+            azimuth_degrees: rounded(wrapped(azimuth_degrees - right * DEGREES_A_HEIGHT), ANGLE_STEP),
+            elevation_degrees: rounded((elevation_degrees + down * DEGREES_A_HEIGHT).clamp(-90.0, 90.0), ANGLE_STEP),
         };
     }
 
@@ -96,7 +96,7 @@ impl Orbit {
             return Ok(fitted);
         }
         let camera = scene.seen_with(&SceneSettings { camera: fitted.clone(), ..settings.clone() })?.camera;
-        Ok(self.moved(&camera, fitted))
+        Ok(readable(self.moved(&camera, fitted)))
     }
 
     /// The fitted camera, moved and zoomed.
@@ -118,6 +118,34 @@ impl Orbit {
     }
 }
 
+/// Angles are multiples of this, degrees: less is seen by nobody, and three decimals can be read.
+const ANGLE_STEP: f64 = 0.001;
+
+/// A camera whose numbers have few digits: places are multiples of a power of ten that is less than a hundred-thousandth of the distance
+/// from eye to target, far below a pixel.
+fn readable(settings: CameraSettings) -> CameraSettings {
+    let (Some(eye), Some(target)) = (settings.eye, settings.target) else { return settings };
+    let step = |length: f64| 10f64.powf((length * 1e-5).log10().floor());
+    let place = |place: DVec3, step: f64| DVec3::from_array(place.to_array().map(|value| rounded(value, step)));
+    let of_distance = step(eye.distance(target));
+    CameraSettings {
+        eye: Some(place(eye, of_distance)),
+        target: Some(place(target, of_distance)),
+        up: settings.up.map(|up| place(up, 1e-6)),
+        height: settings.height.map(|height| rounded(height, step(height))),
+        ..settings
+    }
+}
+
+/// The nearest multiple of a power of ten, with no digits behind its own.
+fn rounded(value: f64, step: f64) -> f64 {
+    // Divided by a whole number a decimal has the nearest of all texts; multiplied by 0.001 it has not.
+    let rounded =
+        if step < 1.0 { (value / step).round() / (1.0 / step).round() } else { (value / step).round() * step };
+    // No sign on nothing.
+    rounded + 0.0
+}
+
 /// An angle between -180 and 180 degrees.
 fn wrapped(degrees: f64) -> f64 {
     let turned = degrees.rem_euclid(360.0);
@@ -134,9 +162,12 @@ mod tests {
         Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings::default()).unwrap()
     }
 
+    /// The camera before its numbers are rounded.
     fn camera(orbit: &Orbit) -> Camera {
         let (scene, settings) = (scene(), SceneSettings::default());
-        let camera = orbit.settings(&scene, &settings).unwrap();
+        let fitted = orbit.fitted(&settings.camera);
+        let camera = scene.seen_with(&SceneSettings { camera: fitted.clone(), ..settings.clone() }).unwrap().camera;
+        let camera = orbit.moved(&camera, fitted);
         scene.seen_with(&SceneSettings { camera, ..settings }).unwrap().camera
     }
 
@@ -187,6 +218,42 @@ mod tests {
                 clip.project_point3(camera.target + right).x - clip.project_point3(camera.target).x
             };
             assert!((size(4.0) / size(1.0) - 4.0).abs() < 1e-6, "{parallel}");
+        }
+    }
+
+    #[test]
+    fn a_camera_has_at_most_six_digits_and_moves_nothing_by_a_fiftieth_of_a_pixel() {
+        let digits = |value: f64| value.abs().to_string().replace('.', "").trim_start_matches('0').len();
+        for (parallel, size) in [(false, 1.0), (true, 1.0), (false, 7e-4), (true, 3e5)] {
+            let mut mesh = Mesh::triangle();
+            mesh.positions.iter_mut().for_each(|position| *position *= size);
+            let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default()).unwrap();
+            let mut orbit = Orbit { parallel, ..Orbit::default() };
+            for step in 1..20 {
+                orbit.turn(0.1234567 * f64::from(step), -0.0154321);
+                let View { azimuth_degrees, elevation_degrees } = orbit.view;
+                assert!(
+                    [azimuth_degrees, elevation_degrees].iter().all(|angle| digits(*angle) <= 6),
+                    "{:?}",
+                    orbit.view
+                );
+                orbit.zoom_by(1.0123456);
+                orbit.move_by(0.0123, 0.0045);
+                let camera = orbit.settings(&scene, &SceneSettings::default()).unwrap();
+                let numbers = [camera.eye, camera.target].map(|place| place.unwrap().to_array()).concat();
+                assert!(numbers.iter().chain(&camera.height).all(|number| digits(*number) <= 6), "{camera:?}");
+                let [rounded, exact] = [camera, {
+                    let fitted = orbit.fitted(&CameraSettings::default());
+                    let settings = SceneSettings { camera: fitted.clone(), ..SceneSettings::default() };
+                    orbit.moved(&scene.seen_with(&settings).unwrap().camera, fitted)
+                }]
+                .map(|camera| {
+                    let camera = scene.seen_with(&SceneSettings { camera, ..SceneSettings::default() }).unwrap().camera;
+                    let clip = camera.clip_from_view(1.0) * camera.view_from_world();
+                    clip.project_point3(scene.centre).truncate() * 256.0
+                });
+                assert!(rounded.distance(exact) < 0.02, "{rounded} {exact}");
+            }
         }
     }
 

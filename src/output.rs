@@ -79,12 +79,29 @@ pub(crate) fn write_standard_output(bytes: &[u8]) -> Result<()> {
     })
 }
 
+/// Refuses names of folders, and endings without a name.
+pub(crate) fn check_name(file: &Path) -> Result<()> {
+    let refuse = |problem: String| Err(Error::output(file, problem));
+    let text = file.to_string_lossy();
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    if file.is_dir() {
+        return refuse("this is a directory; name a file in it".to_owned());
+    }
+    if text.ends_with(std::path::is_separator) {
+        return refuse(format!("this names a folder; name a file in it, such as {text}drawing.png"));
+    }
+    match name.strip_prefix('.') {
+        Some(ending) if ["png", "svg", "pdf", "json", "gif"].contains(&ending) => {
+            refuse(format!("this is an ending without a name; write drawing{name}"))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Checks that a file of any kind can be written here.
 pub(crate) fn check_file(file: &Path) -> Result<()> {
+    check_name(file)?;
     let refuse = |problem: String| Error::output(file, problem);
-    if file.is_dir() {
-        return Err(refuse("this is a directory; name a file in it".to_owned()));
-    }
     if cfg!(windows) && is_device(file) {
         return Err(refuse(
             "Windows has a device of this name; name another file, or - for standard output".to_owned(),

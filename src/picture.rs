@@ -24,7 +24,7 @@ pub(crate) use materials::MaterialPictures;
 pub use materials::material_pictures;
 
 use crate::error::{Error, Result};
-use crate::output::{Staged, check_file, write_standard_output, write_whole};
+use crate::output::{Staged, check_file, check_name, write_standard_output, write_whole};
 use crate::values::Size;
 #[cfg(feature = "formats")]
 use image::codecs::jpeg::JpegEncoder;
@@ -262,9 +262,7 @@ impl Target {
     /// As there.
     pub fn of_file(file: &Path, transparent: bool) -> Result<Self> {
         let refuse = |problem: String| Error::output(file, problem);
-        if file.is_dir() {
-            return Err(refuse("this is a directory; name a file in it".to_owned()));
-        }
+        check_name(file)?;
         let known = || PictureFormat::EXTENSIONS.iter().map(|(extension, _)| *extension).collect::<Vec<_>>().join(", ");
         let format = match (PictureFormat::of(file), file.extension()) {
             (Some(format), _) => format,

@@ -90,7 +90,7 @@ row::styles! {
         plan: Cartoon::three_pass,
         has_lines: |cartoon| cartoon.border.is_some(),
         shows: CARTOON_SHOWS,
-        origin: Origin::Published,
+        origin: Origin::Published(2005),
         mark: Some(Mark { rgb: [31, 131, 201], outline: Outline::Polygon { corners: 4, turn: PI / 4.0 } }),
     }
 
@@ -100,7 +100,7 @@ row::styles! {
         plan: Cartoon::two_pass,
         has_lines: |cartoon| cartoon.border.is_some(),
         shows: CARTOON_SHOWS,
-        origin: Origin::Published,
+        origin: Origin::Published(2005),
         mark: Some(Mark { rgb: [213, 94, 0], outline: Outline::Polygon { corners: 3, turn: 0.0 } }),
     }
 
@@ -121,7 +121,7 @@ row::styles! {
         plan: Inking::plan,
         has_lines: |inking| inking.is_inked,
         shows: LINE_SHOWS,
-        origin: Origin::Published,
+        origin: Origin::Published(2001),
         mark: Some(Mark { rgb: [0, 158, 115], outline: Outline::Polygon { corners: 4, turn: 0.0 } }),
     }
 
@@ -152,7 +152,7 @@ row::styles! {
         plan: Charcoal::charcoal,
         has_lines: |_| false,
         shows: CHARCOAL_SHOWS,
-        origin: Origin::Published,
+        origin: Origin::Published(2007),
         mark: Some(Mark { rgb: [140, 109, 90], outline: Outline::Polygon { corners: 5, turn: 0.0 } }),
     }
 
@@ -162,7 +162,7 @@ row::styles! {
         plan: Charcoal::sand,
         has_lines: |_| false,
         shows: CHARCOAL_SHOWS,
-        origin: Origin::Published,
+        origin: Origin::Published(2007),
         mark: Some(Mark { rgb: [184, 137, 11], outline: Outline::Polygon { corners: 6, turn: 0.0 } }),
     }
 

@@ -9,8 +9,8 @@
 //! |---|---|
 //! | `state.rs`, `event.rs`, `line_style.rs`, `controls.rs`, `buffer.rs`, `paint.rs`, `compose.rs` | values: what is shown, what happens, how it changes |
 //! | `viewer.rs` | the state with the threads that work for it |
-//! | `draw.rs`, `coarse.rs`, `render_threads.rs`, `exact.rs`, `load.rs`, `watch.rs`, `cost.rs`, `save.rs`, `report.rs` | the threads and what they tell |
-//! | `ui.rs`, `panel.rs`, `widget.rs`, `plot.rs`, `keys.rs` | widgets: they read the state and make events |
+//! | `draw.rs`, `coarse.rs`, `render_threads.rs`, `exact.rs`, `load.rs`, `watch.rs`, `cost.rs`, `save.rs`, `dialogue.rs`, `report.rs` | the threads and what they tell |
+//! | `ui.rs`, `panel.rs`, `widget.rs`, `plot.rs`, `label.rs`, `keys.rs` | widgets: they read the state and make events |
 //! | `app.rs`, `replay.rs`, `player.rs` | the window itself, and recordings played in it |
 //!
 //! ```
@@ -29,10 +29,13 @@ mod coarse;
 mod compose;
 mod controls;
 mod cost;
+#[cfg(feature = "file-dialogue")]
+mod dialogue;
 mod draw;
 mod event;
 mod exact;
 mod keys;
+mod label;
 mod line_style;
 mod load;
 mod paint;

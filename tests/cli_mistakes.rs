@@ -26,7 +26,7 @@ const FILES: [(&str, &str); 15] = [
 ];
 
 /// Command lines, and what they are answered.
-const MISTAKES: [(&str, &str); 75] = [
+const MISTAKES: [(&str, &str); 88] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
@@ -150,7 +150,38 @@ const MISTAKES: [(&str, &str); 75] = [
     ("render triangle.obj -o dir", "dir: this is a directory; name a file in it"),
     (
         "render triangle.obj -o out.svg --style ink",
-        "out.svg: style ink draws pixels; leave out --style to write lines, or name a picture such as drawing.png",
+        "out.svg: style ink draws pixels; --look technical in its place writes lines, or name a picture such as drawing.png",
+    ),
+    (
+        "render triangle.obj -o out.svg --look print",
+        "out.svg: look print draws pixels; --look technical in its place writes lines, or name a picture such as drawing.png",
+    ),
+    (
+        "render triangle.obj -o out.pdf --look charcoal --style sand",
+        "out.pdf: style sand draws pixels; --look technical in its place writes lines, or name a picture such as drawing.png",
+    ),
+    ("render triangle.obj -o .png", ".png: this is an ending without a name; write drawing.png"),
+    ("render triangle.obj -o .svg --look technical", ".svg: this is an ending without a name; write drawing.svg"),
+    ("render triangle.obj -o out/", "out/: this names a folder; name a file in it, such as out/drawing.png"),
+    (
+        "render triangle.obj -o out.png/",
+        "out.png/: this names a folder; name a file in it, such as out.png/drawing.png",
+    ),
+    (
+        "render triangle.obj -o out.png --page A4",
+        "--page: a picture has pixels and no paper; for 300 dpi say --size 2480x3508, or write a .svg",
+    ),
+    (
+        "render triangle.obj -o out.png --style lines --page letter-landscape",
+        "--page: a picture has pixels and no paper; for 300 dpi say --size 3300x2550, or write a .svg",
+    ),
+    (
+        "render triangle.obj -o out.png --dpi 300",
+        "--dpi: a picture has pixels and no paper; say --size, or write a .svg",
+    ),
+    (
+        "render triangle.obj -o out.svg --class-widths outlines=3",
+        "invalid value 'outlines=3' for '--class-widths <WIDTHS>': did you mean outline?",
     ),
     (
         "render triangle.obj -o out.png --preset none.toml",
@@ -213,7 +244,9 @@ const MISTAKES: [(&str, &str); 75] = [
     ),
     ("edges", "a model is missing; name a file, or a built-in one such as builtin:bust; see --help"),
     ("edges triangle.obj --seed 3", "tinta edges has no option --seed; see --help"),
-    ("edges triangle.obj other.obj", "unexpected argument 'other.obj' found; see --help"),
+    ("edges triangle.obj other.obj", "tinta edges takes one model; other.obj is one too many; see --help"),
+    ("looks triangle.obj other.obj", "tinta looks takes one model; other.obj is one too many; see --help"),
+    ("info triangle.obj", "tinta info takes options alone; leave out triangle.obj; see --help"),
     (
         "compare triangle.obj -o out.png --left phong",
         "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink, suggestive",
@@ -223,6 +256,7 @@ const MISTAKES: [(&str, &str); 75] = [
     ("batch jobs.jsonl -o out", "jobs.jsonl: line 1: it has no command; write render, compare or measure"),
     ("batch typo.jsonl -o out", "typo.jsonl: line 1: model: - is standard input, which jobs have not; name a file"),
     ("batch none.jsonl -o out", "none.jsonl: there is no such file; check the name"),
+    ("again notes.txt", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),
     ("again notes.txt -o out.png", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),
     ("textures -o triangle.obj", "-o triangle.obj: this is a file; name a folder"),
     ("completions nushell", "invalid value 'nushell' for '<SHELL>': choose one of bash, zsh, fish; see --help"),

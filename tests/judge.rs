@@ -192,13 +192,14 @@ fn a_camera_of_another_program_is_read_from_its_file() {
     let numbers: Vec<String> =
         clip_from_world.chunks(4).map(|row| row.iter().map(f64::to_string).collect::<Vec<_>>().join(" ")).collect();
     std::fs::write(&matrix, numbers.join("\n")).unwrap();
-    let f1 = |more: &[&str]| {
+    let judged = |more: &[&str], code: i32| {
         let output = tinta(&[&["judge", &picture, "--model", "builtin:gear", "--json"], more].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(output.status.code(), Some(code), "{}", String::from_utf8_lossy(&output.stderr));
         serde_json::from_slice::<Value>(&output.stdout).unwrap()["lines"]["f1"].as_f64().unwrap()
     };
+    let f1 = |more: &[&str]| judged(more, 0);
     let right = f1(&view[..4]);
-    assert!(right > 0.99 && f1(&[]) < 0.8);
+    assert!(right > 0.99 && judged(&[], 1) < 0.8, "from another camera it is not scored");
     for file in [&record, &matrix, &picture] {
         assert!((f1(&["--camera", file]) - right).abs() < 1e-6, "{file}");
         // A drawing from it, in a look that has a view of its own.
@@ -302,4 +303,41 @@ fn a_picture_drawn_from_elsewhere_is_said_and_gives_its_own_camera() {
     let (right, said) = judged(&elsewhere, &["--camera", &elsewhere]);
     assert!(said.is_empty() && right > 0.95 && wrong < 0.8, "{wrong} {right} {said}");
     assert_eq!(judged(&here, &[]).1, "");
+}
+
+#[test]
+fn a_shaded_picture_and_one_from_elsewhere_are_said_to_be_so_instead_of_scored() {
+    let folder = Folder::new();
+    let drawn = |name: &str, more: &[&str]| {
+        let out = folder.path(name);
+        let output =
+            tinta(&[&["render", "builtin:gear", "-o", &out, "--size", "200", "--no-recipe"][..], more].concat());
+        assert!(output.status.success(), "{output:?}");
+        out
+    };
+    let judged = |drawing: &str, more: &[&str]| {
+        let output = tinta(&[&["judge", drawing, "--model", "builtin:gear"][..], more].concat());
+        let texts = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        (output.status.code(), texts)
+    };
+    let shaded = drawn("shaded.png", &["--style", "phong"]);
+    let elsewhere = drawn("elsewhere.png", &["--style", "lines", "--view", "140,-20"]);
+    let right = drawn("right.png", &["--style", "lines"]);
+    // Another view's lines cross those of this one here and there, so that numbers without the doubt mislead.
+    for (drawing, sentence) in [
+        (&shaded, "shaded.png: this looks like a shaded picture, with "),
+        (&elsewhere, "elsewhere.png: this looks like another camera or model, as lines and ink agree by "),
+    ] {
+        let (code, [printed, said]) = judged(drawing, &[]);
+        assert!(said.contains(sentence) && said.lines().count() == 1, "{said}");
+        assert!(code == Some(1) && printed.contains("not scored") && !printed.contains("F1"), "{code:?} {printed}");
+        let (_, [record, _]) = judged(drawing, &["--json"]);
+        let record: Value = serde_json::from_str(&record).unwrap();
+        assert!(record["lines"]["f1"].is_number() && record["doubt"].is_object(), "{record}");
+    }
+    let (code, [printed, said]) = judged(&right, &[]);
+    assert!(code == Some(0) && printed.contains("F1") && said.is_empty(), "{code:?} {printed} {said}");
+    // The styles' own widest lines are lines, and tones are not.
+    let wide = drawn("wide.png", &["--style", "three-pass", "--border-width", "6", "--show", "borders"]);
+    assert_eq!(judged(&wide, &[]).0, Some(0));
 }

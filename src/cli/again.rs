@@ -14,14 +14,16 @@ use tinta::{Backend, Error, Picture, Recipe, Result, Size};
 
 /// Redraw a picture from its recipe, and compare the two
 #[derive(clap::Args)]
+#[command(override_usage = "tinta again [OPTIONS] --output <FILE> <PICTURE>")]
 pub(super) struct Arguments {
     /// Picture that `tinta render` wrote, .png or .svg
     #[arg(value_name = "PICTURE")]
     picture: PathBuf,
 
     /// File to write, in the same format
+    // Not required by the parser: of a picture without a recipe that is said first.
     #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    output: Option<PathBuf>,
 
     /// Path of the model now, or - for standard input; with several models, once for each, in their order [default: where it was]
     #[arg(long, value_name = "FILE")]
@@ -30,6 +32,13 @@ pub(super) struct Arguments {
     /// Read files outside the model's folder, if the recipe does so too; a recipe alone cannot allow it [default: off]
     #[arg(long)]
     allow_external: bool,
+}
+
+impl Arguments {
+    /// The file to write, which is there once [`check_output`] has looked.
+    fn output(&self) -> &Path {
+        self.output.as_deref().unwrap_or(Path::new(""))
+    }
 }
 
 /// What a picture may not allow itself, whatever it says of how it was made: that is for whoever has it.
@@ -42,15 +51,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
     let models = models(arguments, &recipe)?;
     let before = std::fs::read(&arguments.picture).map_err(|error| failed(&arguments.picture, &error))?;
     draw(arguments, &recipe, &models)?;
-    let after = std::fs::read(&arguments.output).map_err(|error| failed(&arguments.output, &error))?;
-    let name = arguments.output.display();
-    let now = Recipe::read(&arguments.output)?;
+    let after = std::fs::read(arguments.output()).map_err(|error| failed(arguments.output(), &error))?;
+    let name = arguments.output().display();
+    let now = Recipe::read(arguments.output())?;
     recipe.differences(&now).iter().for_each(|difference| say(&format!("tinta: {difference}")));
     if before == after {
         say(&format!("tinta: {name} is the same, byte for byte"));
         return Ok(Verdict::Good);
     }
-    match is_svg(&arguments.output) {
+    match is_svg(arguments.output()) {
         true => Ok(compare_drawings(arguments, &before, &after, &recipe, &now)),
         false => compare_pictures(arguments),
     }
@@ -58,17 +67,21 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
 
 /// What is compared afterwards must be of one kind, and the old picture still there.
 fn check_output(arguments: &Arguments) -> Result<()> {
-    let refuse = |problem: String| Err(Error::output(&arguments.output, problem));
+    let refuse = |problem: String| Err(Error::output(arguments.output(), problem));
     let kind = |path: &Path| path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
     let wanted = if is_png(&arguments.picture)? { "png" } else { "svg" };
-    if kind(&arguments.output).as_deref() != Some(wanted) {
+    if arguments.output.is_none() {
+        let problem = format!("--output is missing; name the picture to write: -o again.{wanted}; see --help");
+        return Err(Error::CommandLine { problem });
+    }
+    if kind(arguments.output()).as_deref() != Some(wanted) {
         return refuse(format!(
             "the picture is {}, so the new one must be too; name a .{wanted} file",
             wanted.to_uppercase()
         ));
     }
     let same = |other: &Path| {
-        arguments.output.canonicalize().is_ok_and(|output| other.canonicalize().is_ok_and(|other| other == output))
+        arguments.output().canonicalize().is_ok_and(|output| other.canonicalize().is_ok_and(|other| other == output))
     };
     match same(&arguments.picture) {
         true => refuse("this is the picture to compare with; name another file".to_owned()),
@@ -166,7 +179,7 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
         }
     }
     let mut output = OsString::from("--output=");
-    output.push(&arguments.output);
+    output.push(arguments.output());
     words.push(output);
     words.push("--".into());
     words.extend(models.iter().map(OsString::from));
@@ -195,7 +208,7 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
 /// Refuses a recipe for a large picture that the picture itself is not: what comes of it might not be read again, and is drawn
 /// for a long time.
 fn check_size(arguments: &Arguments, size: Size) -> Result<()> {
-    if is_svg(&arguments.output) || size.pixel_count() as u64 * 4 <= PICTURE_BYTES {
+    if is_svg(arguments.output()) || size.pixel_count() as u64 * 4 <= PICTURE_BYTES {
         return Ok(());
     }
     let picture = Picture::read(&arguments.picture)?;
@@ -209,8 +222,8 @@ fn check_size(arguments: &Arguments, size: Size) -> Result<()> {
 }
 
 fn compare_pictures(arguments: &Arguments) -> Result<Verdict> {
-    let (before, after) = (Picture::read(&arguments.picture)?, Picture::read(&arguments.output)?);
-    let name = arguments.output.display();
+    let (before, after) = (Picture::read(&arguments.picture)?, Picture::read(arguments.output())?);
+    let name = arguments.output().display();
     match before.difference(&after) {
         Some(difference) if difference.pixels == 0 => {
             say(&format!("tinta: {name} has the same pixels; the file differs in its recipe or in how it was packed"));
@@ -241,7 +254,7 @@ fn compare_drawings(arguments: &Arguments, before: &[u8], after: &[u8], then: &R
         text.lines().filter(|line| !is_about(line)).map(str::to_owned).collect()
     };
     let (before, after) = (drawn(before), drawn(after));
-    let name = arguments.output.display();
+    let name = arguments.output().display();
     if before == after {
         let why = if then.models == now.models { "recipe" } else { "recipe, which names other models" };
         say(&format!("tinta: {name} has the same lines; the file differs in its {why}"));

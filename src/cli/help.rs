@@ -6,13 +6,45 @@
 use super::Arguments;
 use clap::{Arg, ArgAction, Command, CommandFactory};
 use std::ffi::OsString;
+use tinta::preset::{LOOKS, OptionValue, Options};
+use tinta::settings::on_off;
 
 /// A help of at most so many lines is one page, and needs no shorter one.
 const PAGE_LINES: usize = 60;
 
 /// The program's commands; help lists every option.
 pub(super) fn whole() -> Command {
-    Arguments::command().mut_subcommands(unmarked)
+    commands().mut_subcommands(unmarked)
+}
+
+/// The program's commands; what has a look tells the look's defaults.
+fn commands() -> Command {
+    let look = LOOKS[0].preset().map(|preset| preset.options).unwrap_or_default();
+    Arguments::command().mut_subcommands(|command| {
+        let has_looks = options(&command).any(|arg| arg.get_long() == Some("look"));
+        if has_looks { command.mut_args(|arg| with_drawn_default(arg, &look)) } else { command }
+    })
+}
+
+/// What begins the default at the end of an option's help.
+const DEFAULT: &str = "[default: ";
+
+/// An option whose help states the value that is drawn where nothing is asked for, then the default of a style that is named.
+fn with_drawn_default(arg: Arg, look: &Options) -> Arg {
+    let value = match arg.get_long().and_then(|name| look.get(name)) {
+        Some(OptionValue::Text(value)) => value.clone(),
+        Some(OptionValue::Texts(values)) => values.join(","),
+        Some(OptionValue::Switch(is_on)) => on_off(*is_on).to_owned(),
+        None => return arg,
+    };
+    let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
+    match help.rsplit_once(DEFAULT) {
+        // What is the same in both is told once.
+        Some((about, published)) if !published.starts_with(&format!("{value}]")) => {
+            arg.help(format!("{about}{DEFAULT}{value}; published: {published}"))
+        }
+        _ => arg,
+    }
 }
 
 /// A command whose help lists every option, marked or not.
@@ -26,7 +58,7 @@ pub(super) fn command(words: &[OsString]) -> Command {
     if !words.iter().skip(1).take_while(|word| *word != "--").any(|word| word == "-h") {
         return whole();
     }
-    Arguments::command().mut_subcommands(|command| {
+    commands().mut_subcommands(|command| {
         let needed: Vec<String> = command.get_arguments().filter(|arg| !arg.is_hide_short_help_set()).map(id).collect();
         let whole = unmarked(command);
         if lines(&whole) <= PAGE_LINES { whole } else { shortened(whole, &needed) }
@@ -116,6 +148,31 @@ mod tests {
         // Wherever the word stands; behind two dashes it is a model.
         assert_eq!(help_of("tinta render a.obj --style ink -h"), short);
         assert!(help_of("tinta help render").contains("\nCamera:\n"));
+    }
+
+    #[test]
+    fn help_states_the_defaults_of_the_look_that_is_drawn() {
+        let look = LOOKS[0].preset().unwrap().options;
+        let command = whole();
+        for name in ["render", "view"] {
+            let Some(command) = command.find_subcommand(name) else { continue };
+            for arg in options(command) {
+                let (option, help) = (arg.get_long().unwrap(), arg.get_help().unwrap().to_string());
+                let Some(value) = look.get(option) else {
+                    assert!(!help.contains("; published: "), "{name} --{option}: {help}");
+                    continue;
+                };
+                let value = match value {
+                    OptionValue::Texts(values) => values.join(","),
+                    OptionValue::Text(value) => value.clone(),
+                    OptionValue::Switch(_) => "on".to_owned(),
+                };
+                let is_stated = help.contains(&format!("[default: {value}; published: "));
+                assert!(is_stated || help.ends_with(&format!("[default: {value}]")), "{name} --{option}: {help}");
+            }
+        }
+        let measure = command.find_subcommand("compare").unwrap();
+        assert!(options(measure).all(|arg| !arg.get_help().unwrap().to_string().contains("; published: ")));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! `tinta judge`: any program's drawing of a model against the model's exact lines.
 
+use super::Verdict;
 use super::camera_file;
 use super::measure::errors::{error_page, known_picture};
 use super::model_cache::ModelCache;
@@ -100,7 +101,9 @@ struct Record<'a> {
 /// Files that are written into the folder, pictures of plots and errors aside.
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
-pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<()> {
+/// Judges the drawings; exit code 1 where one looks like something else than lines of this view.
+pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<Verdict> {
+    let mut verdict = Verdict::Good;
     let names = names(arguments)?;
     let settings = JudgeSettings { tolerance_px: arguments.tolerance, fits: arguments.fit };
     settings.check()?;
@@ -128,7 +131,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<()> {
             subject = Some(Subject::new(arguments, meshes.clone(), picture.size)?);
         }
         let Some(Subject { scene, reference }) = &subject else { continue };
-        say_other_camera(&arguments.drawings[index], scene);
+        let is_said = say_other_camera(&arguments.drawings[index], scene);
         let ink = arguments.ink.of(picture);
         let judgement = judge(&ink, reference, &settings)?;
         if arguments.json {
@@ -138,6 +141,12 @@ pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<()> {
             super::print_json(&record)?;
         } else {
             super::print(&in_words(name, scene.size, &judgement))?;
+        }
+        if let Some(doubt) = &judgement.doubt {
+            if !is_said {
+                super::say(&format!("tinta: {}: {doubt}", arguments.drawings[index].display()));
+            }
+            verdict = Verdict::Different;
         }
         if let (Some((log, rows)), Some(folder)) = (&mut log, &arguments.output) {
             let entry = Entry {
@@ -156,7 +165,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<()> {
             rows.push(row);
         }
     }
-    let (Some((_, rows)), Some(folder)) = (log, &arguments.output) else { return Ok(()) };
+    let (Some((_, rows)), Some(folder)) = (log, &arguments.output) else { return Ok(verdict) };
     let info = ReportInfo {
         command: tinta::shell::command_line(given.as_given.iter().cloned()),
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -165,7 +174,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<()> {
     };
     tinta::report::write(folder, &rows, &info)?;
     super::say(&format!("tinta: {}", folder.join("report.html").display()));
-    Ok(())
+    Ok(verdict)
 }
 
 /// A scene of a drawing's size and its lines.
@@ -187,19 +196,21 @@ impl Subject {
     }
 }
 
-/// Says where a picture that tinta drew, as its recipe has it, shows the model from elsewhere than it is judged from.
-fn say_other_camera(drawing: &Path, scene: &Scene) {
-    let Ok(recipe) = Recipe::read(drawing) else { return };
+/// Says where a picture that tinta drew, as its recipe has it, shows the model from elsewhere than it is judged from; whether it does.
+fn say_other_camera(drawing: &Path, scene: &Scene) -> bool {
+    let Ok(recipe) = Recipe::read(drawing) else { return false };
     let options = camera_file::of_camera(recipe.options);
     let words: Vec<String> = options.iter().flat_map(|(name, value)| option_words(name, value)).collect();
-    let Ok(settings) = SceneSettings::from_options(&options) else { return };
+    let Ok(settings) = SceneSettings::from_options(&options) else { return false };
     let meshes: Vec<Arc<Mesh>> = scene.objects.iter().map(|object| object.mesh.clone()).collect();
-    let Ok(drawn) = Scene::new(meshes, &SceneSettings { size: scene.size, ..settings }) else { return };
-    if largest_shift_px(scene, &drawn.camera) > 1.0 {
+    let Ok(drawn) = Scene::new(meshes, &SceneSettings { size: scene.size, ..settings }) else { return false };
+    let is_elsewhere = largest_shift_px(scene, &drawn.camera) > 1.0;
+    if is_elsewhere {
         let from = if words.is_empty() { "the default view".to_owned() } else { words.join(" ") };
         let path = drawing.display();
         super::say(&format!("tinta: {path} was drawn from elsewhere ({from}); --camera {path} judges it from there"));
     }
+    is_elsewhere
 }
 
 /// How far a corner of the scene moves at most if another camera sees it, pixels.
@@ -244,6 +255,10 @@ fn in_words(name: &str, size: Size, judgement: &Judgement) -> String {
     let mut text = format!("{name}, {size} px\n");
     let mut line = |title: &str, words: String| text.push_str(&format!("  {title:<19}{words}\n"));
     let percent = |share: f64| format!("{:.1} %", share * 100.0);
+    if judgement.doubt.is_some() {
+        line("not scored", "these do not look like lines of this view; --json has the numbers".to_owned());
+        return text;
+    }
     line(
         "F1",
         format!(

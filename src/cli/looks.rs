@@ -7,8 +7,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use tinta::markup::escaped;
 use tinta::page::{Pictures, beginning};
-use tinta::preset::{LOOKS, Look};
-use tinta::{Error, Result, Size, TextTarget};
+use tinta::preset::{LOOKS, Look, OptionValue};
+use tinta::{Error, Result, SceneSettings, Size, TextTarget};
 
 /// Say what looks there are, or draw a model in each
 #[derive(clap::Args)]
@@ -21,9 +21,18 @@ pub(super) struct Arguments {
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 
-    /// Size in pixels, or one number for a square [default: 512x512]
-    #[arg(long, value_name = "WxH", default_value = "512x512", hide_default_value = true)]
+    #[arg(long, value_name = "WxH", default_value_t = default_size(), hide_default_value = true, help = format!(
+        "Size in pixels, or one number for a square [default: {}]", default_size()
+    ))]
     size: Size,
+}
+
+/// The size of the look that is drawn where nothing is asked for, here of all of them.
+fn default_size() -> Size {
+    let options = LOOKS[0].preset().map(|look| look.options).unwrap_or_default();
+    let size =
+        options.get("size").and_then(|size| if let OptionValue::Text(size) = size { size.parse().ok() } else { None });
+    size.unwrap_or(SceneSettings::default().size)
 }
 
 /// Lists or draws them.
@@ -89,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_look_is_listed_and_can_be_drawn() {
+    fn every_look_is_listed_and_can_be_drawn_in_its_size() {
         let size = Size { width: 32, height: 24 };
         for look in LOOKS {
             assert!(
@@ -102,5 +111,23 @@ mod tests {
         }
         assert!(html("a<b.obj", size).contains("a&lt;b.obj") && !html("a<b.obj", size).contains("a<b"));
         assert_eq!(file(LOOKS[1]), "technical.svg");
+        // What is written is as large as its look wants, unless a size is given; published styles are as large as the paper's pictures.
+        for (more, size) in [
+            ("a.png", [1280, 960]),
+            ("a.png --look charcoal", [1280, 960]),
+            ("a.svg --look technical", [1280, 960]),
+            ("a.png --look print --style inking", [1280, 960]),
+            ("a.png --look published", [512, 512]),
+            ("a.png --style ink", [512, 512]),
+            ("a.png --preset paper:dachsbacher-inking", [512, 512]),
+            ("a.svg", [512, 512]),
+            ("a.png --look print --size 64x32", [64, 32]),
+        ] {
+            let words = format!("tinta render builtin:bust -o {more}");
+            let (parsed, _) = parse(words.split(' ').map(OsString::from)).unwrap();
+            let super::super::Command::Render(render) = parsed.command else { panic!("{words}") };
+            assert_eq!(render.size().unwrap(), Size { width: size[0], height: size[1] }, "{words}");
+        }
+        assert_eq!(default_size(), Size { width: 1280, height: 960 });
     }
 }

@@ -70,7 +70,7 @@ fn unknown_option(error: &clap::Error, command: &Command, words: &[OsString]) ->
     let word = word.unwrap_or(given);
     let name = word.split('=').next().unwrap_or_default();
     if !name.starts_with('-') {
-        return None;
+        return Some(surplus(command, &shortened(word)));
     }
     let command_name = match command.get_name() {
         "tinta" => "tinta".to_owned(),
@@ -78,6 +78,19 @@ fn unknown_option(error: &clap::Error, command: &Command, words: &[OsString]) ->
     };
     let meant = meant_option(command, name.trim_start_matches('-')).map(|meant| format!("--{meant}"));
     Some(no_option(&command_name, &shortened(name), meant.as_deref()))
+}
+
+/// What to say of a word that is one too many.
+fn surplus(command: &Command, word: &str) -> String {
+    let name = command.get_name();
+    let taken: Vec<String> = command
+        .get_positionals()
+        .filter_map(|arg| arg.get_value_names()?.first().map(|name| name.to_lowercase()))
+        .collect();
+    match &taken[..] {
+        [] => format!("tinta {name} takes options alone; leave out {word}"),
+        taken => format!("tinta {name} takes one {}; {word} is one too many", taken.join(" and one ")),
+    }
 }
 
 /// The option of a command that somebody meant who wrote this name, without dashes.

@@ -38,7 +38,7 @@ pub(super) struct LookArguments {
          or lines are drawn]",
         Look::list(), LOOKS[0].name
     ))]
-    look: Option<Look>,
+    pub look: Option<Look>,
 }
 
 /// Options that say what is done with a picture, not which picture it is: they are in no preset and no recipe.

@@ -166,6 +166,9 @@ const PASS_FRAMES: usize = 21;
 /// Draws what the arguments say, of which `given` has those that make the picture, by name.
 pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<Verdict> {
     super::messages::check_output(&arguments.output)?;
+    if arguments.output != "-" {
+        crate::output::check_name(Path::new(&arguments.output))?;
+    }
     let inputs = given.inputs(&arguments.models);
     inputs.keep(&arguments.output)?;
     let preset = arguments.keep.preset_target(&arguments.output, &inputs)?;
@@ -187,6 +190,9 @@ fn draw(arguments: &Arguments, options: &Options, session: &mut Session) -> Resu
             "within",
             "only exact lines can end before they are done; leave it out, or write a .svg",
         ));
+    }
+    if let Some(option) = lines::OF_PAPER.into_iter().find(|option| arguments.lines.options.contains_key(*option)) {
+        return Err(Error::setting(option, lines::pixels_on_paper(arguments)));
     }
     arguments.lines.refuse("only style lines has this; leave it out, or write a .svg")?;
     if let Some(target) = arguments.animation.target(&arguments.output, arguments.scene.is_transparent())? {
@@ -424,8 +430,8 @@ fn after_help() -> String {
     let names: Vec<String> =
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
     format!(
-        "Built-in models:\n{}\n\nWithout --style, --look and --preset the look print is drawn, with settings, colours and a view of its own (tinta looks); \
-         the defaults above are those of a style that is named.\n\nAs published, borders are black and one or two pixels wide at any size, and edges are \
+        "Built-in models:\n{}\n\nThe look print is drawn unless --style, --look or --preset is given (see tinta looks). Where it has a default of its \
+         own, that comes first above; the one after \"published\" is that of a style that is named.\n\nAs published, borders are black and one or two pixels wide at any size, and edges are \
          not smoothed.\n\nIf facets show as thin lines, blame the file's normals and try --normals smooth.",
         names.join("\n")
     )

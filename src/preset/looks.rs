@@ -56,6 +56,11 @@ impl Look {
         self.preset().is_ok_and(|preset| preset.options.get("style") == Some(&OptionValue::text("lines")))
     }
 
+    /// Whether it sets anything.
+    pub fn has_settings(self) -> bool {
+        !self.text.is_empty()
+    }
+
     /// Its settings.
     ///
     /// # Errors

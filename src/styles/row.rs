@@ -25,8 +25,8 @@ pub struct StyleInfo {
 /// Where a style comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// A text, with the values that are the defaults.
-    Published,
+    /// A text of this year, with the values that are the defaults.
+    Published(u16),
     /// A text that names it without values.
     Named,
     /// This project.

@@ -141,9 +141,9 @@ impl Shown {
         };
         if follows_window {
             // The first picture is drawn while egui still finds out how much room there is.
-            let [panel, status] = ui::taken(&shown.viewer.state)
-                .map(|points| (f64::from(points) * shown.window.scale_factor()).round() as u32);
-            let Size { width, height } = shown.size();
+            let (Size { width, height }, scale) = (shown.size(), shown.window.scale_factor());
+            let [panel, status] = ui::taken(&shown.viewer.state, (f64::from(width) / scale) as f32)
+                .map(|points| (f64::from(points) * scale).round() as u32);
             shown.event(ViewerEvent::Resize([width.saturating_sub(panel), height.saturating_sub(status)]));
         }
         shown.viewer.ask();

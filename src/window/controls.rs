@@ -9,7 +9,7 @@ use crate::mesh::LoadOptions;
 use crate::preset::{LOOKS, Look};
 use crate::scene::SceneSettings;
 use crate::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
-use crate::styles::Style;
+use crate::styles::{Style, StyleName};
 
 /// The settings of the scene that a window shows and sets: the others are the models' or the mouse's.
 pub const SCENE_SETTINGS: [&str; 8] =
@@ -57,6 +57,19 @@ pub(super) enum Drawn {
 /// Whether options are of exact lines by themselves.
 pub(super) fn are_of_lines(options: &Options) -> bool {
     options.get("style") == Some(&OptionValue::text(line_style::LINES))
+}
+
+/// Another style with the settings of a look that it has; as published where it cannot have them.
+pub(super) fn sibling(look: Look, name: StyleName) -> Style {
+    let options = look.preset().map(|preset| preset.options);
+    options.and_then(|options| Style::with_options(name, &options)).unwrap_or_else(|_| Style::named(name))
+}
+
+/// The look whose sibling a style is; the published one where it has no settings but its own.
+pub(super) fn look_of_sibling(style: &Style) -> Option<Look> {
+    let is_of = |look: &Look| sibling(*look, style.style_name()) == *style;
+    // A style that a look says nothing of is as published.
+    LOOKS.into_iter().rev().find(is_of)
 }
 
 /// What a look makes of what draws a side and of the scene. What another look sets of the scene is as by default again.
@@ -250,7 +263,6 @@ fn find(style: &Style, option: &str) -> std::result::Result<&'static Setting<Sty
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::styles::StyleName;
 
     fn is_faithful(style: &Style) -> bool {
         *style == published(style)

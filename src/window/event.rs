@@ -92,6 +92,9 @@ pub enum ViewerEvent {
     Model(String, String),
     /// The same back to its default.
     ModelDefault(String),
+    /// The system's dialogue to choose models in.
+    #[cfg(feature = "file-dialogue")]
+    Browse,
     /// Models to show instead, by their paths.
     Open(Vec<String>),
     /// The picture as it is shown, into a file.
@@ -118,6 +121,9 @@ impl ViewerEvent {
 /// What the state cannot do by itself.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Effect {
+    /// Let the user choose models.
+    #[cfg(feature = "file-dialogue")]
+    Browse,
     /// Read these models.
     Open(Vec<String>),
     /// Write a file of this kind.

@@ -7,7 +7,7 @@ use super::line_style::{LINES, LinesShown};
 use super::viewer::Viewer;
 use super::widget::{self, Change};
 use crate::keys::about;
-use crate::preset::{LOOKS, SHIPPED};
+use crate::preset::{LOOKS, Look, SHIPPED};
 use crate::styles::{Origin, StyleName};
 use egui::{Color32, RichText, Ui};
 
@@ -48,7 +48,13 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
             }
         });
     }
-    file(ui, "model", "cow.obj", |path| events.push(ViewerEvent::Open(vec![path])));
+    let model = state.model_names().join(", ");
+    match file(ui, "model", RichText::new(&model), &state.models.join(", ")) {
+        Some(path) if !path.is_empty() => events.push(ViewerEvent::Open(vec![path])),
+        #[cfg(feature = "file-dialogue")]
+        Some(_) => events.push(ViewerEvent::Browse),
+        _ => {}
+    }
     let style = state.style(side);
     let lines = state.lines_shown(side);
     let chosen = if lines == LinesShown::Alone { LINES } else { style.name() };
@@ -74,12 +80,13 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
     choices(ui, "presets", "choose a paper's", SHIPPED.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::OpenPreset(name.to_owned()));
     });
-    file(ui, "from a file", "preset.toml", |path| events.push(ViewerEvent::OpenPreset(path)));
+    let preset = file(ui, "from a file", RichText::new("a.toml").color(HINT), "a preset's path");
+    events.extend(preset.filter(|path| !path.is_empty()).map(ViewerEvent::OpenPreset));
     let mut is_allowed = state.is_coarse_while_moving;
     if ui.checkbox(&mut is_allowed, "coarser while moving").on_hover_text(COARSE).changed() {
         events.push(ViewerEvent::Coarse(is_allowed));
     }
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.label("save");
         for (what, action) in keys::SAVES {
             let button = ui.button(what);
@@ -88,18 +95,19 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
             }
         }
     });
+    let look = state.look().filter(|look| look.has_settings());
     match lines {
-        LinesShown::Alone => changes(ui, None, &controls::of_lines(state.line_style()), side, events),
+        LinesShown::Alone => changes(ui, None, look, &controls::of_lines(state.line_style()), side, events),
         _ => {
             let origin = Some(style.style_name().info().origin);
-            changes(ui, origin, &controls::of(style), side, events);
+            changes(ui, origin, look, &controls::of(style), side, events);
         }
     }
     ui.separator();
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         let words = search(ui);
         if lines != LinesShown::None {
-            grouped(ui, controls::of_lines(state.line_style()), &words, |ui, control| {
+            grouped(ui, controls::of_lines(state.line_style()), by_heading, &words, |ui, control| {
                 let option = control.option();
                 let change = ui.push_id(("lines", control.setting.name), |ui| widget::show(ui, control)).inner;
                 events.extend(change.map(|change| match change {
@@ -109,15 +117,21 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
             });
         }
         let of_style = if lines == LinesShown::Alone { Vec::new() } else { controls::of(style) };
-        grouped(ui, of_style, &words, |ui, control| {
-            let option = control.option();
-            let change = ui.push_id((control.setting.name, side as usize), |ui| widget::show(ui, control)).inner;
-            events.extend(change.map(|change| match change {
-                Change::Set(value) => ViewerEvent::Set(side, option, value),
-                Change::Default => ViewerEvent::Default(side, option),
-            }));
-        });
-        grouped(ui, controls::of_scene(&state.scene_settings()), &words, |ui, control| {
+        grouped(
+            ui,
+            of_style,
+            |heading| of_style_heading(heading, style.name()),
+            &words,
+            |ui, control| {
+                let option = control.option();
+                let change = ui.push_id((control.setting.name, side as usize), |ui| widget::show(ui, control)).inner;
+                events.extend(change.map(|change| match change {
+                    Change::Set(value) => ViewerEvent::Set(side, option, value),
+                    Change::Default => ViewerEvent::Default(side, option),
+                }));
+            },
+        );
+        grouped(ui, controls::of_scene(&state.scene_settings()), by_heading, &words, |ui, control| {
             let option = control.option();
             let change = ui.push_id(("scene", control.setting.name), |ui| widget::show(ui, control)).inner;
             events.extend(change.map(|change| match change {
@@ -125,7 +139,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
                 Change::Default => ViewerEvent::SceneDefault(option),
             }));
         });
-        grouped(ui, controls::of_load(&state.load), &words, |ui, control| {
+        grouped(ui, controls::of_load(&state.load), by_heading, &words, |ui, control| {
             let option = control.option();
             let change = ui.push_id(("models", control.setting.name), |ui| widget::show(ui, control)).inner;
             events.extend(change.map(|change| match change {
@@ -160,18 +174,28 @@ fn search(ui: &mut Ui) -> String {
     words.trim().to_owned()
 }
 
+/// A group is called by its heading, without what explains that: it has no room here.
+fn by_heading(heading: &str) -> String {
+    heading.split(['(', ':']).next().unwrap_or(heading).trim().to_owned()
+}
+
+/// Settings that a style shares with others are its own here, whichever styles the heading names.
+fn of_style_heading(heading: &str, style: &str) -> String {
+    if heading.starts_with("Style") { format!("Style {style}") } else { by_heading(heading) }
+}
+
 /// Controls under their headings, which fold as long as nothing is looked for.
 fn grouped<T: Clone + 'static>(
     ui: &mut Ui,
     controls: Vec<Control<T>>,
+    title: impl Fn(&str) -> String,
     words: &str,
     mut one: impl FnMut(&mut Ui, &Control<T>),
 ) {
     let found: Vec<Control<T>> = controls.into_iter().filter(|control| control.is_found_by(words)).collect();
-    for group in found.chunk_by(|a, b| a.setting.heading == b.setting.heading) {
+    for group in found.chunk_by(|a, b| title(a.setting.heading) == title(b.setting.heading)) {
         let whole = group[0].setting.heading;
-        // What explains it has no room here.
-        let heading = RichText::new(whole.split(['(', ':']).next().unwrap_or(whole).trim()).strong();
+        let heading = RichText::new(title(whole)).strong();
         if words.is_empty() {
             egui::CollapsingHeader::new(heading)
                 .default_open(true)
@@ -185,27 +209,31 @@ fn grouped<T: Clone + 'static>(
     }
 }
 
-/// A field for a file; files can be dropped on the window, too.
-fn file(ui: &mut Ui, label: &str, example: &str, mut open: impl FnMut(String)) {
+/// A field for a file, which shows `open` until a path is typed: what was typed once it is to be opened, nothing typed as an empty path.
+/// Files can be dropped on the window, too.
+fn file(ui: &mut Ui, label: &str, open: RichText, about: &str) -> Option<String> {
+    let mut opened = None;
     ui.horizontal(|ui| {
         let id = ui.id().with((label, "file"));
         let mut path: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         ui.label(label);
         let wanted = egui::vec2(ui.available_width() - 60.0, ui.spacing().interact_size.y);
-        let field =
-            ui.add_sized(wanted, egui::TextEdit::singleline(&mut path).hint_text(RichText::new(example).color(HINT)));
+        let field = ui.add_sized(wanted, egui::TextEdit::singleline(&mut path).hint_text(open)).on_hover_text(about);
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-        if (ui.small_button("open").clicked() || is_entered) && !path.trim().is_empty() {
-            open(path.trim().to_owned());
+        if ui.small_button("open").clicked() || (is_entered && !path.trim().is_empty()) {
+            opened = Some(path.trim().to_owned());
+            path.clear();
         }
         ui.data_mut(|data| data.insert_temp(id, path));
     });
+    opened
 }
 
-/// Whether all settings are the article's, where there is one, as a state that can be returned to.
+/// Whether all settings are the article's, where there is one, as a state that can be returned to; or a look's.
 fn changes<T: Clone + 'static>(
     ui: &mut Ui,
     origin: Option<Origin>,
+    look: Option<Look>,
     controls: &[Control<T>],
     side: Side,
     events: &mut Vec<ViewerEvent>,
@@ -214,13 +242,16 @@ fn changes<T: Clone + 'static>(
     ui.horizontal(|ui| {
         if changed == 0 {
             let said = match origin {
-                Some(Origin::Published) => "● faithful",
+                Some(Origin::Published(_)) => "● faithful",
                 Some(Origin::Named | Origin::Own) | None => "● default settings",
             };
             ui.colored_label(FAITHFUL, said)
                 .on_hover_text("every setting has its default: the text's value where it gives one");
         } else {
-            ui.colored_label(CHANGED, format!("○ {changed} changed"));
+            match look {
+                Some(look) => ui.colored_label(FAITHFUL, format!("● as in the look {}", look.name)),
+                None => ui.colored_label(CHANGED, format!("○ {changed} changed")),
+            };
             let back = if origin.is_some() { "all as published" } else { "all as by default" };
             if ui.small_button(back).clicked() {
                 events.push(ViewerEvent::Faithful(side));

@@ -1,6 +1,7 @@
 //! Times and errors of what is shown, as numbers and a small plot.
 
 use super::cost::{Costs, Point};
+use super::line_style::{LINES, LinesShown};
 use super::viewer::Viewer;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2};
 
@@ -22,6 +23,11 @@ const LEAST_RANGE: f64 = 0.05;
 /// Shows times and errors.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer) {
     for side in viewer.state.sides() {
+        if viewer.state.lines_shown(*side) == LinesShown::Alone {
+            ui.strong(LINES);
+            ui.label("exact lines have no passes to time");
+            continue;
+        }
         let style = viewer.state.style(*side).name();
         let Some(side_cost) = viewer.costs.sides.iter().find(|side_cost| side_cost.side == *side) else {
             ui.strong(style);

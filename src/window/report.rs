@@ -55,6 +55,9 @@ pub enum Report {
     Measured(u64, Vec<(Side, LineError)>),
     /// The exact lines of a view, or why there are none.
     Lines(Box<Result<Found>>),
+    /// Models were chosen, or none.
+    #[cfg(feature = "file-dialogue")]
+    Chosen(Vec<String>),
     /// A model's file has changed.
     ModelChanged,
     /// Shaders' files have changed: their texts by their paths below `glsl/`.

@@ -355,6 +355,8 @@ impl ViewerState {
                 let side = |pixels: u32| pixels.clamp(1, LARGEST_SIDE);
                 self.area = Size { width: side(width), height: side(height) };
             }
+            #[cfg(feature = "file-dialogue")]
+            ViewerEvent::Browse => return Ok(Some(Effect::Browse)),
             ViewerEvent::Open(models) => return Ok((!models.is_empty()).then_some(Effect::Open(models))),
             ViewerEvent::SavePicture => return Ok(Some(Effect::Save(Save::Picture))),
             ViewerEvent::SaveLines => return Ok(Some(Effect::Save(Save::Lines))),
@@ -400,16 +402,31 @@ impl ViewerState {
             .map_err(|error| error.to_string())?;
         self.put_drawn(self.active, drawn);
         self.put_scene(scene);
+        // A side that nobody has seen or changed begins with what fits the look.
+        let other = if self.active == Side::Left { Side::Right } else { Side::Left };
+        if self.layout == Layout::Single && controls::look_of_sibling(self.style(other)).is_some() {
+            self.put_style(other, controls::sibling(look, self.chosen[other as usize]));
+        }
         Ok(())
     }
 
     /// The look that the active side has, if it has one.
     pub(super) fn look(&self) -> Option<Look> {
-        if self.lines_shown(self.active) == LinesShown::Over {
+        self.look_of(self.active)
+    }
+
+    /// The look that a side has, from wherever it is seen.
+    pub(super) fn look_of(&self, side: Side) -> Option<Look> {
+        if self.lines_shown(side) == LinesShown::Over {
             return None;
         }
-        let shown = (self.drawn(self.active), self.scene_settings());
-        let has = |look: &Look| controls::of_look(*look, &shown.0, &shown.1).is_ok_and(|of_look| of_look == shown);
+        let shown = (self.drawn(side), self.scene_settings());
+        let has = |look: &Look| {
+            controls::of_look(*look, &shown.0, &shown.1).is_ok_and(|(drawn, mut scene)| {
+                scene.camera.view = shown.1.camera.view;
+                (drawn, scene) == shown
+            })
+        };
         LOOKS.into_iter().find(has)
     }
 

@@ -170,6 +170,26 @@ fn a_look_is_a_style_and_a_scene_and_the_next_takes_back_what_it_has_set() {
     assert_ne!(kept.background, SceneSettings::default().background);
 }
 
+#[test]
+fn a_look_stays_however_the_model_is_turned_moved_and_brought_nearer() {
+    for look in LOOKS {
+        let begun = [ViewerEvent::Style(Side::Left, "three-pass".to_owned()), ViewerEvent::Look(look.name.to_owned())];
+        let views = [
+            ViewerEvent::Turn([0.21, -0.1]),
+            ViewerEvent::Move([0.1, 0.1]),
+            ViewerEvent::Zoom(1.5),
+            ViewerEvent::View("top".to_owned()),
+            ViewerEvent::Reset,
+        ];
+        for count in 0..=views.len() {
+            let state = after(begun.iter().chain(&views[..count]).cloned());
+            assert_eq!(state.look().map(|look| look.name), Some(look.name), "after {:?}", &views[..count]);
+        }
+        let other = after(begun.iter().cloned().chain([ViewerEvent::Scene("fov".to_owned(), "77".to_owned())]));
+        assert!(other.look().is_none(), "another lens is no longer {}", look.name);
+    }
+}
+
 fn of_scene(options: &Options) -> Options {
     let table = SceneSettings::table();
     options.clone().into_iter().filter(|(name, _)| table.has(name)).collect()

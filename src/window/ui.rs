@@ -4,6 +4,7 @@ use super::buffer::{Buffer, CLASS_COLORS};
 use super::compose::difference;
 use super::event::{Side, ViewerEvent};
 use super::keys;
+use super::label;
 use super::line_style::LinesShown;
 use super::panel;
 use super::plot;
@@ -14,19 +15,32 @@ use egui::{Align2, Color32, Context, CursorIcon, Pos2, Rect, Sense, Stroke, Text
 use std::path::Path;
 use std::time::Duration;
 
-/// Width of the panel, points.
-const PANEL_WIDTH: f32 = 300.0;
+/// Width of the panel, points: at most and at least, and the share of a window's width between.
+const PANEL_WIDTH: [f32; 2] = [220.0, 300.0];
+const PANEL_SHARE: f32 = 0.36;
 
 /// Height of the line below the panes, points.
 pub(super) const STATUS_HEIGHT: f32 = 24.0;
 
 /// Height of what stands around the list of keys, points.
-const KEY_SHEET_MARGIN: f32 = 110.0;
+const KEY_SHEET_MARGIN: f32 = 136.0;
 
-/// What of a window panel and status line take, points.
-pub(super) fn taken(state: &ViewerState) -> [f32; 2] {
-    [if state.has_panel { PANEL_WIDTH } else { 0.0 }, STATUS_HEIGHT]
+/// What of a window of this width panel and status line take, points.
+pub(super) fn taken(state: &ViewerState, window_width: f32) -> [f32; 2] {
+    [if state.has_panel { panel_width(window_width) } else { 0.0 }, STATUS_HEIGHT]
 }
+
+/// The panel's width in a window of this width, points: a small window is the picture's first.
+fn panel_width(window_width: f32) -> f32 {
+    let [least, most] = PANEL_WIDTH;
+    (window_width * PANEL_SHARE).round().clamp(least, most)
+}
+
+/// A window this wide, points, has the list of keys in two columns.
+const WIDE: f32 = 1100.0;
+
+/// Letters of what a key does that stand on one line.
+const LINE_LETTERS: usize = 44;
 
 /// How far from the divider a pointer takes it, points.
 const DIVIDER_REACH: f32 = 6.0;
@@ -109,7 +123,7 @@ pub(super) fn frame(
     egui::TopBottomPanel::bottom("status").exact_height(STATUS_HEIGHT).show(context, |ui| status(ui, viewer));
     if state.has_panel {
         egui::SidePanel::right("panel")
-            .exact_width(PANEL_WIDTH)
+            .exact_width(panel_width(context.content_rect().width()))
             .resizable(false)
             .show(context, |ui| panel::show(ui, viewer, &mut events));
     }
@@ -175,6 +189,7 @@ fn panes(ui: &mut Ui, viewer: &Viewer, textures: &Textures, follows_window: bool
             divider(ui, corner + Vec2::X * (column as f32 / scale), area, events);
         }
     }
+    label::show(ui, state, area, scale);
     let height = f64::from(area.height().max(1.0));
     let delta = response.drag_delta();
     if delta != Vec2::ZERO {
@@ -230,6 +245,12 @@ fn divider(ui: &Ui, top: Pos2, area: Rect, events: &mut Vec<ViewerEvent>) {
     }
 }
 
+/// A text of the sheet, on two lines where it is long.
+fn broken(text: &str) -> String {
+    let end = text.char_indices().nth(LINE_LETTERS).and_then(|(end, _)| text[..end].rfind(' '));
+    end.map_or_else(|| text.to_owned(), |end| format!("{}\n{}", &text[..end], &text[end + 1..]))
+}
+
 /// How to begin, in a line.
 fn hint(context: &Context) {
     let offset = [8.0, -8.0 - STATUS_HEIGHT];
@@ -283,18 +304,23 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     if state.has_key_sheet {
         let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
             // In a small window the rest is scrolled to.
-            egui::ScrollArea::vertical().max_height(context.content_rect().height() - KEY_SHEET_MARGIN).show(
-                ui,
-                |ui| {
-                    egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
-                        for (keys, what) in crate::keys::sheet(false) {
-                            ui.strong(keys);
-                            ui.label(what);
-                            ui.end_row();
+            let Vec2 { x: width, y: height } = context.content_rect().size();
+            egui::ScrollArea::vertical().max_height(height - KEY_SHEET_MARGIN).show(ui, |ui| {
+                let rows: Vec<_> = crate::keys::sheet(false).collect();
+                let columns = if width < WIDE { 1 } else { 2 };
+                let height = rows.len().div_ceil(columns);
+                egui::Grid::new("keys").num_columns(2 * columns + 1).spacing([24.0, 4.0]).show(ui, |ui| {
+                    for row in 0..height {
+                        for (keys, what) in rows.iter().skip(row).step_by(height) {
+                            ui.strong(*keys);
+                            ui.label(broken(what));
                         }
-                    });
-                },
-            );
+                        // Room for the bar beside the rows.
+                        ui.label("");
+                        ui.end_row();
+                    }
+                });
+            });
             ui.button("close").clicked()
         });
         if shown.is_some_and(|shown| shown.inner == Some(true)) {

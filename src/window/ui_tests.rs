@@ -66,13 +66,30 @@ fn the_area_is_what_the_window_leaves_it() {
 fn the_hint_goes_with_the_first_drag_and_what_the_panel_takes_is_known_before_it_is_shown() {
     let mut frames = Frames::new();
     (frames.viewer.state.has_panel, frames.viewer.state.has_hint) = (true, true);
-    let [panel, status] = taken(&frames.viewer.state);
+    let [panel, status] = taken(&frames.viewer.state, 400.0);
     (0..3).for_each(|_| drop(frames.show(Vec::new())));
     let area = frames.viewer.state.area;
     assert_eq!([area.width as f32, area.height as f32], [400.0 - panel, 300.0 + STATUS_HEIGHT - status]);
     assert!(frames.viewer.state.has_hint, "nothing was done yet");
     frames.drag(PointerButton::Primary, Pos2::new(20.0, 100.0), Pos2::new(50.0, 100.0));
     assert!(!frames.viewer.state.has_hint);
+}
+
+#[test]
+fn a_small_window_keeps_most_of_its_width_for_the_picture() {
+    for (window, panel) in [(400.0, 220.0), (640.0, 230.0), (800.0, 288.0), (1280.0, 300.0)] {
+        assert_eq!(panel_width(window), panel);
+    }
+}
+
+#[test]
+fn a_long_row_of_the_key_sheet_is_broken_between_words() {
+    let all: Vec<String> = crate::keys::sheet(false).map(|(_, what)| what).collect();
+    assert!(all.iter().any(|what| broken(what).contains('\n')), "one is long");
+    for what in all {
+        assert_eq!(broken(&what).replace('\n', " "), what);
+        assert!(broken(&what).lines().all(|line| line.chars().count() <= LINE_LETTERS), "{what}");
+    }
 }
 
 #[test]

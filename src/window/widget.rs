@@ -130,8 +130,29 @@ fn widget(ui: &mut Ui, kind: &Kind, value: &str) -> Option<String> {
             ui.checkbox(&mut is_on, "").changed().then(|| if is_on { "on" } else { "off" }.to_owned())
         }
         Kind::Text { offered, .. } if !offered.is_empty() => offered_or_typed(ui, offered, value),
-        Kind::Several(_) | Kind::File | Kind::Text { .. } => typed(ui, value),
+        Kind::Several(names) => several(ui, names, value),
+        Kind::File | Kind::Text { .. } => typed(ui, value),
     }
+}
+
+/// Some of a few names, one at least, each to be switched on and off.
+fn several(ui: &mut Ui, names: &[&str], value: &str) -> Option<String> {
+    let mut chosen: Vec<&str> = value.split(',').collect();
+    let mut switched = None;
+    ui.horizontal_wrapped(|ui| {
+        for name in names {
+            if ui.selectable_label(chosen.contains(name), *name).clicked() {
+                switched = Some(*name);
+            }
+        }
+    });
+    let switched = switched?;
+    match chosen.iter().position(|name| *name == switched) {
+        Some(_) if chosen.len() == 1 => return None,
+        Some(place) => drop(chosen.remove(place)),
+        None => chosen.push(switched),
+    }
+    Some(names.iter().filter(|name| chosen.contains(name)).copied().collect::<Vec<_>>().join(","))
 }
 
 /// A field for a text.

@@ -227,7 +227,8 @@ impl CameraSettings {
             "view",
             "VIEW",
             View::kind(),
-            "View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees",
+            "View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees; if the model shows its back: \
+             120,15 210,15 -60,15 180,0",
             // An eye stands where it stands, wherever the view would have put it.
             |camera: &Self| if camera.eye.is_some() { View::DEFAULT.text() } else { camera.view.text() },
             |camera, text| {

@@ -6,9 +6,9 @@ use super::super::standard_input;
 use super::Arguments;
 use std::path::{Path, PathBuf};
 use tinta::gl::ContextInfo;
-use tinta::preset::{Options, to_toml};
+use tinta::preset::{Look, OptionValue, Options, to_toml};
 use tinta::recipe::{self, Driver, FileRecord};
-use tinta::{Error, Recipe, Result, Scene, Size, Style, TextTarget};
+use tinta::{Error, Recipe, Result, Scene, Size, Style, StyleName, TextTarget};
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "Presets")]
@@ -29,6 +29,17 @@ pub(super) struct KeepArguments {
 }
 
 impl KeepArguments {
+    /// What the user calls the style of a picture: the look that brought it, or its name.
+    pub(super) fn said_style(&self, style: StyleName) -> String {
+        let is_of = |look: &Look| {
+            look.preset().is_ok_and(|preset| preset.options.get("style") == Some(&OptionValue::text(style.name())))
+        };
+        match self.look.look.filter(is_of) {
+            Some(look) => format!("look {}", look.name),
+            None => format!("style {}", style.name()),
+        }
+    }
+
     /// Where the preset goes, checked before the work.
     pub(super) fn preset_target(&self, output: &str, inputs: &Inputs) -> Result<Option<TextTarget>> {
         let Some(path) = &self.save_preset else { return Ok(None) };

@@ -109,8 +109,8 @@ pub(super) fn format(arguments: &Arguments) -> Result<Option<Format>> {
                 .to_owned(),
         ),
         (Some(StyleChoice::Picture(name)), Some(_)) => refuse(format!(
-            "style {} draws pixels; leave out --style to write lines, or name a picture such as drawing.png",
-            name.name()
+            "{} draws pixels; --look technical in its place writes lines, or name a picture such as drawing.png",
+            arguments.keep.said_style(name)
         )),
         // What is no picture either is refused with all there is to choose from.
         (_, None) if output == "-" || Path::new(output).is_dir() => Ok(None),
@@ -363,6 +363,22 @@ pub(super) fn svg_settings(arguments: &Arguments, recipe: Option<&Recipe>) -> Re
     })
 }
 
+/// What to say of paper where pixels are written.
+pub(super) fn pixels_on_paper(arguments: &Arguments) -> String {
+    /// Dots an inch of a print.
+    const DPI: f64 = 300.0;
+    let page = svg_settings(arguments, None).map(|settings| settings.page_size.pixels(DPI));
+    match page {
+        Ok(Some(size)) => {
+            format!("a picture has pixels and no paper; for {DPI} dpi say --size {size}, or write a .svg")
+        }
+        _ => "a picture has pixels and no paper; say --size, or write a .svg".to_owned(),
+    }
+}
+
+/// The options that are about paper.
+pub(super) const OF_PAPER: [&str; 4] = ["page", "width-mm", "dpi", "margin"];
+
 fn refuse_what_lines_have_not(arguments: &Arguments, format: Format) -> Result<()> {
     let run = &arguments.run;
     refuse_given(
@@ -401,11 +417,11 @@ fn refuse_what_lines_have_not(arguments: &Arguments, format: Format) -> Result<(
         }
         Format::Picture => {
             let is_given = |name: &str| arguments.lines.options.contains_key(name);
-            let names = ["provenance", "page", "width-mm", "dpi", "margin", "pen", "fit-curves"];
             refuse_given(
-                &names.map(|name| (name, is_given(name))),
-                "a picture has pixels and no paper; leave it out, or write a .svg",
-            )
+                &["provenance", "pen", "fit-curves"].map(|name| (name, is_given(name))),
+                "a picture has pixels and no paths; leave it out, or write a .svg",
+            )?;
+            refuse_given(&OF_PAPER.map(|name| (name, is_given(name))), &pixels_on_paper(arguments))
         }
         Format::Json => {
             let problem = "a .json file holds all lines but no appearance; leave it out, or write a .svg";

@@ -5,6 +5,7 @@
 //! background on one side.
 
 use super::length::Length;
+use crate::choice::nearest;
 use crate::edges::Class;
 use crate::error::ParseError;
 use crate::settings::{Kind, Problem, Setting, Value};
@@ -104,9 +105,12 @@ impl FromStr for Name {
             HIDDEN_LINES => Ok(Self::Hidden),
             _ => match text.strip_prefix(HIDDEN) {
                 Some(class) => Ok(Self::HiddenClass(class.parse()?)),
-                None => Ok(Self::Class(
-                    text.parse().map_err(|problem| format!("{problem}, outline, hidden, or hidden- and a class"))?,
-                )),
+                None => Ok(Self::Class(text.parse().map_err(|problem| {
+                    match nearest(text, &["outline", HIDDEN_LINES]) {
+                        Some(meant) => format!("did you mean {meant}?"),
+                        None => format!("{problem}, outline, hidden, or hidden- and a class"),
+                    }
+                })?)),
             },
         }
     }

@@ -93,6 +93,15 @@ impl Paper {
     }
 }
 
+impl PageSize {
+    /// How many pixels a sheet has at so many dots an inch, upright unless it is to lie; `None` where no sheet is named.
+    pub fn pixels(self, dpi: f64) -> Option<Size> {
+        let Self::Paper(paper) = self else { return None };
+        let [width, height] = paper.sides_mm(DVec2::ZERO).map(|side| (side / MM_PER_INCH * dpi).round() as u32);
+        Some(Size { width, height })
+    }
+}
+
 impl fmt::Display for Paper {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Sheet::Mm([width, height]) = self.sheet {

@@ -398,11 +398,11 @@ fn made(
     }
     let frames = std::mem::take(&mut soup.frames);
     let files = std::mem::take(&mut soup.files);
-    let may_lie = soup.may_lie && options.up_axis == UpAxis::Auto;
+    let other_up = soup.other_up.filter(|_| options.up_axis == UpAxis::Auto);
     let mesh = soup.into_mesh_watched(path, options, watch)?;
-    if may_lie && lying::seems_to_lie(&mesh) {
+    if let Some(up) = other_up.filter(|up| lying::seems_to_lie(&mesh, *up)) {
         remarks.push(format!(
-            "{path}: it may lie on its back, for its only flat end is at the lowest z; if so, --up-axis z stands it up"
+            "{path}: this may lie on its side, as the only end it can stand on is the lowest {up}; if so, --up-axis {up} turns it upright"
         ));
     }
     // Missing materials have had a remark of their own from the reader, which knows their names.
@@ -491,13 +491,13 @@ fn soup(
     let soup = match format {
         Format::Obj => {
             let soup = obj::read(bytes, path, folder, remarks)?;
-            Soup { may_lie: true, ..with_pictures(soup, options, folder, path, remarks) }
+            Soup { other_up: Some(UpAxis::Z), ..with_pictures(soup, options, folder, path, remarks) }
         }
         Format::Ply => {
             let soup = ply::read(bytes, path, remarks)?;
-            Soup { may_lie: true, ..with_pictures(soup, options, folder, path, remarks) }
+            Soup { other_up: Some(UpAxis::Z), ..with_pictures(soup, options, folder, path, remarks) }
         }
-        Format::Stl => from_z_up(stl::read(bytes, path, remarks)?, options),
+        Format::Stl => Soup { other_up: Some(UpAxis::Y), ..from_z_up(stl::read(bytes, path, remarks)?, options) },
         Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
         Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,
         #[cfg(feature = "gltf")]

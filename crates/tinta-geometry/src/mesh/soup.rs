@@ -5,7 +5,7 @@
 
 use super::normals::Splitting;
 use super::pieces::Pieces;
-use super::{Defects, LoadOptions, LoadStage, Material, Mesh, NONE, Normals, normals, weld};
+use super::{Defects, LoadOptions, LoadStage, Material, Mesh, NONE, Normals, UpAxis, normals, weld};
 use crate::error::{Error, Result};
 use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS, MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
 use crate::memory;
@@ -40,8 +40,8 @@ pub(super) struct Soup {
     pub defects: Defects,
     /// Points and lines of the file, which are not drawn.
     pub points_and_lines: usize,
-    /// Whether nothing says which axis of it is up.
-    pub may_lie: bool,
+    /// The axis that is up if the one taken is not, in formats that do not say which is.
+    pub other_up: Option<UpAxis>,
     /// The files that were read besides the model's own: its material libraries, its data.
     pub files: Vec<PathBuf>,
     /// Bytes of those that hold vertices and faces.
