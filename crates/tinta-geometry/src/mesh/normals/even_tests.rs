@@ -145,7 +145,7 @@ fn where_there_is_no_noise_normals_stay_as_they_are() {
     assert!(is_kept(Model::sheet(60, |x, y| 0.002 * random(x, y))), "faces too large for noise");
     assert!(is_kept(Model::sheet(10, |x, y| 0.05 * random(x, y))), "large faces");
     let ball = Model::of_cells(150, |x, y| {
-        let (around, up) = (x * 6.28, (y - 0.5) * 3.0);
+        let (around, up) = (x * 6.2, (y - 0.5) * 3.0);
         DVec3::new(around.cos() * up.cos(), up.sin(), around.sin() * up.cos())
     });
     assert!(is_kept(ball), "a ball, with slivers at its poles");
