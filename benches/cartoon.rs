@@ -169,9 +169,12 @@ fn cold_table(settings: &Settings, folder: &Path) -> Value {
     let picture = picture.to_str().expect("a path");
     let model = settings.model.as_str();
     let tinta = env!("CARGO_BIN_EXE_tinta");
+    let drawing = ["render", model, "-o", picture, "--size", "512x512"];
     let mut contestants: Vec<(String, Command)> = vec![
-        ("tinta three-pass".to_owned(), command(tinta, &["render", model, "-o", picture])),
-        ("tinta phong".to_owned(), command(tinta, &["render", model, "-o", picture, "--style", "phong"])),
+        // What is drawn where nothing is asked for.
+        ("tinta, look print".to_owned(), command(tinta, &[&drawing[..], &["--look", "print"]].concat())),
+        ("tinta three-pass".to_owned(), command(tinta, &[&drawing[..], &["--style", "three-pass"]].concat())),
+        ("tinta phong".to_owned(), command(tinta, &[&drawing[..], &["--style", "phong"]].concat())),
     ];
     let mut display = None;
     if runs("f3d", "--version") && runs("Xvfb", "-version") {
@@ -250,11 +253,12 @@ fn empty_egl(folder: &Path) -> Option<PathBuf> {
     status.is_ok_and(|status| status.success()).then_some(program)
 }
 
-/// Peak resident memory of one `tinta render`, as the kernel counts it for the child.
+/// Peak resident memory of one `tinta render` in three passes, as the kernel counts it for the child.
 fn peak_memory_mib(model: &str, folder: &Path) -> f64 {
     let picture = folder.join("memory.png");
     let mut child = Command::new(env!("CARGO_BIN_EXE_tinta"))
         .args(["render", model, "-o", picture.to_str().expect("a path"), "--json", "--frames", "200"])
+        .args(["--style", "three-pass", "--size", "512x512"])
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()

@@ -277,23 +277,14 @@ impl Style {
         let mut remarks = match self {
             // It needs the edges in any case.
             Self::Inking(_) => scene.crack_remarks(),
+            Self::Charcoal(charcoal) | Self::Sand(charcoal) => charcoal.remarks(scene),
             _ => Vec::new(),
         };
-        remarks.extend(self.remarks_on_colors(scene));
-        remarks
-    }
-
-    fn remarks_on_colors(&self, scene: &Scene) -> Vec<String> {
-        match self {
-            Self::Charcoal(charcoal) | Self::Sand(charcoal) => charcoal.remarks(scene),
-            _ if self.leaves_textures_out(scene) => {
-                vec![
-                    "the model's textures or colours at vertices are not drawn; --surface textured draws them"
-                        .to_owned(),
-                ]
-            }
-            _ => Vec::new(),
+        if self.leaves_textures_out(scene) {
+            let remark = "the model's textures or colours at vertices are not drawn; --surface textured draws them";
+            remarks.push(remark.to_owned());
         }
+        remarks
     }
 
     /// Whether the scene brings textures, and they could be drawn and are not.
@@ -303,7 +294,8 @@ impl Style {
             !object.mesh.position_colors.is_empty() || object.mesh.materials.iter().any(|it| it.has_texture())
         };
         let is_free = scene.surface == crate::scene::Surface::Plain && !scene.recolor;
-        is_free && !draws_own && self.style_name() != StyleName::Dietrich && scene.objects.iter().any(brings)
+        let has_none = matches!(self.style_name(), StyleName::Dietrich | StyleName::Sand);
+        is_free && !draws_own && !has_none && scene.objects.iter().any(brings)
     }
 
     /// Whether its tones can be shown by themselves.

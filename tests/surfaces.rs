@@ -9,8 +9,8 @@ use tinta::{
 };
 
 /// Styles whose colours are the scene's.
-const STYLES: [StyleName; 5] =
-    [StyleName::ThreePass, StyleName::TwoPass, StyleName::Mrt, StyleName::Phong, StyleName::Ink];
+const STYLES: [StyleName; 6] =
+    [StyleName::ThreePass, StyleName::TwoPass, StyleName::Mrt, StyleName::Phong, StyleName::Ink, StyleName::Charcoal];
 
 fn settings(surface: Surface) -> SceneSettings {
     let camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..CameraSettings::default() };

@@ -15,6 +15,7 @@ pub use improvements::Improvements;
 pub use pictures::{CharcoalPictures, TextureSource};
 
 use self::layout::Layout;
+use super::textured::textured;
 use super::{Show, Supersample};
 use crate::error::{Error, Result};
 use crate::hiding::doubled_faces;
@@ -228,7 +229,11 @@ impl Charcoal {
             }));
         }
         if show != Show::Paper {
-            steps.push(Step::Draw(self.objects(show, is_sand, &layout)));
+            let objects = self.objects(show, is_sand, &layout);
+            // The text's sand has textures of its own way.
+            let own = textured(scene, &objects).filter(|_| show == Show::Final && !is_sand);
+            steps.push(Step::Draw(objects));
+            steps.extend(own);
         }
         let pass = Pass::new(if is_sand { "sand" } else { "charcoal" }, steps);
         Ok(self.supersample.finish(Plan { pictures, ..Plan::new(vec![pass]) }, scene.size))

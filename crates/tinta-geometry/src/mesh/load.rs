@@ -88,7 +88,7 @@ impl LoadOptions {
             Setting::field(
                 "normals",
                 "WHERE",
-                "Normals: file (computed where it has none), smooth, lasting (as file, else without the bumps of scans, split along long creases only), flat, dachsbacher (his text's: one a vertex, never split)",
+                "Normals: file (computed where it has none), smooth, lasting (as file, else without the noise of scans, split along long creases only), flat, dachsbacher (his text's: one a vertex, never split)",
                 |load: &mut Self| &mut load.normals,
             ),
             Setting::field(
@@ -146,7 +146,7 @@ pub enum Normals {
     /// Computed: smooth up to the smoothing angle.
     Smooth,
     /// From the file; where it has none smooth, and split only along creases that reach through a share of the model: the single sharp
-    /// edges of scans and of models of few triangles are smoothed, and so are bumps of scans.
+    /// edges of scans and of models of few triangles are smoothed. Where a surface has a scan's noise, that is evened out.
     Lasting,
     /// Computed: each face its own.
     Flat,

@@ -10,6 +10,8 @@
 
 mod even;
 mod lasting;
+mod noise;
+mod patches;
 
 use super::NONE;
 use crate::threads::{in_parallel, threads_for};
@@ -71,15 +73,22 @@ pub(super) fn fill_missing(
             // Most fans are smooth throughout; then any two faces are within the angle and no edge needs to be looked at.
             // Fans that only touch in the vertex are joined too when they agree so well; that does no harm.
             let mean = corners.iter().map(face_normal).sum::<DVec3>().normalize_or_zero();
-            if is_smooth(vertex) || corners.iter().all(|corner| face_normal(corner).dot(mean) >= cos_half) {
+            let is_smooth = is_smooth(vertex);
+            if is_smooth || corners.iter().all(|corner| face_normal(corner).dot(mean) >= cos_half) {
                 let sum = corners.iter().map(|corner| weighted(*corner)).sum();
-                if let Some(normal) = smooth(sum) {
+                let is_its_own =
+                    |normal: &DVec3| !is_smooth || corners.iter().all(|it| face_normal(it).dot(*normal) > 0.0);
+                if let Some(normal) = smooth(sum).filter(is_its_own) {
                     found.normals.push(normal.as_vec3());
                     let index = found.normals.len() as u32 - 1;
                     found.indices.extend(corners.iter().map(|corner| if is_missing(*corner) { index } else { NONE }));
                     continue;
                 }
-                fan.join_all(corners.len());
+                match is_smooth {
+                    // A face that is turned over has a side of its own, or it would be drawn from within.
+                    true => fan.group(triangles, face_normals, corners, 0.0),
+                    false => fan.join_all(corners.len()),
+                }
             } else {
                 fan.group(triangles, face_normals, corners, cos_smooth);
                 if let Some(cos_beside) = cos_beside

@@ -117,7 +117,12 @@ fn joined(pieces: Vec<Piece>) -> (Soup, Vec<(usize, Naming)>) {
     let has_only_triangles = pieces.iter().all(|piece| piece.polygon_sizes.is_empty());
     soup.positions.reserve_exact(pieces.iter().map(|piece| piece.positions.len()).sum());
     soup.corners.reserve_exact(pieces.iter().map(|piece| piece.corners.len()).sum());
+    let has_colors = pieces.iter().any(|piece| !piece.colors.is_empty());
     for mut piece in pieces {
+        if has_colors {
+            piece.colors.resize(piece.positions.len(), piece::NO_COLOR);
+            soup.colors.append(&mut piece.colors);
+        }
         soup.positions.append(&mut piece.positions);
         soup.normals.append(&mut piece.normals);
         soup.texture_coordinates.append(&mut piece.texture_coordinates);
@@ -134,7 +139,16 @@ fn joined(pieces: Vec<Piece>) -> (Soup, Vec<(usize, Naming)>) {
         soup.defects.unusable_texture_coordinates += piece.lost[1];
         soup.points_and_lines += piece.points_and_lines;
     }
+    make_shares(&mut soup.colors);
     (soup, namings)
+}
+
+/// Colours as shares of full light: of 1, or of 255 where any channel is above 1. What has none is white.
+fn make_shares(colors: &mut [[f32; 3]]) {
+    let full = if colors.as_flattened().iter().any(|channel| *channel > 1.0) { 255.0 } else { 1.0 };
+    for channel in colors.as_flattened_mut() {
+        *channel = if channel.is_nan() { 1.0 } else { (*channel / full).clamp(0.0, 1.0) };
+    }
 }
 
 #[cfg(test)]
@@ -285,9 +299,24 @@ mod tests {
     }
 
     #[test]
-    fn vertex_colours_on_some_vertices_are_no_error() {
-        let soup = soup("v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 1 2 3 4 5\nf 1 2 3\n");
-        assert_eq!(soup.positions[2], DVec3::Y);
+    fn colours_behind_vertices_are_shares_of_1_or_bytes_and_vertices_without_are_white() {
+        let colors = |text: &str| {
+            // Cut between any two lines, too.
+            let read = |length| {
+                read_in_pieces(text.as_bytes(), length, "t.obj", &Folder::of_files(&[]), &mut Vec::new()).unwrap()
+            };
+            let soup = read(1 << 20);
+            assert_eq!(read(1).colors, soup.colors, "{text}");
+            assert_eq!(soup.positions[2], DVec3::Y);
+            soup.colors
+        };
+        let white = [1.0; 3];
+        let shares = colors("v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0\nv 1 1 0 0 0.25 -1\nf 1 2 3\n");
+        assert_eq!(shares, [[1.0, 0.5, 0.0], white, white, [0.0, 0.25, 0.0]]);
+        let bytes = colors("v 0 0 0\nv 1 0 0 255 51 1 # red\nv 0 1 0 0 102 0 255\nf 1 2 3\n");
+        assert_eq!(bytes, [white, [1.0, 0.2, 1.0 / 255.0], [0.0, 0.4, 0.0]]);
+        assert!(colors("v 0 0 0\nv 1 0 0 1\nv 0 1 0 1 0\nf 1 2 3\n").is_empty(), "a weight, and nothing known");
+        assert_eq!(colors("v 0 0 0 1 x 0\nv 1 0 0 0 0 0\nv 0 1 0\nf 1 2 3\n"), [white, [0.0; 3], white]);
     }
 
     #[test]

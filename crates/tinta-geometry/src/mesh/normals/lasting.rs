@@ -1,21 +1,22 @@
 //! Creases that last: chains of edges at which faces differ by more than the smoothing angle and that go on for a while. On scans
 //! and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks.
 //!
-//! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, the faces' normals without their
-//! bumps (`even.rs`), and for each triangle the area of the flat face it is part of. By it a face counts more than the chamfer beside
+//! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, the faces' normals without a scan's
+//! noise (`even.rs`), and for each triangle the area of the flat face it is part of. By it a face counts more than the chamfer beside
 //! it, which so bends from face to face and leaves them flat.
 
 use super::Incidence;
-use super::even::{Neighbours, even, is_small};
-use crate::threads::{in_parallel, threads_for};
+use super::even::{Evened, Faces, even};
+use super::patches::{Neighbours, gathered};
+use crate::threads::{filled, in_parallel, threads_for};
 use glam::DVec3;
 
 /// How far a chain must reach to last, in shares of the diagonal of the model's box: farther than single edges of the scans and low
 /// models looked at, less far than the edges of their shortest chamfers.
 const LEAST_REACH: f64 = 0.04;
 
-/// The same for a chain between small faces only: scans have folds that lead nowhere and are longer.
-const LEAST_REACH_OF_SMALL: f64 = 0.15;
+/// The same for a chain where there is noise only: scans have folds that lead nowhere and are longer.
+const LEAST_REACH_IN_NOISE: f64 = 0.15;
 
 /// The least cosine between triangles of one flat face: half a degree, as exported planes keep.
 const FLAT: f64 = 0.99996;
@@ -26,7 +27,7 @@ pub(super) struct Lasting {
     pub vertices: Vec<bool>,
     /// For each triangle the area of its flat face, in units of the model's own.
     pub areas: Vec<f64>,
-    /// Each triangle's unit normal, that of a small face evened out with its neighbours'.
+    /// Each triangle's unit normal, evened out with its neighbours' where there is noise.
     pub face_normals: Vec<DVec3>,
 }
 
@@ -61,34 +62,50 @@ impl Lasting {
             let [face, other] = edge.faces.map(|face| normals[face as usize]);
             face.dot(other)
         };
-        let mut faces = Sets::new(triangles.len());
-        edges().filter(|edge| cosine(given, edge) > FLAT).for_each(|edge| faces.join(edge.faces));
-        let mut areas = vec![0.0; triangles.len()];
-        for (number, triangle) in triangles.iter().enumerate() {
-            let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
-            areas[faces.root(number as u32)] += (b - a).cross(c - a).length() * 0.5;
-        }
-        let areas: Vec<f64> = (0..triangles.len() as u32).map(|number| areas[faces.root(number)]).collect();
+        let neighbours = Neighbours::new(triangles.len(), edges().map(|edge| edge.faces));
+        let corners = |face: usize| triangles[face].map(|vertex| positions[vertex as usize]);
+        let threads = threads_for(triangles.len());
+        let own_areas = filled(triangles.len(), threads, 0.0, |face| {
+            let [a, b, c] = corners(face);
+            (b - a).cross(c - a).length() * 0.5
+        });
+        let (flat, flat_areas) = gathered(
+            &neighbours,
+            triangles.len(),
+            |first| own_areas[first as usize],
+            |_, face, other, _| {
+                (given[face as usize].dot(given[other as usize]) > FLAT).then(|| own_areas[other as usize])
+            },
+        );
+        let areas: Vec<f64> = flat.iter().map(|face| flat_areas[*face as usize]).collect();
         let mut whole = Span::NONE;
         positions.iter().for_each(|position| whole.take(*position));
-        let neighbours = Neighbours::new(triangles.len(), edges().map(|edge| edge.faces));
-        let face_normals = even(given, &areas, &neighbours, whole.diagonal(), cos_smooth);
+        let faces = Faces {
+            positions,
+            triangles,
+            normals: given,
+            areas: &own_areas,
+            flat: &flat,
+            flat_areas: &flat_areas,
+            neighbours: &neighbours,
+        };
+        let Evened { normals: face_normals, is_noisy } = even(&faces, whole.diagonal(), cos_smooth);
         // Evening out also sharpens rounded rims, in zigzags: a crease is one before and after it.
         let is_sharp = |edge: &&Edge| [&face_normals, given].iter().all(|of| cosine(of, edge) < cos_smooth);
-        let sharp = || edges().filter(is_sharp);
+        let sharp: Vec<&Edge> = edges().filter(is_sharp).collect();
         let mut chains = Sets::new(positions.len());
-        sharp().for_each(|edge| chains.join(edge.ends));
+        sharp.iter().for_each(|edge| chains.join(edge.ends));
         let mut boxes = vec![Span::NONE; positions.len()];
-        let mut least = vec![LEAST_REACH_OF_SMALL; positions.len()];
-        for edge in sharp() {
+        let mut least = vec![LEAST_REACH_IN_NOISE; positions.len()];
+        for edge in &sharp {
             let chain = chains.root(edge.ends[0]);
             edge.ends.iter().for_each(|end| boxes[chain].take(positions[*end as usize]));
-            if edge.faces.iter().any(|face| !is_small(areas[*face as usize], whole.diagonal())) {
+            if edge.faces.iter().any(|face| !is_noisy[*face as usize]) {
                 least[chain] = LEAST_REACH;
             }
         }
         let mut vertices = vec![false; positions.len()];
-        for end in sharp().flat_map(|edge| edge.ends) {
+        for end in sharp.iter().flat_map(|edge| edge.ends) {
             let chain = chains.root(end);
             vertices[end as usize] = boxes[chain].diagonal() >= least[chain] * whole.diagonal();
         }

@@ -135,6 +135,17 @@ fn a_single_sharp_edge_of_a_fine_model_is_smoothed_and_one_that_lasts_is_not() {
 }
 
 #[test]
+fn a_triangle_turned_over_keeps_its_own_side_among_smooth_ones() {
+    let (positions, mut triangles) = grid(20, |x, y| 0.02 * (x * x + y) as f64);
+    triangles[417].swap(1, 2);
+    let (normals, indices) = lasting(&positions, &triangles);
+    for (corners, triangle) in indices.iter().zip(&triangles) {
+        let face = triangle_normal(triangle.map(|index| positions[index as usize])).unwrap().as_vec3();
+        assert!(corners.iter().all(|corner| normals[*corner as usize].dot(face) > 0.5), "{triangle:?}");
+    }
+}
+
+#[test]
 fn a_flat_face_stays_flat_beside_a_chamfer() {
     // Two flat halves, and between them a strip at 30 degrees.
     let slope = 30f64.to_radians().tan();

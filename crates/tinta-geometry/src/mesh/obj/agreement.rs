@@ -25,7 +25,7 @@ fn both(bytes: &[u8], length: usize, folder: &Folder<'_>) -> [Understood; 2] {
     ]
 }
 
-/// The twin knows only what faces name, and writes out that no face has a material.
+/// The twin knows only what faces name, and no colours, and writes out that no face has a material.
 fn meaning(mut soup: Soup) -> Soup {
     fn keep<T: Copy>(values: &mut [T], named: impl Iterator<Item = u32>, zero: T) {
         let named: BTreeSet<u32> = named.collect();
@@ -35,6 +35,7 @@ fn meaning(mut soup: Soup) -> Soup {
     keep(&mut soup.normals, soup.corners.iter().map(|corner| corner.normal), Vec3::ZERO);
     keep(&mut soup.texture_coordinates, soup.corners.iter().map(|corner| corner.texture), Vec2::ZERO);
     soup.polygon_materials.resize(soup.polygon_count(), NONE);
+    soup.colors.clear();
     soup
 }
 

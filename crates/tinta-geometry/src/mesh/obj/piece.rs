@@ -86,6 +86,8 @@ pub(super) struct Piece {
     pub positions: Vec<DVec3>,
     pub normals: Vec<Vec3>,
     pub texture_coordinates: Vec<Vec2>,
+    /// The numbers behind positions that are colours: empty, or of the first so many positions; [`NO_COLOR`] where one has none.
+    pub colors: Vec<[f32; 3]>,
     /// The corners of all sound faces, by the file's own numbers from 0.
     pub corners: Vec<Corner>,
     /// How many faces those are.
@@ -130,7 +132,14 @@ impl Piece {
         let Some(keyword) = text.split_whitespace().next() else { return Ok(()) };
         let rest = &text[keyword.len()..];
         match keyword {
-            "v" => self.positions.push(position(&plain(rest))?),
+            "v" => {
+                let (point, color) = position(&plain(rest))?;
+                if let Some(color) = color {
+                    self.colors.resize(self.positions.len(), NO_COLOR);
+                    self.colors.push(color);
+                }
+                self.positions.push(point);
+            }
             "vt" => {
                 let [u, v] = numbers(&plain(rest)).ok_or("a texture coordinate is not two numbers")?;
                 self.texture_coordinates.push(Vec2::new(u as f32, v as f32));
@@ -230,20 +239,28 @@ impl Piece {
     }
 }
 
-/// Three numbers, and where a fourth is the last one, the weight they are divided by; more are colours.
-fn position(text: &str) -> Result<DVec3, &'static str> {
+/// A vertex without a colour.
+pub(super) const NO_COLOR: [f32; 3] = [f32::NAN; 3];
+
+/// Three numbers, and where a fourth is the last one, the weight they are divided by. Where there are more, the next three are a colour.
+fn position(text: &str) -> Result<(DVec3, Option<[f32; 3]>), &'static str> {
     const NO_VERTEX: &str = "a vertex is not three numbers";
     let mut words = text.split_ascii_whitespace();
     let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
     let (Some(x), Some(y), Some(z)) = (number(), number(), number()) else { return Err(NO_VERTEX) };
     let point = DVec3::new(x, y, z);
-    match (words.next(), words.next()) {
-        (Some(weight), None) => match weight.parse::<f64>() {
+    let rest: Vec<&str> = words.take(3).collect();
+    match rest.as_slice() {
+        [weight] => match weight.parse::<f64>() {
             Ok(0.0) => Err("a vertex has weight 0"),
-            Ok(weight) => Ok(point / weight),
+            Ok(weight) => Ok((point / weight, None)),
             Err(_) => Err(NO_VERTEX),
         },
-        _ => Ok(point),
+        [red, green, blue] => {
+            let channels = [red, green, blue].map(|word| word.parse().unwrap_or(f32::NAN));
+            Ok((point, channels.iter().all(|channel| channel.is_finite()).then_some(channels)))
+        }
+        _ => Ok((point, None)),
     }
 }
 
