@@ -5,13 +5,11 @@
 
 extern crate tinta_geometry as tinta;
 
-#[allow(dead_code, reason = "shared with the tests of the whole program")]
 #[path = "../../../tests/lines_families.rs"]
 mod lines_families;
-#[allow(dead_code, reason = "shared with the tests of the whole program")]
 #[path = "../../../tests/lines_random.rs"]
 mod lines_random;
-#[allow(dead_code, reason = "shared with the tests of the whole program")]
+#[expect(dead_code, reason = "shared with the tests of the whole program")]
 #[path = "../../../tests/lines_support.rs"]
 mod lines_support;
 #[path = "rewritings/model.rs"]
@@ -20,7 +18,7 @@ mod model;
 mod rules;
 #[path = "rewritings/same.rs"]
 mod same;
-#[allow(dead_code, reason = "shared with the tests of the whole program")]
+#[expect(dead_code, reason = "shared with the tests of the whole program")]
 #[path = "../../../tests/shapes.rs"]
 mod shapes;
 

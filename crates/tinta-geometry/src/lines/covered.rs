@@ -72,6 +72,15 @@ struct AtPiece {
     balance: i32,
 }
 
+/// What hangs together over some pieces of edges.
+#[derive(Default)]
+struct Region {
+    /// By their places in the list of the plane's faces.
+    faces: Vec<usize>,
+    /// At each piece how many more of these faces lie to the left of it than to the right: 0 inside.
+    balances: HashMap<[u32; 2], i32>,
+}
+
 fn is_sheet(at_piece: &AtPiece) -> bool {
     at_piece.balance == 0 && at_piece.faces.len() == 2
 }
@@ -274,15 +283,15 @@ impl<'a> Planar<'a> {
                 region_of[a.max(b)] = a.min(b);
             }
         }
-        let mut regions: BTreeMap<usize, (Vec<usize>, HashMap<[u32; 2], i32>)> = BTreeMap::new();
+        let mut regions: BTreeMap<usize, Region> = BTreeMap::new();
         for (index, of_face) in sides.iter().enumerate() {
-            let (faces, outline) = regions.entry(root(&mut region_of, index)).or_default();
-            faces.push(index);
-            of_face.iter().for_each(|(piece, side)| *outline.entry(*piece).or_default() += side);
+            let region = regions.entry(root(&mut region_of, index)).or_default();
+            region.faces.push(index);
+            of_face.iter().for_each(|(piece, side)| *region.balances.entry(*piece).or_default() += side);
         }
         let (mut outlines, mut covered) = (HashSet::new(), HashSet::new());
-        for (faces, outline) in regions.into_values() {
-            let mut outline: Vec<([u32; 2], i32)> = outline.into_iter().filter(|(_, side)| *side != 0).collect();
+        for Region { faces, balances } in regions.into_values() {
+            let mut outline: Vec<([u32; 2], i32)> = balances.into_iter().filter(|(_, side)| *side != 0).collect();
             outline.sort_unstable();
             let times = outline.first().map_or(0, |(_, side)| side.abs());
             if times == 0 || outline.iter().any(|(_, side)| side.abs() != times) {
