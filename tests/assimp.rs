@@ -23,7 +23,7 @@ mod with_the_library {
     use super::*;
     use crate::hostile::one_line;
     use crate::support::skip;
-    use glam::{DVec3, dvec3};
+    use glam::{DVec3, Vec3, dvec3};
     use tinta::mesh::{UpAxis, read_bytes};
     use tinta::{LoadOptions, Mesh, load};
 
@@ -119,9 +119,11 @@ mod with_the_library {
         let short = |number: usize| (number as u16).to_le_bytes().to_vec();
         let name = |name: &str, length: usize| [name.as_bytes(), &vec![0; length - name.len()]].concat();
         let vertex = |corner: &[f32; 3]| [vec![0], floats(corner), vec![0xff, 3]].concat();
-        let triangle = |corners: [usize; 3]| {
-            let indices: Vec<u8> = corners.into_iter().flat_map(short).collect();
-            [short(0), indices, floats(&[0.0; 9]), floats(&[0.0; 6]), vec![1, 0]].concat()
+        let triangle = |places: [usize; 3]| {
+            let indices: Vec<u8> = places.into_iter().flat_map(short).collect();
+            let [a, b, c] = places.map(|place| Vec3::from_array(corners()[place]));
+            let normal = (b - a).cross(c - a).normalize().to_array();
+            [short(0), indices, floats(&[normal; 3].concat()), floats(&[0.0; 6]), vec![1, 0]].concat()
         };
         let colors =
             floats(&[0.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.25, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0]);

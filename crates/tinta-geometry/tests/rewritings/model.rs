@@ -17,6 +17,8 @@ pub struct Model {
     pub is_mirrored: bool,
     /// Whether a surface has a rim.
     pub is_open: bool,
+    /// Whether faces were repeated.
+    pub has_layers: bool,
 }
 
 impl Model {
@@ -34,7 +36,7 @@ impl Model {
         }
         let meshes: Vec<Mesh> = scene.objects.iter().map(placed).collect();
         let is_open = meshes.iter().any(|mesh| edges(mesh).values().any(|faces| faces.len() == 1));
-        Self { meshes, camera, size: scene.size, is_mirrored: false, is_open }
+        Self { meshes, camera, size: scene.size, is_mirrored: false, is_open, has_layers: false }
     }
 
     pub fn scene(&self) -> Scene {

@@ -76,20 +76,18 @@ fn third(mesh: &Mesh, face: usize, edge: [u32; 2]) -> u32 {
     mesh.triangles[face].into_iter().find(|corner| !edge.contains(corner)).unwrap()
 }
 
-/// The faces of triangles that are parts of flat quadrangles, with the other diagonal, half of them.
+/// The faces of triangles that are parts of flat quadrangles, with the other diagonal, half of them. Not after faces were repeated: two
+/// triangles of two layers would be mixed so that neither layer is whole, which no file of a surface has.
 fn flip_diagonals(model: Model, random: &mut Random) -> Model {
+    if model.has_layers {
+        return model;
+    }
     each(model, |mesh| {
         let mut is_changed = vec![false; mesh.triangles.len()];
         let old = mesh.clone();
         for (edge, faces) in edges(&old) {
             let &[first, second] = faces.as_slice() else { continue };
-            // Faces of one layer follow one another; those of two layers could be mixed so that no layer is whole.
-            let runs_up = |face: usize| {
-                let at = old.triangles[face].iter().position(|corner| *corner == edge[0]).unwrap();
-                old.triangles[face][(at + 1) % 3] == edge[1]
-            };
-            let are_of_one_layer = runs_up(first) != runs_up(second);
-            if is_changed[first] || is_changed[second] || !are_of_one_layer || random.number() < 0.5 {
+            if is_changed[first] || is_changed[second] || random.number() < 0.5 {
                 continue;
             }
             let ([a, b], c, d) = (edge, third(&old, first, edge), third(&old, second, edge));
@@ -157,7 +155,8 @@ fn split_both_sides(model: Model, random: &mut Random) -> Model {
     })
 }
 
-fn repeat_faces(model: Model, random: &mut Random) -> Model {
+fn repeat_faces(mut model: Model, random: &mut Random) -> Model {
+    model.has_layers = true;
     each(model, |mesh| {
         for face in 0..mesh.triangles.len() {
             if random.number() < 0.3 {
@@ -171,8 +170,9 @@ fn repeat_faces(model: Model, random: &mut Random) -> Model {
     })
 }
 
-fn repeat_all(model: Model, random: &mut Random) -> Model {
+fn repeat_all(mut model: Model, random: &mut Random) -> Model {
     let other = flip_diagonals(model.clone(), random);
+    model.has_layers = true;
     let mut others = other.meshes.into_iter();
     each(model, |mesh| {
         let other = others.next().unwrap();
