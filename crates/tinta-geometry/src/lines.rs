@@ -46,6 +46,7 @@ mod heal;
 mod identity;
 mod image;
 mod intersections;
+mod junctions;
 mod layers;
 mod length;
 mod mend;

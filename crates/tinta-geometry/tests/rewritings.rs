@@ -5,6 +5,8 @@
 
 extern crate tinta_geometry as tinta;
 
+#[path = "rewritings/known.rs"]
+mod known;
 #[path = "../../../tests/lines_families.rs"]
 mod lines_families;
 #[path = "../../../tests/lines_random.rs"]

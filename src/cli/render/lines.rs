@@ -214,9 +214,11 @@ pub(super) fn run(
         return Ok(Verdict::Good);
     }
     let models = model_records(&scene, arguments.models.len());
+    let mut model = ModelRecord::together(&models);
+    model.defects.covered_triangles = lines.covered_triangles;
     super::super::print_json(&LinesRecord {
         version: env!("CARGO_PKG_VERSION"),
-        model: ModelRecord::together(&models),
+        model,
         models,
         load: arguments.model.settings()?,
         copies: arguments.scene_settings()?.copies,

@@ -7,7 +7,7 @@
 //! that all of a region is covered equally often. Only where two faces lie on the same side of one edge, or of edges on
 //! one line, is anything covered twice, so other meshes are left after one look at each edge.
 
-use super::mend::vertices_on;
+use super::junctions::{Chain, vertices_on};
 use crate::edges::EdgeList;
 use crate::mesh::Mesh;
 use crate::threads::{in_chunks, threads_for};
@@ -15,9 +15,9 @@ use crate::tolerances::{CONTACT, PRINTED_DIGITS, WELD};
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// The faces that others cover, of each region all but those of the set with the lowest number. `along_rims` are pairs of edges that run
-/// along one another.
-pub(super) fn covered_faces(mesh: &Mesh, edges: &EdgeList, along_rims: &[[u32; 2]]) -> HashSet<u32> {
+/// The faces that others cover, of each region all but those of the set with the lowest number. `chains` are the edges that
+/// others cover.
+pub(super) fn covered_faces(mesh: &Mesh, edges: &EdgeList, chains: &[Chain]) -> HashSet<u32> {
     let planar = Planar::new(mesh);
     let at_edges = in_chunks(edges.len(), EDGES_A_THREAD, threads_for(edges.len()), |range| {
         let mut pairs = Vec::new();
@@ -25,7 +25,7 @@ pub(super) fn covered_faces(mesh: &Mesh, edges: &EdgeList, along_rims: &[[u32; 2
         pairs
     });
     let mut pairs = at_edges.concat();
-    let links = planar.links(edges, along_rims);
+    let links = planar.links(edges, chains);
     pairs.extend(links.iter().filter(|(_, fold)| *fold == Fold::Closed).map(|(pair, _)| pair));
     if pairs.is_empty() {
         return HashSet::new();
@@ -184,10 +184,12 @@ impl<'a> Planar<'a> {
         }
     }
 
-    /// Faces of one plane at edges that run along one another: a T-junction has cut one of both.
-    fn links(&self, edges: &EdgeList, along: &[[u32; 2]]) -> Vec<([u32; 2], Fold)> {
+    /// Faces of one plane at an edge and at one of a chain that covers it.
+    fn links(&self, edges: &EdgeList, chains: &[Chain]) -> Vec<([u32; 2], Fold)> {
         let mut links = Vec::new();
-        for [long, short] in along {
+        for (long, short) in
+            chains.iter().flat_map(|Chain { long, edges }| edges.iter().map(move |short| (long, short)))
+        {
             let ends = self.ends(edges, *long);
             let of_both = edges.faces(*long).iter().flat_map(|a| edges.faces(*short).iter().map(move |b| [*a, *b]));
             links.extend(of_both.map(|pair| (pair, self.fold(ends, pair))).filter(|(_, fold)| *fold != Fold::Bent));

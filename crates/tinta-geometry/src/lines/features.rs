@@ -117,6 +117,11 @@ impl Part<'_> {
         }
     }
 
+    /// Whether faces were split at vertices on their edges.
+    pub(super) fn has_split_edges(&self) -> bool {
+        matches!(&self.edges, Edges::Mended(mended) if !mended.on_edges.is_empty())
+    }
+
     /// The vertices on an edge of the shape where its faces were split, in their order along it; the edge's lower position first.
     pub(super) fn on_edge(&self, edge: [u32; 2]) -> &[u32] {
         match &self.edges {

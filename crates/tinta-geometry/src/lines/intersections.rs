@@ -113,10 +113,11 @@ pub(super) fn intersections(
     let mut all = Kept::default();
     chunks.into_iter().for_each(|(some, _)| all.append(some));
     all.lines.sort_unstable_by_key(|found| found.faces.map(|face| faces.numbers[face as usize]));
-    let touched = HalfPlanes::at_touched_edges(parts, &all.lines);
+    let split = SplitEdges::new(parts);
+    let touched = HalfPlanes::at_touched_edges(&split, &all.lines);
     let lines = all.lines.into_iter().filter(|found| touched.pass_through(space, faces, found));
     let lines = lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect();
-    Intersections { lines: without_repeated(space, faces, lines), piercings: all.piercings, compared }
+    Intersections { lines: without_repeated(space, faces, lines), piercings: split.piercings(all.piercings), compared }
 }
 
 /// What is asked about faces that meet.
@@ -249,6 +250,44 @@ struct Found {
     touching: [Option<[u32; 2]>; 2],
 }
 
+/// How edges were split at T-junctions.
+struct SplitEdges<'a> {
+    parts: &'a [Part<'a>],
+    /// Each part's first position.
+    starts: Vec<u32>,
+}
+
+impl<'a> SplitEdges<'a> {
+    fn new(parts: &'a [Part<'a>]) -> Self {
+        let next_start =
+            |next: &mut u32, part: &Part| Some(std::mem::replace(next, *next + part.shape().positions.len() as u32));
+        Self { parts, starts: parts.iter().scan(0, next_start).collect() }
+    }
+
+    /// An edge in pieces, the lower position of each first.
+    fn pieces(&self, edge: [u32; 2]) -> Vec<[u32; 2]> {
+        let part = self.starts.partition_point(|start| *start <= edge[0]) - 1;
+        let start = self.starts[part];
+        let on_edge = self.parts[part].on_edge(edge.map(|position| position - start)).iter();
+        let way: Vec<u32> =
+            [edge[0]].into_iter().chain(on_edge.map(|position| position + start)).chain([edge[1]]).collect();
+        way.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]).collect()
+    }
+
+    /// The places where edges pass through faces, for each piece of an edge: one of them has it, and the others are not cut by what lies
+    /// beyond their ends.
+    fn piercings(&self, found: Vec<Piercing>) -> Vec<Piercing> {
+        if !self.parts.iter().any(Part::has_split_edges) {
+            return found;
+        }
+        let of_pieces = |piercing: Piercing| {
+            let pieces = self.pieces(piercing.edge).into_iter();
+            pieces.map(move |edge| Piercing { edge, point: piercing.point })
+        };
+        found.into_iter().flat_map(of_pieces).collect()
+    }
+}
+
 /// The faces at each edge that lies in another face's plane: how the surface goes on there, T-junctions mended.
 struct HalfPlanes {
     /// Each edge in pieces, as it was split.
@@ -258,28 +297,18 @@ struct HalfPlanes {
 }
 
 impl HalfPlanes {
-    fn at_touched_edges(parts: &[Part], lines: &[Found]) -> Self {
+    fn at_touched_edges(split: &SplitEdges, lines: &[Found]) -> Self {
         let touched = lines.iter().flat_map(|found| found.touching.into_iter().flatten());
         let mut pieces: HashMap<[u32; 2], Vec<[u32; 2]>> = touched.map(|edge| (edge, Vec::new())).collect();
         let mut thirds: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
         if pieces.is_empty() {
             return Self { pieces, thirds };
         }
-        let starts: Vec<u32> = parts
-            .iter()
-            .scan(0, |next, part| Some(std::mem::replace(next, *next + part.shape().positions.len() as u32)))
-            .collect();
         for (edge, pieces) in &mut pieces {
-            let part = starts.partition_point(|start| *start <= edge[0]) - 1;
-            let on_edge = parts[part].on_edge(edge.map(|position| position - starts[part])).iter();
-            let way: Vec<u32> = std::iter::once(edge[0])
-                .chain(on_edge.map(|position| position + starts[part]))
-                .chain([edge[1]])
-                .collect();
-            pieces.extend(way.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]));
+            *pieces = split.pieces(*edge);
             thirds.extend(pieces.iter().map(|piece| (*piece, Vec::new())));
         }
-        for (part, start) in parts.iter().zip(&starts) {
+        for (part, start) in split.parts.iter().zip(&split.starts) {
             for triangle in &part.edges.get().mesh().triangles {
                 let [a, b, c] = triangle.map(|corner| corner + start);
                 for (from, to, third) in [(a, b, c), (b, c, a), (c, a, b)] {

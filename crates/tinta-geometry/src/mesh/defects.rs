@@ -26,6 +26,9 @@ pub struct Defects {
     pub unusable_texture_coordinates: usize,
     /// Polygons that name a corner twice in a row, which counts once: harmless, so that `is_empty` passes over them.
     pub repeated_corners: usize,
+    /// Triangles that others cover in one plane, as in models made to be seen from both sides. Readers keep them, and
+    /// [`VisibleLines`](crate::VisibleLines) counts and leaves them out: harmless, too.
+    pub covered_triangles: usize,
     /// Material files or materials that are named but not there; those faces get the default colour.
     pub missing_materials: usize,
 }
@@ -33,7 +36,8 @@ pub struct Defects {
 impl Defects {
     /// Whether the file is clean; what is harmless does not count.
     pub fn is_empty(&self) -> bool {
-        *self == Self { repeated_corners: self.repeated_corners, ..Self::default() }
+        let Self { repeated_corners, covered_triangles, .. } = *self;
+        *self == Self { repeated_corners, covered_triangles, ..Self::default() }
     }
 }
 
@@ -49,6 +53,7 @@ impl<'a> std::iter::Sum<&'a Self> for Defects {
             unusable_normals: sum.unusable_normals + one.unusable_normals,
             unusable_texture_coordinates: sum.unusable_texture_coordinates + one.unusable_texture_coordinates,
             repeated_corners: sum.repeated_corners + one.repeated_corners,
+            covered_triangles: sum.covered_triangles + one.covered_triangles,
             missing_materials: sum.missing_materials + one.missing_materials,
         })
     }
@@ -74,6 +79,7 @@ impl fmt::Display for Defects {
                 "polygon that names a corner twice in a row (harmless)",
                 "polygons that name a corner twice in a row (harmless)",
             ),
+            (self.covered_triangles, "triangle that others cover (harmless)", "triangles that others cover (harmless)"),
             (self.missing_materials, "missing material", "missing materials"),
         ];
         let mut separator = "";
