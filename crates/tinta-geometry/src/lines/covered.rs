@@ -228,27 +228,23 @@ impl<'a> Planar<'a> {
                 is_needle || own.cross(normal).length() <= LARGEST_SINE * own.length()
             };
             let mut cluster = vec![*first];
+            // From each edge once: of all faces at it that are in one plane with the first to come there.
+            let mut edges_left: HashSet<u32> = HashSet::new();
             let mut next = 0;
             while let Some(face) = cluster.get(next).copied() {
                 next += 1;
+                let mut more = partners.get(&face).cloned().unwrap_or_default();
                 let [a, b, c] = self.mesh.triangles[face as usize];
-                let at_sides = [[a, b], [b, c], [c, a]].into_iter().flat_map(|[from, to]| {
-                    let edge = edge_of.get(&[from.min(to), from.max(to)]).copied();
-                    let others = edge.map_or(&[][..], |edge| edges.faces(edge));
-                    let ends = [from, to].map(|end| self.mesh.positions[end as usize]);
-                    others
-                        .iter()
-                        .copied()
-                        .filter(move |other| *other != face && self.fold(ends, [face, *other]) != Fold::Bent)
-                });
-                let of_pairs = partners.get(&face).into_iter().flatten().copied();
-                let more: Vec<u32> =
-                    at_sides.chain(of_pairs).filter(|other| is_of_plane(*other) && !known.contains(other)).collect();
-                for other in more {
-                    if known.insert(other) {
-                        cluster.push(other);
+                for [from, to] in [[a, b], [b, c], [c, a]] {
+                    let Some(edge) = edge_of.get(&[from.min(to), from.max(to)]) else { continue };
+                    if edges_left.insert(*edge) {
+                        let ends = [from, to].map(|end| self.mesh.positions[end as usize]);
+                        let others = edges.faces(*edge).iter().copied().filter(|other| *other != face);
+                        more.extend(others.filter(|other| self.fold(ends, [face, *other]) != Fold::Bent));
                     }
                 }
+                more.retain(|other| is_of_plane(*other));
+                cluster.extend(more.into_iter().filter(|other| known.insert(*other)));
             }
             cluster.sort_unstable();
             clusters.push(cluster);

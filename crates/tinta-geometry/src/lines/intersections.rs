@@ -117,7 +117,11 @@ pub(super) fn intersections(
     let touched = HalfPlanes::at_touched_edges(&split, &all.lines);
     let lines = all.lines.into_iter().filter(|found| touched.pass_through(space, faces, found));
     let lines = lines.map(|found| Intersection { faces: found.faces, ends: found.ends }).collect();
-    Intersections { lines: without_repeated(space, faces, lines), piercings: split.piercings(all.piercings), compared }
+    Intersections {
+        lines: without_repeated(space, faces, lines),
+        piercings: split.piercings(faces, all.piercings),
+        compared,
+    }
 }
 
 /// What is asked about faces that meet.
@@ -264,49 +268,59 @@ impl<'a> SplitEdges<'a> {
         Self { parts, starts: parts.iter().scan(0, next_start).collect() }
     }
 
-    /// An edge in pieces, the lower position of each first.
-    fn pieces(&self, edge: [u32; 2]) -> Vec<[u32; 2]> {
+    /// The positions along an edge, its own first and last.
+    fn way(&self, edge: [u32; 2]) -> Vec<u32> {
         let part = self.starts.partition_point(|start| *start <= edge[0]) - 1;
         let start = self.starts[part];
         let on_edge = self.parts[part].on_edge(edge.map(|position| position - start)).iter();
-        let way: Vec<u32> =
-            [edge[0]].into_iter().chain(on_edge.map(|position| position + start)).chain([edge[1]]).collect();
-        way.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]).collect()
+        [edge[0]].into_iter().chain(on_edge.map(|position| position + start)).chain([edge[1]]).collect()
     }
 
-    /// The places where edges pass through faces, for each piece of an edge: one of them has it, and the others are not cut by what lies
-    /// beyond their ends.
-    fn piercings(&self, found: Vec<Piercing>) -> Vec<Piercing> {
+    /// The places where edges pass through faces, for the piece of the edge that has it, and for its neighbours: it may be where they
+    /// meet. What lies beyond a piece's end does not cut it.
+    fn piercings(&self, faces: &Faces, found: Vec<Piercing>) -> Vec<Piercing> {
         if !self.parts.iter().any(Part::has_split_edges) {
             return found;
         }
         let of_pieces = |piercing: Piercing| {
-            let pieces = self.pieces(piercing.edge).into_iter();
-            pieces.map(move |edge| Piercing { edge, point: piercing.point })
+            let Piercing { edge, point } = piercing;
+            let way = self.way(edge);
+            let number = piece_at(faces, &way, point);
+            let near = &way[number.saturating_sub(1)..way.len().min(number + 3)];
+            pieces(near).map(|edge| Piercing { edge, point }).collect::<Vec<_>>()
         };
         found.into_iter().flat_map(of_pieces).collect()
     }
 }
 
+/// The pieces between positions along an edge, the lower position of each first.
+fn pieces(way: &[u32]) -> impl Iterator<Item = [u32; 2]> {
+    way.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])])
+}
+
+/// The number of the piece of an edge that is nearest to a point on it.
+fn piece_at(faces: &Faces, way: &[u32], point: DVec3) -> usize {
+    let position = |index: usize| faces.positions[way[index] as usize];
+    let along = position(way.len() - 1) - position(0);
+    way[1..way.len() - 1].partition_point(|at| (faces.positions[*at as usize] - point).dot(along) <= 0.0)
+}
+
 /// The faces at each edge that lies in another face's plane: how the surface goes on there, T-junctions mended.
 struct HalfPlanes {
-    /// Each edge in pieces, as it was split.
-    pieces: HashMap<[u32; 2], Vec<[u32; 2]>>,
+    /// The positions along each edge at which it was split, with its own.
+    ways: HashMap<[u32; 2], Vec<u32>>,
     /// The third corners of all faces at a piece.
     thirds: HashMap<[u32; 2], Vec<u32>>,
 }
 
 impl HalfPlanes {
     fn at_touched_edges(split: &SplitEdges, lines: &[Found]) -> Self {
-        let touched = lines.iter().flat_map(|found| found.touching.into_iter().flatten());
-        let mut pieces: HashMap<[u32; 2], Vec<[u32; 2]>> = touched.map(|edge| (edge, Vec::new())).collect();
-        let mut thirds: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
-        if pieces.is_empty() {
-            return Self { pieces, thirds };
-        }
-        for (edge, pieces) in &mut pieces {
-            *pieces = split.pieces(*edge);
-            thirds.extend(pieces.iter().map(|piece| (*piece, Vec::new())));
+        let touched: HashSet<[u32; 2]> = lines.iter().flat_map(|found| found.touching.into_iter().flatten()).collect();
+        let ways: HashMap<[u32; 2], Vec<u32>> = touched.into_iter().map(|edge| (edge, split.way(edge))).collect();
+        let mut thirds: HashMap<[u32; 2], Vec<u32>> =
+            ways.values().flat_map(|way| pieces(way)).map(|piece| (piece, Vec::new())).collect();
+        if ways.is_empty() {
+            return Self { ways, thirds };
         }
         for (part, start) in split.parts.iter().zip(&split.starts) {
             for triangle in &part.edges.get().mesh().triangles {
@@ -318,18 +332,14 @@ impl HalfPlanes {
                 }
             }
         }
-        Self { pieces, thirds }
+        Self { ways, thirds }
     }
 
     /// The third corners of the faces at the piece of an edge that is nearest to a point.
     fn at(&self, faces: &Faces, edge: [u32; 2], point: DVec3) -> &[u32] {
-        let distance = |piece: &[u32; 2]| {
-            let [a, b] = piece.map(|position| faces.positions[position as usize]);
-            let share = (point - a).dot(b - a) / (b - a).length_squared();
-            a.lerp(b, share.clamp(0.0, 1.0)).distance_squared(point)
-        };
-        let piece = self.pieces[&edge].iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        piece.map_or(&[], |piece| &self.thirds[piece])
+        let way = &self.ways[&edge];
+        let number = piece_at(faces, way, point);
+        &self.thirds[&[way[number].min(way[number + 1]), way[number].max(way[number + 1])]]
     }
 
     /// Whether the two surfaces pass through one another along a line: going round it, half-planes of one and of the other follow
