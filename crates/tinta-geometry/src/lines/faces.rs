@@ -210,7 +210,10 @@ impl Faces {
         let normal = ab.cross(ac);
         let longest = ab.length_squared().max(ac.length_squared()).max(bc.length_squared()).sqrt();
         let touching = CONTACT * longest.min(probe.line_length) + self.weld(numbers[0]).min(probe.weld);
-        let contact = (touching + 4.0 * space.noise) * normal.length();
+        // From a corner that both have they part: there touching is a matter of the angle.
+        let corner = (0..3).find(|corner| is_own[*corner]).map(|corner| [a, b, c][corner]);
+        let share = corner.map_or(1.0, |corner| (probe.view.distance(corner) / probe.line_length).min(1.0));
+        let contact = (touching * share + 4.0 * space.noise) * normal.length();
         let above = normal.dot(probe.view - a);
         let towards_eye = match space.is_perspective() {
             true => -normal.dot(a),

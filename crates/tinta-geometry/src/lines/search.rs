@@ -402,7 +402,13 @@ impl Faces {
         let normal = (b - a).cross(c - a);
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
         let touching = CONTACT * longest.min(stretch.line_length) + self.weld(numbers[0]).min(stretch.weld);
-        let contact = (touching + 4.0 * space.noise) * normal.length();
+        // As in the exact rule, the less the nearer to a corner that both have.
+        let is_edge = matches!(stretch.own, Own::Edge(_));
+        let corner = (0..3).find(|corner| is_edge && is_own[*corner]).map(|corner| [a, b, c][corner]);
+        let contacts = stretch.view.map(|view| {
+            let share = corner.map_or(1.0, |corner| (view.distance(corner) / stretch.line_length).min(1.0));
+            (touching * share + 4.0 * space.noise) * normal.length()
+        });
         let away = -normal.dot(space.to_eye(a)).signum();
         let behind = stretch.view.map(|view| normal.dot(view - a) * away);
         // Places along the line as places along its image.
@@ -414,10 +420,10 @@ impl Faces {
             let far = share * depths[1];
             stretch.part[0] + (stretch.part[1] - stretch.part[0]) * (far / ((1.0 - share) * depths[0] + far))
         };
-        let clip = |range: Option<[f64; 2]>, margin: f64| {
-            let behind = above_zero([0.0, 1.0], behind.map(|behind| behind - margin))?.map(place);
-            common(range?, behind)
+        let clip = |range: Option<[f64; 2]>, times: f64| {
+            let behind = [0, 1].map(|end| behind[end] - times * contacts[end]);
+            common(range?, above_zero([0.0, 1.0], behind)?.map(place))
         };
-        [clip(sure, 2.0 * contact).map(|sure| stretch.up_to_ends(sure, numbers)), clip(may, 0.5 * contact)]
+        [clip(sure, 2.0).map(|sure| stretch.up_to_ends(sure, numbers)), clip(may, 0.5)]
     }
 }
