@@ -44,8 +44,48 @@ impl Model {
         Scene::new(self.meshes.iter().cloned().map(Arc::new).collect::<Vec<_>>(), &settings).unwrap()
     }
 
-    /// Writes each mesh as an OBJ and the options of its picture, to look into a scene that differs.
-    pub fn write(&self, path: &str) {
+    /// The middle and half the diagonal of all meshes.
+    fn ball(&self) -> (DVec3, f64) {
+        let bounds = self.meshes.iter().map(Mesh::bounds);
+        let (low, high) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap();
+        ((low + high) * 0.5, low.distance(high) * 0.5)
+    }
+
+    /// The same model in parallel projection, seen from a direction.
+    pub fn parallel_from(&self, direction: DVec3) -> Self {
+        let (middle, radius) = self.ball();
+        let camera = CameraSettings {
+            eye: Some(middle + direction * 3.0 * radius),
+            target: Some(middle),
+            up: Some(direction.any_orthonormal_vector()),
+            parallel: true,
+            height: Some(2.2 * radius),
+            near: Some(radius),
+            far: Some(5.0 * radius),
+            ..CameraSettings::default()
+        };
+        Self { camera, ..self.clone() }
+    }
+
+    /// The same as nearly as a perspective can show it, from a million radii away.
+    pub fn from_far_away(&self, direction: DVec3) -> Self {
+        let mut far = self.parallel_from(direction);
+        let (middle, radius) = self.ball();
+        let distance = 1e6 * radius;
+        far.camera.eye = Some(middle + direction * distance);
+        far.camera.parallel = false;
+        far.camera.height = None;
+        far.camera.fov_y_degrees = 2.0 * (1.1 * radius / distance).atan().to_degrees();
+        far.camera.near = Some(distance - 2.0 * radius);
+        far.camera.far = Some(distance + 2.0 * radius);
+        far
+    }
+
+    /// Writes each mesh as an OBJ and the options of its picture into the folder that `TINTA_REWRITTEN` names, to look into a scene that
+    /// differs.
+    pub fn keep(&self, name: &str) {
+        let Ok(folder) = std::env::var("TINTA_REWRITTEN") else { return };
+        let path = format!("{folder}/{name}");
         let mut command = String::from("tinta render");
         for (number, mesh) in self.meshes.iter().enumerate() {
             let vertex = |DVec3 { x, y, z }: &DVec3| format!("v {x:?} {y:?} {z:?}\n");
