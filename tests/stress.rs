@@ -67,13 +67,14 @@ fn check_compared(summary: &Summary) {
     let is_drawn = |row: &&Row| row.verdict == "rendered" && row.group != Group::Files;
     let rendered = summary.cases.iter().filter(is_drawn).count();
     assert_eq!(compared("pruned_differing_px"), rendered);
-    // All by the second backend but the largest pictures, which are not of one size.
+    // All by the second backend. OSMesa's largest pictures are larger than EGL's, so that those are not compared.
     let second = summary.cases.iter().filter(is_drawn).filter(|row| row.backend == backend_names()[1]).count();
     let sizes = ["the widest picture", "the highest picture", "one pixel wider", "one pixel higher"];
     let of_largest = |name: &str| sizes.contains(&name);
     let largest =
         summary.cases.iter().filter(is_drawn).filter(|row| row.backend == backend_names()[1] && of_largest(&row.name));
-    assert_eq!(compared("backends_differing_px"), second - largest.count());
+    let not_compared = if backend_names()[1] == "osmesa" { largest.count() } else { 0 };
+    assert_eq!(compared("backends_differing_px"), second - not_compared);
 }
 
 #[test]
