@@ -103,7 +103,7 @@ fn from_very_far_away_perspective_is_parallel_projection() {
         }
         // Along no axis: a face seen edge-on in parallel projection is not so from any place.
         let direction = random.direction();
-        let [parallel, far] = [model.parallel_from(direction), model.from_far_away(direction)];
+        let [parallel, far] = [model.parallel_from(direction), model.perspective_from(direction)];
         let difference = difference(&lines(&parallel.scene()), &lines(&far.scene()), false);
         if difference.is_some() {
             parallel.keep(&format!("{seed}-before"));

@@ -68,7 +68,7 @@ impl Model {
     }
 
     /// The same as nearly as a perspective can show it, from a million radii away.
-    pub fn from_far_away(&self, direction: DVec3) -> Self {
+    pub fn perspective_from(&self, direction: DVec3) -> Self {
         let mut far = self.parallel_from(direction);
         let (middle, radius) = self.ball();
         let distance = 1e6 * radius;
