@@ -205,7 +205,10 @@ fn cargo_fault(words: &[&str], manifest: &str, sources: &str) -> Option<String> 
             "--example" => {
                 manifest.contains(&format!("name = \"{name}\"")) || root().join(format!("examples/{name}.rs")).exists()
             }
-            "--test" => manifest.contains(&format!("[[test]]\nname = \"{name}\"")),
+            "--test" => {
+                manifest.contains(&format!("[[test]]\nname = \"{name}\""))
+                    || root().join(format!("crates/tinta-geometry/tests/{name}.rs")).exists()
+            }
             "--bin" => name == "tinta",
             "--features" => manifest.contains(&format!("\n{name} = [")),
             _ => true,

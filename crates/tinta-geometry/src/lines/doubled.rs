@@ -17,8 +17,8 @@ use crate::tolerances::JOINED_PX;
 /// Hidden lines that a thread looks at at once.
 const CHUNK: usize = 512;
 
-/// Pixels: the box of a longer part that is aslant holds much else.
-const LONGEST_PART: f64 = 8.0;
+/// Pixels: the box of a longer part that is aslant holds much else. Shorter parts find long lines that nearly coincide once for each part.
+const LONGEST_PART: f64 = 128.0;
 
 /// Cuts and marks hidden pieces. Where a part of the lines is enough and the time is over, all stay as they are.
 ///

@@ -53,6 +53,8 @@ pub(super) struct Probe {
     pub weld: f64,
     /// The line's ends among the positions, or the two faces it is the intersection of.
     pub own: Own,
+    /// The positions in which the line ends, see [`Own::corners`].
+    pub own_ends: [u32; 2],
 }
 
 /// What a line belongs to.
@@ -196,12 +198,10 @@ impl Faces {
     pub(super) fn hides(&self, space: &Space, face: u32, probe: &Probe, tie: f64) -> [bool; 2] {
         const NEITHER: [bool; 2] = [false; 2];
         let numbers = self.triangles[face as usize];
-        let own_ends = match probe.own {
-            Own::Faces(own) if own.contains(&face) => return NEITHER,
-            Own::Faces(_) => [u32::MAX; 2],
-            Own::Edge(ends) => ends,
-        };
-        let is_own = numbers.map(|number| own_ends.contains(&number));
+        if matches!(probe.own, Own::Faces(own) if own.contains(&face)) {
+            return NEITHER;
+        }
+        let is_own = numbers.map(|number| probe.own_ends.contains(&number));
         if is_own.iter().filter(|is_own| **is_own).count() == 2 {
             return NEITHER;
         }

@@ -88,6 +88,8 @@ pub(super) struct Stretch {
     /// In the eye's space.
     view: [DVec3; 2],
     own: Own,
+    /// The positions in which the line ends, as far as it ends in some.
+    own_ends: [u32; 2],
     /// The positions in which the part begins and ends, as far as it ends in some.
     corners: [u32; 2],
     /// So near to such a corner what faces around it hide is hidden up to there, shares of the line.
@@ -312,6 +314,7 @@ impl Stretch {
             px: part.map(|place| image.at(place)),
             view: part.map(|place| space.point(image.at(place), image.key(place))),
             own,
+            own_ends: corners,
             line_length: ends[0].distance(ends[1]),
             weld,
             touch_px: image.touch_px(space),
@@ -364,13 +367,11 @@ impl Faces {
         if !is_cut && (0..3).any(|side| is_side(side) && inside[side][0].max(inside[side][1]) < outside) {
             return NOTHING;
         }
-        let own_ends = match stretch.own {
-            Own::Faces(own) if own.contains(&face) => return NOTHING,
-            Own::Faces(_) => stretch.corners,
-            Own::Edge(ends) => ends,
-        };
+        if matches!(stretch.own, Own::Faces(own) if own.contains(&face)) {
+            return NOTHING;
+        }
         let numbers = self.triangles[face as usize];
-        let is_own_end = |number: u32| own_ends.contains(&number);
+        let is_own_end = |number: u32| stretch.own_ends.contains(&number);
         let is_own = [is_own_end(numbers[0]), is_own_end(numbers[1]), is_own_end(numbers[2])];
         if is_own.iter().filter(|is_own| **is_own).count() == 2 {
             return NOTHING;
@@ -403,8 +404,7 @@ impl Faces {
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
         let touching = CONTACT * longest.min(stretch.line_length) + self.weld(numbers[0]).min(stretch.weld);
         // As in the exact rule, the less the nearer to a corner that both have.
-        let is_edge = matches!(stretch.own, Own::Edge(_));
-        let corner = (0..3).find(|corner| is_edge && is_own[*corner]).map(|corner| [a, b, c][corner]);
+        let corner = (0..3).find(|corner| is_own[*corner]).map(|corner| [a, b, c][corner]);
         let contacts = stretch.view.map(|view| {
             let share = corner.map_or(1.0, |corner| (view.distance(corner) / stretch.line_length).min(1.0));
             (touching * share + 4.0 * space.noise) * normal.length()

@@ -199,6 +199,7 @@ impl ContourLines<'_> {
             line_length: lines.faces.positions[own[0] as usize].distance(lines.faces.positions[own[1] as usize]),
             weld: lines.faces.weld(part.first_position),
             own: Own::Edge(own),
+            own_ends: own,
         }
     }
 

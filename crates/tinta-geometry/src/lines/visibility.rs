@@ -314,6 +314,7 @@ impl<'a> Lines<'a> {
             line_length: feature.ends[0].distance(feature.ends[1]),
             weld: feature.weld,
             own: feature.own,
+            own_ends: feature.own.corners(self.faces),
         }
     }
 }
