@@ -6,8 +6,11 @@
 //! corner's index. A group is what can be reached around the vertex over shared edges whose faces differ by no more
 //! than the angle. Faces weigh in with the sine of their angle at the vertex over the lengths of the sides there (Max 1999:
 //! exact on a sphere), which needs no arc cosine and, on a square, does not depend on how it is cut. Where only creases that last
-//! are to be split (`lasting.rs`), all other vertices are smooth throughout, and flat faces weigh in with their areas.
+//! are to be split (`lasting.rs`), all other vertices are smooth throughout, flat faces weigh in with their areas, and where a surface
+//! is curved normals come nearer to their neighbours' (`calm.rs`).
 
+mod calm;
+mod curved;
 mod even;
 mod lasting;
 mod noise;
@@ -16,6 +19,7 @@ mod patches;
 use super::NONE;
 use crate::threads::{in_parallel, threads_for};
 use crate::tolerances::CANCELLED_NORMALS;
+use calm::calm;
 use glam::{DVec3, Vec3};
 use lasting::Lasting;
 use std::ops::Range;
@@ -101,6 +105,7 @@ pub(super) fn fill_missing(
         }
         found
     });
+    let first = normals.len() as u32;
     normals.reserve_exact(found.iter().map(|found| found.normals.len()).sum());
     let mut corners = incidence.corners.iter();
     for mut found in found {
@@ -109,6 +114,9 @@ pub(super) fn fill_missing(
         for (index, corner) in found.indices.iter().zip(corners.by_ref()).filter(|(index, _)| **index != NONE) {
             triangle_normals[*corner as usize / 3][*corner as usize % 3] = before + index;
         }
+    }
+    if let Some(lasting) = &lasting {
+        calm(triangles, &incidence, lasting, cos_smooth, first, normals, triangle_normals);
     }
 }
 

@@ -319,16 +319,17 @@ impl SvgSettings {
     }
 
     /// Below which length a stroke of a layer may be left out, pixels. A pen is as wide as any other line. Creases that belong to
-    /// an edge of a part end at others; what ends free are folds of a scan.
+    /// an edge of a part end at others; what ends free are folds of a scan. So do silhouettes within the outline, where it is told
+    /// apart: what ends free are the facets of a curved surface that turn away one by one.
     pub(in crate::lines) fn min_length_px(&self, layer: Layer, units: Units) -> f64 {
         let width = self.width_px(layer, units);
         let length = self.min_length.and_then(|length| length.px(units)).unwrap_or(width);
-        match layer {
-            Layer::Visible(Class::Crease) | Layer::Hidden(Class::Crease) => {
-                length.max(LEAST_CREASE * length.min(width))
-            }
-            _ => length,
-        }
+        let may_be_a_fold = match layer {
+            Layer::Visible(Class::Crease) | Layer::Hidden(Class::Crease) => true,
+            Layer::Visible(Class::Silhouette) => self.tells_outline(),
+            _ => false,
+        };
+        if may_be_a_fold { length.max(LEAST_FOLD * length.min(width)) } else { length }
     }
 }
 
@@ -338,8 +339,8 @@ pub(in crate::lines) fn mixed(color: Color, paper: Color, strength: f32) -> Colo
     Color(std::array::from_fn(|channel| paper[channel] + (color[channel] - paper[channel]) * strength))
 }
 
-/// So much longer must creases be that end free or hang on nothing.
-const LEAST_CREASE: f64 = 8.0;
+/// So much longer must creases, and silhouettes within the outline, be that end free or hang on nothing.
+const LEAST_FOLD: f64 = 8.0;
 
 /// Hidden lines' width and strength, as shares of what their class has.
 const HIDDEN_WIDTH: f64 = 0.5;
@@ -443,5 +444,15 @@ mod tests {
         assert_eq!(paper.min_length_px(layer, units(Some(3.0))), 1.5);
         assert_eq!(paper.min_length_px(Layer::Visible(Class::Crease), units(Some(3.0))), 12.0);
         assert_eq!(SvgSettings { line_width: Some(Length::Px(4.0)), ..paper }.width_px(layer, units(Some(3.0))), 4.0);
+    }
+
+    #[test]
+    fn silhouettes_within_an_outline_that_is_told_apart_are_as_long_as_creases() {
+        let length = |settings: &SvgSettings, layer| settings.min_length_px(layer, units(None));
+        let told = SvgSettings { class_widths: "outline=2x".parse().unwrap(), ..base() };
+        assert_eq!(length(&base(), Layer::Visible(Class::Silhouette)), 2.0);
+        assert_eq!(length(&told, Layer::Visible(Class::Silhouette)), 16.0);
+        assert_eq!(length(&told, Layer::Outline), 4.0);
+        assert_eq!(length(&told, Layer::Visible(Class::Boundary)), 2.0);
     }
 }

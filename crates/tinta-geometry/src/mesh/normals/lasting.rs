@@ -6,6 +6,7 @@
 //! it, which so bends from face to face and leaves them flat.
 
 use super::Incidence;
+use super::curved::curved;
 use super::even::{Evened, Faces, even};
 use super::patches::{Neighbours, gathered};
 use crate::threads::{filled, in_parallel, threads_for};
@@ -27,6 +28,8 @@ pub(super) struct Lasting {
     pub vertices: Vec<bool>,
     /// For each triangle the area of its flat face, in units of the model's own.
     pub areas: Vec<f64>,
+    /// For each triangle whether its facets stand for a surface that bends both ways.
+    pub is_curved: Vec<bool>,
     /// Each triangle's unit normal, evened out with its neighbours' where there is noise.
     pub face_normals: Vec<DVec3>,
 }
@@ -109,27 +112,28 @@ impl Lasting {
             let chain = chains.root(end);
             vertices[end as usize] = boxes[chain].diagonal() >= least[chain] * whole.diagonal();
         }
-        Self { vertices, areas, face_normals }
+        let is_curved = curved(&faces, edges, incidence, whole.diagonal(), cos_smooth);
+        Self { vertices, areas, is_curved, face_normals }
     }
 }
 
 /// An edge of two faces.
-struct Edge {
-    ends: [u32; 2],
-    faces: [u32; 2],
+pub(super) struct Edge {
+    pub ends: [u32; 2],
+    pub faces: [u32; 2],
 }
 
 /// Numbers joined into sets.
-struct Sets {
+pub(super) struct Sets {
     parents: Vec<u32>,
 }
 
 impl Sets {
-    fn new(count: usize) -> Self {
+    pub(super) fn new(count: usize) -> Self {
         Self { parents: (0..count as u32).collect() }
     }
 
-    fn root(&mut self, mut number: u32) -> usize {
+    pub(super) fn root(&mut self, mut number: u32) -> usize {
         while self.parents[number as usize] != number {
             self.parents[number as usize] = self.parents[self.parents[number as usize] as usize];
             number = self.parents[number as usize];
@@ -137,7 +141,7 @@ impl Sets {
         number as usize
     }
 
-    fn join(&mut self, [a, b]: [u32; 2]) {
+    pub(super) fn join(&mut self, [a, b]: [u32; 2]) {
         let (a, b) = (self.root(a), self.root(b));
         self.parents[a.max(b)] = a.min(b) as u32;
     }

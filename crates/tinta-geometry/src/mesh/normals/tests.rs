@@ -289,3 +289,44 @@ fn a_fan_of_a_hundred_thousand_triangles_is_done_in_the_time_of_a_sort() {
         assert!(normals[indices[0][0] as usize].distance(Vec3::Y) < 1e-3);
     }
 }
+
+#[test]
+fn normals_of_a_bowl_whose_vertices_were_moved_come_nearer_to_the_bowls() {
+    let moved = |x: f64, y: f64| 0.05 * ((x * 12.9898 + y * 78.233).sin() * 43758.5453).fract();
+    let (positions, triangles) = grid(20, |x, y| {
+        let [x, y] = [x, y].map(|at| at as f64 - 10.0);
+        0.05 * (x * x + y * y) + moved(x, y)
+    });
+    let off = |(normals, indices): (Vec<Vec3>, Vec<[u32; 3]>)| {
+        // Away from the rim, where normals lean to one side before and after.
+        let is_inner = |vertex: u32| [vertex % 21, vertex / 21].iter().all(|at| (2..19).contains(at));
+        let corners = triangles.as_flattened().iter().zip(indices.as_flattened()).filter(|(it, _)| is_inner(**it));
+        let angles = corners.map(|(vertex, normal)| {
+            let place = positions[*vertex as usize];
+            let of_bowl = DVec3::new(-0.1 * (place.x - 10.0), -0.1 * (place.y - 10.0), 1.0);
+            normals[*normal as usize].as_dvec3().angle_between(of_bowl)
+        });
+        angles.sum::<f64>()
+    };
+    let (by_angle, calmed) = (off(computed(&positions, &triangles, 40.0)), off(lasting(&positions, &triangles)));
+    assert!(calmed < 0.8 * by_angle, "{calmed} instead of {by_angle}");
+}
+
+#[test]
+fn normals_of_uneven_cylinders_stay() {
+    // Strips that turn by a third of a degree and by eight, by turns.
+    let profile = |x: f64| 0.02 * (x - 10.0).powi(2) + if (x as u32).is_multiple_of(2) { 0.036 } else { 0.0 };
+    let (positions, triangles) = grid(20, |x, _| profile(x as f64));
+    let (normals, indices) = lasting(&positions, &triangles);
+    for (vertex, normal) in triangles.as_flattened().iter().zip(indices.as_flattened()) {
+        let x = f64::from(vertex % 21);
+        if !(1.0..20.0).contains(&x) {
+            continue;
+        }
+        let strip = |from: f64| DVec3::new(profile(from) - profile(from + 1.0), 0.0, 1.0);
+        // Strips weigh in with their areas.
+        let mean = strip(x - 1.0) + strip(x);
+        let angle = normals[*normal as usize].as_dvec3().angle_between(mean).to_degrees();
+        assert!(angle < 0.2, "{angle} degrees at {x}");
+    }
+}
