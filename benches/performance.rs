@@ -166,13 +166,13 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
             view.size,
             milliseconds_since(start)
         );
-        let names = StyleName::ALL.iter().filter(|(name, _)| *name != "sand");
+        let names = StyleName::of_passes().filter(|(name, _)| *name != "sand");
         let tables: Vec<Value> = names
             .map(|(name, style)| {
                 let full = format!("{name} --full");
                 let contestants = [
-                    (full.clone(), Contestant::Full(Style::named(*style))),
-                    ((*name).to_owned(), Contestant::Pruned(Style::named(*style))),
+                    (full.clone(), Contestant::Full(Style::named(style))),
+                    (name.to_owned(), Contestant::Pruned(Style::named(style))),
                 ];
                 let series = race(renderer, scene, &contestants, rounds);
                 let ratio = series[0].median() / series[1].median();
@@ -196,15 +196,15 @@ fn by_sizes(renderer: &mut Renderer, rounds: usize) -> Value {
     for model in ["builtin:bust", "builtin:open-box", "builtin:torus:70000"] {
         println!("\n{model}: pruned over in full, median and quartiles of {rounds} rounds' ratios");
         let mesh = Arc::new(load(model, &LoadOptions::default()).expect("a model").mesh);
-        for (name, style) in StyleName::ALL.iter().filter(|(name, _)| *name != "sand") {
+        for (name, style) in StyleName::of_passes().filter(|(name, _)| *name != "sand") {
             print!("  {name:<12}");
             for pixels in SIZES {
                 let size = Size { width: pixels, height: pixels };
                 let scene = Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() });
                 let scene = scene.expect("a scene");
                 let contestants = [
-                    ("full".to_owned(), Contestant::Full(Style::named(*style))),
-                    ("pruned".to_owned(), Contestant::Pruned(Style::named(*style))),
+                    ("full".to_owned(), Contestant::Full(Style::named(style))),
+                    ("pruned".to_owned(), Contestant::Pruned(Style::named(style))),
                 ];
                 let series = race(renderer, &scene, &contestants, rounds);
                 let ratios = series[0].times.iter().zip(&series[1].times).map(|(full, pruned)| pruned / full);

@@ -26,7 +26,7 @@ pub fn draw(model: &str, folder: &Path) -> tinta::Result<Vec<String>> {
     // Shaders, meshes and textures are kept from picture to picture.
     let mut renderer = Renderer::new(Backend::Auto)?;
     let mut written = Vec::new();
-    for (name, style) in StyleName::ALL {
+    for (name, style) in StyleName::of_passes() {
         if style == StyleName::Sand {
             continue;
         }

@@ -28,14 +28,11 @@ mod man;
 mod measure;
 mod messages;
 mod mistakes;
-mod model_cache;
 mod models;
 mod options;
-mod preset;
 mod progress;
 mod provenance;
 mod render;
-mod session;
 mod signals;
 mod standard_input;
 mod standard_output;
@@ -45,12 +42,10 @@ mod textures;
 #[cfg(feature = "window")]
 mod view;
 
-use clap::{Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{FromArgMatches, Parser, Subcommand};
 use messages::print;
 pub(crate) use messages::{plain, say};
-use preset::Given;
-pub(crate) use preset::Stop;
-use session::Session;
 use std::ffi::OsString;
 use std::path::Path;
 use std::process::ExitCode;
@@ -160,30 +155,33 @@ fn outlive_the_limit_on_files() {
 fn run() -> Result<Verdict> {
     let started = Instant::now();
     let (words, picture) = bare::with_command(std::env::args_os().collect(), bare::has_window());
-    let (arguments, given) = match parse(words) {
+    let as_given: Vec<String> = words.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+    let arguments = match parse(words) {
         Ok(parsed) => parsed,
         Err(Stop::Help(help)) => return messages::print_help(&help).map(|()| Verdict::Good),
         Err(Stop::Wrong(error)) => return Err(error),
     };
-    let verdict = carry_out(arguments.command, &given, started).map_err(|error| given.attributed(error))?;
+    let as_given = tinta::shell::command_line(as_given.into_iter());
+    let verdict = carry_out(arguments.command, &as_given, started)?;
     picture.map_or(Ok(()), |picture| print(&bare::said(&picture))).map(|()| verdict)
 }
 
-fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdict> {
-    #[cfg(not(feature = "window"))]
-    let _ = started;
+/// Carries a command out; `as_given` is its command line, and `started` when the program did.
+fn carry_out(command: Command, as_given: &str, started: Instant) -> Result<Verdict> {
+    let _ = (as_given, started);
+    let mut session = models::session();
     match command {
         #[cfg(feature = "window")]
         Command::View(arguments) => view::run(&arguments, started),
-        Command::Render(arguments) => return render::run(&arguments, given, &mut Session::for_one()),
+        Command::Render(arguments) => return render::run(&arguments, &mut session),
         Command::Looks(arguments) => looks::run(&arguments),
         Command::Again(arguments) => return again::run(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments, given, &mut Session::for_one()),
+        Command::Compare(arguments) => compare::run(&arguments, &mut session),
         Command::Edges(arguments) => edges::run(&arguments),
         #[cfg(feature = "measuring")]
-        Command::Measure(arguments) => measure::run(&arguments, given, &mut Session::for_one()),
+        Command::Measure(arguments) => measure::run(&arguments, as_given, &mut session),
         #[cfg(feature = "judging")]
-        Command::Judge(arguments) => return judge::run(&arguments, given),
+        Command::Judge(arguments) => return judge::run(&arguments, as_given),
         Command::Textures(arguments) => textures::run(&arguments),
         #[cfg(feature = "measuring")]
         Command::Figures(arguments) => figures::run(&arguments),
@@ -198,12 +196,13 @@ fn carry_out(command: Command, given: &Given, started: Instant) -> Result<Verdic
     .map(|()| Verdict::Good)
 }
 
-/// Carries out words that are a rendering, with a session that other renderings share.
-fn carry_out_render(arguments: Arguments, given: &Given, session: &mut Session) -> Result<()> {
-    match arguments.command {
-        Command::Render(arguments) => render::run(&arguments, given, session).map(drop),
-        _ => Ok(()),
-    }
+/// Why a command line is not carried out.
+#[derive(Debug)]
+pub(crate) enum Stop {
+    /// Help or the version was asked for: this is it.
+    Help(clap::Error),
+    /// It is wrong.
+    Wrong(Error),
 }
 
 /// Parses a command line, the program's name first, and does nothing with it: help's text where it asks for that, or one
@@ -220,9 +219,17 @@ pub fn check(words: impl IntoIterator<Item = OsString>) -> std::result::Result<O
     }
 }
 
-/// What the words say, the program's name first, with the preset that they name.
-fn parse(words: impl IntoIterator<Item = OsString>) -> std::result::Result<(Arguments, Given), Stop> {
-    preset::parse(words.into_iter().collect())
+/// What the words say, the program's name first.
+fn parse(words: impl IntoIterator<Item = OsString>) -> std::result::Result<Arguments, Stop> {
+    let words: Vec<OsString> = words.into_iter().collect();
+    let mut whole = help::command(&words);
+    let parsed = whole.try_get_matches_from_mut(&words).and_then(|matches| Arguments::from_arg_matches(&matches));
+    parsed.map_err(|error| match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand | ErrorKind::DisplayVersion => {
+            Stop::Help(error)
+        }
+        _ => Stop::Wrong(Error::CommandLine { problem: mistakes::sentence(&error, &whole, &words) }),
+    })
 }
 
 /// Makes the folder that `-o` names, if it is not there.

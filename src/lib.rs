@@ -71,6 +71,7 @@
 //! | contexts, drawing, timing | [`gl`], [`renderer`], [`Renderer`]; `drivers` checks a driver |
 //! | a view that is turned by hand, and by keys | [`orbit`], [`keys`] |
 //! | pictures and animations | [`picture`], [`animation`] |
+//! | one drawing from layers of options, as every door asks for it | [`request`] |
 //! | presets, and pictures that can be made again | [`preset`], [`recipe`] |
 //! | error against run time | [`measure`], [`report`], [`figures`], [`stress`] |
 //! | anyone's drawing against the exact lines | [`judge`] |
@@ -137,6 +138,8 @@ pub mod shell;
 pub mod recipe;
 pub mod compare;
 pub mod record;
+#[cfg(feature = "presets")]
+pub mod request;
 
 // What it is worth.
 #[cfg(any(feature = "cli", feature = "measuring"))]
@@ -182,5 +185,7 @@ pub use preset::Preset;
 #[cfg(feature = "recipes")]
 pub use recipe::Recipe;
 pub use renderer::Renderer;
+#[cfg(feature = "presets")]
+pub use request::Request;
 pub use scene::{Background, Color, Scene, SceneSettings, Size};
 pub use styles::{Show, Style, StyleName};

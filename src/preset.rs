@@ -22,14 +22,9 @@ pub use crate::settings::{OptionValue, Options};
 pub use looks::{LOOKS, Look};
 pub use shipped::SHIPPED;
 
-use crate::choice::{meant_or, nearest};
+use crate::choice::nearest;
 use crate::error::{Error, FileKind, Result};
 use crate::files::shown;
-use crate::lines::{LineSettings, SvgSettings};
-use crate::mesh::LoadOptions;
-use crate::scene::SceneSettings;
-use crate::settings::HasSettings;
-use crate::styles::Style;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::io::Read;
@@ -50,8 +45,6 @@ pub struct Preset {
     /// What it sets.
     pub options: Options,
     lines: BTreeMap<String, u64>,
-    /// The presets that this one was laid [over](Self::over), the nearest first.
-    below: Vec<Preset>,
 }
 
 impl Preset {
@@ -121,8 +114,7 @@ impl Preset {
             let offset = error.span().map_or(0, |span| span.start);
             at(offset, format!("this is not TOML ({}); write lines such as line-width = 3", shown(&message)))
         })?;
-        let mut preset =
-            Self { name: name.to_owned(), options: Options::new(), lines: BTreeMap::new(), below: Vec::new() };
+        let mut preset = Self { name: name.to_owned(), options: Options::new(), lines: BTreeMap::new() };
         for (key, value) in table.into_inner() {
             let start = key.span().start;
             let key = key.into_inner().into_owned();
@@ -136,104 +128,25 @@ impl Preset {
 
     /// Options that come from somewhere else; `name` is what errors call it.
     pub fn of_options(name: &str, options: Options) -> Self {
-        Self { name: name.to_owned(), options, lines: BTreeMap::new(), below: Vec::new() }
+        Self { name: name.to_owned(), options, lines: BTreeMap::new() }
     }
 
-    /// The same over another: what this one does not set is as the other has it. An error about an option names the one that
-    /// set it.
+    /// The same with these of its options alone.
     #[must_use]
-    pub fn over(mut self, mut below: Self) -> Self {
-        below.options.retain(|name, _| !self.options.contains_key(name));
-        self.options.extend(below.options.clone());
-        self.below.push(below);
-        self
-    }
-
-    /// The names of this preset and of those below it.
-    pub fn names(&self) -> Vec<&str> {
-        std::iter::once(self.name.as_str()).chain(self.below.iter().flat_map(Self::names)).collect()
-    }
-
-    /// The same without the scene's settings that are listed under a heading.
-    #[must_use]
-    pub fn without(mut self, heading: &str) -> Self {
-        let is_of =
-            |name: &String| SceneSettings::table().settings.iter().any(|s| s.name == name && s.heading == heading);
-        self.options.retain(|name, _| !is_of(name));
+    pub fn of(mut self, is_wanted: impl Fn(&str) -> bool) -> Self {
+        self.options.retain(|name, _| is_wanted(name));
         self
     }
 
     /// Where an option stands, 1-based.
     pub fn line_of(&self, option: &str) -> Option<u64> {
-        self.origin(option).lines.get(option).copied()
-    }
-
-    /// The preset that set an option: this one, or one below.
-    fn origin(&self, option: &str) -> &Self {
-        self.below.iter().find(|below| below.options.contains_key(option)).map_or(self, |below| below.origin(option))
-    }
-
-    /// The style it names, three-pass where it names none, with the settings it sets.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::File`] with the line for an option that there is not and for a value that an option cannot have;
-    /// [`Error::File`] for a file that cannot be read.
-    pub fn style(&self) -> Result<Style> {
-        self.check_names()?;
-        let all: Vec<(String, String)> = self.options.keys().map(|key| (key.clone(), key.clone())).collect();
-        Style::from_options(&self.options).map_err(|error| self.attributed(error, &all))
-    }
-
-    /// Refuses the first name that no option has.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::File`] with the preset's line and the name that was meant.
-    pub fn check_names(&self) -> Result<()> {
-        if let Some(key) = self.options.keys().find(|key| !is_known(key)) {
-            let otherwise = "keys are long names of tinta render --help";
-            let choice = meant_or(key, &known(), otherwise);
-            return Err(self.refuse(key, format!("{key}: there is no such option; {choice}")));
-        }
-        Ok(())
-    }
-
-    /// An error about an option that the preset gave, with the preset's name and line; `used` are the options of it that count,
-    /// by their names on the command line and in the preset.
-    pub fn attributed(&self, error: Error, used: &[(String, String)]) -> Error {
-        let names = match &error {
-            Error::Setting { name, .. } => std::slice::from_ref(name),
-            Error::Settings { names, .. } => names,
-            _ => return error,
-        };
-        match used.iter().find(|(option, _)| names.contains(option)) {
-            Some((_, key)) => self.refuse(key, error.to_string()),
-            None => error,
-        }
+        self.lines.get(option).copied()
     }
 
     /// An error about one of its options.
     pub fn refuse(&self, option: &str, problem: impl Into<String>) -> Error {
-        Error::file(FileKind::Preset, self.origin(option).name.clone(), problem.into()).at(self.line_of(option))
+        Error::file(FileKind::Preset, self.name.clone(), problem.into()).at(self.line_of(option))
     }
-}
-
-/// What a preset may hold besides the settings of styles, scene, models and lines.
-const OTHERS: [&str; 8] = ["style", "show", "turntable", "animate", "frame-delay", "full", "keep", "backend"];
-
-/// Whether there is an option of this name that a preset may hold.
-pub fn is_known(name: &str) -> bool {
-    known().contains(&name)
-}
-
-/// The names of all options that a preset may hold.
-fn known() -> Vec<&'static str> {
-    fn of<T: HasSettings>() -> impl Iterator<Item = &'static str> {
-        T::table().settings.iter().map(|setting| setting.name)
-    }
-    let tables = of::<Style>().chain(of::<SceneSettings>()).chain(of::<LoadOptions>());
-    OTHERS.into_iter().chain(tables).chain(of::<LineSettings>()).chain(of::<SvgSettings>()).collect()
 }
 
 /// The names of all presets that ship, with commas between.
@@ -326,18 +239,11 @@ mod tests {
     }
 
     #[test]
-    fn an_error_names_the_preset_that_set_the_option() {
-        let near = Preset::parse("near.toml", "line-width = 2\n").unwrap();
-        let far = Preset::parse("far.toml", "line-width = 3\n\ntones = 2\n").unwrap();
-        let both = Preset::of_options("camera.txt", Options::new()).over(near.over(far));
-        assert_eq!(both.names(), ["camera.txt", "near.toml", "far.toml"]);
-        let place = |option: &str| match both.refuse(option, "wrong") {
-            Error::File { path, line, .. } => (path.display().to_string(), line),
-            other => panic!("{other}"),
-        };
-        assert_eq!(place("tones"), ("far.toml".to_owned(), Some(3)));
-        assert_eq!(place("line-width"), ("near.toml".to_owned(), Some(1)));
-        assert_eq!(place("eye"), ("camera.txt".to_owned(), None));
+    fn an_error_names_the_preset_and_the_line_of_the_option() {
+        let preset = Preset::parse("far.toml", "line-width = 3\n\ntones = 2\n").unwrap();
+        assert!(preset.refuse("tones", "wrong").to_string().starts_with("far.toml: line 3: wrong"));
+        assert!(preset.refuse("eye", "wrong").to_string().starts_with("far.toml: wrong"));
+        assert_eq!(preset.of(|name| name == "tones").options.len(), 1);
     }
 
     #[test]

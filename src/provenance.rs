@@ -54,7 +54,7 @@ pub fn rows(style: Option<StyleName>) -> Vec<Row> {
             None => rows.push(Row { styles: vec![of], ..row }),
         }
     };
-    for (_, name) in StyleName::ALL.into_iter().filter(|(_, name)| is_wanted(*name)) {
+    for (_, name) in StyleName::of_passes().filter(|(_, name)| is_wanted(*name)) {
         let style = Style::named(name);
         for setting in Style::table().of(Some(&style)) {
             let Some(provenance) = setting.provenance else { continue };
@@ -172,7 +172,7 @@ fn column(whose: Whose) -> &'static str {
 
 /// The styles of a row with commas between.
 fn names(row: &Row) -> String {
-    if row.styles.len() == StyleName::ALL.len() {
+    if row.styles.len() == StyleName::of_passes().count() {
         return "all".to_owned();
     }
     row.styles.iter().map(|style| style.choice_name()).collect::<Vec<_>>().join(", ")

@@ -9,7 +9,7 @@
 
 mod lines;
 
-pub use lines::{LineCounts, LinesRecord, LinesStyle, lines_json};
+pub use lines::{LineCounts, LinesMade, lines_json};
 
 use crate::camera::Projection;
 use crate::compare::AgreementNumbers;
@@ -23,7 +23,7 @@ use crate::scene::{Background, Color, Scene, Size};
 use crate::styles::{Show, Style};
 use serde::Serialize;
 
-/// A rendering's record: enough to make the picture again and to compare its cost.
+/// A drawing's record: enough to make it again and to compare its cost.
 #[derive(Debug, Clone, Serialize)]
 pub struct Record {
     /// tinta's version.
@@ -40,18 +40,40 @@ pub struct Record {
     pub triangles: usize,
     /// The style with every setting.
     pub style: Style,
-    /// Which of its pictures.
-    pub show: Show,
     /// The picture's size.
     pub size: Size,
     /// What is behind the objects.
     pub background: Background,
+    /// The camera, world space.
+    pub camera: CameraRecord,
+    /// What there was to say of the drawing: lines drawn otherwise than asked for.
+    pub remarks: Vec<String>,
+    /// Reading the models and making meshes of them.
+    pub load_ms: f64,
+    /// How it was made.
+    #[serde(flatten)]
+    pub made: Made,
+}
+
+/// How a drawing was made.
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
+pub enum Made {
+    /// In passes, by OpenGL.
+    Picture(Box<PictureMade>),
+    /// As exact lines.
+    Lines(Box<LinesMade>),
+}
+
+/// How a picture was made.
+#[derive(Debug, Clone, Serialize)]
+pub struct PictureMade {
+    /// Which of the style's pictures it is.
+    pub show: Show,
     /// The colour of surfaces without one, or of all.
     pub color: Color,
     /// Whether that colour replaces the model's own.
     pub recolor: bool,
-    /// The camera, world space.
-    pub camera: CameraRecord,
     /// The context.
     pub gl: ContextInfo,
     /// Each pass's median times.
@@ -62,10 +84,6 @@ pub struct Record {
     pub omissions: Vec<Omission>,
     /// What was not, and why.
     pub kept: Vec<Kept>,
-    /// What the renderer had to say of the plan: lines drawn otherwise than asked for.
-    pub remarks: Vec<String>,
-    /// Reading the models and making meshes of them.
-    pub load_ms: f64,
     /// Making the plan: for the style inking that is edge list, classes, silhouettes and light.
     pub plan_ms: f64,
     /// Opening the context; on its own thread beside the loading.

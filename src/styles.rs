@@ -30,6 +30,7 @@ mod ignored;
 mod ink;
 mod inking;
 mod lens;
+mod line_style;
 mod line_width;
 mod map;
 mod mrt;
@@ -50,9 +51,10 @@ pub use charcoal::{
     TextureSource,
 };
 pub use dietrich::Dietrich;
-pub use ignored::is_ignored;
+pub use ignored::{is_ignored, is_of_lines_alone};
 pub use ink::{CreaseBy, Ink, Quality};
 pub use inking::{Inking, LightOn, PaintMode};
+pub use line_style::LineStyle;
 pub use line_width::LineWidth;
 pub use map::{MapEncoding, MapTarget};
 pub use mrt::Mrt;
@@ -63,11 +65,12 @@ pub use suggestive::Suggestive;
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
 
-use crate::choice::Choice;
+use crate::choice::{Choice, meant_or};
 use crate::error::{Error, ParseError, Result};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::settings::{HasSettings, OptionValue, Options, Setting, Table, within};
+use row::Draw;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use std::f64::consts::PI;
@@ -77,7 +80,7 @@ row::styles! {
     /// Smooth shading per pixel: the realistic rendering the first article compares with.
     Phong(Phong) {
         name: "phong",
-        plan: Phong::plan,
+        draw: Draw::Plan(Phong::plan),
         has_lines: |_| false,
         shows: &[Show::Final],
         origin: Origin::Named,
@@ -87,7 +90,7 @@ row::styles! {
     /// Map, tones, border blended on top: Evangelista et al. 2005, appendix 1.
     ThreePass(Cartoon) {
         name: "three-pass",
-        plan: Cartoon::three_pass,
+        draw: Draw::Plan(Cartoon::three_pass),
         has_lines: |cartoon| cartoon.border.is_some(),
         shows: CARTOON_SHOWS,
         origin: Origin::Published(2005),
@@ -97,7 +100,7 @@ row::styles! {
     /// Map, then tones and border in one: Evangelista et al. 2005, section 4.2 and appendix 2.
     TwoPass(Cartoon) {
         name: "two-pass",
-        plan: Cartoon::two_pass,
+        draw: Draw::Plan(Cartoon::two_pass),
         has_lines: |cartoon| cartoon.border.is_some(),
         shows: CARTOON_SHOWS,
         origin: Origin::Published(2005),
@@ -108,7 +111,7 @@ row::styles! {
     /// pass over the geometry.
     Mrt(Mrt) {
         name: "mrt",
-        plan: Mrt::plan,
+        draw: Draw::Plan(Mrt::plan),
         has_lines: |mrt| mrt.border.is_some(),
         shows: CARTOON_SHOWS,
         origin: Origin::Own,
@@ -118,7 +121,7 @@ row::styles! {
     /// Painted faces, lines from the edge list: Dachsbacher, edge list and painting.
     Inking(Inking) {
         name: "inking",
-        plan: Inking::plan,
+        draw: Draw::Plan(Inking::plan),
         has_lines: |inking| inking.is_inked,
         shows: LINE_SHOWS,
         origin: Origin::Published(2001),
@@ -128,7 +131,7 @@ row::styles! {
     /// Ink where the surface is seen at a grazing angle: the hardware's outline that Dachsbacher names as the alternative.
     Dietrich(Dietrich) {
         name: "dietrich",
-        plan: Dietrich::plan,
+        draw: Draw::Plan(Dietrich::plan),
         has_lines: |_| true,
         shows: LINE_SHOWS,
         origin: Origin::Named,
@@ -139,7 +142,7 @@ row::styles! {
     /// geometry.
     Ink(Ink) {
         name: "ink",
-        plan: Ink::plan,
+        draw: Draw::Plan(Ink::plan),
         has_lines: |ink| ink.is_inked,
         shows: &[Show::Final, Show::Map, Show::Borders, Show::Tones],
         origin: Origin::Own,
@@ -149,7 +152,7 @@ row::styles! {
     /// Grain by tone, on paper: Valente 2007.
     Charcoal(Charcoal) {
         name: "charcoal",
-        plan: Charcoal::charcoal,
+        draw: Draw::Plan(Charcoal::charcoal),
         has_lines: |_| false,
         shows: CHARCOAL_SHOWS,
         origin: Origin::Published(2007),
@@ -159,7 +162,7 @@ row::styles! {
     /// The same mixed with the model's own texture in sepia: Valente 2007, section 4.
     Sand(Charcoal) {
         name: "sand",
-        plan: Charcoal::sand,
+        draw: Draw::Plan(Charcoal::sand),
         has_lines: |_| false,
         shows: CHARCOAL_SHOWS,
         origin: Origin::Published(2007),
@@ -170,7 +173,7 @@ row::styles! {
     /// DeCarlo et al. 2003.
     Suggestive(Suggestive) {
         name: "suggestive",
-        plan: Suggestive::plan,
+        draw: Draw::Plan(Suggestive::plan),
         has_lines: |style| style.is_inked,
         shows: &[Show::Final, Show::Map, Show::Borders, Show::Tones],
         origin: Origin::Own,
@@ -178,6 +181,16 @@ row::styles! {
     }
 
     // A new style's row comes here: docs/adding-a-style.md.
+
+    /// Exact visible lines, without OpenGL.
+    Lines(LineStyle) {
+        name: "lines",
+        draw: Draw::Lines(LineStyle::clone),
+        has_lines: |_| false,
+        shows: &[Show::Final],
+        origin: Origin::Own,
+        mark: Some(Mark { rgb: [123, 92, 214], outline: Outline::Star }),
+    }
 }
 
 /// Pictures of the styles that filter a map.
@@ -336,12 +349,17 @@ const SUGGESTIVE: &str = "Style suggestive (tones as three-pass)";
 const CHARCOAL: &str = "Styles charcoal and sand (the defaults are the text's where it gives them)";
 
 /// The settings of all styles, each declared beside its struct; those of a heading begin with the styles that have lines.
-fn settings() -> Vec<Setting<Style>> {
+pub(crate) fn settings() -> Vec<Setting<Style>> {
     let mut settings: Vec<Setting<Style>> =
         StyleName::lines_first().into_iter().flat_map(|style| (style.info().settings)()).collect();
     let rank = |heading: &str| HEADINGS.iter().position(|known| *known == heading).unwrap_or(HEADINGS.len());
     settings.sort_by_key(|setting| rank(setting.heading));
     settings
+}
+
+/// Why a style of exact lines has no plan.
+fn no_passes(style: &str) -> Error {
+    Error::value("style", style, "it draws exact lines and has no passes; choose another style")
 }
 
 /// The setting whether lines are left out.
@@ -375,6 +393,28 @@ impl StyleName {
         let mut styles = Self::ALL.map(|(_, style)| style);
         styles.sort_by_key(|style| !style.has_lines());
         styles
+    }
+
+    /// Those that OpenGL draws in passes, as the user writes them.
+    pub fn of_passes() -> impl Iterator<Item = (&'static str, Self)> + Clone {
+        Self::ALL.into_iter().filter(|(_, style)| !style.draws_lines())
+    }
+
+    /// The one of this name among them.
+    ///
+    /// # Errors
+    ///
+    /// The name that was meant, or the names that there are.
+    pub fn named_of_passes(name: &str) -> std::result::Result<Self, ParseError> {
+        let names: Vec<&str> = Self::of_passes().map(|(name, _)| name).collect();
+        let found = Self::of_passes().find(|(known, _)| *known == name).map(|(_, style)| style);
+        let otherwise = format!("choose one of {}", names.join(", "));
+        found.ok_or_else(|| ParseError::from(meant_or(name, &names, &otherwise)))
+    }
+
+    /// Whether it draws exact lines, which need no OpenGL.
+    pub fn draws_lines(self) -> bool {
+        self.info().draws_lines
     }
 
     /// Its row.

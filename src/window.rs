@@ -61,7 +61,7 @@ pub use cost::{Costs, Point, SideCost};
 pub use draw::{Drawer, Drawing, Job};
 pub use event::{Effect, Layout, Save, Side, ViewerEvent};
 pub use exact::{ExactLines, Found, LineJob};
-pub use line_style::{LINE_SETTINGS, LineStyle, LinesShown};
+pub use line_style::{LINE_SETTINGS, LinesShown};
 pub use load::Stage;
 pub use paint::{over, painted};
 pub use player::PlayedRecord;

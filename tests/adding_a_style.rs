@@ -88,6 +88,23 @@ impl Block {
     }
 }
 
+/// A style that draws exact lines, which is nothing but a row.
+fn lines_style() -> Block {
+    let text = r#"    /// Exact lines by another name.
+    Hatches(LineStyle) {
+        name: "hatches",
+        draw: Draw::Lines(LineStyle::clone),
+        has_lines: |_| false,
+        shows: &[Show::Final],
+        origin: Origin::Own,
+        mark: None,
+    }
+
+"#;
+    let before = Some("// A new style's row comes here: docs/adding-a-style.md.".to_owned());
+    Block { path: "src/styles.rs".to_owned(), before, text: text.to_owned() }
+}
+
 fn succeeds(command: &mut Command) -> String {
     let Output { status, stdout, stderr } = command.output().unwrap();
     assert!(status.success(), "{command:?}\n{}", String::from_utf8_lossy(&stderr));
@@ -99,6 +116,7 @@ fn succeeds(command: &mut Command) -> String {
 fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
     let folder = copy_of_the_sources();
     blocks().iter().for_each(|block| block.put_into(&folder));
+    lines_style().put_into(&folder);
     let build = folder.with_file_name("build");
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args([
@@ -119,7 +137,7 @@ fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
 
     // Help, completions, manual.
     let help = tinta("render --help");
-    assert!(help.contains("suggestive, stripes, lines"), "{help}");
+    assert!(help.contains("suggestive, stripes, hatches, lines"), "{help}");
     assert!(help.contains("Style stripes:") && help.contains("--stripe-distance <PIXELS>"), "{help}");
     assert!(tinta("completions bash").contains("--stripe-distance"));
     tinta("man -o manuals");
@@ -140,6 +158,20 @@ fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
         assert!(pixels(other) == pixels("option.png"), "{other}");
     }
     assert!(pixels("default.png") != pixels("option.png"));
+
+    // A style that draws lines is its row: it has the settings of lines, writes what they write, and is drawn again.
+    let drawn = |name: &str| {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        text.lines().filter(|line| line.contains("<path")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    tinta("render builtin:gear --size 96 -o hatches.svg --style hatches --hidden dashed");
+    tinta("render builtin:gear --size 96 -o lines.svg --hidden dashed");
+    assert!(drawn("hatches.svg").len() > 2 && drawn("hatches.svg") == drawn("lines.svg"));
+    tinta("again hatches.svg -o hatches-again.svg");
+    assert_eq!(drawn("hatches-again.svg"), drawn("hatches.svg"));
+    tinta("render builtin:gear --size 96 -o hatches.png --style hatches");
+    tinta("render builtin:gear --size 96 -o lines.png --style lines");
+    assert!(pixels("hatches.png") == pixels("lines.png"));
 
     // It is measured as it is by default.
     tinta("measure builtin:open-box --styles stripes --quick --size 64 -o measured");

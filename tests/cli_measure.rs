@@ -69,7 +69,7 @@ fn an_interrupted_run_goes_on_and_a_finished_one_is_not_overwritten() {
         Some(0)
     );
     let last = rows(&out).pop().unwrap();
-    assert_eq!(last.options, "--style dietrich --view=front --parallel");
+    assert_eq!(last.options, "--style dietrich --parallel --view=front");
 }
 
 #[test]

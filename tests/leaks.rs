@@ -46,7 +46,7 @@ fn check_frames(frames_at_once: usize, looks: usize) {
     let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
     // Sand needs a model with a texture. Charcoal's textures, 3 MiB uploaded anew after every other style, find another place in
     // the allocator each time, so it is looked at alone; made once, as an animation does, for it keeps its textures.
-    let names = StyleName::ALL.into_iter().map(|(_, name)| name);
+    let names = StyleName::of_passes().map(|(_, name)| name);
     let others = names.filter(|name| ![StyleName::Sand, StyleName::Charcoal].contains(name)).map(Style::named);
     let groups = [others.chain(improved()).collect::<Vec<_>>(), vec![Style::named(StyleName::Charcoal)]];
     for (backend, styles) in witnesses().into_iter().flat_map(|one| groups.iter().map(move |s| (one, s))) {
@@ -137,7 +137,7 @@ fn check_switches(at_once: usize, looks: usize) {
     let mut drawer = Drawer::new(Backend::Egl).unwrap_or_else(|error| panic!("{error}"));
     let settings = SceneSettings { size: Size { width: 64, height: 64 }, ..SceneSettings::default() };
     // Kept, as the viewer keeps each style's settings, with charcoal's textures in them.
-    let names = StyleName::ALL.into_iter().filter(|(_, name)| *name != StyleName::Sand);
+    let names = StyleName::of_passes().filter(|(_, name)| *name != StyleName::Sand);
     let styles: Vec<Style> = names.map(|(_, name)| Style::named(name)).collect();
     let mut switches = |count: usize| {
         let mut scene = None;
@@ -206,7 +206,7 @@ fn check_worker(looks: usize, has_charcoal: bool) {
     let mut id = 0;
     let mut work = |count: usize| {
         for _ in 0..count {
-            let style = StyleName::ALL[id % StyleName::ALL.len()].1;
+            let style = StyleName::of_passes().cycle().nth(id).unwrap().1;
             let is_left_out = style == StyleName::Sand || style == StyleName::Charcoal && !has_charcoal;
             let style = if is_left_out { StyleName::Phong } else { style }.name();
             let (model, size) = (["bust", "ant", "open-box", "gear"][id % 4], 24 + 8 * (id % 3));

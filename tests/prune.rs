@@ -94,8 +94,8 @@ fn a_map_is_left_out_where_no_border_reads_it() {
 #[test]
 fn objects_outside_the_picture_are_left_out_with_their_edges() {
     let (beside, whole) = (beside("builtin:gear"), scene("builtin:gear", 90, 70));
-    for (name, style) in StyleName::ALL.iter().filter(|(name, _)| *name != "sand") {
-        let style = Style::named(*style);
+    for (name, style) in StyleName::of_passes().filter(|(name, _)| *name != "sand") {
+        let style = Style::named(style);
         assert!(applies(Rule::OutsideObjects, &beside, &style), "{name}");
         assert!(!applies(Rule::OutsideObjects, &whole, &style), "{name}");
         for draw in draws(&pruned(&beside, &style).plan) {
@@ -283,7 +283,7 @@ pub fn many_styles() -> Vec<Style> {
         }
     };
     let mut styles: Vec<Style> =
-        StyleName::ALL.iter().filter(|(name, _)| *name != "sand").map(|(_, style)| Style::named(*style)).collect();
+        StyleName::of_passes().filter(|(name, _)| *name != "sand").map(|(_, style)| Style::named(style)).collect();
     for with in [cartoon, two_pass] as [fn(Box<dyn FnOnce(&mut Cartoon)>) -> Style; 2] {
         styles.push(with(Box::new(|cartoon| cartoon.tones.count = 1)));
         styles.push(with(Box::new(|cartoon| cartoon.tones.count = 2)));

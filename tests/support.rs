@@ -107,8 +107,8 @@ pub fn ball(cuts: u32) -> Scene {
 /// Clones share charcoal's textures, which are then made once for all tests.
 pub fn styles() -> Vec<(&'static str, Style)> {
     static STYLES: LazyLock<Vec<(&str, Style)>> = LazyLock::new(|| {
-        let of_any_model = StyleName::ALL.iter().filter(|(_, style)| *style != StyleName::Sand);
-        of_any_model.map(|(name, style)| (*name, Style::named(*style))).collect()
+        let of_any_model = StyleName::of_passes().filter(|(_, style)| *style != StyleName::Sand);
+        of_any_model.map(|(name, style)| (name, Style::named(style))).collect()
     });
     STYLES.clone()
 }

@@ -146,8 +146,8 @@ fn what_makes_no_animation_is_refused() {
     refused("-", &["--turntable", "4"], &["-: this names one picture"]);
     refused("no/such/a.gif", &[], &["no/such/a.gif: the folder no/such does not exist"]);
     refused(&folder.path("%d.jpg"), &["--transparent"], &["no transparency"]);
-    refused(&out, &["--turntable", "0"], &["--turntable", "1..=10000"]);
-    refused(&out, &["--turntable", "4", "--frame-delay", "5"], &["--frame-delay", "20..=60000"]);
+    refused(&out, &["--turntable", "0"], &["--turntable", "from 1 to 10000"]);
+    refused(&out, &["--turntable", "4", "--frame-delay", "5"], &["--frame-delay", "from 20 to 60000"]);
     refused(&out, &["--turntable", "4", "--animate"], &["--turntable", "--animate"]);
     refused(&out, &["--animate", "--model-frame", "2"], &["--animate", "--model-frame"]);
     refused(&out, &["--animate"], &["--animate: builtin:ant has no frames", "--turntable"]);

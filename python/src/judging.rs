@@ -3,7 +3,7 @@
 use crate::errors::{raised, wrong};
 use crate::mesh::{Mesh, drawable};
 use crate::picture::{named, words};
-use crate::request::{Basis, Request};
+use crate::request::{Asked, Basis};
 use crate::settings::options;
 use crate::studio::drawn;
 use crate::work::done;
@@ -15,7 +15,7 @@ use tinta::compare::{Agreement, InkMask};
 use tinta::measure::{MeasureSettings, Setting, Subject};
 use tinta::plan::Submission;
 use tinta::settings::{OptionValue, Options};
-use tinta::{Backend, Error, Result, Show, Style, StyleName};
+use tinta::{Backend, Error, ParseError, Result, Show, Style, StyleName};
 
 /// Measures settings on meshes together: a row each. Every item of `asked` is a style with its settings.
 #[pyfunction]
@@ -34,14 +34,14 @@ pub(crate) fn measure<'py>(
     how.check().map_err(raised)?;
     let settings: Vec<Setting> = match asked.is_empty() {
         true => {
-            StyleName::lines_first().into_iter().map(|name| of_style(Style::named(name))).collect::<PyResult<_>>()?
+            let of_passes = StyleName::lines_first().into_iter().filter(|style| !style.draws_lines());
+            of_passes.map(|name| of_style(Style::named(name))).collect::<PyResult<_>>()?
         }
         false => asked.iter().map(setting).collect::<PyResult<_>>()?,
     };
-    let request =
-        Request::new("measure", &meshes, given, &Basis { style: Some("three-pass"), look: None, preset: None })?;
-    let scene = drawable(py, meshes, &request.options)?;
-    let subject = done(py, || (), move || Subject::new(&request.title, scene, 0.0))?;
+    let asked = Asked::new("measure", &meshes, given, &Basis { style: Some("three-pass"), ..Basis::default() })?;
+    let scene = drawable(py, meshes, &asked.request.scene)?;
+    let subject = done(py, || (), move || Subject::new(&asked.title, scene, 0.0))?;
     let rows = drawn(py, backend, move |renderer| {
         let (measured, left_out) = tinta::measure::measure(renderer, &subject, &settings, &how, |_| ())?;
         match left_out.is_empty() {
@@ -107,19 +107,19 @@ pub(crate) fn compare<'py>(
     if tolerance > 64 {
         return Err(wrong("tolerance", format!("{tolerance} is more than 64 pixels")));
     }
-    let request = Request::new("compare", &meshes, given, &Basis { style: Some(left), look: None, preset: None })?;
+    let Asked { request, .. } =
+        Asked::new("compare", &meshes, given, &Basis { style: Some(left), ..Basis::default() })?;
     let style = |argument: &str, name: &str| -> PyResult<Style> {
-        let mut options = request.options.clone();
-        options.insert("style".to_owned(), OptionValue::text(name));
-        let style = Style::from_options(&options).map_err(raised)?;
-        if !style.name().parse::<StyleName>().is_ok_and(StyleName::has_lines) {
+        let of_name = name.parse().map_err(|ParseError(problem)| raised(Error::value("style", name, problem)))?;
+        let style = request.in_style(of_name).map_err(raised)?.style;
+        if !style.style_name().has_lines() {
             let with_lines = StyleName::list_with_lines();
             return Err(wrong(argument, format!("style {name} has no lines to compare; choose one of {with_lines}")));
         }
         Ok(style)
     };
     let styles = [style("left", left)?, style("right", right)?];
-    let scene = drawable(py, meshes, &request.options)?;
+    let scene = drawable(py, meshes, &request.scene)?;
     let (pictures, numbers) = drawn(py, backend, move |renderer| {
         let mut draw =
             |style: &Style, show| -> Result<tinta::Picture> { renderer.draw(&scene, &style.plan(&scene, show)?) };

@@ -3,23 +3,24 @@
 use crate::arrays::{pairs, points, shaped};
 use crate::errors::raised;
 use crate::mesh::{Mesh, scene};
-use crate::request::{Basis, Request, warn};
+use crate::request::{Asked, Basis, warn};
 use crate::settings::options;
 use crate::work::done;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use std::sync::Arc;
-use tinta::lines::{GHOST_OPACITY, LineSegment, LineSettings, Progress, drawn_layers, pdf, svg};
+use std::sync::{Arc, OnceLock};
+use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, drawn_layers, pdf, svg};
 use tinta::record::lines_json;
-use tinta::settings::HasSettings;
-use tinta::{Error, Recipe, Scene, SceneSettings, SvgSettings, VisibleLines};
+use tinta::{Recipe, Request, Result, Scene, SvgSettings, VisibleLines};
 
 /// The lines of a scene, as they were found.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Lines {
     lines: Arc<VisibleLines>,
     scene: Arc<Scene>,
-    request: Request,
+    asked: Asked,
+    /// With hidden ones, once somebody asks for them.
+    all: OnceLock<Arc<VisibleLines>>,
 }
 
 /// Finds the lines of meshes together.
@@ -32,18 +33,15 @@ pub(crate) fn lines(
     look: Option<&str>,
     preset: Option<&str>,
 ) -> PyResult<Lines> {
-    let request = Request::new("lines", &meshes, given, &Basis { style: None, look, preset })?;
+    let asked = Asked::new("lines", &meshes, given, &Basis { look, preset, ..Basis::default() })?;
     let progress = Arc::new(Progress::default());
-    let (watched, asked) = (progress.clone(), request.options.clone());
+    let (watched, request) = (progress.clone(), asked.request.clone());
     let (lines, scene) = done(
         py,
         || progress.cancel(),
         move || {
-            let svg = SvgSettings::from_options(&asked)?;
-            svg.check()?;
-            let settings = LineSettings { finds_outline: svg.tells_outline(), ..LineSettings::from_options(&asked)? };
-            let scene = scene(&meshes, &SceneSettings::from_options(&asked)?)?;
-            let lines = VisibleLines::with_progress(&scene, &settings, &watched)?;
+            let scene = scene(&meshes, &request.scene)?;
+            let lines = request.all_lines(&scene, &watched)?;
             Ok((lines, scene))
         },
     )?;
@@ -51,16 +49,29 @@ pub(crate) fn lines(
         let nothing = "no line of these classes is visible in this picture; see classes, eye and target";
         warn(py, &[nothing.to_owned()], 2)?;
     }
-    Ok(Lines { lines: Arc::new(lines), scene: Arc::new(scene), request })
+    Ok(Lines { lines: Arc::new(lines), scene: Arc::new(scene), asked, all: OnceLock::new() })
+}
+
+/// The lines of another request: those that were found, or where it shows more of them these are found.
+fn found(lines: Arc<VisibleLines>, scene: &Scene, before: &Request, now: &Request) -> Result<Arc<VisibleLines>> {
+    match before.finds_all_for(now) {
+        true => Ok(lines),
+        false => now.all_lines(scene, &Progress::default()).map(Arc::new),
+    }
 }
 
 impl Lines {
-    /// The request with other settings of the drawing.
-    fn asked(&self, given: &Bound<'_, PyDict>) -> PyResult<Request> {
-        let mut request = self.request.clone();
-        request.options.extend(options("Lines.svg", given)?);
-        tinta::settings::refuse_exclusive(&request.options).map_err(raised)?;
-        Ok(request)
+    /// All pieces, hidden ones too.
+    fn everything(&self, py: Python<'_>) -> PyResult<Arc<VisibleLines>> {
+        if let Some(all) = self.all.get() {
+            return Ok(all.clone());
+        }
+        let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
+        let mut request = before.clone();
+        request.tells_hidden = true;
+        let all = done(py, || (), move || found(lines, &scene, &before, &request))?;
+        // Another thread may have been here first: then both keep what they found.
+        Ok(self.all.get_or_init(|| all).clone())
     }
 
     /// Does something with the lines and the settings of a drawing of them, which `file` is called.
@@ -69,27 +80,22 @@ impl Lines {
         py: Python<'_>,
         given: &Bound<'_, PyDict>,
         file: Option<(&'static str, Option<String>)>,
-        work: impl FnOnce(&VisibleLines, &SvgSettings) -> tinta::Result<T> + Send + 'static,
+        work: impl FnOnce(&VisibleLines, &SvgSettings) -> Result<T> + Send + 'static,
     ) -> PyResult<T> {
-        let request = self.asked(given)?;
-        let (lines, scene) = (self.lines.clone(), self.scene.clone());
+        let asked = self.asked.with(options("Lines.svg", given)?).map_err(raised)?;
+        let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
         done(
             py,
             || (),
             move || {
-                let asked = SvgSettings::from_options(&request.options)?;
-                if asked.tells_outline() && !lines.segments.iter().any(|segment| segment.is_outline) {
-                    let problem = "outlines are found where lines() is asked for their width or colour; say so there";
-                    return Err(Error::setting("class-widths", problem));
-                }
-                let recipe = file.as_ref().and_then(|_| request.recipe("lines", &scene, None, None));
+                let lines = found(lines, &scene, &before, &asked.request)?;
+                let recipe = file.as_ref().and_then(|_| asked.recipe(&scene, None));
                 let (name, title) = file.unwrap_or_default();
                 let settings = SvgSettings {
-                    title: title.unwrap_or(request.title),
+                    title: title.unwrap_or(asked.title),
                     command: recipe.as_ref().map(|recipe| recipe.command_line(name)).unwrap_or_default(),
                     recipe: recipe.as_ref().and_then(Recipe::json).unwrap_or_default(),
-                    background: scene.background,
-                    ..asked
+                    ..asked.request.line_style().unwrap_or_default().drawing
                 };
                 work(&lines, &settings)
             },
@@ -107,7 +113,8 @@ impl Lines {
 
     /// Every column of the pieces as an array, under its name.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let of = &self.lines.segments;
+        let all = self.everything(py)?;
+        let of = &all.segments;
         let arrays = PyDict::new(py);
         let numbers: Vec<f64> = of.iter().flat_map(|piece| piece.ends_px).flat_map(|end| end.to_array()).collect();
         arrays.set_item("segments", shaped(py, numbers, &[of.len(), 2, 2])?)?;
@@ -151,15 +158,18 @@ impl Lines {
 
     /// The JSON file's text: all pieces and the camera.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        let (lines, scene, asked) = (self.lines.clone(), self.scene.clone(), self.request.options.clone());
+        let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
         done(
             py,
             || (),
             move || {
-                let settings = SvgSettings::from_options(&asked)?;
-                match settings.min_length {
+                let mut all = before.clone();
+                all.tells_all = true;
+                let lines = found(lines, &scene, &before, &all)?;
+                let drawing = all.line_style().unwrap_or_default().drawing;
+                match drawing.min_length {
                     None => lines_json(&lines, &scene),
-                    Some(_) => lines_json(&lines.without_specks(&settings)?, &scene),
+                    Some(_) => lines_json(&lines.without_specks(&drawing)?, &scene),
                 }
             },
         )

@@ -185,14 +185,14 @@ impl Mesh {
     }
 }
 
-/// Meshes together as options show them, ready to be drawn, while Python goes on.
-pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, options: &Options) -> PyResult<Scene> {
-    let options = options.clone();
+/// Meshes together as settings show them, ready to be drawn, while Python goes on.
+pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, settings: &SceneSettings) -> PyResult<Scene> {
+    let settings = settings.clone();
     done(
         py,
         || (),
         move || {
-            let scene = scene(&meshes, &SceneSettings::from_options(&options)?)?;
+            let scene = scene(&meshes, &settings)?;
             scene.make_arrays();
             Ok(scene)
         },

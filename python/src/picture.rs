@@ -3,7 +3,7 @@
 use crate::arrays::shaped;
 use crate::errors::{in_python, raised, wrong};
 use crate::mesh::{Mesh, drawable};
-use crate::request::{Basis, Request, warn};
+use crate::request::{Asked, Basis, warn};
 use crate::studio::drawn;
 use crate::work::done;
 use numpy::PyReadonlyArray3;
@@ -12,11 +12,10 @@ use pyo3::types::{PyBytes, PyDict};
 use std::path::PathBuf;
 use std::str::FromStr;
 use tinta::picture::Note;
-use tinta::plan::prune::prune;
 use tinta::recipe::KEYWORD;
-use tinta::settings::{OptionValue, Options};
+use tinta::settings::Options;
 use tinta::styles::is_ignored;
-use tinta::{Backend, Error, ParseError, Recipe, Show, Size, Style, Target, TextTarget};
+use tinta::{Error, ParseError, Recipe, Size, Target, TextTarget};
 
 /// A picture as it was drawn: its pixels, handed over once, and the recipe that its PNG file carries.
 #[pyclass(frozen, module = "tinta_npr._native")]
@@ -41,22 +40,15 @@ pub(crate) fn render(
     show: Option<&str>,
     backend: Option<&str>,
 ) -> PyResult<Picture> {
-    let mut request = Request::new("render", &meshes, given, &Basis { style, look, preset })?;
-    for (name, value) in [("show", show), ("backend", backend)] {
-        request.options.extend(value.map(|value| (name.to_owned(), OptionValue::text(value))));
-    }
-    let style = Style::from_options(&request.options).map_err(raised)?;
-    let shown: Show = named("show", show)?;
-    let backend: Backend = named("backend", backend)?;
-    warn(py, &ignored(given, style.name())?, 2)?;
-    let scene = drawable(py, meshes, &request.options)?;
-    let (picture, recipe, remarks) = drawn(py, backend, move |renderer| {
-        let plan = style.plan(&scene, shown)?;
-        renderer.choose_context(&scene, &plan)?;
-        let pruned = prune(&plan, &scene, &renderer.pruning(1)).plan;
-        let remarks = [style.remarks(&scene), renderer.remarks(&pruned)].concat();
-        let picture = renderer.draw(&scene, &pruned)?;
-        let recipe = request.recipe(style.name(), &scene, Some(&style), Some(renderer.context()));
+    let asked = Asked::new("render", &meshes, given, &Basis { style, look, preset, show, backend })?;
+    warn(py, &ignored(given, asked.request.style.name())?, 2)?;
+    let scene = drawable(py, meshes, &asked.request.scene)?;
+    let (picture, recipe, remarks) = drawn(py, asked.request.backend, move |renderer| {
+        let request = &asked.request;
+        let (_, pruned) = request.plans(&scene, renderer, 1)?;
+        let remarks = [request.style.remarks(&scene), renderer.remarks(&pruned.plan)].concat();
+        let picture = renderer.draw(&scene, &pruned.plan)?;
+        let recipe = asked.recipe(&scene, Some(renderer.context()));
         Ok((picture, recipe.as_ref().and_then(Recipe::json), remarks))
     })?;
     warn(py, &remarks, 2)?;

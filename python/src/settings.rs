@@ -8,111 +8,103 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PySequence, PyString};
 use tinta::camera;
 use tinta::choice::{nearest, no_option};
-use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table, names_of, refuse_exclusive};
-use tinta::styles::StyleName;
-use tinta::{Backend, Error, LineSettings, LoadOptions, SceneSettings, Show, Style, SvgSettings};
+use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, names_of, refuse_exclusive};
+use tinta::styles::{StyleName, is_of_lines_alone};
+use tinta::{Backend, Error, LineSettings, LoadOptions, Request, SceneSettings, Show, Style, SvgSettings};
 
-/// A table of settings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Part {
-    Reading,
-    Scene,
-    Lines,
-    Drawing,
-    Styles,
+/// Which settings of a drawing a function takes.
+#[derive(Clone, Copy)]
+struct Taken {
+    /// The style that its settings are of; none for all that OpenGL draws.
+    style: Option<StyleName>,
+    of_style: fn(&str) -> bool,
+    has_scene: bool,
+    has_reading: bool,
 }
 
 /// Functions of Python by what their settings are, and what they are called where help is asked for.
-const FUNCTIONS: [(&str, &[Part]); 8] = [
-    ("lines", &[Part::Lines, Part::Drawing, Part::Scene, Part::Reading]),
-    ("Lines.svg", &[Part::Drawing]),
-    ("render", &[Part::Styles, Part::Scene, Part::Reading]),
-    ("mesh", &[Part::Reading]),
-    ("edges", &[Part::Lines, Part::Reading]),
-    ("silhouette", &[Part::Reading]),
-    ("measure", &[Part::Scene, Part::Reading]),
-    ("compare", &[Part::Styles, Part::Scene, Part::Reading]),
-];
+const FUNCTIONS: [(&str, Taken); 8] = {
+    const ALL: Taken = Taken { style: None, of_style: |_| true, has_scene: true, has_reading: true };
+    const NONE: fn(&str) -> bool = |_| false;
+    const LINES: Taken = Taken { style: Some(StyleName::Lines), ..ALL };
+    let drawing: fn(&str) -> bool = |name| SvgSettings::table().has(name);
+    let finding: fn(&str) -> bool = |name| LineSettings::table().has(name);
+    let reading = Taken { of_style: NONE, has_scene: false, ..ALL };
+    [
+        ("lines", LINES),
+        ("Lines.svg", Taken { of_style: drawing, has_scene: false, has_reading: false, ..LINES }),
+        ("render", ALL),
+        ("mesh", reading),
+        ("edges", Taken { of_style: finding, has_scene: false, ..LINES }),
+        ("silhouette", reading),
+        ("measure", Taken { of_style: NONE, ..ALL }),
+        ("compare", ALL),
+    ]
+};
 
-/// What a setting is, whatever it is a setting of.
+/// A setting of a function.
 #[derive(Clone)]
 pub(crate) struct Entry {
-    pub name: &'static str,
-    pub kind: &'static Kind,
-    value_name: &'static str,
-    help: &'static str,
+    setting: &'static Setting<Request>,
     default: String,
-    heading: &'static str,
 }
 
-fn entries_of<T: HasSettings>() -> Vec<Entry> {
-    let table: &'static Table<T> = T::table();
-    let entry = |setting: &'static Setting<T>| Entry {
-        name: setting.name,
-        kind: &setting.kind,
-        value_name: setting.value_name,
-        help: setting.help,
-        default: setting.said_default.map_or_else(|| table.default_of(setting), str::to_owned),
-        heading: setting.heading,
+impl Entry {
+    /// Its name with hyphens.
+    pub(crate) fn name(&self) -> &'static str {
+        self.setting.name
+    }
+}
+
+/// Whether a setting says how a mesh is read, which is done before it is drawn.
+pub(crate) fn is_reading(name: &str) -> bool {
+    LoadOptions::table().has(name)
+}
+
+/// Whether a function draws exact lines.
+pub(crate) fn draws_lines(function: &str) -> bool {
+    taken_by(function).is_some_and(|taken| taken.style.is_some_and(StyleName::draws_lines))
+}
+
+fn taken_by(function: &str) -> Option<&'static Taken> {
+    FUNCTIONS.iter().find(|(name, _)| *name == function).map(|(_, taken)| taken)
+}
+
+/// A request in the style of a function's settings.
+fn form_of(function: &str) -> Request {
+    let style = taken_by(function).and_then(|taken| taken.style);
+    style.map_or_else(Request::default, Request::of_style)
+}
+
+/// The settings of a function, those of styles first, each name once.
+pub(crate) fn entries(function: &str) -> Vec<Entry> {
+    let Some(taken) = taken_by(function) else { return Vec::new() };
+    let (table, form) = (Request::table(), form_of(function));
+    let rank = |name: &str| match name {
+        name if Style::table().has(name) => {
+            let is_of_it = (taken.of_style)(name) && (taken.style.is_some() || !is_of_lines_alone(name));
+            is_of_it.then_some(0)
+        }
+        name if SceneSettings::table().has(name) => taken.has_scene.then_some(1),
+        name => (taken.has_reading && is_reading(name)).then_some(2),
     };
-    table.of(None).into_iter().map(entry).collect()
-}
-
-impl Part {
-    fn entries(self) -> Vec<Entry> {
-        match self {
-            Self::Reading => entries_of::<LoadOptions>(),
-            Self::Scene => entries_of::<SceneSettings>(),
-            Self::Lines => entries_of::<LineSettings>(),
-            Self::Drawing => entries_of::<SvgSettings>(),
-            Self::Styles => entries_of::<Style>(),
-        }
-    }
-
-    fn canonical(self, name: &str, value: OptionValue) -> OptionValue {
-        match self {
-            Self::Reading => canonical_of::<LoadOptions>(name, value),
-            Self::Scene => canonical_of::<SceneSettings>(name, value),
-            Self::Lines => canonical_of::<LineSettings>(name, value),
-            Self::Drawing => canonical_of::<SvgSettings>(name, value),
-            // A style has no default; its texts have no other notation.
-            Self::Styles => value,
-        }
-    }
-
-    fn check(self, name: &str, text: &str) -> Result<(), String> {
-        match self {
-            Self::Reading => LoadOptions::table().check(name, text),
-            Self::Scene => SceneSettings::table().check(name, text),
-            Self::Lines => LineSettings::table().check(name, text),
-            Self::Drawing => SvgSettings::table().check(name, text),
-            Self::Styles => Style::table().check(name, text),
-        }
-    }
+    let settings = table.of(taken.style.map(|_| &form));
+    let mut all: Vec<_> = settings.into_iter().filter_map(|setting| Some((rank(setting.name)?, setting))).collect();
+    all.sort_by_key(|(rank, _)| *rank);
+    let default = |setting: &Setting<Request>| match (setting.said_default, setting.value(&form)) {
+        (Some(said), _) => said.to_owned(),
+        (None, Some(value)) => value,
+        (None, None) => table.default_of(setting),
+    };
+    all.into_iter().map(|(_, setting)| Entry { setting, default: default(setting) }).collect()
 }
 
 /// A value as a table writes it: of several numbers, which have a notation of their own there.
-fn canonical_of<T: HasSettings + Default>(name: &str, value: OptionValue) -> OptionValue {
-    let options = Options::from([(name.to_owned(), value.clone())]);
-    let written = T::from_options(&options).ok().and_then(|of| T::table().find(&of, name)?.value(&of));
+fn canonical(function: &str, name: &str, value: OptionValue) -> OptionValue {
+    let (table, mut form) = (Request::table(), form_of(function));
+    let is_set = table.apply(&mut form, &Options::from([(name.to_owned(), value.clone())])).is_ok();
+    let written = table.find(&form, name).filter(|_| is_set).and_then(|setting| setting.value(&form));
     written.map_or(value, OptionValue::Text)
-}
-
-fn parts_of(function: &str) -> &'static [Part] {
-    FUNCTIONS.iter().find(|(name, _)| *name == function).map_or(&[], |(_, parts)| parts)
-}
-
-/// The settings of a function, each with its table, each name once.
-pub(crate) fn entries(function: &str) -> Vec<(Part, Entry)> {
-    let mut all: Vec<(Part, Entry)> = Vec::new();
-    for part in parts_of(function) {
-        for entry in part.entries() {
-            if all.iter().all(|(_, known)| known.name != entry.name) {
-                all.push((*part, entry));
-            }
-        }
-    }
-    all
 }
 
 /// Reads what is given to a function by names.
@@ -122,24 +114,25 @@ pub(crate) fn options(function: &str, given: &Bound<'_, PyDict>) -> PyResult<Opt
     for (key, given_value) in given {
         let key: String = key.extract()?;
         let name = key.replace('_', "-");
-        let Some((part, entry)) = entries.iter().find(|(_, entry)| entry.name == name) else {
+        let Some(entry) = entries.iter().find(|entry| entry.name() == name) else {
             return Err(PyValueError::new_err(unknown(given.py(), function, &key, &entries)));
         };
         let Some(value) = value_of(&key, entry, &given_value)? else { continue };
         if let OptionValue::Text(text) = &value {
-            if *entry.kind == Kind::Flag {
-                return Err(raised(Error::setting(entry.name, "give True or False")));
+            if entry.setting.kind == Kind::Flag {
+                return Err(raised(Error::setting(name, "give True or False")));
             }
-            part.check(entry.name, text).map_err(|problem| raised(Error::value(entry.name, text, problem)))?;
+            let checked = Request::table().check(&name, text);
+            checked.map_err(|problem| raised(Error::value(name.clone(), text, problem)))?;
         }
         let is_list = scalar(&given_value)?.is_none() && several(&given_value)?.is_some();
-        let value = if is_list && matches!(entry.kind, Kind::Text { .. } | Kind::Colors { .. }) {
-            part.canonical(entry.name, value)
+        let value = if is_list && matches!(entry.setting.kind, Kind::Text { .. } | Kind::Colors { .. }) {
+            canonical(function, &name, value)
         } else {
             value
         };
-        if let Some(value) = kept(entry.kind, value) {
-            options.insert(entry.name.to_owned(), value);
+        if let Some(value) = kept(&entry.setting.kind, value) {
+            options.insert(name, value);
         }
     }
     refuse_exclusive(&options).map_err(raised)?;
@@ -153,9 +146,9 @@ pub(crate) fn check(function: &str, given: &Bound<'_, PyDict>) -> PyResult<()> {
 }
 
 /// What to say of a name that is no setting of a function.
-fn unknown(py: Python<'_>, function: &str, key: &str, entries: &[(Part, Entry)]) -> String {
+fn unknown(py: Python<'_>, function: &str, key: &str, entries: &[Entry]) -> String {
     let own = own_names(py, function).unwrap_or_default();
-    let settings: Vec<String> = entries.iter().map(|(_, entry)| python_name(entry.name)).collect();
+    let settings: Vec<String> = entries.iter().map(|entry| python_name(entry.name())).collect();
     let names: Vec<&str> = own.iter().chain(&settings).map(String::as_str).collect();
     match nearest(key, &names) {
         Some(meant) => no_option(function, key, Some(meant)),
@@ -189,11 +182,12 @@ fn value_of(key: &str, entry: &Entry, value: &Bound<'_, PyAny>) -> PyResult<Opti
     if let Some(is_on) = switch(value) {
         return Ok(Some(OptionValue::Switch(is_on)));
     }
-    let text = match text_of(value, entry.kind)? {
+    let text = match text_of(value, &entry.setting.kind)? {
         Some(text) => text,
         None => {
             let given = value.get_type().name()?;
-            let value_name = if entry.value_name.is_empty() { "True or False" } else { entry.value_name };
+            let value_name =
+                if entry.setting.value_name.is_empty() { "True or False" } else { entry.setting.value_name };
             return Err(PyTypeError::new_err(format!("{key}: give {value_name}, not a value of type {given}")));
         }
     };
@@ -273,9 +267,9 @@ fn several<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py, PyA
 /// The settings of a function as plain values, for its signature in the stubs.
 #[pyfunction]
 pub(crate) fn settings<'py>(py: Python<'py>, function: &str) -> PyResult<Vec<Bound<'py, PyDict>>> {
-    let described = |(_, entry): (Part, Entry)| -> PyResult<Bound<'py, PyDict>> {
+    let described = |Entry { setting, default }: Entry| -> PyResult<Bound<'py, PyDict>> {
         let of_it = PyDict::new(py);
-        let (kind, names, count): (&str, Vec<&str>, usize) = match entry.kind {
+        let (kind, names, count): (&str, Vec<&str>, usize) = match &setting.kind {
             Kind::Numbers { count, .. } => ("numbers", Vec::new(), *count),
             Kind::Choice(names) | Kind::Recipe(names) => ("choice", names.clone(), 1),
             Kind::Several(names) => ("several", names.clone(), 1),
@@ -284,14 +278,14 @@ pub(crate) fn settings<'py>(py: Python<'py>, function: &str) -> PyResult<Vec<Bou
             Kind::Color => ("color", Vec::new(), 1),
             Kind::Colors { offered, .. } | Kind::Text { offered, .. } => ("text", offered.to_vec(), 1),
         };
-        of_it.set_item("name", python_name(entry.name))?;
+        of_it.set_item("name", python_name(setting.name))?;
         of_it.set_item("kind", kind)?;
         of_it.set_item("names", names)?;
         of_it.set_item("count", count)?;
-        of_it.set_item("value_name", entry.value_name)?;
-        of_it.set_item("heading", in_python(entry.heading))?;
-        of_it.set_item("help", in_python(entry.help))?;
-        of_it.set_item("default", &entry.default)?;
+        of_it.set_item("value_name", setting.value_name)?;
+        of_it.set_item("heading", in_python(setting.heading))?;
+        of_it.set_item("help", in_python(setting.help))?;
+        of_it.set_item("default", default)?;
         Ok(of_it)
     };
     entries(function).into_iter().map(described).collect()
@@ -302,17 +296,17 @@ pub(crate) fn settings<'py>(py: Python<'py>, function: &str) -> PyResult<Vec<Bou
 pub(crate) fn documentation(function: &str) -> String {
     let mut text = String::new();
     let mut heading = "";
-    for (_, entry) in entries(function) {
-        if entry.heading != heading {
-            heading = entry.heading;
+    for Entry { setting, default } in entries(function) {
+        if setting.heading != heading {
+            heading = setting.heading;
             text.push_str(&format!("\n{}\n", in_python(heading)));
         }
-        let value = match entry.kind {
+        let value = match setting.kind {
             Kind::Switch | Kind::Flag => "True or False".to_owned(),
-            _ => entry.value_name.to_owned(),
+            _ => setting.value_name.to_owned(),
         };
-        text.push_str(&format!("  {} : {value}\n", python_name(entry.name)));
-        text.push_str(&format!("      {} [default: {}]\n", in_python(entry.help), entry.default));
+        text.push_str(&format!("  {} : {value}\n", python_name(setting.name)));
+        text.push_str(&format!("      {} [default: {default}]\n", in_python(setting.help)));
     }
     text
 }
@@ -321,7 +315,7 @@ pub(crate) fn documentation(function: &str) -> String {
 #[pyfunction]
 pub(crate) fn names(of: &str) -> Vec<&'static str> {
     match of {
-        "style" => names_of::<StyleName>(),
+        "style" => StyleName::of_passes().map(|(name, _)| name).collect(),
         "show" => names_of::<Show>(),
         "backend" => names_of::<Backend>(),
         "class" => names_of::<tinta::edges::Class>(),

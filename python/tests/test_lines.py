@@ -84,6 +84,13 @@ def test_the_silhouette_of_a_torus_is_where_front_meets_back():
     assert sorted(map(tuple, far.tolist())) == sorted(map(tuple, tn.silhouette(mesh, eye, direction=True).tolist()))
 
 
+def test_a_drawing_shows_what_was_not_looked_for_at_first(cube):
+    for asked in [{"hidden": "dashed"}, {"class_widths": "outline=3"}]:
+        first, later = tn.lines(*cube, **asked), tn.lines(*cube)
+        assert later.svg(**asked) == first.svg()
+        assert (later.visible == first.visible).all() and len(later.hidden) == 3, "arrays have hidden pieces either way"
+
+
 def test_what_of_a_torus_is_hidden_has_a_face_before_it():
     vertices, faces = torus()
     lines = tn.lines(vertices, faces, classes="silhouette", view=(20, 35), parallel=True)

@@ -64,7 +64,6 @@ WRONG = [
     (lambda: tn.lines(V, F).save("a.png"), ValueError, r"path: lines are written as .svg, .pdf or .json, not as .png"),
     (lambda: tn.lines(V, F).save("no/such/a.svg"), OSError, r"no/such"),
     (lambda: tn.lines(V, F).svg(marginn=3), ValueError, r"Lines.svg has no option marginn; did you mean margin"),
-    (lambda: tn.lines(V, F).svg(class_widths="outline=3"), ValueError, r"class_widths: outlines are found where lines\(\)"),
     (lambda: tn.silhouette(V, (1, 2), F), ValueError, r"eye: the shape is \(2,\)"),
     (lambda: tn.silhouette(V, (1, np.nan, 2), F), ValueError, r"eye: .* not finite"),
     (lambda: tn.edges(["builtin:gear", "builtin:ant"]), ValueError, r"mesh: edges\(\) takes one mesh, not 2"),

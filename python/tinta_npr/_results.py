@@ -7,6 +7,9 @@ import numpy as np
 from . import _native
 
 
+_ARRAYS = frozenset(["segments", "visible", "_code", "edge", "angle", "object", "outline", "covered"])
+
+
 class Lines:
     """The lines of a mesh in a picture: every piece that is seen or hidden as a whole.
 
@@ -37,12 +40,18 @@ class Lines:
 
     def __init__(self, found, classes):
         self._found = found
-        for name, array in found.arrays().items():
-            setattr(self, name if name != "code" else "_code", array)
         self._classes = classes
         self.size = found.size
         self.counts = found.counts()
         self.camera = found.camera()
+
+    def __getattr__(self, name):
+        # A drawing needs no hidden pieces: they are found when somebody asks for the arrays.
+        if name not in _ARRAYS:
+            raise AttributeError(f"{type(self).__name__} has no attribute {name}")
+        for array, value in self._found.arrays().items():
+            setattr(self, array if array != "code" else "_code", value)
+        return getattr(self, name)
 
     @property
     def cls(self):

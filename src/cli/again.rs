@@ -1,16 +1,14 @@
 //! `tinta again`: redraws a picture from its recipe and compares the two.
 
-use super::preset::parse;
-use super::session::Session;
+use super::render::{self, is_of_lines, is_of_one_run};
 use super::standard_input;
-use super::{Command, Stop, Verdict, render, say};
+use super::{Verdict, say};
 use crate::files::shown;
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use tinta::limits::PICTURE_BYTES;
-use tinta::preset::OptionValue;
-use tinta::recipe::option_words;
-use tinta::{Backend, Error, Picture, Recipe, Result, Size};
+use tinta::request::{Layer, Request};
+use tinta::settings::HasSettings;
+use tinta::{Backend, Error, Picture, Recipe, Result, Size, StyleName};
 
 /// Redraw a picture from its recipe, and compare the two
 #[derive(clap::Args)]
@@ -149,8 +147,8 @@ fn on_this_system(model: &str) -> String {
     if !Path::new(model).exists() && Path::new(&slashes).exists() { slashes } else { model.to_owned() }
 }
 
-/// Draws by the recipe. Its options pass through the same parser as a user's, and what is not part of a picture, such as a
-/// file to write, has no place among them: a recipe may come from anyone.
+/// Draws by the recipe. What is not part of a picture, such as a file to write, has no place among its options: a recipe may come
+/// from anyone.
 fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()> {
     let refuse = |problem: String| Error::picture(&arguments.picture, problem);
     if recipe.command != "render" {
@@ -159,10 +157,11 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
             recipe.command
         )));
     }
-    // The recipe says all that the picture's look was made of, and of a style not named means the published one.
-    let mut words: Vec<OsString> = ["tinta", "render", "--look=published"].map(OsString::from).to_vec();
-    for (name, value) in &recipe.options {
-        if !super::preset::is_kept(name) || name.contains(['=', ' ']) {
+    if models.is_empty() {
+        return Err(refuse("its recipe names no model; it is not drawn".to_owned()));
+    }
+    for name in recipe.options.keys() {
+        if is_of_one_run(name) || !Request::table().has(name) {
             return Err(refuse(format!(
                 "its recipe has the option {name}, which does not describe a picture; it is not drawn"
             )));
@@ -173,35 +172,31 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
                     .to_owned(),
             ));
         }
-        match value {
-            OptionValue::Text(value) => words.push(format!("--{name}={value}").into()),
-            switch => words.extend(option_words(name, switch).into_iter().map(OsString::from)),
-        }
     }
-    let mut output = OsString::from("--output=");
-    output.push(arguments.output());
-    words.push(output);
-    words.push("--".into());
-    words.extend(models.iter().map(OsString::from));
-    let (parsed, given) = parse(words).map_err(|error| match error {
-        Stop::Wrong(Error::CommandLine { problem }) => {
-            refuse(format!("its recipe has an option that is not understood ({problem}); this may be an older tinta"))
+    let output = arguments.output().display().to_string();
+    let style = is_of_lines(&output).then_some(Layer::Style(StyleName::Lines));
+    // The recipe says all that the picture's look was made of, and of a style not named means the published one.
+    let layers: Vec<Layer> = style.into_iter().chain([Layer::Given(recipe.options.clone())]).collect();
+    let (request, _) = Request::from_layers(&layers).map_err(|error| match error {
+        Error::Setting { .. } | Error::Settings { .. } => {
+            refuse(format!("its recipe has an option that is not understood ({error}); this may be an older tinta"))
         }
-        Stop::Wrong(error) => error,
-        Stop::Help(_) => refuse("its recipe asks for help instead of a picture".to_owned()),
+        error => error,
     })?;
-    let Command::Render(render) = parsed.command else {
-        return Err(refuse("its recipe is for another command; use tinta render".to_owned()));
-    };
     let backend = recipe.gl.as_ref().and_then(|gl| gl.backend.parse().ok()).unwrap_or_default();
-    let render = render.with_backend(backend);
-    check_size(arguments, render.size()?)?;
-    match render::run(&render, &given, &mut Session::for_one()) {
+    let mut request = request.with_models(models.to_vec());
+    request.backend = backend;
+    check_size(arguments, request.scene.size)?;
+    let draw = |request: &Request| {
+        render::render(request, &render::RunSettings::default(), &output, &[], &mut super::models::session()).map(drop)
+    };
+    match draw(&request) {
         // Another way to OpenGL is better than none; that it is another is said.
         Err(Error::NoContext { .. }) if backend != Backend::Auto => {
-            render::run(&render.with_backend(Backend::Auto), &given, &mut Session::for_one()).map(drop)
+            request.backend = Backend::Auto;
+            draw(&request)
         }
-        result => result.map(drop),
+        result => result,
     }
 }
 

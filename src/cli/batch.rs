@@ -4,7 +4,7 @@
 //! and models: a job that brings the driver down takes one worker with it and no other job. What a worker tells of a job is
 //! written down at once.
 
-mod argv;
+mod job_options;
 mod staging;
 #[cfg(test)]
 mod tests;
@@ -15,6 +15,7 @@ use super::progress::Progress;
 use super::signals::Stop;
 use super::standard_input;
 use super::{Verdict, plain, print, print_json, say};
+pub(super) use job_options::JobOptions;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};

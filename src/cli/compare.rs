@@ -1,16 +1,19 @@
 //! `tinta compare`: draws one scene in two styles and overlays their lines.
 
-use super::models::load_meshes;
-use super::options::{CameraArguments, ModelArguments, SceneArguments, StyleArguments, ignored};
-use super::preset::{Given, PresetArguments};
-use super::session::Session;
+use super::batch::JobOptions;
+use super::inputs::Inputs;
+use super::options::{Below, CameraFile, Chosen, OfComparison, PresetFile, Selection};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 use std::time::Instant;
 use tinta::compare::{Agreement, AgreementNumbers, BOTH_COLOR, InkMask, LEFT_COLOR, RIGHT_COLOR};
 use tinta::contact_sheet::{Caption, Panel, sheet};
 use tinta::record::{CameraRecord, ComparisonRecord, DrawingRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
-use tinta::{Backend, Error, Picture, Result, Scene, Show, StyleName, Target};
+use tinta::request::{Request, Session, ignored_remark};
+use tinta::settings::{HasSettings, Kind, Setting, Table};
+use tinta::{Error, Picture, Result, Scene, Show, StyleName, Target};
 
 /// Draw one scene in two styles side by side, and show which lines both drew
 #[derive(clap::Args)]
@@ -23,43 +26,116 @@ pub(super) struct Arguments {
     #[arg(short, long, value_name = "FILE|DIR")]
     output: String,
 
-    #[arg(long, help = format!("Style on the left: {} [default: three-pass]", StyleName::list_with_lines()), value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
+    #[command(flatten)]
+    how: Chosen<OfHow>,
+
+    #[command(flatten)]
+    options: Chosen<OfComparison>,
+
+    #[command(flatten)]
+    preset: PresetFile,
+
+    #[command(flatten)]
+    camera: CameraFile,
+}
+
+impl Arguments {
+    /// Of a job's options.
+    pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
+        job.refuse_unknown("compare", |name| Chosen::<OfHow>::has(name) || Chosen::<OfComparison>::has(name))?;
+        Ok(Self {
+            models: job.models.clone(),
+            output: job.output.clone(),
+            how: Chosen::of_options(&job.options),
+            options: Chosen::of_options(&job.options),
+            preset: job.preset(),
+            camera: job.camera(),
+        })
+    }
+}
+
+/// How two styles are compared.
+#[derive(Debug, Clone)]
+pub(super) struct CompareSettings {
     left: StyleName,
-
-    /// Style on the right [default: inking]
-    #[arg(long, value_name = "STYLE", default_value = "inking", hide_default_value = true)]
     right: StyleName,
-
-    /// Distance within which two styles' ink counts as the same, in pixels, up to 64 [default: 2]
-    #[arg(long, hide_short_help = true, value_name = "PIXELS", default_value = "2", hide_default_value = true, value_parser = clap::value_parser!(u32).range(0..=64))]
-    tolerance: u32,
-
-    /// OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works) [default: auto]
-    #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
-    backend: Backend,
-
-    /// Frames of each style to draw and time after warm-up [default: 11]
-    #[arg(long, hide_short_help = true, value_name = "N", default_value = "11", hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    tolerance_px: u32,
     frames: u32,
-
-    /// Print one JSON record [default: off]
-    #[arg(long, hide_short_help = true)]
     json: bool,
+}
 
-    #[command(flatten)]
-    preset: PresetArguments,
+impl Default for CompareSettings {
+    fn default() -> Self {
+        Self { left: StyleName::ThreePass, right: StyleName::Inking, tolerance_px: 2, frames: 11, json: false }
+    }
+}
 
-    #[command(flatten)]
-    scene: SceneArguments,
+/// All of them.
+pub(super) struct OfHow;
 
-    #[command(flatten)]
-    camera: CameraArguments,
+impl Selection for OfHow {
+    type Of = CompareSettings;
+    const HAS_HEADINGS: bool = false;
+}
 
-    #[command(flatten)]
-    styles: StyleArguments,
+impl HasSettings for CompareSettings {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<CompareSettings>> =
+            LazyLock::new(|| Table { settings: settings(), defaults: vec![CompareSettings::default()] });
+        &TABLE
+    }
+}
 
-    #[command(flatten)]
-    model: ModelArguments,
+/// A style that is compared.
+fn style(
+    name: &'static str,
+    help: &'static str,
+    field: fn(&mut CompareSettings) -> &mut StyleName,
+) -> Setting<CompareSettings> {
+    let names = StyleName::of_passes().map(|(name, _)| name).collect();
+    let get = move |how: &CompareSettings| field(&mut how.clone()).name().to_owned();
+    let set = move |how: &mut CompareSettings, text: &str| {
+        *field(how) = StyleName::named_of_passes(text)?;
+        Ok(())
+    };
+    Setting::of(name, "STYLE", Kind::Choice(names), help, get, set).common()
+}
+
+fn settings() -> Vec<Setting<CompareSettings>> {
+    static LEFT: LazyLock<String> = LazyLock::new(|| format!("Style on the left: {}", StyleName::list_with_lines()));
+    let whole = |text: &str, range: RangeInclusive<u32>| {
+        let number = text.trim().parse().ok().filter(|number| range.contains(number));
+        number.ok_or_else(|| format!("give a whole number from {} to {}", range.start(), range.end()))
+    };
+    let tolerance = Setting::of(
+        "tolerance",
+        "PIXELS",
+        Kind::Numbers { count: 1, range: [0.0, 64.0], decimals: 0 },
+        "Distance within which two styles' ink counts as the same, in pixels, up to 64",
+        |how: &CompareSettings| how.tolerance_px.to_string(),
+        move |how, text| {
+            how.tolerance_px = whole(text, 0..=64)?;
+            Ok(())
+        },
+    );
+    let frames = Setting::of(
+        "frames",
+        "N",
+        Kind::Numbers { count: 1, range: [1.0, 101.0], decimals: 0 },
+        "Frames of each style to draw and time after warm-up",
+        |how: &CompareSettings| how.frames.to_string(),
+        move |how, text| {
+            how.frames = whole(text, 1..=1_000_000)?;
+            Ok(())
+        },
+    );
+    vec![
+        style("left", &LEFT, |how| &mut how.left),
+        style("right", "Style on the right", |how| &mut how.right),
+        tolerance,
+        frames,
+        Setting::flag("json", "Print one JSON record", |how: &CompareSettings| how.json, |how, is_on| how.json = is_on),
+    ]
 }
 
 /// Frames drawn before measuring.
@@ -72,22 +148,35 @@ struct Drawing {
     record: DrawingRecord,
 }
 
-pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<()> {
+pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
+    let (preset, camera) = (arguments.preset.preset.as_deref(), arguments.camera.camera.as_deref());
+    let (request, _) = arguments
+        .options
+        .request(&arguments.models, &Below { preset, camera, command: "compare", ..Below::default() })?;
+    let files: Vec<&str> = preset.into_iter().chain(camera.and_then(Path::to_str)).collect();
+    compare(arguments, &request, &files, session).map_err(|error| request.attributed(error))
+}
+
+fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &mut Session) -> Result<()> {
+    let mut how = arguments.how.settings()?;
+    // A preset's style is the one on the left.
+    let is_of_preset = request.options.contains_key("style") && !arguments.how.options.contains_key("left");
+    if is_of_preset {
+        how.left = request.style.style_name();
+    }
+    let left = if is_of_preset { "style" } else { "left" };
     super::messages::check_output(&arguments.output)?;
-    let inputs = given.inputs(&arguments.models);
+    let inputs = Inputs::new(&request.models, &request.options, files);
     inputs.keep(&arguments.output)?;
     inputs.keep_in(Path::new(&arguments.output), NAMES)?;
     let output = Output::check(&arguments.output)?;
-    if arguments.json && matches!(output, Output::File(Target::Stdout)) {
+    if how.json && matches!(output, Output::File(Target::Stdout)) {
         return Err(Error::value("o", "-", "the sheet and --json cannot share standard output; name a file"));
     }
-    if arguments.styles.are_without_borders() {
+    if request.options.contains_key("no-borders") {
         return Err(Error::setting("no-borders", "compare needs the lines; leave it out"));
     }
-    if arguments.styles.show != Show::Final {
-        return Err(Error::setting("show", "a comparison shows finished pictures; leave it out"));
-    }
-    for (option, name) in [("left", arguments.left), ("right", arguments.right)] {
+    for (option, name) in [(left, how.left), ("right", how.right)] {
         if !name.has_lines() {
             return Err(Error::value(
                 option,
@@ -96,13 +185,11 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
             ));
         }
     }
-    let styles = [arguments.left, arguments.right].map(|name| arguments.styles.style(name));
-    let [left_style, right_style] = styles;
-    let styles = [left_style?, right_style?];
-    let meshes = load_meshes(&session.model_cache, &arguments.models, &arguments.model.settings()?)?;
+    let styles = [request.in_style(how.left)?.style, request.in_style(how.right)?.style];
+    let meshes = request.models(&session.models)?.meshes;
     let count = meshes.len();
-    let scene = Scene::new(meshes, &arguments.scene.settings(arguments.camera.settings()?)?)?;
-    let renderer = session.renderer(arguments.backend)?;
+    let scene = Scene::new(meshes, &request.scene)?;
+    let renderer = session.renderer(request.backend)?;
     let mut draw = |style: &tinta::Style| -> Result<Drawing> {
         let start = Instant::now();
         let plan = style.plan(&scene, Show::Final)?;
@@ -119,12 +206,12 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
             renderer.time_frames(&scene, &plan, 0, 1)?;
             Ok(milliseconds_since(start))
         };
-        let times: Result<Vec<f64>> = (0..arguments.frames).map(|_| frame()).collect();
+        let times: Result<Vec<f64>> = (0..how.frames).map(|_| frame()).collect();
         let record = DrawingRecord { style: style.clone(), plan_ms, frame_ms: Summary::new(times?) };
         Ok(Drawing { picture, ink, record })
     };
     let [left, right] = [draw(&styles[0])?, draw(&styles[1])?];
-    let agreement = Agreement::of(&left.ink, &right.ink, arguments.tolerance)
+    let agreement = Agreement::of(&left.ink, &right.ink, how.tolerance_px)
         .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; choose another"))?;
     let map = agreement.picture(scene.size);
     let models: Vec<ModelRecord> = scene.objects[..count].iter().map(|object| ModelRecord::new(&object.mesh)).collect();
@@ -138,7 +225,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
         right: right.record,
         agreement: agreement.numbers,
     };
-    let names = [arguments.left, arguments.right].map(StyleName::name);
+    let names = [how.left, how.right].map(StyleName::name);
     let panels = [
         panel(names[0], &record.left, left.picture),
         panel(names[1], &record.right, right.picture),
@@ -146,8 +233,9 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
     ];
     let whole = sheet(&panels, &captions(&record, names, &arguments.models));
     output.write(&whole, panels)?;
-    ignored::remark(&given.as_given, &names).iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
-    if arguments.json { super::print_json(&record) } else { Ok(()) }
+    let given = arguments.options.options.keys().map(String::as_str);
+    ignored_remark(given, &names).iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
+    if how.json { super::print_json(&record) } else { Ok(()) }
 }
 
 fn panel(name: &str, record: &DrawingRecord, picture: Picture) -> Panel {

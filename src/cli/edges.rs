@@ -1,15 +1,14 @@
 //! `tinta edges`: a model's edges by class, and how long it takes to find them.
 
-use super::model_cache::ModelCache;
 use super::models::load_meshes;
-use super::options::{CameraArguments, Chosen, ModelArguments, Selection};
+use super::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use std::time::Instant;
 use tinta::edges::{Class, ClassSet, Classes, NormalCones, SilhouetteRule, Silhouettes};
 use tinta::record::{CameraRecord, EdgeRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
 use tinta::settings::Setting;
 use tinta::styles::Inking;
-use tinta::{EdgeList, Error, Result, Scene, SceneSettings, Style, StyleName};
+use tinta::{EdgeList, Error, Result, Scene, Style, StyleName};
 
 /// Count a model's edges by class, and time how they are found
 #[derive(clap::Args)]
@@ -30,10 +29,10 @@ pub(super) struct Arguments {
     crease: Chosen<OfEdges>,
 
     #[command(flatten)]
-    camera: CameraArguments,
+    camera: CameraFile,
 
     #[command(flatten)]
-    options: ModelArguments,
+    subject: Chosen<OfSubject>,
 }
 
 /// What the edge list is asked, as the style inking asks it.
@@ -56,11 +55,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
         return Err(Error::value("silhouette", rule, problem));
     }
     let start = Instant::now();
-    let mut meshes =
-        load_meshes(&ModelCache::for_one(), std::slice::from_ref(&arguments.model), &arguments.options.settings()?)?;
+    let below = Below { camera: arguments.camera.camera.as_deref(), ..Below::default() };
+    let (request, _) = arguments.subject.request(std::slice::from_ref(&arguments.model), &below)?;
+    let mut meshes = load_meshes(&request.models, &request.read)?;
     let load_ms = milliseconds_since(start);
-    let settings = SceneSettings { camera: arguments.camera.settings()?, ..SceneSettings::default() };
-    let scene = Scene::new(meshes.clone(), &settings)?;
+    let scene = Scene::new(meshes.clone(), &request.scene)?;
     let Some(mesh) = meshes.pop() else { return Err(Error::CommandLine { problem: "no model was named".to_owned() }) };
     let eye = scene.eye(&scene.objects[0], rule);
 
@@ -97,7 +96,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let record = EdgeRecord {
         version: env!("CARGO_PKG_VERSION"),
         model: ModelRecord::new(&mesh),
-        load: arguments.options.settings()?,
+        load: request.read,
         edges: edges.len(),
         classes: counts,
         reversed_edges: edges.reversed_edges(),

@@ -1,6 +1,5 @@
 //! `tinta figures`: the three texts' figures as pictures and plots of ours, and their claims with what is measured, on a page.
 
-use super::model_cache::ModelCache;
 use super::models::load_meshes;
 use super::progress::{Steps, TimedProgress};
 use serde_json::json;
@@ -190,7 +189,7 @@ impl Arguments {
     fn textured(&self) -> Result<Option<Arc<Mesh>>> {
         let path = self.model.as_deref().unwrap_or(BUILTIN_CHARACTER);
         let options = LoadOptions { skin: self.skin.clone(), ..LoadOptions::default() };
-        let mesh = load_meshes(&ModelCache::for_one(), &[path.to_owned()], &options)?.pop();
+        let mesh = load_meshes(&[path.to_owned()], &options)?.pop();
         match mesh {
             Some(mesh) if mesh.materials.iter().any(|material| material.has_texture()) => Ok(Some(mesh)),
             _ => Err(Error::value(

@@ -1,16 +1,9 @@
 //! Protects input files from being overwritten: a model, its pictures, a preset, a camera's file.
 
 use std::path::{Path, PathBuf};
-use tinta::preset::{OptionValue, Options};
-use tinta::settings::{HasSettings, Kind};
-use tinta::{Error, LoadOptions, Result, Style};
-
-/// Options whose value is a file that is read.
-fn read() -> Vec<&'static str> {
-    let of_styles = Style::table().of(None).into_iter().map(|setting| (setting.name, &setting.kind));
-    let of_models = LoadOptions::table().of(None).into_iter().map(|setting| (setting.name, &setting.kind));
-    of_models.chain(of_styles).filter(|(_, kind)| **kind == Kind::File).map(|(name, _)| name).collect()
-}
+use tinta::request::files_named;
+use tinta::settings::Options;
+use tinta::{Error, Result};
 
 /// What a command reads, as far as its command line says.
 pub(super) struct Inputs(Vec<(&'static str, PathBuf)>);
@@ -18,13 +11,9 @@ pub(super) struct Inputs(Vec<(&'static str, PathBuf)>);
 impl Inputs {
     /// The models, the files that options name, and presets, a camera's file among them.
     pub(super) fn new(models: &[String], options: &Options, presets: &[&str]) -> Self {
-        let named = |name: &'static str| match options.get(name) {
-            Some(OptionValue::Text(path)) => Some((name, PathBuf::from(path))),
-            _ => None,
-        };
         let models = models.iter().map(|model| ("model", PathBuf::from(model)));
         let presets = presets.iter().map(|preset| ("preset", PathBuf::from(preset)));
-        Self(models.chain(read().into_iter().filter_map(named)).chain(presets).collect())
+        Self(models.chain(files_named(options)).chain(presets).collect())
     }
 
     /// Pictures that models name, known once these are read.
@@ -79,6 +68,7 @@ fn is_numbered(before: &str, after: &str, input: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tinta::settings::OptionValue;
 
     #[test]
     fn inputs_are_kept_by_whatever_name_they_would_be_written_over() {

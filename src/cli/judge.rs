@@ -2,11 +2,10 @@
 
 use super::Verdict;
 use super::camera_file;
+use super::inputs::Inputs;
 use super::measure::errors::{error_page, known_picture};
-use super::model_cache::ModelCache;
 use super::models::load_meshes;
-use super::options::{CameraArguments, Chosen, ModelArguments, Selection};
-use super::preset::Given;
+use super::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,6 +14,7 @@ use tinta::judge::{Entry, InkColor, JudgeSettings, Judgement, OneToOne, drawing,
 use tinta::measure::{INK_FROM, MeasureSettings, Reference, error_picture};
 use tinta::recipe::{Recipe, option_words};
 use tinta::report::{ReportInfo, RowLog};
+use tinta::request::Request;
 use tinta::settings::{HasSettings as _, Setting};
 use tinta::styles::Inking;
 use tinta::{Camera, Error, LineSettings, Mesh, Result, Scene, SceneSettings, Size, Style, StyleName};
@@ -70,10 +70,10 @@ pub(super) struct Arguments {
     crease: Chosen<OfReference>,
 
     #[command(flatten)]
-    camera: CameraArguments,
+    camera: CameraFile,
 
     #[command(flatten)]
-    options: ModelArguments,
+    subject: Chosen<OfSubject>,
 }
 
 /// What the exact lines are asked, as `tinta measure` asks it.
@@ -102,19 +102,22 @@ struct Record<'a> {
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
 /// Judges the drawings; exit code 1 where one looks like something else than lines of this view.
-pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<Verdict> {
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<Verdict> {
     let mut verdict = Verdict::Good;
     let names = names(arguments)?;
     let settings = JudgeSettings { tolerance_px: arguments.tolerance, fits: arguments.fit };
     settings.check()?;
     let drawings = arguments.drawings.iter().map(|path| drawing::read(path, arguments.size));
     let drawings = drawings.collect::<Result<Vec<_>>>()?;
-    let meshes =
-        load_meshes(&ModelCache::for_one(), std::slice::from_ref(&arguments.model), &arguments.options.settings()?)?;
+    let camera = arguments.camera.camera.as_deref();
+    let below = Below { camera, ..Below::default() };
+    let (request, _) = arguments.subject.request(std::slice::from_ref(&arguments.model), &below)?;
+    let meshes = load_meshes(&request.models, &request.read)?;
     let mut log = match &arguments.output {
         None => None,
         Some(folder) => {
-            given.inputs(std::slice::from_ref(&arguments.model)).keep_in(folder, WRITTEN)?;
+            let files: Vec<&str> = camera.and_then(Path::to_str).into_iter().collect();
+            Inputs::new(&request.models, &request.options, &files).keep_in(folder, WRITTEN)?;
             super::measure::make_folder(folder)?;
             Some(RowLog::resume(folder)?)
         }
@@ -128,7 +131,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<Verdict> {
     };
     for (index, (name, picture)) in names.iter().zip(&drawings).enumerate() {
         if subject.as_ref().is_none_or(|subject| subject.scene.size != picture.size) {
-            subject = Some(Subject::new(arguments, meshes.clone(), picture.size)?);
+            subject = Some(Subject::new(arguments, &request, meshes.clone(), picture.size)?);
         }
         let Some(Subject { scene, reference }) = &subject else { continue };
         let is_said = say_other_camera(&arguments.drawings[index], scene);
@@ -167,7 +170,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given) -> Result<Verdict> {
     }
     let (Some((_, rows)), Some(folder)) = (log, &arguments.output) else { return Ok(verdict) };
     let info = ReportInfo {
-        command: tinta::shell::command_line(given.as_given.iter().cloned()),
+        command: command.to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         notes: Vec::new(),
         pictures,
@@ -184,10 +187,10 @@ struct Subject {
 }
 
 impl Subject {
-    fn new(arguments: &Arguments, meshes: Vec<Arc<Mesh>>, size: Size) -> Result<Self> {
+    fn new(arguments: &Arguments, request: &Request, meshes: Vec<Arc<Mesh>>, size: Size) -> Result<Self> {
         let style = Style::with_options(StyleName::Inking, &arguments.crease.options)?;
         let Inking { crease_angle, .. } = if let Style::Inking(inking) = style { inking } else { Inking::default() };
-        let settings = SceneSettings { size, camera: arguments.camera.settings()?, ..SceneSettings::default() };
+        let settings = SceneSettings { size, ..request.scene.clone() };
         let scene = Scene::new(meshes, &settings)?;
         let LineSettings { classes, .. } = LineSettings::from_options(&arguments.crease.options)?;
         let lines = LineSettings { classes, crease_angle, ..LineSettings::as_published() };

@@ -1,14 +1,14 @@
 //! `tinta looks`: what a model looks like in each look.
 
-use super::session::Session;
-use super::{Stop, carry_out_render, parse};
-use std::ffi::OsString;
+use super::render::{self, RunSettings};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use tinta::markup::escaped;
 use tinta::page::{Pictures, beginning};
-use tinta::preset::{LOOKS, Look, OptionValue};
-use tinta::{Error, Result, SceneSettings, Size, TextTarget};
+use tinta::preset::{LOOKS, Look};
+use tinta::request::{Request, layers};
+use tinta::settings::{OptionValue, Options};
+use tinta::{Result, SceneSettings, Size, TextTarget};
 
 /// Say what looks there are, or draw a model in each
 #[derive(clap::Args)]
@@ -39,14 +39,13 @@ fn default_size() -> Size {
 pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let Some(folder) = &arguments.output else { return super::print(&list()) };
     super::make_folder(folder)?;
-    let mut session = Session::for_one();
+    let mut session = super::models::session();
     for look in LOOKS {
-        let words = words(&arguments.model, look, arguments.size, &folder.join(file(look)));
-        let (parsed, given) = parse(words.into_iter().map(OsString::from)).map_err(|stop| match stop {
-            Stop::Wrong(error) => error,
-            Stop::Help(help) => Error::CommandLine { problem: help.to_string() },
-        })?;
-        carry_out_render(parsed, &given, &mut session)?;
+        let output = folder.join(file(look)).display().to_string();
+        let size = Options::from([("size".to_owned(), OptionValue::text(arguments.size.to_string()))]);
+        let layers = layers(Some(look), Vec::new(), size, look.draws_lines());
+        let request = Request::from_layers(&layers)?.0.with_models(vec![arguments.model.clone()]);
+        render::render(&request, &RunSettings::default(), &output, &[], &mut session)?;
     }
     let page = folder.join("index.html");
     TextTarget::check(&page.display().to_string())?.write(&html(&arguments.model, arguments.size))?;
@@ -65,12 +64,6 @@ fn list() -> String {
 /// The file of a look: vectors where it draws lines.
 fn file(look: Look) -> String {
     format!("{}.{}", look.name, if look.draws_lines() { "svg" } else { "png" })
-}
-
-fn words(model: &str, look: Look, size: Size, output: &Path) -> Vec<String> {
-    let output = output.display().to_string();
-    let size = size.to_string();
-    ["tinta", "render", model, "-o", &output, "--look", look.name, "--size", &size].map(str::to_owned).to_vec()
 }
 
 /// The page, which needs the pictures beside it and nothing else.
@@ -106,8 +99,6 @@ mod tests {
                 "{}",
                 look.name
             );
-            let words = words("builtin:bust", look, size, Path::new("a.png").with_file_name(file(look)).as_path());
-            assert!(super::super::check(words.into_iter().map(OsString::from)).is_ok(), "{}", look.name);
         }
         assert!(html("a<b.obj", size).contains("a&lt;b.obj") && !html("a<b.obj", size).contains("a<b"));
         assert_eq!(file(LOOKS[1]), "technical.svg");
@@ -124,9 +115,9 @@ mod tests {
             ("a.png --look print --size 64x32", [64, 32]),
         ] {
             let words = format!("tinta render builtin:bust -o {more}");
-            let (parsed, _) = parse(words.split(' ').map(OsString::from)).unwrap();
+            let parsed = super::super::parse(words.split(' ').map(std::ffi::OsString::from)).unwrap();
             let super::super::Command::Render(render) = parsed.command else { panic!("{words}") };
-            assert_eq!(render.size().unwrap(), Size { width: size[0], height: size[1] }, "{words}");
+            assert_eq!(render.asked().unwrap().0.scene.size, Size { width: size[0], height: size[1] }, "{words}");
         }
         assert_eq!(default_size(), Size { width: 1280, height: 960 });
     }

@@ -3,18 +3,15 @@
 pub(super) mod errors;
 mod settings;
 
-use super::model_cache::ModelCache;
-use super::options::{CameraArguments, ModelArguments};
-use super::preset::{Given, PresetArguments};
+use super::batch::JobOptions;
+use super::inputs::Inputs;
+use super::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, refuse_of_other_commands};
 use super::progress::{Steps, TimedProgress};
-use super::session::Session;
 use errors::{error_page, is_shown, known_picture};
-pub(super) use settings::StyleOptions;
-use settings::{of_words, settings};
+use settings::{HowMeasured, OfHow, Suite, setting_of, settings, smooth_inking};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use tinta::camera;
 use tinta::edges::SilhouetteRule;
 use tinta::lines::closed_forms::ClosedForm;
 use tinta::measure::{
@@ -22,10 +19,13 @@ use tinta::measure::{
     measure_lines, turns,
 };
 use tinta::mesh::{BUILTINS, builtin};
+use tinta::preset::Preset;
+use tinta::recipe::option_words;
 use tinta::renderer::milliseconds_since;
 use tinta::report::{ReportInfo, ReportPicture, RowLog, read_rows};
-use tinta::settings::{HasSettings, Kind};
-use tinta::{Backend, Error, LoadOptions, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
+use tinta::request::{Layer, ModelCache, Request, Session};
+use tinta::settings::{HasSettings, Kind, OptionValue, Options};
+use tinta::{Error, LoadOptions, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
 
 /// Measure every style's error and run time, as a table, plots and a page
 #[derive(clap::Args)]
@@ -34,81 +34,79 @@ pub(super) struct Arguments {
     #[arg(value_name = "MODEL", required_unless_present_any = ["suite", "merge", "against"])]
     models: Vec<String>,
 
-    /// What lines are compared with: the exact lines of the models (lines), or the true contour of smooth surfaces (smooth), whose
-    /// models are built-in ones, by default all of them with about 1,000, 10,000 and 100,000 triangles [default: lines]
-    #[arg(long, value_name = "WHAT", conflicts_with_all = ["suite", "merge"])]
-    against: Option<Against>,
-
-    /// Set of built-in models: papers (bust, ant), solids (gear, open box), all
-    #[arg(long, value_name = "SUITE", value_parser = parse_suite)]
-    suite: Option<Suite>,
+    #[command(flatten)]
+    how: Chosen<OfHow>,
 
     /// Folder for results.jsonl, results.csv, plots and report.html
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 
-    /// Sizes in pixels, separated by commas [default: 512x512]
-    #[arg(long, value_name = "SIZES", value_delimiter = ',', default_value = "512x512", hide_default_value = true)]
-    size: Vec<Size>,
-
-    /// Styles, separated by commas [default: all]
-    #[arg(long, value_name = "STYLES", value_delimiter = ',')]
-    styles: Vec<StyleName>,
-
-    /// Frames to time for each setting [default: 21, with --quick 7]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    frames: Option<u32>,
-
-    /// Measure fewer settings and frames [default: off]
-    #[arg(long)]
-    quick: bool,
-
-    /// Distance within which ink and line count as the same, in pixels [default: 2]
-    #[arg(
-        long,
-        hide_short_help = true,
-        value_name = "PIXELS",
-        default_value = "2",
-        hide_default_value = true,
-        allow_hyphen_values = true
-    )]
-    tolerance: f64,
-
-    /// Continue an interrupted run in the same folder [default: off]
-    #[arg(long, conflicts_with = "merge")]
-    resume: bool,
-
     /// Merge the results of several runs or machines instead of measuring
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["models", "suite"])]
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "models")]
     merge: Vec<PathBuf>,
 
-    /// Name of this machine in the report [default: system, processor, threads]
-    #[arg(long, hide_short_help = true, value_name = "NAME")]
-    machine: Option<String>,
-
-    /// OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works) [default: auto]
-    #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
-    backend: Backend,
+    #[command(flatten)]
+    preset: PresetFile,
 
     #[command(flatten)]
-    preset: PresetArguments,
+    camera: CameraFile,
 
     #[command(flatten)]
-    camera: CameraArguments,
-
-    #[command(flatten)]
-    model: ModelArguments,
+    subject: Chosen<OfSubject>,
 }
 
-/// Built-in models that are measured together.
-type Suite = &'static [&'static str];
+impl Arguments {
+    /// Of a job's options.
+    pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
+        let is_own = |name: &str| name == "merge" || Chosen::<OfHow>::has(name) || Chosen::<OfSubject>::has(name);
+        job.refuse_unknown("measure", is_own)?;
+        let merge = match job.options.get("merge") {
+            None => Vec::new(),
+            Some(OptionValue::Text(file)) => vec![file.into()],
+            Some(OptionValue::Texts(files)) => files.iter().map(PathBuf::from).collect(),
+            Some(OptionValue::Switch(_)) => {
+                return Err(Error::setting("merge", "name files: a text, or several in brackets"));
+            }
+        };
+        let arguments = Self {
+            models: job.models.clone(),
+            how: Chosen::of_options(&job.options),
+            output: job.output.clone().into(),
+            merge,
+            preset: job.preset(),
+            camera: job.camera(),
+            subject: Chosen::of_options(&job.options),
+        };
+        let is_named = |name: &str| job.options.contains_key(name);
+        match arguments.models.is_empty() && !["suite", "merge", "against"].into_iter().any(is_named) {
+            true => {
+                Err(Error::setting("model", "a model is missing; name a file, or a built-in one such as builtin:bust"))
+            }
+            false => Ok(arguments),
+        }
+    }
 
-fn parse_suite(text: &str) -> std::result::Result<Suite, String> {
-    match text {
-        "papers" => Ok(&["builtin:bust", "builtin:ant"]),
-        "solids" => Ok(&["builtin:gear", "builtin:open-box"]),
-        "all" => Ok(&["builtin:bust", "builtin:ant", "builtin:gear", "builtin:open-box"]),
-        _ => Err("choose papers, solids or all".to_owned()),
+    /// The same as if it went on in the folder: a job's is there from an earlier try, or empty.
+    pub(super) fn resumed(mut self, output: PathBuf) -> Self {
+        if self.merge.is_empty() {
+            self.how.options.insert("resume".to_owned(), OptionValue::Switch(true));
+        }
+        Self { output, ..self }
+    }
+
+    /// Refuses what does not go together.
+    fn check(&self) -> Result<()> {
+        let is_given = |name: &str| self.how.options.contains_key(name);
+        let excluded: &[(&str, bool, &[&str])] = &[
+            ("merge", !self.merge.is_empty(), &["suite", "against", "resume"]),
+            ("against", is_given("against"), &["suite"]),
+        ];
+        for (one, is_there, others) in excluded {
+            if let Some(other) = others.iter().find(|other| *is_there && is_given(other)) {
+                return Err(Error::settings(&[one, other], "they exclude each other; leave one of them out"));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -139,51 +137,88 @@ const KINDS: [usize; 3] = [0, 1, 2];
 /// Files that a measurement writes, the pictures of its plots and errors aside.
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
-pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -> Result<()> {
+/// Measures; `command` is what the report says it was made by.
+pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -> Result<()> {
+    arguments.check()?;
     if !arguments.merge.is_empty() {
-        return merge(arguments, given);
+        return merge(arguments, command);
     }
-    given.inputs(&arguments.models).keep_in(&arguments.output, WRITTEN)?;
+    let (preset, camera) = (arguments.preset.preset.as_deref(), arguments.camera.camera.as_deref());
+    let below = Below { camera, ..Below::default() };
+    let of_preset = preset.map(Preset::read).transpose()?;
+    let (with_preset, own_setting) = match &of_preset {
+        None => (Layer::Given(Options::new()), None),
+        Some(preset) => of_preset_file(preset)?,
+    };
+    let (request, _) = arguments.subject.request_over(with_preset, &arguments.models, &below)?;
+    let files: Vec<&str> = preset.into_iter().chain(camera.and_then(Path::to_str)).collect();
+    Inputs::new(&request.models, &request.options, &files).keep_in(&arguments.output, WRITTEN)?;
+    // What a preset says of the measuring itself.
+    let mut asked = of_preset.map(|preset| preset.of(is_of_both).options).unwrap_or_default();
+    asked.extend(arguments.how.options.clone());
+    let asked = HowMeasured::from_options(&asked).map_err(|error| request.attributed(error))?;
+    measured(arguments, &request, asked, own_setting, command, session).map_err(|error| request.attributed(error))
+}
+
+/// What a preset says of the model and the camera; and its style, which is measured beside the others.
+fn of_preset_file(preset: &Preset) -> Result<(Layer, Option<Setting>)> {
+    let is_of_subject = Chosen::<OfSubject>::has;
+    let is_of_style = |name: &str| name == "style" || Style::table().has(name);
+    refuse_of_other_commands(preset, "measure", |name| is_of_subject(name) || is_of_both(name) || is_of_style(name))?;
+    let of_style = preset.clone().of(|name| !is_of_subject(name) && !is_of_both(name));
+    let setting = match of_style.options.is_empty() {
+        true => None,
+        false => Some(setting_of(&Request::from_layers(&[Layer::File(of_style)])?.0)?),
+    };
+    Ok((Layer::File(preset.clone().of(is_of_subject)), setting))
+}
+
+/// Whether an option is of a drawing and of measuring.
+fn is_of_both(name: &str) -> bool {
+    Chosen::<OfHow>::has(name) && Request::table().has(name)
+}
+
+fn measured(
+    arguments: &Arguments,
+    request: &Request,
+    asked: HowMeasured,
+    own_setting: Option<Setting>,
+    command: &str,
+    session: &mut Session,
+) -> Result<()> {
     let how = MeasureSettings {
-        tolerance_px: arguments.tolerance,
-        frames: arguments.frames.map_or(FRAMES[usize::from(arguments.quick)], |frames| frames as usize),
-        machine: arguments
+        tolerance_px: asked.tolerance_px,
+        frames: asked.frames.map_or(FRAMES[usize::from(asked.quick)], |frames| frames as usize),
+        machine: asked
             .machine
             .clone()
             .filter(|name| !name.trim().is_empty())
             .unwrap_or_else(|| MeasureSettings::default().machine),
     };
     how.check()?;
-    let of_scene = scene_options(given.words.iter().cloned());
-    let against = arguments.against.unwrap_or_default();
-    let mut settings = settings(&arguments.styles, arguments.quick)?;
+    let of_scene = scene_options(&request.options);
+    let against = asked.against.unwrap_or_default();
+    let mut settings = settings(&asked.styles, asked.quick)?;
     if against == Against::Smooth && settings.iter().any(|setting| matches!(setting.style, Style::Inking(_))) {
-        settings.extend(of_words(&["--style=inking", "--silhouette=smooth"].map(str::to_owned))?);
+        settings.push(smooth_inking()?);
     }
     // A preset's style is measured beside the others, unless it is one of them.
-    if let Some(setting) = of_words(&given.setting)?.filter(|own| settings.iter().all(|other| other.style != own.style))
-    {
+    if let Some(setting) = own_setting.filter(|own| settings.iter().all(|other| other.style != own.style)) {
         settings.push(setting);
     }
     settings.iter_mut().for_each(|setting| setting.options.push_str(&of_scene));
     let named = arguments.models.iter().map(String::as_str);
     let surfaces = if against == Against::Smooth && arguments.models.is_empty() { all_surfaces() } else { Vec::new() };
-    let models: Vec<&str> = arguments
-        .suite
-        .unwrap_or_default()
-        .iter()
-        .copied()
-        .chain(named)
-        .chain(surfaces.iter().map(String::as_str))
-        .collect();
-    session.renderer(arguments.backend)?;
-    let groups = groups(arguments, against, &models, &session.model_cache)?;
-    let renderer = session.renderer(arguments.backend)?;
+    let suite = asked.suite.map(Suite::models).unwrap_or_default();
+    let models: Vec<&str> = suite.iter().copied().chain(named).chain(surfaces.iter().map(String::as_str)).collect();
+    session.renderer(asked.backend)?;
+    let groups = groups(request, &asked.sizes, against, &models, &session.models)?;
+    let renderer = session.renderer(asked.backend)?;
     let expected = expected(renderer, &groups, settings.len(), how.frames)?;
     let seconds: f64 = expected.iter().copied().map(Steps::total).sum();
     // Once nothing but the measuring can go wrong.
     make_folder(&arguments.output)?;
-    let (mut log, mut rows) = match arguments.resume {
+    let (mut log, mut rows) = match asked.resume {
         true => RowLog::resume(&arguments.output)?,
         false => (RowLog::create(&arguments.output)?, Vec::new()),
     };
@@ -192,7 +227,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
         "tinta: {}, {}, {}, {} each: about {}{}",
         counted(settings.len(), "setting"),
         counted(models.len(), "model"),
-        counted(arguments.size.len(), "size"),
+        counted(asked.sizes.len(), "size"),
         counted(how.frames, "frame"),
         in_words(Duration::from_secs_f64(seconds)),
         if rows.is_empty() { "" } else { ", minus what is done already" }
@@ -250,7 +285,7 @@ pub(super) fn run(arguments: &Arguments, given: &Given, session: &mut Session) -
     if rows.is_empty() {
         return Err(Error::setting("styles", "none of these settings can be drawn with these models; choose others"));
     }
-    report(arguments, given, &rows, pictures)
+    report(arguments, command, &rows, pictures)
 }
 
 /// Writes a row down, and its picture where it is shown.
@@ -282,7 +317,7 @@ fn refuse_other_terms(arguments: &Arguments, against: Against, rows: &[Row], how
     }
     let differs = |row: &Row| {
         let tolerance = row.lines.as_ref().map(|lines| lines.tolerance_px);
-        let is_of_frames = row.style != "lines" && row.time.frames_ms.len() != how.frames;
+        let is_of_frames = row.style != StyleName::Lines.name() && row.time.frames_ms.len() != how.frames;
         tolerance.is_some_and(|tolerance| tolerance != how.tolerance_px) || is_of_frames
     };
     match rows.iter().find(|row| differs(row)) {
@@ -303,28 +338,17 @@ fn counted(count: usize, what: &str) -> String {
 }
 
 /// Camera and model as the user asked for them: without these a row could not be drawn again.
-fn scene_options(words: impl Iterator<Item = String>) -> String {
-    let is_kept = |word: &str| {
-        let name = word.strip_prefix("--")?.split('=').next()?;
-        let camera = SceneSettings::table().of(None).into_iter().find(|setting| setting.name == name);
-        let camera = camera.filter(|setting| setting.heading == camera::HEADING).map(|setting| &setting.kind);
-        // Whether defects are refused is nothing of a picture, and what lies outside is for whoever has it.
-        let model = || LoadOptions::table().of(None).into_iter().find(|setting| setting.name == name);
-        let model = || model().map(|setting| &setting.kind).filter(|kind| **kind != Kind::Flag);
-        camera.or_else(model)
+fn scene_options(options: &Options) -> String {
+    // Whether defects are refused is nothing of a picture, and what lies outside is for whoever has it.
+    let is_flag = |name: &str| {
+        LoadOptions::table().settings.iter().any(|setting| setting.name == name && setting.kind == Kind::Flag)
     };
-    let mut words = words;
-    let mut options = String::new();
-    while let Some(word) = words.next() {
-        let Some(kind) = is_kept(&word) else { continue };
-        if *kind == Kind::Flag || word.contains('=') {
-            options = options + " " + &tinta::shell::quoted(&word);
-        } else {
-            let value = words.next().unwrap_or_default();
-            options = options + " " + &tinta::shell::quoted(&format!("{word}={value}"));
-        }
-    }
-    options
+    let kept = options.iter().filter(|(name, _)| !is_flag(name));
+    kept.flat_map(|(name, value)| match value {
+        OptionValue::Text(value) => vec![format!("--{name}={value}")],
+        switch => option_words(name, switch),
+    })
+    .fold(String::new(), |options, word| options + " " + &tinta::shell::quoted(&word))
 }
 
 /// A model at a size.
@@ -336,9 +360,15 @@ struct Group {
     load_ms: f64,
 }
 
-fn groups(arguments: &Arguments, against: Against, models: &[&str], model_cache: &ModelCache) -> Result<Vec<Group>> {
+fn groups(
+    request: &Request,
+    sizes: &[Size],
+    against: Against,
+    models: &[&str],
+    cache: &ModelCache,
+) -> Result<Vec<Group>> {
     let mut groups = Vec::new();
-    let options = arguments.model.settings()?;
+    let options = &request.read;
     if against == Against::Smooth && options.up_axis != LoadOptions::default().up_axis {
         let problem = "with --against smooth surfaces stand as their formulas say; leave it out";
         return Err(Error::setting("up", problem));
@@ -346,13 +376,10 @@ fn groups(arguments: &Arguments, against: Against, models: &[&str], model_cache:
     for model in models {
         let surface = (against == Against::Smooth).then(|| surface_of(model)).transpose()?;
         let start = Instant::now();
-        let loaded = model_cache.read(model, &options)?;
+        let loaded = cache.read(model, options)?;
         let load_ms = milliseconds_since(start);
-        loaded.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
-        for size in &arguments.size {
-            let settings =
-                SceneSettings { size: *size, camera: arguments.camera.settings()?, ..SceneSettings::default() };
-            let scene = Scene::new(vec![loaded.mesh.clone()], &settings)?;
+        for size in sizes {
+            let scene = Scene::new(vec![loaded.mesh.clone()], &SceneSettings { size: *size, ..request.scene.clone() })?;
             groups.push(Group { model: (*model).to_owned(), surface, scene, load_ms });
         }
     }
@@ -405,9 +432,9 @@ pub(super) fn make_folder(folder: &Path) -> Result<()> {
     })
 }
 
-fn report(arguments: &Arguments, given: &Given, rows: &[Row], pictures: Vec<ReportPicture>) -> Result<()> {
+fn report(arguments: &Arguments, command: &str, rows: &[Row], pictures: Vec<ReportPicture>) -> Result<()> {
     let info = ReportInfo {
-        command: tinta::shell::command_line(given.as_given.iter().cloned()),
+        command: command.to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         notes: Vec::new(),
         pictures,
@@ -417,7 +444,7 @@ fn report(arguments: &Arguments, given: &Given, rows: &[Row], pictures: Vec<Repo
 }
 
 /// Puts the rows of several files together.
-fn merge(arguments: &Arguments, given: &Given) -> Result<()> {
+fn merge(arguments: &Arguments, command: &str) -> Result<()> {
     let mut rows: Vec<Row> = Vec::new();
     // Where the row of a key was first seen.
     let mut places: HashMap<String, usize> = HashMap::new();
@@ -444,5 +471,5 @@ fn merge(arguments: &Arguments, given: &Given) -> Result<()> {
     make_folder(&arguments.output)?;
     let mut log = RowLog::create(&arguments.output)?;
     rows.iter().try_for_each(|row| log.append(row))?;
-    report(arguments, given, &rows, Vec::new())
+    report(arguments, command, &rows, Vec::new())
 }

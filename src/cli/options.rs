@@ -3,20 +3,20 @@
 //! Name, values, help and default of each are declared beside the struct it sets, see `tinta::settings`. What is no setting
 //! of a struct stands here: which settings a command has, which exclude each other, paths that are no text.
 
-pub(super) mod ignored;
 #[cfg(test)]
 mod tests;
 
+use super::camera_file;
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches, parser::ValueSource};
 use std::ffi::OsString;
 use std::marker::PhantomData;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tinta::camera;
-use tinta::settings::{EXCLUSIVE, HasSettings, Kind, OptionValue, Options, Setting, Table};
-use tinta::styles::{Ramp, TextureSource};
-use tinta::{
-    CameraSettings, Error, LineSettings, LoadOptions, Result, SceneSettings, Show, Style, StyleName, SvgSettings,
-};
+use tinta::preset::{LOOKS, Look, Preset};
+use tinta::request::{Layer, Request, layers};
+use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
+use tinta::styles::is_of_lines_alone;
+use tinta::{LoadOptions, Result, SceneSettings, Style};
 
 /// Some of a table's settings as options.
 pub(super) trait Selection {
@@ -46,22 +46,24 @@ impl<S: Selection> Chosen<S> {
         S::Of::table().of(None).into_iter().filter(|setting| S::has(setting))
     }
 
-    /// Refuses the first of them that is given.
-    pub(super) fn refuse(&self, problem: &str) -> Result<()> {
-        self.refuse_but("", problem)
+    /// Those of some options that are of this selection, for a command that is not given by words.
+    pub(super) fn of_options(options: &Options) -> Self {
+        let options = options.iter().filter(|(name, _)| Self::all().any(|setting| setting.name == **name));
+        let options = options.map(|(name, value)| (name.clone(), value.clone())).collect();
+        Self { options, paths: Vec::new(), selection: PhantomData }
     }
 
-    /// Refuses the first of them that is given and is not this one.
-    pub(super) fn refuse_but(&self, taken: &str, problem: &str) -> Result<()> {
-        let is_given = |name| name != taken && self.options.contains_key(name);
-        match Self::all().find(|setting| is_given(setting.name)) {
-            Some(setting) => Err(Error::setting(setting.name, problem)),
-            None => Ok(()),
-        }
+    /// Whether it has an option of this name.
+    pub(super) fn has(option: &str) -> bool {
+        Self::all().any(|setting| setting.name == option)
     }
 
-    fn is_on(&self, flag: &str) -> bool {
-        self.options.get(flag) == Some(&OptionValue::Switch(true))
+    /// What is given as settings of their own.
+    pub(super) fn settings(&self) -> Result<S::Of>
+    where
+        S::Of: Default,
+    {
+        S::Of::from_options(&self.options)
     }
 }
 
@@ -76,6 +78,10 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
         return arg.action(ArgAction::SetTrue);
     }
     let arg = arg.action(ArgAction::Set).value_name(setting.value_name);
+    let arg = match setting.stands_alone {
+        true => arg.num_args(0..=1).require_equals(true).default_missing_value(""),
+        false => arg,
+    };
     // As soon as it is read only what is no value at all is refused; whose setting it is, is known later.
     let check = move |text: &str| table.check(setting.name, text).map(|()| text.to_owned());
     match &setting.kind {
@@ -99,8 +105,7 @@ pub(super) fn with_settings<T: Clone + Send + Sync + 'static>(
 ) -> Command {
     settings.fold(command, |command, setting| {
         let arg = arg(table, setting).help_heading(has_headings.then_some(setting.heading));
-        let excluded = EXCLUSIVE.iter().filter(|(option, _)| *option == setting.name).flat_map(|(_, others)| *others);
-        command.arg(arg.conflicts_with_all(excluded))
+        command.arg(arg)
     })
 }
 
@@ -124,6 +129,7 @@ impl<S: Selection> FromArgMatches for Chosen<S> {
             let raw = matches.get_raw(setting.name).and_then(|mut raw| raw.next()).map(OsString::from);
             let value = match raw.unwrap_or_default().into_string() {
                 _ if setting.kind == Kind::Flag => OptionValue::Switch(true),
+                Ok(text) if setting.stands_alone && text.is_empty() => OptionValue::Switch(true),
                 Ok(text) => OptionValue::Text(text),
                 Err(path) => {
                     chosen.paths.push((setting.name, path.into()));
@@ -141,160 +147,139 @@ impl<S: Selection> FromArgMatches for Chosen<S> {
     }
 }
 
-/// The settings of every style.
-pub(super) struct OfStyles;
+/// All that makes a drawing.
+pub(super) struct OfRequest;
 
-impl Selection for OfStyles {
-    type Of = Style;
+impl Selection for OfRequest {
+    type Of = Request;
 }
 
-/// The styles' settings, in one group for every command that draws.
-#[derive(clap::Args)]
-#[command(next_help_heading = "All styles")]
-pub(super) struct StyleArguments {
-    /// Picture to show: final, borders, tones; three-pass, two-pass and mrt also normals, depth, map, ink also map; charcoal and sand final, diffuse, cem, cet, paper [default: final]
-    #[arg(long, hide_short_help = true, value_name = "PICTURE", default_value = "final", hide_default_value = true)]
-    pub show: Show,
+/// What a comparison of two styles has: no lines, no animation.
+pub(super) struct OfComparison;
 
-    #[command(flatten)]
-    given: Chosen<OfStyles>,
-}
+impl Selection for OfComparison {
+    type Of = Request;
 
-impl StyleArguments {
-    /// The style of this name with these settings; what belongs to other styles is left alone.
-    pub(super) fn style(&self, name: StyleName) -> Result<Style> {
-        let mut style = Style::with_options(name, &self.given.options)?;
-        for (option, path) in &self.given.paths {
-            match (&mut style, *option) {
-                (Style::Inking(inking), "ramp") => inking.ramp = Ramp::read(path)?,
-                (Style::Charcoal(charcoal) | Style::Sand(charcoal), option) => {
-                    let source = match option {
-                        "cet" => &mut charcoal.cet,
-                        "noise-texture" => &mut charcoal.noise_texture,
-                        "paper" => &mut charcoal.paper,
-                        _ => continue,
-                    };
-                    *source = TextureSource::read(path)?;
-                }
-                _ => {}
-            }
-        }
-        Ok(style)
-    }
-
-    /// Whether the lines are to be left out.
-    pub(super) fn are_without_borders(&self) -> bool {
-        self.given.is_on("no-borders")
-    }
-
-    /// What the style lines finds; some of that it has in common with inking.
-    pub(super) fn line_settings(&self, forms: &FormArguments) -> Result<LineSettings> {
-        let mut lines = LineSettings::from_options(&self.given.options)?;
-        LineSettings::table().apply(&mut lines, &forms.options)?;
-        Ok(lines)
-    }
-
-    /// How the style lines draws it; some of that it has in common with inking.
-    pub(super) fn svg_settings<S: Selection<Of = SvgSettings>>(&self, lines: &Chosen<S>) -> Result<SvgSettings> {
-        let mut svg = SvgSettings::from_options(&self.given.options)?;
-        SvgSettings::table().apply(&mut svg, &lines.options)?;
-        Ok(svg)
+    fn has(setting: &Setting<Request>) -> bool {
+        let is_of_passes = Style::table().has(setting.name) && !is_of_lines_alone(setting.name);
+        is_of_passes || SceneSettings::table().has(setting.name) || OfSubject::has(setting) || setting.name == "backend"
     }
 }
 
-/// The settings of lines that no other style has.
-pub(super) struct OfLinesAlone;
+/// A model and from where it is seen.
+pub(super) struct OfSubject;
 
-impl Selection for OfLinesAlone {
-    type Of = SvgSettings;
+impl Selection for OfSubject {
+    type Of = Request;
 
-    fn has(setting: &Setting<SvgSettings>) -> bool {
-        !Style::table().has(setting.name)
+    fn has(setting: &Setting<Request>) -> bool {
+        setting.heading == camera::HEADING || LoadOptions::table().has(setting.name)
     }
 }
 
-pub(super) type LineArguments = Chosen<OfLinesAlone>;
-
-/// The settings of what lines finds that no other style has: its form lines.
-pub(super) struct OfForms;
-
-impl Selection for OfForms {
-    type Of = LineSettings;
-
-    fn has(setting: &Setting<LineSettings>) -> bool {
-        !Style::table().has(setting.name)
-    }
-}
-
-pub(super) type FormArguments = Chosen<OfForms>;
-
-/// What a scene is besides its models and its camera.
-pub(super) struct OfScene;
-
-impl Selection for OfScene {
-    type Of = SceneSettings;
-
-    fn has(setting: &Setting<SceneSettings>) -> bool {
-        setting.heading != camera::HEADING
-    }
-}
-
-pub(super) type SceneArguments = Chosen<OfScene>;
-
-impl SceneArguments {
-    pub(super) fn settings(&self, camera: CameraSettings) -> Result<SceneSettings> {
-        Ok(SceneSettings { camera, ..SceneSettings::from_options(&self.options)? })
-    }
-
-    /// Whether there is no background.
-    pub(super) fn is_transparent(&self) -> bool {
-        self.is_on("transparent")
-    }
-}
-
-/// The camera of a scene.
-pub(super) struct OfCamera;
-
-impl Selection for OfCamera {
-    type Of = SceneSettings;
-
-    fn has(setting: &Setting<SceneSettings>) -> bool {
-        setting.heading == camera::HEADING
-    }
-}
-
-/// The camera's settings, one by one or out of a file.
-#[derive(clap::Args)]
+/// `--camera`.
+#[derive(clap::Args, Default)]
 #[command(next_help_heading = camera::HEADING)]
-pub(super) struct CameraArguments {
+pub(super) struct CameraFile {
     /// Read the camera from this file: the JSON that --json prints, a picture that tinta drew, a glTF or GLB model, or the 16 numbers of the matrix from world to clip space, row by row; single options override it [default: none]
     // Its settings stand among the others by the time anyone asks: see preset.rs.
     #[arg(id = "camera", long, hide_short_help = true, value_name = "FILE")]
-    _file: Option<PathBuf>,
-
-    #[command(flatten)]
-    given: Chosen<OfCamera>,
+    pub camera: Option<PathBuf>,
 }
 
-impl CameraArguments {
-    pub(super) fn settings(&self) -> Result<CameraSettings> {
-        SceneSettings::from_options(&self.given.options).map(|scene| scene.camera)
+/// `--preset`.
+#[derive(clap::Args, Default)]
+#[command(next_help_heading = "Presets")]
+pub(super) struct PresetFile {
+    /// Read options from this TOML file, under their long names, or a paper's constants: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand; the command line overrides it [default: none]
+    #[arg(long, value_name = "FILE")]
+    pub preset: Option<String>,
+}
+
+/// `--look`.
+#[derive(clap::Args, Default)]
+pub(super) struct NamedLook {
+    #[arg(long, value_name = "LOOK", value_parser = Look::of_name, help = format!(
+        "What the picture looks like: {}; a preset and every option override it [default: {}, unless a style or preset is given, \
+         or lines are drawn]",
+        Look::list(), LOOKS[0].name
+    ))]
+    pub look: Option<Look>,
+}
+
+/// What lies below the options of a command line.
+#[derive(Default)]
+pub(super) struct Below<'a> {
+    pub look: Option<Look>,
+    pub preset: Option<&'a str>,
+    pub camera: Option<&'a Path>,
+    /// Whether the file's name asks for lines.
+    pub draws_lines: bool,
+    /// Whether the command has looks, and the first is drawn where nothing is said.
+    pub has_looks: bool,
+    /// The command, for what is said of a preset.
+    pub command: &'static str,
+}
+
+impl<S: Selection<Of = Request>> Chosen<S> {
+    /// The request that these options make, and what of them changes nothing.
+    pub(super) fn request(&self, models: &[String], below: &Below<'_>) -> Result<(Request, Vec<String>)> {
+        let preset = below.preset.map(Preset::read).transpose()?;
+        if let Some(preset) = &preset {
+            // The style of a comparison is the one on the left.
+            refuse_of_other_commands(preset, below.command, |key| key == "style" || Self::has(key))?;
+        }
+        let files: Vec<Preset> = preset.into_iter().collect();
+        let layers = match below.has_looks {
+            true => layers(below.look, files, self.options.clone(), below.draws_lines),
+            false => files.into_iter().map(Layer::File).chain([Layer::Given(self.options.clone())]).collect(),
+        };
+        self.request_of(layers, models, below)
+    }
+
+    /// The request that these options make over a layer.
+    #[cfg(feature = "measuring")]
+    pub(super) fn request_over(
+        &self,
+        layer: Layer,
+        models: &[String],
+        below: &Below<'_>,
+    ) -> Result<(Request, Vec<String>)> {
+        self.request_of(vec![layer, Layer::Given(self.options.clone())], models, below)
+    }
+
+    fn request_of(
+        &self,
+        mut layers: Vec<Layer>,
+        models: &[String],
+        below: &Below<'_>,
+    ) -> Result<(Request, Vec<String>)> {
+        if let Some(camera) = below.camera.map(camera_file::read).transpose()? {
+            layers.insert(layers.len() - 1, Layer::Camera(camera));
+        }
+        let (mut request, remarks) = Request::from_layers(&layers)?;
+        for (option, path) in &self.paths {
+            request.set_path(option, path)?;
+        }
+        Ok((request.with_models(models.to_vec()), remarks))
     }
 }
 
-/// How models are read.
-pub(super) struct OfModels;
-
-impl Selection for OfModels {
-    type Of = LoadOptions;
-}
-
-pub(super) type ModelArguments = Chosen<OfModels>;
-
-impl ModelArguments {
-    pub(super) fn settings(&self) -> Result<LoadOptions> {
-        let load = LoadOptions::from_options(&self.options)?;
-        let skin = self.paths.iter().find(|(option, _)| *option == "skin").map(|(_, path)| path.clone());
-        Ok(LoadOptions { skin: skin.or(load.skin), ..load })
+/// Refuses options of a preset that a command does not have.
+pub(super) fn refuse_of_other_commands(preset: &Preset, command: &str, has: impl Fn(&str) -> bool) -> Result<()> {
+    match preset.options.keys().find(|key| !has(key)) {
+        Some(key) if Request::table().has(key) => {
+            let problem =
+                format!("{key}: tinta {command} does not have this option, only tinta render does; leave it out");
+            Err(preset.refuse(key, problem))
+        }
+        Some(key) if OF_ONE_RUN.contains(&key.as_str()) || super::render::is_of_one_run(key) => {
+            let problem = "this applies to one run and cannot be in a preset; give it on the command line";
+            Err(preset.refuse(key, format!("{key}: {problem}")))
+        }
+        _ => Ok(()),
     }
 }
+
+/// Options that no preset holds, for they name one or a file.
+const OF_ONE_RUN: [&str; 4] = ["camera", "look", "output", "preset"];

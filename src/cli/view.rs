@@ -1,18 +1,18 @@
 //! `tinta view`: models in a window.
 
-use super::options::{Chosen, FormArguments, ModelArguments, Selection, StyleArguments};
-use super::preset::{LookArguments, PresetArguments};
-use super::render::StyleChoice;
+use super::options::{Below, Chosen, NamedLook, PresetFile, Selection};
 use super::standard_input;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tinta::mesh::refuse_address;
+use tinta::request::Request;
 use tinta::settings::{HasSettings, Setting};
+use tinta::styles::is_of_lines_alone;
 use tinta::window::{
-    Buffer, LINE_SETTINGS, Layout, LineStyle, Orbit, Replay, SCENE_SETTINGS, Side, ViewerEvent, ViewerOptions,
-    ViewerState, WindowOptions, open,
+    Buffer, LINE_SETTINGS, Layout, Orbit, Replay, SCENE_SETTINGS, Side, ViewerEvent, ViewerOptions, ViewerState,
+    WindowOptions, open,
 };
-use tinta::{Backend, Error, Result, SceneSettings, Size, Style, StyleName, SvgSettings};
+use tinta::{Error, LoadOptions, Result, Size, Style, StyleName};
 
 /// Show models in a window: turn them, compare styles, change every setting
 #[derive(clap::Args)]
@@ -22,15 +22,9 @@ pub(super) struct Arguments {
     #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
     models: Vec<String>,
 
-    #[arg(long, help = format!("Style: {}, lines [default: three-pass]", StyleName::list()), value_name = "STYLE", default_value = "three-pass", hide_default_value = true)]
-    style: StyleChoice,
-
     /// Second style, right of a divider [default: none]
     #[arg(long, value_name = "STYLE")]
-    right: Option<StyleChoice>,
-
-    #[command(flatten)]
-    scene: Chosen<OfView>,
+    right: Option<StyleName>,
 
     /// Size of the window in points, or one number for a square [default: 1280x720]
     #[arg(long, hide_short_help = true, value_name = "WxH", default_value = "1280x720", hide_default_value = true)]
@@ -39,10 +33,6 @@ pub(super) struct Arguments {
     /// Draw at half the width and height while the model moves, without the faces that look away [default: off]
     #[arg(long, hide_short_help = true)]
     coarse: bool,
-
-    /// OpenGL for the pictures from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works); the window has its own [default: auto]
-    #[arg(long, hide_short_help = true, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
-    backend: Backend,
 
     /// Read shaders from this folder, laid out like glsl/, instead of the built-in ones; edits show at once [default: none]
     #[arg(long, hide_short_help = true, value_name = "DIR")]
@@ -61,44 +51,26 @@ pub(super) struct Arguments {
     json: bool,
 
     #[command(flatten)]
-    look: LookArguments,
+    look: NamedLook,
 
     #[command(flatten)]
-    preset: PresetArguments,
+    preset: PresetFile,
 
     #[command(flatten)]
-    styles: StyleArguments,
-
-    #[command(flatten)]
-    lines: Chosen<OfLinesInView>,
-
-    #[command(flatten)]
-    forms: FormArguments,
-
-    #[command(flatten)]
-    models_are_read: ModelArguments,
+    options: Chosen<OfWindow>,
 }
 
-/// What a viewer's scene can be from the start; the rest is done with the mouse.
-struct OfView;
+/// What a viewer can show from the start; the rest is done with the mouse.
+struct OfWindow;
 
-impl Selection for OfView {
-    type Of = SceneSettings;
-    const HAS_HEADINGS: bool = false;
+impl Selection for OfWindow {
+    type Of = Request;
 
-    fn has(setting: &Setting<SceneSettings>) -> bool {
-        SCENE_SETTINGS.contains(&setting.name)
-    }
-}
-
-/// The settings of exact lines that a window shows and no other style has.
-struct OfLinesInView;
-
-impl Selection for OfLinesInView {
-    type Of = SvgSettings;
-
-    fn has(setting: &Setting<SvgSettings>) -> bool {
-        LINE_SETTINGS.contains(&setting.name) && !Style::table().has(setting.name)
+    fn has(setting: &Setting<Request>) -> bool {
+        let name = setting.name;
+        let is_of_style = Style::table().has(name) && (!is_of_lines_alone(name) || LINE_SETTINGS.contains(&name));
+        let is_other = ["style", "show", "backend"].contains(&name) || SCENE_SETTINGS.contains(&name);
+        is_of_style || is_other || LoadOptions::table().has(name)
     }
 }
 
@@ -122,11 +94,19 @@ pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
         let problem = "there is no such file; check the name".to_owned();
         return Err(Error::model(path.clone(), problem));
     }
+    let below = Below {
+        look: arguments.look.look,
+        preset: arguments.preset.preset.as_deref(),
+        has_looks: true,
+        command: "view",
+        ..Below::default()
+    };
+    let (request, _) = arguments.options.request(&arguments.models, &below)?;
     let replay = arguments.replay.as_deref().map(Replay::read).transpose()?;
     let viewer = ViewerOptions {
-        state: state(arguments)?,
-        load: arguments.models_are_read.settings()?,
-        backend: arguments.backend,
+        state: state(&request, arguments.right, arguments.coarse).map_err(|error| request.attributed(error))?,
+        load: request.read.clone(),
+        backend: request.backend,
         shaders: arguments.glsl.clone(),
         folder: arguments.folder.clone(),
     };
@@ -137,37 +117,25 @@ pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
     }
 }
 
-/// How exact lines look.
-fn line_style(arguments: &Arguments) -> Result<LineStyle> {
-    let drawing = arguments.styles.svg_settings(&arguments.lines)?;
-    drawing.check()?;
-    Ok(LineStyle::new(arguments.styles.line_settings(&arguments.forms)?, drawing))
-}
-
 /// What is shown first.
-fn state(arguments: &Arguments) -> Result<ViewerState> {
-    let mut state = ViewerState::new(arguments.models.clone(), Orbit::default());
-    state.put_scene(SceneSettings::from_options(&arguments.scene.options)?);
+fn state(request: &Request, right: Option<StyleName>, is_coarse: bool) -> Result<ViewerState> {
+    let mut state = ViewerState::new(request.models.clone(), Orbit::default());
+    state.put_scene(request.scene.clone());
+    let left = request.style.style_name();
     // Options are for every style that has them, whichever is chosen later.
-    let is_shown = |choice: StyleChoice| [Some(arguments.style), arguments.right].contains(&Some(choice));
     for (_, name) in StyleName::ALL {
-        match arguments.styles.style(name) {
-            Ok(style) => state.prepare_style(&style),
-            Err(error) if is_shown(StyleChoice::Picture(name)) => return Err(error),
+        match request.in_style(name) {
+            Ok(request) => state.prepare_style(&request.style),
+            Err(error) if [Some(left), right].contains(&Some(name)) => return Err(error),
             Err(_) => state.prepare_style(&Style::named(name)),
         }
     }
-    match line_style(arguments) {
-        Ok(style) => state.put_line_style(style),
-        Err(error) if is_shown(StyleChoice::Lines) => return Err(error),
-        Err(_) => {}
-    }
-    state.update(ViewerEvent::Style(Side::Left, arguments.style.name().to_owned()));
-    if let Some(right) = arguments.right {
+    state.update(ViewerEvent::Style(Side::Left, left.name().to_owned()));
+    if let Some(right) = right {
         state.update(ViewerEvent::Style(Side::Right, right.name().to_owned()));
         state.update(ViewerEvent::Layout(Layout::Split));
     }
-    state.buffer = Buffer::Show(arguments.styles.show);
-    state.is_coarse_while_moving = arguments.coarse;
+    state.buffer = Buffer::Show(request.show);
+    state.is_coarse_while_moving = is_coarse;
     Ok(state)
 }

@@ -11,6 +11,7 @@ use crate::picture::Picture;
 use crate::renderer::{median, milliseconds_since};
 use crate::scene::{Scene, Size};
 use crate::settings::Value;
+use crate::styles::StyleName;
 use std::time::Instant;
 
 /// What `tinta render` is given for the silhouettes that a rule finds, with options of the scene.
@@ -53,7 +54,7 @@ pub fn measure_lines(
         model: subject.model.clone(),
         triangles: Scene::triangle_count(&subject.scene),
         size: [width, height],
-        style: "lines".to_owned(),
+        style: StyleName::Lines.name().to_owned(),
         options,
         is_faithful: false,
         lines: Some(error(&lines, &subject.reference, how.tolerance_px)),

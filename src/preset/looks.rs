@@ -3,6 +3,7 @@
 use super::{OptionValue, Preset};
 use crate::choice::meant_or;
 use crate::error::{ParseError, Result};
+use crate::styles::StyleName;
 
 /// A look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,7 +54,8 @@ impl Look {
 
     /// Whether it draws lines, as vectors.
     pub fn draws_lines(self) -> bool {
-        self.preset().is_ok_and(|preset| preset.options.get("style") == Some(&OptionValue::text("lines")))
+        let style = self.preset().ok().and_then(|preset| preset.options.get("style").cloned());
+        matches!(style, Some(OptionValue::Text(style)) if style.parse().is_ok_and(StyleName::draws_lines))
     }
 
     /// Whether it sets anything.

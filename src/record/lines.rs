@@ -1,37 +1,16 @@
 //! Exact lines as JSON: their record, and the file that holds all of them.
 
-use super::{CameraRecord, ModelRecord};
+use super::CameraRecord;
 use crate::edges::ClassCounts;
 use crate::error::{Error, Result};
-use crate::lines::{Healed, LinePath, LineSettings, LineTimes, SvgSettings, VisibilityChanges, VisibleLines};
-use crate::mesh::LoadOptions;
-use crate::scene::{Scene, Size};
-use crate::settings::HasSettings;
-use serde::ser::Error as _;
-use serde::{Serialize, Serializer};
+use crate::lines::{Healed, LinePath, LineTimes, VisibilityChanges, VisibleLines};
+use crate::scene::Scene;
+use serde::Serialize;
 use std::fmt::Write;
 
-/// A drawing's record: enough to make it again and to compare its cost.
+/// How exact lines were found.
 #[derive(Debug, Clone, Serialize)]
-pub struct LinesRecord {
-    /// tinta's version.
-    pub version: &'static str,
-    /// All models together, copies not repeated; their paths with commas between them.
-    pub model: ModelRecord,
-    /// Each model in the order given.
-    pub models: Vec<ModelRecord>,
-    /// How they were read.
-    pub load: LoadOptions,
-    /// How often the models are repeated.
-    pub copies: u32,
-    /// Triangles, all copies together.
-    pub triangles: usize,
-    /// Which lines, drawn how.
-    pub style: LinesStyle,
-    /// The picture's size.
-    pub size: Size,
-    /// The camera, world space.
-    pub camera: CameraRecord,
+pub struct LinesMade {
     /// How many edges there are of each class, each counted in its first one.
     pub edges: ClassCounts,
     /// Where along smooth silhouettes what is seen begins and ends; absent with others.
@@ -44,34 +23,11 @@ pub struct LinesRecord {
     pub undecided: usize,
     /// Pieces of lines, and what they were chained to.
     pub counts: LineCounts,
-    /// Reading the models and making meshes of them.
-    pub load_ms: f64,
     /// Topology, silhouettes, visibility.
     #[serde(flatten)]
     pub times: LineTimes,
     /// Chaining and writing the text.
     pub lines_ms: f64,
-}
-
-/// The style `lines` with its settings, each under its name.
-#[derive(Debug, Clone)]
-pub struct LinesStyle {
-    /// Which lines.
-    pub lines: LineSettings,
-    /// How they are drawn; absent from a JSON file's record, which draws nothing.
-    pub svg: Option<SvgSettings>,
-}
-
-impl Serialize for LinesStyle {
-    fn serialize<S: Serializer>(&self, to: S) -> std::result::Result<S::Ok, S::Error> {
-        let mut settings = LineSettings::table().record(&self.lines);
-        if let Some(svg) = &self.svg {
-            settings.extend(SvgSettings::table().record(svg));
-            settings.insert("background".to_owned(), serde_json::to_value(svg.background).map_err(S::Error::custom)?);
-        }
-        settings.insert("name".to_owned(), "lines".into());
-        settings.serialize(to)
-    }
 }
 
 /// How many pieces and paths there are.

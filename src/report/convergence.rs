@@ -8,6 +8,7 @@ use super::plot::{MARGIN, Scale, Shape, grid, short, spread};
 use super::settings::short_names;
 use crate::error::Result;
 use crate::measure::{Against, Row};
+use crate::styles::StyleName;
 use plotters::style::RGBColor;
 
 /// A setting's errors on the meshes of one surface.
@@ -90,7 +91,9 @@ const BETWEEN: RGBColor = RGBColor(170, 170, 170);
 /// [`crate::Error::File`] should the drawing fail.
 pub(super) fn plot(curves: &[Curve], surface: &str, shape: Shape) -> Result<String> {
     let is_shown = |curve: &&Curve| {
-        curve.surface == surface && (curve.is_faithful || ["lines", "inking"].contains(&curve.style.as_str()))
+        curve.surface == surface
+            && (curve.is_faithful
+                || [StyleName::Lines, StyleName::Inking].iter().any(|style| style.name() == curve.style))
     };
     let mut shown: Vec<&Curve> = curves.iter().filter(is_shown).collect();
     let last = |curve: &Curve| curve.points.last().map_or(0.0, |point| point.1);

@@ -12,10 +12,9 @@ pub(super) const RADIUS: f64 = 6.0;
 /// What has no mark of its own.
 const OTHER: Mark = Mark { rgb: [90; 3], outline: Outline::Circle };
 
-/// The marks as the legend has them: those of the styles, then that of the exact lines, which no style draws.
+/// The marks as the legend has them.
 fn marks() -> impl Iterator<Item = (&'static str, Mark)> {
-    let of_styles = StyleName::ALL.into_iter().filter_map(|(name, style)| Some((name, style.info().mark?)));
-    of_styles.chain([("lines", Mark { rgb: [123, 92, 214], outline: Outline::Star })])
+    StyleName::ALL.into_iter().filter_map(|(name, style)| Some((name, style.info().mark?)))
 }
 
 /// The mark's place in the legend; a style unknown here comes last.

@@ -26,8 +26,8 @@ impl Variant {
 
     /// Every style that draws any model, as published, and the mended forms of those that have one. `sand` needs a texture.
     pub fn all() -> Vec<Self> {
-        let of_any_model = StyleName::ALL.iter().filter(|(_, name)| *name != StyleName::Sand);
-        let mut all: Vec<Self> = of_any_model.map(|(_, name)| Self::published(*name)).collect();
+        let of_any_model = StyleName::of_passes().filter(|(_, name)| *name != StyleName::Sand);
+        let mut all: Vec<Self> = of_any_model.map(|(_, name)| Self::published(name)).collect();
         all.extend([Self::mended_three_pass(), Self::exact_inking(), Self::mended_charcoal()]);
         all
     }

@@ -1,11 +1,9 @@
 //! Which options change nothing in the styles that are drawn, so that whoever gives one can be told.
 
 use super::{Style, StyleName};
-use crate::lines::{LineSettings, SvgSettings};
 use crate::settings::HasSettings;
 
-/// Whether this option changes nothing in any of the styles, of which `lines` is one; options that are no style's are not
-/// meant.
+/// Whether this option changes nothing in any of the styles; options that are no style's are not meant.
 ///
 /// ```
 /// use tinta::styles::is_ignored;
@@ -13,9 +11,16 @@ use crate::settings::HasSettings;
 /// assert!(!is_ignored("size", &["charcoal"]), "the scene's");
 /// ```
 pub fn is_ignored(option: &str, styles: &[&str]) -> bool {
-    let has = |style: &&str| match style.parse::<StyleName>() {
-        Ok(name) => Style::table().find(&Style::named(name), option).is_some(),
-        Err(_) => LineSettings::table().has(option) || SvgSettings::table().has(option),
-    };
+    let has = |style: &&str| style.parse().is_ok_and(|style| style_has(style, option));
     Style::table().has(option) && !styles.iter().any(has)
+}
+
+/// Whether this is an option of styles that draw exact lines, and of no other.
+pub fn is_of_lines_alone(option: &str) -> bool {
+    let of_passes = StyleName::of_passes().any(|(_, style)| style_has(style, option));
+    Style::table().has(option) && !of_passes
+}
+
+fn style_has(style: StyleName, option: &str) -> bool {
+    Style::table().find(&Style::named(style), option).is_some()
 }

@@ -1,6 +1,9 @@
 //! What stands in a style's row, and the macro that makes the styles of their rows.
 
-use super::{Show, Style, StyleName};
+use super::{LineStyle, Show, Style, StyleName};
+use crate::error::Result;
+use crate::plan::Plan;
+use crate::scene::Scene;
 use crate::settings::Setting;
 
 /// A style's row: what is known of it besides its settings, which stand beside their struct.
@@ -16,10 +19,20 @@ pub struct StyleInfo {
     pub origin: Origin,
     /// Its mark in plots; without one a grey circle.
     pub mark: Option<Mark>,
+    /// Whether it draws exact lines, which need no OpenGL, and no passes.
+    pub draws_lines: bool,
     /// The style with the published settings.
     pub(super) published: fn() -> Style,
     /// Its settings.
     pub(super) settings: fn() -> Vec<Setting<Style>>,
+}
+
+/// How a style with the settings `S` draws.
+pub(super) enum Draw<S> {
+    /// In passes, by OpenGL.
+    Plan(fn(&S, &Scene, Show) -> Result<Plan>),
+    /// Exact lines.
+    Lines(fn(&S) -> LineStyle),
 }
 
 /// Where a style comes from.
@@ -64,7 +77,7 @@ pub enum Outline {
 /// A macro because a style is a variant of two types, an arm of each match over them and a table's entry: six places without one.
 macro_rules! styles {
     ($($(#[$about:meta])* $style:ident($settings:ty) {
-        name: $name:literal, plan: $plan:expr, has_lines: $has_lines:expr, $($field:ident: $value:expr),*,
+        name: $name:literal, draw: $draw:expr, has_lines: $has_lines:expr, $($field:ident: $value:expr),*,
     })*) => {
         /// A style with its settings.
         #[derive(Debug, Clone, PartialEq)]
@@ -85,6 +98,10 @@ macro_rules! styles {
         static STYLES: [StyleInfo; StyleName::ALL.len()] = [$(StyleInfo {
             style: StyleName::$style,
             name: $name,
+            draws_lines: {
+                let draw: Draw<$settings> = $draw;
+                matches!(draw, Draw::Lines(_))
+            },
             $($field: $value,)*
             published: || Style::$style(<$settings>::default()),
             settings: || {
@@ -120,10 +137,30 @@ macro_rules! styles {
             ///
             /// # Errors
             ///
-            /// [`crate::Error::Setting`] when a setting is nonsense, by itself or with this scene or `show`.
+            /// [`crate::Error::Setting`] when a setting is nonsense, by itself or with this scene or `show`, and for a style that
+            /// draws exact lines.
             pub fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
                 match self {
-                    $(Self::$style(settings) => $plan(settings, scene, show),)*
+                    $(Self::$style(settings) => {
+                        let draw: Draw<$settings> = $draw;
+                        match draw {
+                            Draw::Plan(plan) => plan(settings, scene, show),
+                            Draw::Lines(_) => Err(no_passes($name)),
+                        }
+                    })*
+                }
+            }
+
+            /// The exact lines that it draws; `None` for a style that draws in passes.
+            pub fn lines(&self) -> Option<LineStyle> {
+                match self {
+                    $(Self::$style(settings) => {
+                        let draw: Draw<$settings> = $draw;
+                        match draw {
+                            Draw::Plan(_) => None,
+                            Draw::Lines(lines) => Some(lines(settings)),
+                        }
+                    })*
                 }
             }
         }

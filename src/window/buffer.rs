@@ -91,7 +91,7 @@ mod tests {
     fn every_style_plans_every_buffer_it_is_said_to_have_and_no_other() {
         let scene = Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings::default()).unwrap();
         // Sand draws only models with pictures on them.
-        for (name, style) in StyleName::ALL.into_iter().filter(|(_, style)| *style != StyleName::Sand) {
+        for (name, style) in StyleName::of_passes().filter(|(_, style)| *style != StyleName::Sand) {
             for (_, show) in Show::ALL {
                 let is_known = buffers(style).contains(&Buffer::Show(show));
                 assert_eq!(Style::named(style).plan(&scene, show).is_ok(), is_known, "{name} {show:?}");
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn buffers_are_read_by_the_names_they_have() {
-        for (_, style) in StyleName::ALL {
+        for (_, style) in StyleName::of_passes() {
             for buffer in buffers(style) {
                 assert_eq!(buffer.name().parse(), Ok(buffer));
             }

@@ -3,12 +3,12 @@
 //! Values are the texts that the command line takes, so that a control, a recorded event and a command say the same thing in
 //! the same words. What there is to turn is declared beside the styles; nothing is listed here.
 
-use super::line_style::{self, LINE_SETTINGS, LineStyle};
+use super::line_style::LINE_SETTINGS;
 use crate::error::Result;
 use crate::mesh::LoadOptions;
 use crate::preset::{LOOKS, Look};
 use crate::scene::SceneSettings;
-use crate::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
+use crate::settings::{HasSettings, Kind, Options, Setting, Table};
 use crate::styles::{Style, StyleName};
 
 /// The settings of the scene that a window shows and sets: the others are the models' or the mouse's.
@@ -25,7 +25,13 @@ fn published(style: &Style) -> Style {
 
 /// The controls of a style: all of its settings but those that have one value only, or stand for several others.
 pub(super) fn of(style: &Style) -> Vec<Control<Style>> {
-    of_table(Style::table(), style, &published(style))
+    let all = of_table(Style::table(), style, &published(style));
+    all.into_iter().filter(|control| is_shown(style, control.setting.name)).collect()
+}
+
+/// Whether a window has this setting of a style.
+fn is_shown(style: &Style, name: &str) -> bool {
+    !style.style_name().draws_lines() || LINE_SETTINGS.contains(&name)
 }
 
 /// The controls of the scene.
@@ -38,25 +44,6 @@ pub(super) fn of_scene(scene: &SceneSettings) -> Vec<Control<SceneSettings>> {
 pub(super) fn of_load(load: &LoadOptions) -> Vec<Control<LoadOptions>> {
     let all = of_table(LoadOptions::table(), load, &LoadOptions::default());
     all.into_iter().filter(|control| LOAD_SETTINGS.contains(&control.setting.name)).collect()
-}
-
-/// The controls of the exact lines.
-pub(super) fn of_lines(style: &LineStyle) -> Vec<Control<LineStyle>> {
-    of_table(LineStyle::table(), style, &LineStyle::default())
-}
-
-/// What draws a side.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Drawn {
-    /// A style.
-    Style(Box<Style>),
-    /// Exact lines by themselves.
-    Lines(Box<LineStyle>),
-}
-
-/// Whether options are of exact lines by themselves.
-pub(super) fn are_of_lines(options: &Options) -> bool {
-    options.get("style") == Some(&OptionValue::text(line_style::LINES))
 }
 
 /// Another style with the settings of a look that it has; as published where it cannot have them.
@@ -77,7 +64,7 @@ pub(super) fn look_of_sibling(style: &Style) -> Option<Look> {
 /// # Errors
 ///
 /// As [`Look::preset`].
-pub(super) fn of_look(look: Look, drawn: &Drawn, scene: &SceneSettings) -> Result<(Drawn, SceneSettings)> {
+pub(super) fn of_look(look: Look, drawn: &Style, scene: &SceneSettings) -> Result<(Style, SceneSettings)> {
     let mut scene = scene.clone();
     let table = SceneSettings::table();
     for other in LOOKS {
@@ -89,11 +76,9 @@ pub(super) fn of_look(look: Look, drawn: &Drawn, scene: &SceneSettings) -> Resul
     }
     let options = look.preset()?.options;
     apply_to_scene(&mut scene, &options)?;
-    let drawn = match drawn {
-        _ if are_of_lines(&options) => Drawn::Lines(Box::new(LineStyle::from_options(&options)?)),
-        _ if options.contains_key("style") => Drawn::Style(Box::new(Style::from_options(&options)?)),
-        Drawn::Style(style) => Drawn::Style(Box::new(published(style))),
-        Drawn::Lines(_) => Drawn::Lines(Box::default()),
+    let drawn = match options.contains_key("style") {
+        true => Style::from_options(&options)?,
+        false => published(drawn),
     };
     Ok((drawn, scene))
 }
@@ -172,9 +157,8 @@ pub(super) struct Group {
     names: &'static [&'static str],
 }
 
-/// Those of the scene, of exact lines, and of reading models.
+/// Those of the scene, and of reading models.
 pub(super) const SCENE: Group = Group { what: "", names: &SCENE_SETTINGS };
-pub(super) const LINES: Group = Group { what: " of lines", names: &LINE_SETTINGS };
 pub(super) const LOAD: Group = Group { what: " of models", names: &LOAD_SETTINGS };
 
 /// Sets a control of a group.
@@ -256,7 +240,8 @@ fn turned(result: Result<()>) -> std::result::Result<(), String> {
 
 /// Recordings of earlier versions name options that the command line did not have without dashes.
 fn find(style: &Style, option: &str) -> std::result::Result<&'static Setting<Style>, String> {
-    let setting = Style::table().find(style, option.trim_start_matches("--"));
+    let name = option.trim_start_matches("--");
+    let setting = Style::table().find(style, name).filter(|_| is_shown(style, name));
     setting.ok_or_else(|| format!("{option}: the style {} has no such setting", style.name()))
 }
 
@@ -305,21 +290,10 @@ mod tests {
     }
 
     #[test]
-    fn every_dial_of_the_exact_lines_turns_and_goes_back() {
-        let controls = of_lines(&LineStyle::default());
-        assert_eq!(controls.len(), LINE_SETTINGS.len());
-        for control in controls {
-            for sample in control.setting.kind.samples(&control.value) {
-                let mut style = LineStyle::default();
-                turn_in(&LINES, &mut style, &control.option(), &sample).unwrap_or_else(|problem| panic!("{problem}"));
-                let is_set = control.setting.value(&style) != Some(control.default.clone());
-                assert_eq!(style != LineStyle::default(), is_set, "{} {sample}", control.option());
-                turn_back_in(&LINES, &mut style, &control.option()).unwrap();
-                assert_eq!(style, LineStyle::default(), "{} {sample}", control.option());
-            }
-        }
-        let problem = turn_in(&LINES, &mut LineStyle::default(), "--dpi", "300").unwrap_err();
-        assert!(problem.starts_with("--dpi: the window has no such setting of lines"), "{problem}");
+    fn of_exact_lines_a_window_has_no_settings_of_paper() {
+        let mut style = Style::named(StyleName::Lines);
+        assert_eq!(of(&style).len(), LINE_SETTINGS.len());
+        assert_eq!(turn(&mut style, "--dpi", "300").unwrap_err(), "--dpi: the style lines has no such setting");
     }
 
     #[test]

@@ -6,7 +6,6 @@
 //! be said how many stayed.
 
 use super::draw::Job;
-use super::line_style::LineStyle;
 use super::paint::{over, painted};
 use super::report::{Report, Reporter};
 use crate::error::Result;
@@ -14,6 +13,7 @@ use crate::lines::{LineSettings, Progress, StrokeIds, VisibleLines, chain, strok
 use crate::picture::Picture;
 use crate::renderer::milliseconds_since;
 use crate::scene::{Scene, SceneSettings, Size};
+use crate::styles::LineStyle;
 use std::collections::HashSet;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;

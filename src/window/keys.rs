@@ -1,7 +1,7 @@
 //! Keys: which event each makes.
 
 use super::event::{Side, ViewerEvent};
-use super::line_style::{LINES, LinesShown};
+use super::line_style::LinesShown;
 use super::state::ViewerState;
 use crate::keys::{Action, action};
 use crate::styles::StyleName;
@@ -30,7 +30,7 @@ pub(super) fn event_of(action: Action, state: &ViewerState) -> Option<ViewerEven
         Action::Divide(by) => ViewerEvent::Divide(state.divider + by),
         Action::View(name) => ViewerEvent::View(name.to_owned()),
         Action::Style(number) => style(StyleName::ALL.get(number)?.0),
-        Action::Lines => style(LINES),
+        Action::Lines => style(StyleName::Lines.name()),
         Action::Overlay => ViewerEvent::Overlay(state.active, state.lines_shown(state.active) != LinesShown::Over),
         Action::Layout => ViewerEvent::NextLayout,
         Action::OtherSide => ViewerEvent::Choose(match state.active {

@@ -2,9 +2,7 @@
 
 use super::controls;
 use super::event::{Layout, Side};
-use super::line_style::{LineStyle, LinesShown};
 use super::state::{Content, ViewerState};
-use crate::preset::LOOKS;
 use crate::styles::Origin;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Ui, Vec2};
 
@@ -21,13 +19,7 @@ pub(super) fn label(state: &ViewerState, side: Side) -> String {
         return format!("look {}", look.name);
     }
     let style = state.style(side);
-    let (of_look, origin) = match state.lines_shown(side) {
-        LinesShown::Alone => {
-            let is_default = *state.line_style() == LineStyle::default();
-            (LOOKS.into_iter().find(|look| is_default && !look.has_settings()), Origin::Own)
-        }
-        _ => (controls::look_of_sibling(style), style.style_name().info().origin),
-    };
+    let (of_look, origin) = (controls::look_of_sibling(style), style.style_name().info().origin);
     match (of_look, origin) {
         (Some(look), _) if look.has_settings() => format!("{name}, settings of {}", look.name),
         (Some(_), Origin::Published(year)) => format!("{name}, as published, {year}"),

@@ -3,7 +3,7 @@
 use super::controls::{self, Control};
 use super::event::{Layout, Side, ViewerEvent};
 use super::keys;
-use super::line_style::{LINES, LinesShown};
+use super::line_style::LinesShown;
 use super::viewer::Viewer;
 use super::widget::{self, Change};
 use crate::keys::about;
@@ -57,8 +57,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
     }
     let style = state.style(side);
     let lines = state.lines_shown(side);
-    let chosen = if lines == LinesShown::Alone { LINES } else { style.name() };
-    choices(ui, "style", chosen, StyleName::ALL.iter().map(|(name, _)| *name).chain([LINES]), |name| {
+    choices(ui, "style", style.name(), StyleName::ALL.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::Style(side, name.to_owned()));
     });
     if lines != LinesShown::Alone {
@@ -96,30 +95,29 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
         }
     });
     let look = state.look().filter(|look| look.has_settings());
-    match lines {
-        LinesShown::Alone => changes(ui, None, look, &controls::of_lines(state.line_style()), side, events),
-        _ => {
-            let origin = Some(style.style_name().info().origin);
-            changes(ui, origin, look, &controls::of(style), side, events);
-        }
-    }
+    changes(ui, style.style_name().info().origin, look, &controls::of(style), side, events);
     ui.separator();
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         let words = search(ui);
-        if lines != LinesShown::None {
-            grouped(ui, controls::of_lines(state.line_style()), by_heading, &words, |ui, control| {
-                let option = control.option();
-                let change = ui.push_id(("lines", control.setting.name), |ui| widget::show(ui, control)).inner;
-                events.extend(change.map(|change| match change {
-                    Change::Set(value) => ViewerEvent::Lines(option, value),
-                    Change::Default => ViewerEvent::LinesDefault(option),
-                }));
-            });
+        if lines == LinesShown::Over {
+            grouped(
+                ui,
+                controls::of(state.style_of_lines()),
+                |_| "Exact lines of both sides".to_owned(),
+                &words,
+                |ui, control| {
+                    let option = control.option();
+                    let change = ui.push_id(("lines", control.setting.name), |ui| widget::show(ui, control)).inner;
+                    events.extend(change.map(|change| match change {
+                        Change::Set(value) => ViewerEvent::Lines(option, value),
+                        Change::Default => ViewerEvent::LinesDefault(option),
+                    }));
+                },
+            );
         }
-        let of_style = if lines == LinesShown::Alone { Vec::new() } else { controls::of(style) };
         grouped(
             ui,
-            of_style,
+            controls::of(style),
             |heading| of_style_heading(heading, style.name()),
             &words,
             |ui, control| {
@@ -232,7 +230,7 @@ fn file(ui: &mut Ui, label: &str, open: RichText, about: &str) -> Option<String>
 /// Whether all settings are the article's, where there is one, as a state that can be returned to; or a look's.
 fn changes<T: Clone + 'static>(
     ui: &mut Ui,
-    origin: Option<Origin>,
+    origin: Origin,
     look: Option<Look>,
     controls: &[Control<T>],
     side: Side,
@@ -242,8 +240,8 @@ fn changes<T: Clone + 'static>(
     ui.horizontal(|ui| {
         if changed == 0 {
             let said = match origin {
-                Some(Origin::Published(_)) => "● faithful",
-                Some(Origin::Named | Origin::Own) | None => "● default settings",
+                Origin::Published(_) => "● faithful",
+                Origin::Named | Origin::Own => "● default settings",
             };
             ui.colored_label(FAITHFUL, said)
                 .on_hover_text("every setting has its default: the text's value where it gives one");
@@ -252,7 +250,7 @@ fn changes<T: Clone + 'static>(
                 Some(look) => ui.colored_label(FAITHFUL, format!("● as in the look {}", look.name)),
                 None => ui.colored_label(CHANGED, format!("○ {changed} changed")),
             };
-            let back = if origin.is_some() { "all as published" } else { "all as by default" };
+            let back = if matches!(origin, Origin::Published(_)) { "all as published" } else { "all as by default" };
             if ui.small_button(back).clicked() {
                 events.push(ViewerEvent::Faithful(side));
             }

@@ -1,7 +1,7 @@
 //! Times and errors of what is shown, as numbers and a small plot.
 
 use super::cost::{Costs, Point};
-use super::line_style::{LINES, LinesShown};
+use super::line_style::LinesShown;
 use super::viewer::Viewer;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2};
 
@@ -24,7 +24,7 @@ const LEAST_RANGE: f64 = 0.05;
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer) {
     for side in viewer.state.sides() {
         if viewer.state.lines_shown(*side) == LinesShown::Alone {
-            ui.strong(LINES);
+            ui.strong(viewer.state.style(*side).name());
             ui.label("exact lines have no passes to time");
             continue;
         }

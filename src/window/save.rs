@@ -4,7 +4,7 @@ use super::controls;
 use super::draw::{Drawer, Job};
 use super::event::{Save, Side};
 use super::exact;
-use super::line_style::{LINES, LinesShown};
+use super::line_style::LinesShown;
 use super::paint::over;
 use super::state::ViewerState;
 use crate::animation::{AnimationTarget, AnimationWriter};
@@ -65,7 +65,10 @@ fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Sav
     let mut options = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
     options.extend(surroundings.load.to_options()?);
     match save {
-        Save::Lines => options.extend(state.line_style().to_options()?),
+        // The file's name says that it has lines.
+        Save::Lines => {
+            options.extend(state.style_of_lines().to_options()?.into_iter().filter(|(name, _)| name != "style"))
+        }
         _ => options.extend(style_options(state, job, side)?),
     }
     if save == Save::Turn {
@@ -75,7 +78,7 @@ fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Sav
     Ok(Recipe {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         command: "render".to_owned(),
-        style: if save == Save::Lines { LINES } else { state.style(side).name() }.to_owned(),
+        style: if save == Save::Lines { state.style_of_lines() } else { state.style(side) }.name().to_owned(),
         size: [width, height],
         models: state.models.clone(),
         options,
@@ -102,11 +105,6 @@ fn whole_recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, sav
 
 /// The options of what is shown of a side.
 fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> {
-    if state.lines_shown(side) == LinesShown::Alone {
-        let mut options = state.line_style().to_options()?;
-        options.insert("style".to_owned(), OptionValue::text(LINES));
-        return Ok(options);
-    }
     let drawn = job.drawings.iter().find(|(drawn, ..)| *drawn == side);
     let (style, show) = drawn.map_or((state.style(side), Show::Final), |(_, style, show)| (style, *show));
     let mut options = style.to_options()?;
@@ -181,7 +179,7 @@ fn save_of(
                 command: recipe.command_line("drawing.svg"),
                 recipe: recipe.json().unwrap_or_default(),
                 background: job.settings.background,
-                ..style.drawing.clone()
+                ..style.drawing
             };
             target.write(&svg(&lines, &settings)?)?;
         }
@@ -222,7 +220,7 @@ fn turn(state: &ViewerState, job: &Job, side: Side, backend: Backend, name: &str
             None => exact::ground(scene.size, &job.settings),
         };
         if has_lines {
-            picture = over(&exact::ink(&scene, state.line_style(), &Progress::default())?, &picture);
+            picture = over(&exact::ink(&scene, &state.line_style(), &Progress::default())?, &picture);
         }
         writer.add(picture)?;
     }
@@ -236,9 +234,8 @@ fn stem(state: &ViewerState, save: Save, side: Side) -> String {
     let model = Path::new(model).file_stem().map_or("model".into(), |stem| stem.to_string_lossy());
     let styles: Vec<String> = match save {
         Save::Picture => state.sides().iter().map(|side| state.drawn_name(*side)).collect(),
-        Save::Lines => vec![LINES.to_owned()],
+        Save::Lines => vec![state.style_of_lines().name().to_owned()],
         Save::Turn => vec![state.drawn_name(side)],
-        Save::Preset if state.lines_shown(side) == LinesShown::Alone => vec![LINES.to_owned()],
         Save::Preset => vec![state.style(side).name().to_owned()],
     };
     format!("{model}-{}", styles.join("-"))

@@ -1,17 +1,17 @@
 //! The viewer as a value: what is shown, from where, in which styles; and how events change it. No window here, no GL.
 
 use super::buffer::{Buffer, buffers};
-use super::controls::{self, Drawn};
+use super::controls;
 use super::event::{Effect, Layout, Save, Side, ViewerEvent};
-use super::line_style::{LINES, LineStyle, LinesShown};
+use super::line_style::LinesShown;
 use crate::camera::CameraSettings;
 use crate::camera::View;
 use crate::mesh::LoadOptions;
 use crate::orbit::Orbit;
-use crate::preset::{LOOKS, Look, OptionValue, Preset};
+use crate::preset::{LOOKS, Look, Preset};
+use crate::request::{Layer, Request};
 use crate::scene::{SceneSettings, Size};
-use crate::settings::HasSettings;
-use crate::styles::{Style, StyleName};
+use crate::styles::{LineStyle, Style, StyleName};
 
 /// All that decides what the viewer shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,10 +26,8 @@ pub struct ViewerState {
     pub(super) styles: [Vec<Style>; 2],
     /// Which of them is shown.
     pub(super) chosen: [StyleName; 2],
-    /// What of the exact lines is shown with it or instead of it.
-    pub(super) lines_shown: [LinesShown; 2],
-    /// How the exact lines of both sides look.
-    pub(super) line_style: LineStyle,
+    /// Whether exact lines lie over it.
+    pub(super) has_lines_over: [bool; 2],
     /// The side that number keys and the panel are for.
     pub active: Side,
     /// What is seen of the two styles.
@@ -76,8 +74,7 @@ impl Default for ViewerState {
             orbit: Orbit::default(),
             styles: [all(), all()],
             chosen: [StyleName::ThreePass, StyleName::Inking],
-            lines_shown: Default::default(),
-            line_style: LineStyle::default(),
+            has_lines_over: [false; 2],
             active: Side::Left,
             layout: Layout::Single,
             divider: 0.5,
@@ -130,54 +127,48 @@ impl ViewerState {
 
     /// What of the exact lines a side shows.
     pub fn lines_shown(&self, side: Side) -> LinesShown {
-        self.lines_shown[side as usize]
+        match (self.style(side).lines(), self.has_lines_over[side as usize]) {
+            (Some(_), _) => LinesShown::Alone,
+            (None, true) => LinesShown::Over,
+            (None, false) => LinesShown::None,
+        }
     }
 
-    /// How exact lines look.
-    pub fn line_style(&self) -> &LineStyle {
-        &self.line_style
+    /// The style of exact lines that lie over pictures, the same on both sides.
+    pub(super) fn style_of_lines(&self) -> &Style {
+        &self.styles[0][StyleName::Lines as usize]
     }
 
-    /// Has exact lines look so.
-    pub fn put_line_style(&mut self, style: LineStyle) {
-        self.line_style = style;
+    /// How exact lines look: those that a side shows by themselves, or else those that lie over pictures.
+    pub fn line_style(&self) -> LineStyle {
+        let alone = self.sides().iter().find_map(|side| self.style(*side).lines());
+        alone.or_else(|| self.style_of_lines().lines()).unwrap_or_default()
     }
 
     /// What a side shows, by name: a style, lines, or a style and lines.
     pub fn drawn_name(&self, side: Side) -> String {
+        let name = self.style(side).name();
         match self.lines_shown(side) {
-            LinesShown::None => self.style(side).name().to_owned(),
-            LinesShown::Over => format!("{}+{LINES}", self.style(side).name()),
-            LinesShown::Alone => LINES.to_owned(),
+            LinesShown::Over => format!("{name}+{}", self.style_of_lines().name()),
+            LinesShown::None | LinesShown::Alone => name.to_owned(),
         }
     }
 
-    /// What draws a side.
-    fn drawn(&self, side: Side) -> Drawn {
-        match self.lines_shown(side) {
-            LinesShown::Alone => Drawn::Lines(Box::new(self.line_style.clone())),
-            _ => Drawn::Style(Box::new(self.style(side).clone())),
-        }
-    }
-
-    fn put_drawn(&mut self, side: Side, drawn: Drawn) {
-        match drawn {
-            Drawn::Style(style) => {
-                self.put_style(side, *style);
-                self.lines_shown[side as usize] = LinesShown::None;
-            }
-            Drawn::Lines(style) => {
-                self.line_style = *style;
-                self.lines_shown[side as usize] = LinesShown::Alone;
-            }
-        }
+    /// Shows this style on a side, without lines over it.
+    fn put_drawn(&mut self, side: Side, style: Style) {
+        self.put_style(side, style);
+        self.has_lines_over[side as usize] = false;
     }
 
     /// Shows this style on a side.
     pub fn put_style(&mut self, side: Side, style: Style) {
         let name = style.style_name();
-        self.styles[side as usize][name as usize] = style;
         self.chosen[side as usize] = name;
+        // Exact lines look the same on both sides.
+        match name.draws_lines() {
+            true => self.prepare_style(&style),
+            false => self.styles[side as usize][name as usize] = style,
+        }
     }
 
     /// Sets a style's settings on both sides, for when it is chosen.
@@ -187,8 +178,24 @@ impl ViewerState {
         }
     }
 
-    fn style_mut(&mut self, side: Side) -> &mut Style {
-        &mut self.styles[side as usize][self.chosen[side as usize] as usize]
+    /// Changes the style that a side shows.
+    fn change_style(
+        &mut self,
+        side: Side,
+        change: impl FnOnce(&mut Style) -> Result<(), String>,
+    ) -> Result<(), String> {
+        let mut style = self.style(side).clone();
+        change(&mut style)?;
+        self.put_style(side, style);
+        Ok(())
+    }
+
+    /// Changes how exact lines look.
+    fn change_lines(&mut self, change: impl FnOnce(&mut Style) -> Result<(), String>) -> Result<(), String> {
+        let mut style = self.style_of_lines().clone();
+        change(&mut style)?;
+        self.prepare_style(&style);
+        Ok(())
     }
 
     /// The sides that are seen.
@@ -287,36 +294,19 @@ impl ViewerState {
             ViewerEvent::Reset => self.orbit.look_from(View::DEFAULT),
             ViewerEvent::View(name) => self.orbit.look_from(name.parse()?),
             ViewerEvent::Projection => self.orbit.parallel = !self.orbit.parallel,
-            ViewerEvent::Style(side, name) if name == LINES => self.lines_shown[side as usize] = LinesShown::Alone,
-            ViewerEvent::Style(side, name) => {
-                self.choose_style(side, name.parse().map_err(|problem| format!("{problem}, {LINES}"))?);
+            ViewerEvent::Style(side, name) => self.choose_style(side, name.parse()?),
+            ViewerEvent::Set(side, option, value) => {
+                self.change_style(side, |style| controls::turn(style, &option, &value))?;
             }
-            ViewerEvent::Set(side, option, value) => match self.lines_shown(side) {
-                LinesShown::Alone => controls::turn_in(&controls::LINES, &mut self.line_style, &option, &value)?,
-                _ => controls::turn(self.style_mut(side), &option, &value)?,
-            },
-            ViewerEvent::Default(side, option) => match self.lines_shown(side) {
-                LinesShown::Alone => controls::turn_back_in(&controls::LINES, &mut self.line_style, &option)?,
-                _ => controls::turn_back(self.style_mut(side), &option)?,
-            },
-            ViewerEvent::Faithful(side) => match self.lines_shown(side) {
-                LinesShown::Alone => self.line_style = LineStyle::default(),
-                _ => *self.style_mut(side) = Style::named(self.chosen[side as usize]),
-            },
+            ViewerEvent::Default(side, option) => {
+                self.change_style(side, |style| controls::turn_back(style, &option))?;
+            }
+            ViewerEvent::Faithful(side) => self.put_style(side, Style::named(self.chosen[side as usize])),
             ViewerEvent::Overlay(side, is_over) => {
-                let shown = &mut self.lines_shown[side as usize];
-                *shown = match (is_over, *shown) {
-                    (true, _) => LinesShown::Over,
-                    (false, LinesShown::Over) => LinesShown::None,
-                    (false, other) => other,
-                };
+                self.has_lines_over[side as usize] = is_over && self.style(side).lines().is_none();
             }
-            ViewerEvent::Lines(option, value) => {
-                controls::turn_in(&controls::LINES, &mut self.line_style, &option, &value)?;
-            }
-            ViewerEvent::LinesDefault(option) => {
-                controls::turn_back_in(&controls::LINES, &mut self.line_style, &option)?;
-            }
+            ViewerEvent::Lines(option, value) => self.change_lines(|style| controls::turn(style, &option, &value))?,
+            ViewerEvent::LinesDefault(option) => self.change_lines(|style| controls::turn_back(style, &option))?,
             ViewerEvent::Choose(side) => self.active = side,
             ViewerEvent::Layout(layout) => self.lay_out(layout),
             ViewerEvent::NextLayout => self.lay_out(match self.layout {
@@ -374,9 +364,7 @@ impl ViewerState {
 
     fn choose_style(&mut self, side: Side, name: StyleName) {
         self.chosen[side as usize] = name;
-        if self.lines_shown(side) == LinesShown::Alone {
-            self.lines_shown[side as usize] = LinesShown::None;
-        }
+        self.has_lines_over[side as usize] &= !name.draws_lines();
         // The buffer stays where the new style has it, so that two styles' maps can be compared by a key.
         if !self.sides().iter().any(|side| buffers(self.style(*side).style_name()).contains(&self.buffer)) {
             self.buffer = Buffer::default();
@@ -398,9 +386,9 @@ impl ViewerState {
 
     /// Puts a look on the active side, and what it says of the scene on both.
     fn choose_look(&mut self, look: Look) -> Result<(), String> {
-        let (drawn, scene) = controls::of_look(look, &self.drawn(self.active), &self.scene_settings())
+        let (style, scene) = controls::of_look(look, self.style(self.active), &self.scene_settings())
             .map_err(|error| error.to_string())?;
-        self.put_drawn(self.active, drawn);
+        self.put_drawn(self.active, style);
         self.put_scene(scene);
         // A side that nobody has seen or changed begins with what fits the look.
         let other = if self.active == Side::Left { Side::Right } else { Side::Left };
@@ -420,11 +408,11 @@ impl ViewerState {
         if self.lines_shown(side) == LinesShown::Over {
             return None;
         }
-        let shown = (self.drawn(side), self.scene_settings());
+        let (shown, seen) = (self.style(side), self.scene_settings());
         let has = |look: &Look| {
-            controls::of_look(*look, &shown.0, &shown.1).is_ok_and(|(drawn, mut scene)| {
-                scene.camera.view = shown.1.camera.view;
-                (drawn, scene) == shown
+            controls::of_look(*look, shown, &seen).is_ok_and(|(style, mut scene)| {
+                scene.camera.view = seen.camera.view;
+                style == *shown && scene == seen
             })
         };
         LOOKS.into_iter().find(has)
@@ -432,25 +420,13 @@ impl ViewerState {
 
     /// Puts a preset's style and settings on the active side, and what it says of the scene on both.
     fn open_preset(&mut self, name: &str) -> Result<(), String> {
-        let mut preset = Preset::read(name).map_err(|error| error.to_string())?;
-        let shown = match self.lines_shown(self.active) {
-            LinesShown::Alone => LINES,
-            _ => self.chosen[self.active as usize].name(),
-        };
-        preset.options.entry("style".to_owned()).or_insert_with(|| OptionValue::text(shown));
-        let attributed = |error| {
-            let all: Vec<_> = preset.options.keys().map(|key| (key.clone(), key.clone())).collect();
-            preset.attributed(error, &all).to_string()
-        };
-        let drawn = if controls::are_of_lines(&preset.options) {
-            preset.check_names().map_err(|error| error.to_string())?;
-            Drawn::Lines(Box::new(LineStyle::from_options(&preset.options).map_err(attributed)?))
-        } else {
-            Drawn::Style(Box::new(preset.style().map_err(|error| error.to_string())?))
-        };
+        let said = |error: crate::Error| error.to_string();
+        let preset = Preset::read(name).map_err(said)?;
+        let layers = [Layer::Style(self.chosen[self.active as usize]), Layer::File(preset)];
+        let (request, _) = Request::from_layers(&layers).map_err(said)?;
         let mut scene = self.scene_settings();
-        controls::apply_to_scene(&mut scene, &preset.options).map_err(attributed)?;
-        self.put_drawn(self.active, drawn);
+        controls::apply_to_scene(&mut scene, &request.options).map_err(|error| said(request.attributed(error)))?;
+        self.put_drawn(self.active, request.style);
         self.put_scene(scene);
         Ok(())
     }

@@ -201,8 +201,8 @@ fn a_look_of_vectors_shows_exact_lines_and_the_next_takes_them_back() {
     let technical = after([look("technical")]);
     let options = Look::of_name("technical").unwrap().preset().unwrap().options;
     assert_eq!(technical.lines_shown(Side::Left), LinesShown::Alone);
-    assert_eq!(*technical.line_style(), LineStyle::from_options(&options).unwrap());
-    assert_ne!(*technical.line_style(), LineStyle::default());
+    assert_eq!(*technical.style(Side::Left), Style::from_options(&options).unwrap());
+    assert_ne!(technical.line_style(), LineStyle::default());
     assert!(technical.scene_settings().camera.parallel);
     assert_eq!(technical.look().map(|look| look.name), Some("technical"));
     let print = after([look("technical"), look("print")]);
@@ -228,7 +228,7 @@ fn exact_lines_are_a_style_and_lie_over_one() {
     let over = after([ViewerEvent::Lines("--hidden".to_owned(), "dashed".to_owned())]);
     assert_eq!(dashed.line_style(), over.line_style());
     let back = after([style("lines"), set("--hidden", "dashed"), ViewerEvent::Faithful(Side::Left)]);
-    assert_eq!(*back.line_style(), LineStyle::default());
+    assert_eq!(back.line_style(), LineStyle::default());
     let mut state = after([style("lines")]);
     state.update(set("--tones", "2"));
     assert!(state.message.as_ref().is_some_and(|message| message.starts_with("--tones: ")), "{:?}", state.message);
@@ -241,8 +241,8 @@ fn a_preset_of_lines_shows_them_as_it_says() {
     std::fs::write(&path, "style = \"lines\"\nhidden = \"ghost\"\nclass-colors = \"crease=red\"\n").unwrap();
     let state = after([ViewerEvent::OpenPreset(path)]);
     assert_eq!(state.drawn_name(Side::Left), "lines");
-    let options = state.line_style().to_options().unwrap();
-    assert_eq!(options.keys().collect::<Vec<_>>(), ["class-colors", "hidden"]);
+    let options = state.style(Side::Left).to_options().unwrap();
+    assert_eq!(options.keys().collect::<Vec<_>>(), ["class-colors", "hidden", "style"]);
 }
 
 #[test]

@@ -304,7 +304,7 @@ impl Viewer {
     fn line_job(&self, job: &Job) -> Option<LineJob> {
         let is_wanted = self.shows(LinesShown::Over) || self.shows(LinesShown::Alone);
         let view = Job { drawings: Vec::new(), is_coarse: false, ..job.clone() };
-        is_wanted.then(|| LineJob { view, style: self.state.line_style.clone() })
+        is_wanted.then(|| LineJob { view, style: self.state.line_style() })
     }
 
     /// Whether a side that is seen shows this of the exact lines.
@@ -335,7 +335,7 @@ impl Viewer {
     /// Whether the lines that were found are those of a side's picture.
     fn has_ink_over(&self, side: Side) -> bool {
         let Some((found, drawn)) = self.lines.found().zip(self.drawn.as_ref()) else { return false };
-        let is_of_it = found.job.style == self.state.line_style && found.job.view.is_of_same_picture(drawn);
+        let is_of_it = found.job.style == self.state.line_style() && found.job.view.is_of_same_picture(drawn);
         is_of_it && self.drawing(side).is_some()
     }
 

@@ -1,6 +1,6 @@
 // The page: it reads the state, draws both sides, and changes the state by what a hand does.
 
-import init, { Pane, listing, refusal, tables as tablesOf } from "./tinta.js";
+import init, { Pane, listing, look as lookOf, refusal, tables as tablesOf } from "./tinta.js";
 import * as lines from "./lines.js";
 import { ofFiles, read as readModel } from "./model.js";
 import { show as showListing } from "./listing.js";
@@ -174,6 +174,7 @@ function sideControls(name) {
     return element("label", {}, `${label} `, field);
   };
   const style = choose("Style", tables.styles.map((style) => style.name), side.style, (text) => chooseStyle(name, text));
+  const look = choose("Look", ["", ...tables.looks.map((look) => look.name)], "", (text) => text && chooseLook(name, text));
   const show = choose("Buffer", table.shows, side.show, (text) => changed(() => (side.show = text)));
   const change = (setting, text) => {
     const problem = text === null ? undefined : refusal(side.style, setting, text);
@@ -192,8 +193,28 @@ function sideControls(name) {
   const focused = document.activeElement?.id;
   for (const [heading, details] of [["Settings", settings], ...openings(settings)]) details.open = before.get(heading)?.open ?? false;
   const title = element("h2", { textContent: name === "left" ? "Left" : "Right" });
-  at(`${name}-side`).replaceChildren(title, element("div", { className: "choices" }, style, show), element("p", { className: "cost" }), settings);
+  at(`${name}-side`).replaceChildren(title, element("div", { className: "choices" }, style, look, show), element("p", { className: "cost" }), settings);
   if (focused?.startsWith(`${name}-`)) at(focused)?.focus();
+}
+
+/** The controls of what both sides share. */
+function sceneControls() {
+  const change = (name, text) => changed(() => (text === null ? delete state.scene[name] : (state.scene[name] = text)));
+  const controls = panel(tables.scene.filter(({ name }) => name !== "size"), state.scene, change);
+  at("scene").replaceChildren(element("summary", { textContent: "Scene" }), ...controls);
+}
+
+/** What a look says of the style counts for this side, what it says of the scene for both. */
+function chooseLook(name, text) {
+  const { style, settings, scene } = JSON.parse(lookOf(text));
+  Object.assign(state.sides[name], { style, show: "final", settings });
+  for (const [setting, value] of Object.entries(scene)) {
+    if (value === null) delete state.scene[setting];
+    else state.scene[setting] = value;
+  }
+  sideControls(name);
+  sceneControls();
+  changed(() => {});
 }
 
 function chooseStyle(name, style) {
@@ -334,11 +355,7 @@ at("link").addEventListener("click", async () => {
   const said = isCopied ? "The link is copied" : "The address of this page shows the same";
   say(state.model ? `${said}.` : `${said}, but for a model of your own.`);
 });
-at("scene").append(
-  ...panel(tables.scene.filter(({ name }) => name !== "size"), state.scene, (name, text) => {
-    changed(() => (text === null ? delete state.scene[name] : (state.scene[name] = text)));
-  }),
-);
+sceneControls();
 const active = hand(at("stage"), { state: () => state, pane: () => pane, changed, tables, chooseStyle, shownOf: sideControls, keys: at("keys"), save: { png: at("png"), svg: at("svg") } });
 for (const event of ["dragover", "drop"]) {
   addEventListener(event, (dropped) => {

@@ -3,11 +3,13 @@
 use crate::errors::{said, unreadable};
 use serde_json::json;
 use std::sync::Arc;
+use tinta::lines::{self, Progress};
 use tinta::measure::{Ink, Reference};
 use tinta::mesh::{Loaded, load, read_bytes};
 use tinta::recipe::{Driver, FileRecord};
-use tinta::settings::{HasSettings, Options};
-use tinta::{LineSettings, LoadOptions, Mesh, Recipe, Scene, SceneSettings, Size, SvgSettings, VisibleLines, lines};
+use tinta::request::{Layer, Request};
+use tinta::settings::Options;
+use tinta::{LineSettings, LoadOptions, Mesh, Recipe, Scene, SceneSettings, Size, StyleName, SvgSettings};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -85,19 +87,15 @@ impl Model {
     ///
     /// Those of the options and of the lines.
     pub fn svg(&self, options: &str, has_recipe: bool) -> Result<String, JsError> {
-        let options = options_of(options)?;
-        let scene = self.scene(&SceneSettings::from_options(&options).map_err(said)?)?;
-        let recipe = has_recipe.then(|| self.recipe("lines", &options, scene.size, None));
+        let request = self.request(StyleName::Lines, options)?;
+        let scene = self.scene(&request.scene)?;
+        let recipe = has_recipe.then(|| self.recipe(&request, scene.size, None));
         let drawing = SvgSettings {
-            title: self.name.clone(),
             command: recipe.as_ref().map(|recipe| recipe.command_line("drawing.svg")).unwrap_or_default(),
             recipe: recipe.as_ref().and_then(Recipe::json).unwrap_or_default(),
-            background: scene.background,
-            ..SvgSettings::from_options(&options).map_err(said)?
+            ..request.line_style().unwrap_or_default().drawing
         };
-        let settings = LineSettings::from_options(&options).map_err(said)?;
-        let settings = LineSettings { finds_outline: drawing.tells_outline(), ..settings };
-        let visible = VisibleLines::of(&scene, &settings).map_err(said)?;
+        let visible = request.all_lines(&scene, &Progress::default()).map_err(said)?;
         lines::svg(&visible, &drawing).map_err(said)
     }
 
@@ -108,7 +106,7 @@ impl Model {
     ///
     /// Those of the options and of the lines.
     pub fn error(&self, options: &str, ink: &[u8]) -> Result<f64, JsError> {
-        let scene = self.scene(&SceneSettings::from_options(&options_of(options)?).map_err(said)?)?;
+        let scene = self.scene(&self.request(StyleName::Lines, options)?.scene)?;
         let reference = Reference::of(&scene, &LineSettings::as_published()).map_err(said)?;
         let ink = Ink { size: scene.size, darkness: ink.to_vec() };
         Ok(ink.error(&reference, TOLERANCE_PX).f1)
@@ -116,15 +114,20 @@ impl Model {
 }
 
 impl Model {
+    /// What is asked for of it by options of the page, which are the command line's: in this style where they name none.
+    pub(crate) fn request(&self, style: StyleName, options: &str) -> Result<Request, JsError> {
+        Ok(asked(style, options)?.with_models(vec![self.name.clone()]))
+    }
+
     /// What a picture of it was made of.
-    pub(crate) fn recipe(&self, style: &str, options: &Options, size: Size, gl: Option<Driver>) -> Recipe {
+    pub(crate) fn recipe(&self, request: &Request, size: Size, gl: Option<Driver>) -> Recipe {
         Recipe {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             command: "render".to_owned(),
-            style: style.to_owned(),
+            style: request.style.name().to_owned(),
             size: [size.width, size.height],
-            models: vec![self.name.clone()],
-            options: options.clone(),
+            models: request.models.clone(),
+            options: request.options.clone(),
             files: self.files.clone(),
             gl,
         }
@@ -136,7 +139,8 @@ impl Model {
     }
 }
 
-/// Options of the page, which are the command line's.
-pub(crate) fn options_of(json: &str) -> Result<Options, JsError> {
-    serde_json::from_str(json).map_err(unreadable)
+/// What options of the page ask for, in this style where they name none.
+pub(crate) fn asked(style: StyleName, options: &str) -> Result<Request, JsError> {
+    let options: Options = serde_json::from_str(options).map_err(unreadable)?;
+    Ok(Request::from_layers(&[Layer::Style(style), Layer::Given(options)]).map_err(said)?.0)
 }

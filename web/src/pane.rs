@@ -1,16 +1,16 @@
 //! What the page draws with: a canvas's renderer, a scene, and from where it is seen.
 
 use crate::errors::{said, unreadable};
-use crate::model::{Model, options_of};
+use crate::model::{Model, asked};
 use serde_json::json;
 use tinta::measure::Ink;
 use tinta::orbit::Orbit;
 use tinta::plan::Step;
-use tinta::plan::prune::prune;
 use tinta::recipe::Driver;
 use tinta::renderer::Renderer;
+use tinta::request::Request;
 use tinta::settings::{HasSettings, Options};
-use tinta::{Picture, Scene, SceneSettings, Show, Style, View};
+use tinta::{Picture, Scene, SceneSettings, StyleName, View};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 use web_sys::HtmlCanvasElement;
@@ -59,12 +59,9 @@ impl Pane {
     ///
     /// Those of the options, the style and the browser.
     pub fn draw(&mut self, options: &str, show: &str) -> Result<u32, JsError> {
-        let options = options_of(options)?;
-        let style = Style::from_options(&options).map_err(said)?;
-        let scene = self.seen(&options)?;
-        let plan = style.plan(&scene, shown(show)?).map_err(said)?;
-        let pruned = prune(&plan, &scene, &self.renderer.pruning(1)).plan;
-        let picture = self.renderer.draw(&scene, &pruned).map_err(said)?;
+        let request = picture_asked(options, show)?;
+        let scene = self.seen(&request)?;
+        let picture = request.picture_of(&scene, &mut self.renderer).map_err(said)?;
         let width = picture.size.width;
         self.drawn = Some(picture);
         Ok(width)
@@ -82,10 +79,8 @@ impl Pane {
     /// Where nothing was drawn yet.
     pub fn png(&self, options: &str, model: &Model) -> Result<Vec<u8>, JsError> {
         let picture = self.drawn.as_ref().ok_or_else(|| JsError::new("nothing was drawn yet"))?;
-        let options = options_of(options)?;
-        let style = Style::from_options(&options).map_err(said)?;
         let driver = Driver::new(self.renderer.context());
-        let recipe = model.recipe(style.name(), &options, picture.size, Some(driver));
+        let recipe = model.recipe(&model.request(StyleName::ThreePass, options)?, picture.size, Some(driver));
         picture.png_bytes(recipe.note().as_ref()).map_err(said)
     }
 
@@ -95,9 +90,8 @@ impl Pane {
     ///
     /// Those of [`Pane::draw`].
     pub fn passes(&self, options: &str, show: &str) -> Result<String, JsError> {
-        let options = options_of(options)?;
-        let style = Style::from_options(&options).map_err(said)?;
-        let plan = style.plan(&self.seen(&options)?, shown(show)?).map_err(said)?;
+        let request = picture_asked(options, show)?;
+        let plan = request.style.plan(&self.seen(&request)?, request.show).map_err(said)?;
         let passes: Vec<_> = plan
             .passes
             .iter()
@@ -124,10 +118,9 @@ impl Pane {
     ///
     /// Those of [`Pane::draw`].
     pub fn ink(&mut self, options: &str) -> Result<Option<Vec<u8>>, JsError> {
-        let options = options_of(options)?;
-        let style = Style::from_options(&options).map_err(said)?;
-        let scene = self.seen(&options)?;
-        Ok(Ink::of_style(&mut self.renderer, &scene, &style).map_err(said)?.map(|ink| ink.darkness))
+        let request = asked(StyleName::ThreePass, options)?;
+        let scene = self.seen(&request)?;
+        Ok(Ink::of_style(&mut self.renderer, &scene, &request.style).map_err(said)?.map(|ink| ink.darkness))
     }
 
     /// From where the scene is seen, as [`Pane::set_orbit`] takes it.
@@ -212,16 +205,16 @@ impl Pane {
     ///
     /// Where the camera is refused.
     pub fn camera(&self, options: &str) -> Result<String, JsError> {
-        let settings = self.settings(&options_of(options)?)?;
+        let settings = self.settings(&asked(StyleName::ThreePass, options)?)?;
         let camera = SceneSettings { camera: settings.camera, ..SceneSettings::default() };
         json_of(&camera.to_options().map_err(said)?)
     }
 }
 
 impl Pane {
-    fn settings(&self, options: &Options) -> Result<SceneSettings, JsError> {
-        let settings = SceneSettings::from_options(options).map_err(said)?;
-        if ["eye", "target", "view"].iter().any(|name| options.contains_key(*name)) {
+    fn settings(&self, request: &Request) -> Result<SceneSettings, JsError> {
+        let settings = request.scene.clone();
+        if ["eye", "target", "view"].iter().any(|name| request.options.contains_key(*name)) {
             return Ok(settings);
         }
         let scene = self.scene.as_ref().ok_or_else(|| JsError::new("no model is shown yet"))?;
@@ -229,14 +222,17 @@ impl Pane {
         Ok(SceneSettings { camera, ..settings })
     }
 
-    fn seen(&self, options: &Options) -> Result<Scene, JsError> {
+    fn seen(&self, request: &Request) -> Result<Scene, JsError> {
         let scene = self.scene.as_ref().ok_or_else(|| JsError::new("no model is shown yet"))?;
-        scene.seen_with(&self.settings(options)?).map_err(said)
+        scene.seen_with(&self.settings(request)?).map_err(said)
     }
 }
 
-fn shown(name: &str) -> Result<Show, JsError> {
-    name.parse().map_err(|error| JsError::new(&format!("{error}")))
+/// What options ask for, and which of the style's pictures.
+fn picture_asked(options: &str, show: &str) -> Result<Request, JsError> {
+    let mut request = asked(StyleName::ThreePass, options)?;
+    request.show = show.parse().map_err(|error| JsError::new(&format!("{error}")))?;
+    Ok(request)
 }
 
 fn json_of(options: &Options) -> Result<String, JsError> {

@@ -1,11 +1,13 @@
 //! What the page's controls are made of: the tables of settings, the models, the shaders.
 
-use crate::errors::unreadable;
+use crate::errors::{said, unreadable};
 use serde_json::{Value, json};
 use tinta::glsl::es::{Stage, transcribed};
 use tinta::keys::{action, sheet};
 use tinta::mesh::BUILTINS;
-use tinta::settings::{HasSettings, Kind, Setting};
+use tinta::preset::{LOOKS, Look};
+use tinta::request::{Layer, Request};
+use tinta::settings::{HasSettings, Kind, OptionValue, Setting, on_off};
 use tinta::{SceneSettings, Style, StyleName};
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsError, JsValue};
@@ -13,8 +15,7 @@ use wasm_bindgen::{JsError, JsValue};
 /// Every style with its settings, those of the scene, the built-in models, the sheet of keys: JSON.
 #[wasm_bindgen]
 pub fn tables() -> String {
-    let styles: Vec<Value> = StyleName::ALL
-        .into_iter()
+    let styles: Vec<Value> = StyleName::of_passes()
         .map(|(name, of)| {
             let style = Style::named(of);
             let settings: Vec<Value> =
@@ -30,8 +31,47 @@ pub fn tables() -> String {
     let offered = BUILTINS.iter().filter(|model| model.closed_form().is_none());
     let models: Vec<Value> = offered.map(|model| json!({ "name": model.name, "what": model.what })).collect();
     let keys: Vec<Value> = sheet(true).map(|(keys, what)| json!({ "keys": keys, "what": what })).collect();
-    json!({ "version": env!("CARGO_PKG_VERSION"), "styles": styles, "scene": of_scene, "models": models, "keys": keys })
+    // Lines as vectors are what the page saves, not what it draws.
+    let looks = LOOKS.iter().filter(|look| !look.draws_lines());
+    let looks: Vec<Value> = looks.map(|look| json!({ "name": look.name, "about": look.about })).collect();
+    json!({ "version": env!("CARGO_PKG_VERSION"), "styles": styles, "looks": looks, "scene": of_scene, "models": models, "keys": keys })
         .to_string()
+}
+
+/// What a look makes of a side and of the scene: JSON, the style's name, its settings and the scene's, each a text by its name; `null` is
+/// the default.
+///
+/// # Errors
+///
+/// A sentence where there is no such look.
+#[wasm_bindgen]
+pub fn look(name: &str) -> Result<String, JsError> {
+    let look = Look::of_name(name).map_err(|error| JsError::new(&format!("{error}")))?;
+    let (request, _) = Request::from_layers(&[Layer::Look(look)]).map_err(said)?;
+    let of = |is_of: &dyn Fn(&str) -> bool| -> serde_json::Map<String, Value> {
+        let mut options = request.options.iter().filter(|(name, _)| is_of(name.as_str()));
+        options.by_ref().map(|(name, value)| (name.clone(), text(value))).collect()
+    };
+    let settings = of(&|name| Style::table().has(name));
+    // The page says how large the picture is, and the hand from where it is seen.
+    let is_of_scene = |name: &str| !["size", "view"].contains(&name) && SceneSettings::table().has(name);
+    let mut scene = of(&is_of_scene);
+    // What another look sets is as by default again.
+    for other in LOOKS {
+        for name in other.preset().map_err(said)?.options.into_keys().filter(|name| is_of_scene(name)) {
+            scene.entry(name).or_insert(Value::Null);
+        }
+    }
+    Ok(json!({ "style": request.style.name(), "settings": settings, "scene": scene }).to_string())
+}
+
+/// A value as a control has it.
+fn text(value: &OptionValue) -> Value {
+    match value {
+        OptionValue::Switch(is_on) => on_off(*is_on).into(),
+        OptionValue::Text(text) => text.as_str().into(),
+        OptionValue::Texts(texts) => texts.join(",").into(),
+    }
 }
 
 /// A setting as a control needs it.

@@ -164,6 +164,19 @@ export async function testPage(tables) {
     assert(differing(before, picture(at("left")), 0) === 0, "as published again");
   });
 
+  await test("a look sets the style of its side and the scene of both", async () => {
+    await change(at("model"), "bust");
+    await change(at("left-Look"), "charcoal");
+    assert(at("left-Style").value === "charcoal", at("left-Style").value);
+    assert(!at("status").classList.contains("warning"), at("status").textContent);
+    const looked = picture(at("left"));
+    await change(at("left-Look"), "published");
+    assert(at("left-Style").value === "three-pass", at("left-Style").value);
+    await change(at("left-Style"), "charcoal");
+    assert(differing(looked, picture(at("left")), 8) > 0.005, "charcoal as published is another");
+    assert(!at("left-Look").textContent.includes("technical"), "lines are saved, not drawn");
+  });
+
   await test("a link shows the same again", async () => {
     await change(at("model"), "gear");
     await change(at("right-Style"), "charcoal");

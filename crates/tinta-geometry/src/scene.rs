@@ -153,7 +153,8 @@ impl HasSettings for SceneSettings {
 }
 
 impl SceneSettings {
-    fn settings() -> Vec<Setting<Self>> {
+    /// The settings, also for a table of something that has a scene in it.
+    pub fn settings() -> Vec<Setting<Self>> {
         let default = || Self::default().background;
         let background = Setting::of(
             "background",

@@ -60,12 +60,16 @@ impl OptionValue {
 }
 
 /// Settings that exclude each other: one, and those that cannot stand beside it.
-pub const EXCLUSIVE: [(&str, &[&str]); 5] = [
+pub const EXCLUSIVE: [(&str, &[&str]); 9] = [
     ("eye", &["view"]),
     ("transparent", &["background"]),
     ("width-mm", &["dpi"]),
     ("page", &["width-mm", "dpi"]),
     ("fit-curves", &["provenance"]),
+    ("turntable", &["animate"]),
+    ("animate", &["model-frame"]),
+    ("full", &["keep", "verify"]),
+    ("json", &["explain"]),
 ];
 
 /// Refuses options that exclude each other.
@@ -227,6 +231,10 @@ pub struct Setting<T> {
     pub provenance: Option<Provenance>,
     /// Texts of earlier versions with those that say the same now: they are read, and neither written nor offered.
     pub former: &'static [(&'static str, &'static str)],
+    /// Whether it may be given without a value: then its text is empty.
+    pub stands_alone: bool,
+    /// Whether it decides which others there are, and is set before them.
+    is_first: bool,
     label: Option<&'static str>,
     get: Get<T>,
     set: Set<T>,
@@ -325,6 +333,8 @@ impl<T: Clone + 'static> Setting<T> {
             open: None,
             provenance: None,
             former: &[],
+            stands_alone: false,
+            is_first: false,
             label: None,
             get: Box::new(move |of| Some(get(of))),
             set: Box::new(set),
@@ -364,6 +374,20 @@ impl<T: Clone + 'static> Setting<T> {
     #[must_use]
     pub fn said(mut self, default: &'static str) -> Self {
         self.said_default = Some(default);
+        self
+    }
+
+    /// As one that may be given without a value.
+    #[must_use]
+    pub fn standing_alone(mut self) -> Self {
+        self.stands_alone = true;
+        self
+    }
+
+    /// As one that decides which others there are.
+    #[must_use]
+    pub fn first(mut self) -> Self {
+        self.is_first = true;
         self
     }
 
@@ -410,6 +434,8 @@ impl<T: Clone + 'static> Setting<T> {
             open,
             provenance,
             former,
+            stands_alone,
+            is_first,
             label,
             get,
             set,
@@ -428,6 +454,8 @@ impl<T: Clone + 'static> Setting<T> {
             open,
             provenance,
             former,
+            stands_alone,
+            is_first,
             label,
             get,
             set,
@@ -474,6 +502,20 @@ impl<T: Clone + 'static> Setting<T> {
         }
     }
 
+    /// What is given of it as recipes and presets keep it, in the words of this version; the error says what should be given instead.
+    ///
+    /// # Errors
+    ///
+    /// What should be given instead.
+    pub fn kept(&self, value: OptionValue) -> std::result::Result<OptionValue, String> {
+        let text = self.text_of(&value)?;
+        Ok(match (&self.kind, value) {
+            (Kind::Flag, value) => value,
+            (_, OptionValue::Switch(is_on)) if self.stands_alone => OptionValue::Switch(is_on),
+            _ => OptionValue::Text(self.present(&text).to_owned()),
+        })
+    }
+
     /// The text that this is of what is given; the error says what should be given instead.
     fn text_of(&self, value: &OptionValue) -> std::result::Result<String, String> {
         match (&self.kind, value) {
@@ -483,6 +525,8 @@ impl<T: Clone + 'static> Setting<T> {
             (_, OptionValue::Text(text)) => Ok(text.clone()),
             (_, OptionValue::Texts(texts)) => Ok(texts.join(",")),
             (Kind::Flag | Kind::Switch, OptionValue::Switch(is_on)) => Ok(on_off(*is_on).to_owned()),
+            (_, OptionValue::Switch(true)) if self.stands_alone => Ok(String::new()),
+            (_, OptionValue::Switch(false)) if self.stands_alone => Ok(self.open.unwrap_or_default().to_owned()),
             (_, OptionValue::Switch(_)) => Err(format!("this takes a value ({}), not true or false", self.value_name)),
         }
     }
@@ -495,9 +539,10 @@ impl<T: Clone + 'static> Setting<T> {
     /// When it is set among others: recipes before what they set, and what takes something away last.
     fn turn(&self) -> usize {
         match self.kind {
-            Kind::Recipe(_) => 0,
-            Kind::Flag => 2,
-            _ => 1,
+            _ if self.is_first => 0,
+            Kind::Recipe(_) => 1,
+            Kind::Flag => 3,
+            _ => 2,
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Staging of a measurement's folder, which fills row by row: it has a temporary name until it is complete, and is resumed after a
 //! kill.
 
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use tinta::batch::{Job, JobCommand, place_in};
 use tinta::record::ROWS_FILE;
@@ -12,8 +11,6 @@ use tinta::{Error, Result};
 pub(super) struct StagedFolder {
     staged: PathBuf,
     place: PathBuf,
-    /// Rows of several files are put together quickly, and from the beginning.
-    is_merge: bool,
 }
 
 impl StagedFolder {
@@ -33,24 +30,18 @@ impl StagedFolder {
             ));
         }
         let staged = place.with_file_name(format!("{}{name}", prefix(job)));
+        // Rows of several files are put together quickly, and from the beginning.
         let is_merge = job.options.iter().any(|(key, _)| key == "merge");
         if is_merge && staged.is_dir() {
             std::fs::remove_dir_all(&staged).map_err(|error| cannot(&staged, &error))?;
         }
-        Ok(Some(Self { staged, place, is_merge }))
+        Ok(Some(Self { staged, place }))
     }
 
-    /// The job's arguments with the staged folder, resumed.
-    pub(super) fn words(&self, words: Vec<OsString>) -> Vec<OsString> {
-        let is_output = |word: &OsString| word.to_string_lossy().starts_with("--output=");
-        let mut words: Vec<OsString> = words.into_iter().filter(|word| !is_output(word)).collect();
-        let mut output = OsString::from("--output=");
-        output.push(&self.staged);
-        words.insert(2, output);
-        if !self.is_merge && !words.iter().any(|word| word == "--resume") {
-            words.insert(3, "--resume".into());
-        }
-        words
+    #[cfg_attr(not(feature = "measuring"), expect(dead_code, reason = "only a measurement has a folder"))]
+    /// Where it is written until it is whole.
+    pub(super) fn path(&self) -> &Path {
+        &self.staged
     }
 
     /// Gives the folder, whole, its name; an older measurement there is gone then.

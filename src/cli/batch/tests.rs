@@ -1,6 +1,6 @@
 //! A worker's jobs in this process, with contexts that fail on purpose.
 
-use super::super::session::Session;
+use super::super::models::session_for_many;
 use super::worker::carry_out;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -23,7 +23,7 @@ fn job(id: usize) -> Job {
 fn outcomes(open: fn(Backend) -> Result<Renderer>, jobs: usize) -> (Vec<Outcome>, usize) {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = tempfile::tempdir().unwrap();
-    let mut session = Session::for_many(open);
+    let mut session = session_for_many(open);
     let outcomes = (0..jobs).map(|id| carry_out(&job(id), folder.path(), &mut session)).collect();
     let objects = session.live_objects();
     (outcomes, objects)

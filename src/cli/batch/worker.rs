@@ -2,11 +2,9 @@
 
 #[cfg(feature = "measuring")]
 use super::super::measure;
-use super::super::preset::{Given, parse};
-use super::super::session::Session;
 use super::super::signals;
-use super::super::{Command, Stop, Verdict, compare, messages, render};
-use super::argv::argv;
+use super::super::{Verdict, compare, messages, models, render};
+use super::JobOptions;
 use super::staging::{self, StagedFolder};
 use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
@@ -14,9 +12,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Receiver;
 use std::time::Instant;
-use tinta::batch::{Job, Outcome, Run, Status, place_in, written};
+use tinta::batch::{Job, JobCommand, Outcome, Run, Status, place_in, written};
 use tinta::recipe::Driver;
 use tinta::renderer::milliseconds_since;
+use tinta::request::Session;
 use tinta::settings::OptionValue;
 use tinta::{Error, Renderer, Result};
 
@@ -27,7 +26,7 @@ pub(super) fn serve(folder: &Path) -> Result<()> {
         |error: std::io::Error| Error::output("-", format!("the parent process has ended ({error})")).because(&error);
     let is_busy = Arc::new(AtomicBool::new(false));
     let lines = lines(&is_busy).map_err(gone)?;
-    let mut session = Session::for_many(Renderer::new);
+    let mut session = models::session_for_many(Renderer::new);
     for line in lines {
         let outcome = match Job::parse(&line) {
             Ok(job) => carry_out(&job, folder, &mut session),
@@ -98,31 +97,50 @@ pub(super) fn carry_out(job: &Job, folder: &Path, session: &mut Session) -> Outc
     outcome
 }
 
-/// Does a job through the parser and the function that the command line has.
+/// Does a job by the function that the command line has.
 fn once(job: &Job, folder: &Path, session: &mut Session) -> Result<(Verdict, Option<Driver>)> {
-    let as_given = argv(job, folder)?;
+    let options = JobOptions::of(job, folder)?;
+    let command = Command::of(job.command, &options)?;
     make_folders(job, folder)?;
     let staged = StagedFolder::of(job, folder)?;
-    let words = staged.as_ref().map_or_else(|| as_given.clone(), |staged| staged.words(as_given.clone()));
     session.take_used();
-    let (parsed, mut given) = parse(words).map_err(|stop| match stop {
-        Stop::Wrong(error) => error,
-        Stop::Help(_) => Error::CommandLine { problem: "a job asks for help instead of work".to_owned() },
-    })?;
-    given.as_given = as_given.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
-    let verdict = command(parsed.command, &given, session).map_err(|error| given.attributed(error))?;
+    let verdict = match command {
+        Command::Render(arguments) => render::run(&arguments, session)?,
+        Command::Compare(arguments) => compare::run(&arguments, session).map(|()| Verdict::Good)?,
+        #[cfg(feature = "measuring")]
+        Command::Measure(arguments) => {
+            let folder = staged.as_ref().map_or(Path::new(&options.output), |staged| staged.path()).to_owned();
+            measure::run(&arguments.resumed(folder), &options.command, session).map(|()| Verdict::Good)?
+        }
+    };
     staged.map_or(Ok(()), |staged| staged.put_in_place())?;
     let driver = session.take_used().map(|renderer| Driver::new(renderer.context()));
     Ok((verdict, driver))
 }
 
-fn command(command: Command, given: &Given, session: &mut Session) -> Result<Verdict> {
-    match command {
-        Command::Render(arguments) => render::run(&arguments, given, session),
-        Command::Compare(arguments) => compare::run(&arguments, given, session).map(|()| Verdict::Good),
-        #[cfg(feature = "measuring")]
-        Command::Measure(arguments) => measure::run(&arguments, given, session).map(|()| Verdict::Good),
-        _ => Err(Error::CommandLine { problem: "a job is render, compare or measure".to_owned() }),
+/// What a job does.
+enum Command {
+    Render(Box<render::Arguments>),
+    Compare(Box<compare::Arguments>),
+    #[cfg(feature = "measuring")]
+    Measure(Box<measure::Arguments>),
+}
+
+impl Command {
+    fn of(command: JobCommand, options: &JobOptions) -> Result<Self> {
+        Ok(match command {
+            JobCommand::Render => Self::Render(Box::new(render::Arguments::of_job(options)?)),
+            JobCommand::Compare => Self::Compare(Box::new(compare::Arguments::of_job(options)?)),
+            #[cfg(feature = "measuring")]
+            JobCommand::Measure => Self::Measure(Box::new(measure::Arguments::of_job(options)?)),
+            #[cfg(not(feature = "measuring"))]
+            JobCommand::Measure => {
+                return Err(Error::setting(
+                    "command",
+                    "this program was built without measuring; a job is render or compare",
+                ));
+            }
+        })
     }
 }
 

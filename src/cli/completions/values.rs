@@ -3,10 +3,10 @@
 
 use clap::builder::{PossibleValuesParser, Resettable};
 use clap::{Arg, Command, ValueHint};
+use tinta::StyleName;
 use tinta::plan::Submission;
-use tinta::plan::prune::Rule;
+use tinta::request::Request;
 use tinta::settings::{HasSettings, names_of};
-use tinta::{Backend, LineSettings, LoadOptions, SceneSettings, Show, Style, StyleName, SvgSettings};
 
 /// The command with what a shell offers for each value.
 pub(super) fn with_values(command: Command) -> Command {
@@ -43,14 +43,10 @@ fn with_value(command: &str, arg: Arg) -> Arg {
 /// The names an option takes, or the usual ones where it takes others too.
 fn offered(command: &str, option: &str) -> Vec<&'static str> {
     match option {
-        "style" => with(names_of::<StyleName>(), &["lines"]),
-        "right" if command == "view" => with(names_of::<StyleName>(), &["lines"]),
-        "left" | "right" | "styles" => names_of::<StyleName>(),
+        "right" if command == "view" => names_of::<StyleName>(),
+        "left" | "right" | "styles" => StyleName::of_passes().map(|(name, _)| name).collect(),
         "look" => tinta::preset::LOOKS.iter().map(|look| look.name).collect(),
-        "backend" => names_of::<Backend>(),
         "submission" => names_of::<Submission>(),
-        "show" => names_of::<Show>(),
-        "keep" => names_of::<Rule>(),
         "ink" => vec!["dark", "light", "alpha"],
         "suite" => vec!["papers", "solids", "all"],
         #[cfg(feature = "measuring")]
@@ -59,19 +55,12 @@ fn offered(command: &str, option: &str) -> Vec<&'static str> {
         #[cfg(feature = "measuring")]
         "only" => tinta::figures::figures(tinta::Size { width: 1, height: 1 }).iter().map(|figure| figure.id).collect(),
         _ => {
-            let tables = [
-                of_table::<Style>,
-                of_table::<SceneSettings>,
-                of_table::<LoadOptions>,
-                of_table::<LineSettings>,
-                of_table::<SvgSettings>,
-            ];
             // Styles and lines have settings of one name that take different ones.
             let mut names: Vec<&str> = Vec::new();
-            for name in tables.iter().flat_map(|table| table(option)) {
-                if !names.contains(&name) {
-                    names.push(name);
-                }
+            for setting in Request::table().settings.iter().filter(|setting| setting.name == option) {
+                names.extend(
+                    setting.kind.offered().into_iter().filter(|name| !names.contains(name)).collect::<Vec<_>>(),
+                );
             }
             names
         }
@@ -79,6 +68,7 @@ fn offered(command: &str, option: &str) -> Vec<&'static str> {
 }
 
 /// What a table of settings offers for an option; nothing for one of another table.
+#[cfg(test)]
 pub(crate) fn of_table<T: HasSettings>(option: &str) -> Vec<&'static str> {
     let settings = T::table().settings.iter().filter(|setting| setting.name == option);
     settings.map(|setting| setting.kind.offered()).next().unwrap_or_default()
@@ -87,8 +77,3 @@ pub(crate) fn of_table<T: HasSettings>(option: &str) -> Vec<&'static str> {
 /// Groups of cases that `tinta stress --only` names.
 pub(super) const GROUPS: [&str; 9] =
     ["scale", "depth", "topology", "thresholds", "pictures", "mixes", "turns", "files", "faults"];
-
-fn with(mut names: Vec<&'static str>, more: &[&'static str]) -> Vec<&'static str> {
-    names.extend_from_slice(more);
-    names
-}

@@ -1,25 +1,174 @@
 //! Which settings are measured: each as the options that `tinta render` takes, so that a row can be drawn again.
 
-use super::super::options::StyleArguments;
-use clap::Parser;
-use tinta::measure::Setting;
+use super::super::options::Selection;
+use std::sync::LazyLock;
+use tinta::measure::{Against, Setting};
 use tinta::plan::Submission;
 use tinta::recipe::option_words;
+use tinta::request::Request;
+use tinta::settings::{self, HasSettings, Kind, OptionValue, Options, Problem, Table};
 use tinta::shell::quoted;
 use tinta::styles::Origin;
-use tinta::{Error, Result, Style, StyleName};
+use tinta::{Backend, Error, Result, Size, Style, StyleName};
 
-/// A setting's options by themselves.
-#[derive(Parser)]
-pub(crate) struct StyleOptions {
-    #[arg(long, default_value = "three-pass")]
-    style: StyleName,
+/// How is measured.
+#[derive(Debug, Clone)]
+pub(in crate::cli) struct HowMeasured {
+    pub against: Option<Against>,
+    pub suite: Option<Suite>,
+    pub sizes: Vec<Size>,
+    pub styles: Vec<StyleName>,
+    pub frames: Option<u32>,
+    pub quick: bool,
+    pub tolerance_px: f64,
+    pub resume: bool,
+    pub machine: Option<String>,
+    pub backend: Backend,
+}
 
-    #[arg(long, default_value = "buffers")]
-    submission: Submission,
+impl Default for HowMeasured {
+    fn default() -> Self {
+        Self {
+            against: None,
+            suite: None,
+            sizes: vec![Size { width: 512, height: 512 }],
+            styles: Vec::new(),
+            frames: None,
+            quick: false,
+            tolerance_px: 2.0,
+            resume: false,
+            machine: None,
+            backend: Backend::default(),
+        }
+    }
+}
 
-    #[command(flatten)]
-    styles: StyleArguments,
+/// Built-in models that are measured together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::cli) enum Suite {
+    Papers,
+    Solids,
+    All,
+}
+
+impl Suite {
+    /// All of them, as the user writes them.
+    const ALL: [(&'static str, Self); 3] = [("papers", Self::Papers), ("solids", Self::Solids), ("all", Self::All)];
+
+    /// Their names.
+    pub(super) fn models(self) -> &'static [&'static str] {
+        const ALL: [&str; 4] = ["builtin:bust", "builtin:ant", "builtin:gear", "builtin:open-box"];
+        match self {
+            Self::Papers => &ALL[..2],
+            Self::Solids => &ALL[2..],
+            Self::All => &ALL,
+        }
+    }
+}
+
+tinta_geometry::choices!(Suite);
+
+/// All of them.
+pub(in crate::cli) struct OfHow;
+
+impl Selection for OfHow {
+    type Of = HowMeasured;
+    const HAS_HEADINGS: bool = false;
+}
+
+impl HasSettings for HowMeasured {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<HowMeasured>> =
+            LazyLock::new(|| Table { settings: of_how(), defaults: vec![HowMeasured::default()] });
+        &TABLE
+    }
+}
+
+/// Values with commas between; a word for none.
+fn listed<T: ToString>(values: &[T], none: &str) -> String {
+    match values {
+        [] => none.to_owned(),
+        values => values.iter().map(ToString::to_string).collect::<Vec<_>>().join(","),
+    }
+}
+
+fn values<T: std::str::FromStr<Err = tinta::ParseError>>(text: &str) -> std::result::Result<Vec<T>, Problem> {
+    Ok(text.split(',').map(|value| value.trim().parse()).collect::<std::result::Result<_, _>>()?)
+}
+
+fn of_how() -> Vec<settings::Setting<HowMeasured>> {
+    type Of = settings::Setting<HowMeasured>;
+    let sizes = Of::of(
+        "size",
+        "SIZES",
+        Kind::Text { offered: &[], example: "64x64,128x128" },
+        "Sizes in pixels, separated by commas",
+        |how: &HowMeasured| listed(&how.sizes, ""),
+        |how, text| {
+            how.sizes = values(text)?;
+            Ok(())
+        },
+    );
+    let styles = Of::of(
+        "styles",
+        "STYLES",
+        Kind::Several(StyleName::of_passes().map(|(name, _)| name).collect()),
+        "Styles, separated by commas",
+        |how: &HowMeasured| listed(&how.styles, "all"),
+        |how, text| {
+            let named = || text.split(',').map(|name| StyleName::named_of_passes(name.trim()));
+            how.styles = if text == "all" { Vec::new() } else { named().collect::<std::result::Result<_, _>>()? };
+            Ok(())
+        },
+    );
+    let frames = Of::of(
+        "frames",
+        "N",
+        Kind::Numbers { count: 1, range: [1.0, 101.0], decimals: 0 },
+        "Frames to time for each setting",
+        |how: &HowMeasured| how.frames.map_or("auto".to_owned(), |frames| frames.to_string()),
+        |how, text| {
+            let frames = text.trim().parse().ok().filter(|frames| (1..=100_000).contains(frames));
+            how.frames = Some(frames.ok_or_else(|| "give a whole number from 1 to 100000".to_owned())?);
+            Ok(())
+        },
+    );
+    let machine = Of::of(
+        "machine",
+        "NAME",
+        Kind::Text { offered: &[], example: "desk" },
+        "Name of this machine in the report",
+        |how: &HowMeasured| how.machine.clone().unwrap_or_default(),
+        |how, text| {
+            how.machine = Some(text.to_owned());
+            Ok(())
+        },
+    );
+    let against = "What lines are compared with: the exact lines of the models (lines), or the true contour of smooth surfaces (smooth), \
+                   whose models are built-in ones, by default all of them with about 1,000, 10,000 and 100,000 triangles";
+    let suite = "Set of built-in models: papers (bust, ant), solids (gear, open box), all";
+    let backend = "OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works)";
+    vec![
+        Of::open_field("against", "WHAT", "", against, |how| &mut how.against).said("lines").common(),
+        Of::open_field("suite", "SUITE", "", suite, |how| &mut how.suite).said("none").common(),
+        sizes.common(),
+        styles.common(),
+        frames.said("21, with --quick 7").common(),
+        Of::flag("quick", "Measure fewer settings and frames", |how| how.quick, |how, is_on| how.quick = is_on)
+            .common(),
+        Of::field("tolerance", "PIXELS", "Distance within which ink and line count as the same, in pixels", |how| {
+            &mut how.tolerance_px
+        }),
+        Of::flag(
+            "resume",
+            "Continue an interrupted run in the same folder",
+            |how| how.resume,
+            |how, is_on| how.resume = is_on,
+        )
+        .common(),
+        machine.said("system, processor, threads"),
+        Of::field("backend", "BACKEND", backend, |how| &mut how.backend),
+    ]
 }
 
 /// What is measured besides even when it has to be quick.
@@ -78,7 +227,7 @@ const FULL: [&str; 34] = [
 /// styles of this project that are not.
 pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setting>> {
     let of_defaults = |is_own: bool| {
-        let styles = StyleName::lines_first().into_iter();
+        let styles = StyleName::lines_first().into_iter().filter(|style| !style.draws_lines());
         let wanted = styles.filter(move |style| (style.info().origin == Origin::Own) == is_own);
         wanted.map(|style| format!("--style {}", style.name()))
     };
@@ -97,30 +246,40 @@ pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setti
         .collect()
 }
 
-fn setting(options: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
-    let words = std::iter::once("tinta").chain(options.split_whitespace());
-    let parsed =
-        StyleOptions::try_parse_from(words).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
-    let style = parsed.styles.style(parsed.style)?;
-    Ok((parsed.style, Setting { style, submission: parsed.submission, options, is_faithful }))
+fn setting(text: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let mut options: Options = words
+        .chunks(2)
+        .filter_map(|pair| Some((pair.first()?.strip_prefix("--")?.to_owned(), OptionValue::text(*pair.get(1)?))))
+        .collect();
+    // How vertices are handed over is no part of a drawing.
+    let submission = match options.remove("submission") {
+        Some(OptionValue::Text(how)) => {
+            how.parse().map_err(|problem: tinta::ParseError| Error::value("submission", how, problem))?
+        }
+        _ => Submission::default(),
+    };
+    let style = Request::from_given(&options)?.style;
+    Ok((style.style_name(), Setting { style, submission, options: text, is_faithful }))
 }
 
-/// The setting that a preset's words make; none for no words.
-pub(super) fn of_words(words: &[String]) -> Result<Option<Setting>> {
-    if words.is_empty() {
-        return Ok(None);
-    }
-    let given = std::iter::once("tinta".to_owned()).chain(words.iter().cloned());
-    let parsed =
-        StyleOptions::try_parse_from(given).map_err(|error| Error::CommandLine { problem: error.to_string() })?;
-    let style = parsed.styles.style(parsed.style)?;
-    let is_faithful = style == Style::named(parsed.style);
+/// Inking with the contours of smooth surfaces.
+pub(super) fn smooth_inking() -> Result<Setting> {
+    let options = [("style", "inking"), ("silhouette", "smooth")];
+    let options = options.map(|(name, value)| (name.to_owned(), OptionValue::text(value))).into();
+    setting_of(&Request::from_given(&options)?)
+}
+
+/// The setting that a request's style is.
+pub(super) fn setting_of(request: &Request) -> Result<Setting> {
+    let style = request.style.clone();
+    let is_faithful = style == Style::named(style.style_name());
     // What is as by default is left out, as in the settings above.
     let mut changed = style.to_options()?;
     changed.remove("style");
     let words = changed.iter().flat_map(|(name, value)| option_words(name, value));
-    let options = words.fold(format!("--style {}", parsed.style.name()), |text, word| text + " " + &quoted(&word));
-    Ok(Some(Setting { style, submission: parsed.submission, options, is_faithful }))
+    let options = words.fold(format!("--style {}", style.name()), |text, word| text + " " + &quoted(&word));
+    Ok(Setting { style, submission: Submission::default(), options, is_faithful })
 }
 
 #[cfg(test)]
@@ -130,7 +289,7 @@ mod tests {
     #[test]
     fn every_setting_is_one_that_render_takes_and_none_comes_twice() {
         let all = settings(&[], false).unwrap();
-        for (name, style) in StyleName::ALL {
+        for (name, style) in StyleName::of_passes() {
             assert!(all.iter().any(|setting| setting.style == Style::named(style)), "{name} is not measured");
         }
         for (index, setting) in all.iter().enumerate() {

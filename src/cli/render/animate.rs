@@ -1,35 +1,17 @@
 //! `tinta render` with an animation for its output: a turn around the models, or an animated model's frames.
 
-use super::super::model_cache::ModelCache;
 use super::super::models::read;
 use super::super::progress::Progress;
-use super::super::session::Session;
-use super::{Arguments, Loaded, Verdict, load_scene, model_records, prune};
+use super::{Rendering, Verdict, pictures_of, prune};
 use serde_json::json;
 use std::sync::Arc;
 use std::time::Instant;
 use tinta::mesh::ModelFrame;
+use tinta::plan::prune::Pruned;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
+use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Session};
 use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings, Style};
-
-#[derive(clap::Args)]
-#[command(
-    next_help_heading = "Animation, into FILE.gif, FILE.apng or numbered files such as frame-%04d.png; lines: frame-%04d.svg"
-)]
-pub(super) struct AnimationArguments {
-    /// Draw N views of a full turn around the models [default: off]
-    #[arg(long, value_name = "N", conflicts_with = "animate", value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    pub turntable: Option<u32>,
-
-    /// Draw all frames of an animated model (MD2), or those of one movement, such as --animate=run [default: off]
-    #[arg(long, hide_short_help = true, value_name = "MOVEMENT", num_args = 0..=1, require_equals = true, default_missing_value = "", conflicts_with = "model-frame")]
-    pub animate: Option<String>,
-
-    /// Time that each picture is shown, in milliseconds [default: 100 for a model's frame; a turn takes 2500, at most 200 each]
-    #[arg(long, hide_short_help = true, value_name = "MS", value_parser = clap::value_parser!(u16).range(20..=60_000))]
-    frame_delay: Option<u16>,
-}
 
 /// How long a turn takes unless told otherwise, milliseconds; few views are not shown longer than 200 each.
 const TURN_MS: u32 = 2500;
@@ -40,63 +22,66 @@ pub(super) const WORTH_PREPARING: u32 = 30;
 /// Quake 2 shows ten frames a second.
 const MODEL_FRAME_MS: u16 = 100;
 
-impl AnimationArguments {
-    /// Where the animation goes, if one is asked for.
-    pub(super) fn target(&self, output: &str, transparent: bool) -> Result<Option<AnimationTarget>> {
-        let is_asked_for = self.turntable.is_some() || self.animate.is_some() || AnimationTarget::is_meant_by(output);
-        is_asked_for.then(|| AnimationTarget::check(output, transparent)).transpose()
-    }
-
-    fn delay_ms(&self, frames: usize) -> u16 {
-        let turn = (TURN_MS / frames.max(1) as u32).clamp(20, 200) as u16;
-        self.frame_delay.unwrap_or(if self.animate.is_some() { MODEL_FRAME_MS } else { turn })
-    }
+/// Where the animation goes, if one is asked for.
+pub(super) fn target(
+    animation: &AnimationSettings,
+    output: &str,
+    is_transparent: bool,
+) -> Result<Option<AnimationTarget>> {
+    let is_asked_for =
+        animation.turntable.is_some() || animation.animate.is_some() || AnimationTarget::is_meant_by(output);
+    is_asked_for.then(|| AnimationTarget::check(output, is_transparent)).transpose()
 }
 
-/// Draws the animation that the arguments describe; encoding goes on beside the drawing.
-pub(super) fn run(arguments: &Arguments, target: &AnimationTarget, session: &mut Session) -> Result<Verdict> {
+fn delay_ms(animation: &AnimationSettings, frames: usize) -> u16 {
+    let turn = (TURN_MS / frames.max(1) as u32).clamp(20, 200) as u16;
+    animation.frame_delay_ms.unwrap_or(if animation.animate.is_some() { MODEL_FRAME_MS } else { turn })
+}
+
+/// Draws the animation that is asked for; encoding goes on beside the drawing.
+pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: &mut Session) -> Result<Verdict> {
     let start = Instant::now();
-    refuse_what_is_for_one_picture(arguments)?;
-    let style = arguments.styles.style(arguments.style_name())?;
-    let (scenes, load_ms) = scenes(arguments, &style, &session.model_cache)?;
-    let delay_ms = arguments.animation.delay_ms(scenes.len());
+    let Rendering { request, run, output } = *rendering;
+    run.refuse_for_animations()?;
+    let (scenes, load_ms) = scenes(request, &session.models)?;
+    pictures_of(&scenes[0]).keep(output)?;
+    let delay_ms = delay_ms(&request.animation, scenes.len());
     let context = Instant::now();
-    let renderer = session.renderer(arguments.run.backend)?;
+    let renderer = session.renderer(request.backend)?;
     let context_ms = milliseconds_since(context);
 
     let progress = Progress::new("drawing", scenes.len() as u64);
     let mut writer = AnimationWriter::new(target.clone(), scenes.len() as u32, delay_ms)?;
     let mut frame_ms = Vec::new();
     let mut verdict = Verdict::Good;
+    let pictures = if run.verify { u32::MAX } else { scenes.len() as u32 };
     for (number, scene) in scenes.iter().enumerate() {
         let frame = Instant::now();
-        let published = arguments.plan(&style, scene)?;
-        renderer.choose_context(scene, &published)?;
-        let plan = arguments.prune.pruned(&published, scene, renderer, scenes.len() as u32).plan;
+        let (published, Pruned { mut plan, .. }) = request.plans(scene, renderer, pictures)?;
+        plan.submission = run.submission;
         if number == 0 {
-            let remarks = [style.remarks(scene), renderer.remarks(&plan)].concat();
+            let remarks = [request.style.remarks(scene), renderer.remarks(&plan)].concat();
             remarks.iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
         }
         let picture = renderer.draw(scene, &plan)?;
         frame_ms.push(milliseconds_since(frame));
-        if arguments.prune.verify && verdict == Verdict::Good {
-            verdict = prune::verify(arguments, renderer, scene, &published, &picture)?;
+        if run.verify && verdict == Verdict::Good {
+            verdict = prune::verify(output, renderer, scene, &published, &picture)?;
         }
         writer.add(picture)?;
         progress.step();
     }
     let written = writer.finish()?;
     drop(progress);
-    if !arguments.run.json {
+    if !run.json {
         return Ok(verdict);
     }
-    let models = model_records(&scenes[0], arguments.models.len());
     super::super::print_json(&json!({
         "version": env!("CARGO_PKG_VERSION"),
-        "models": models,
-        "load": arguments.model.settings()?,
-        "style": style,
-        "show": arguments.styles.show,
+        "models": rendering.model_records(&scenes[0]),
+        "load": request.read,
+        "style": request.style,
+        "show": request.show,
         "size": scenes[0].size,
         "gl": renderer.context(),
         "frames": scenes.len(),
@@ -111,29 +96,19 @@ pub(super) fn run(arguments: &Arguments, target: &AnimationTarget, session: &mut
     .map(|()| verdict)
 }
 
-fn refuse_what_is_for_one_picture(arguments: &Arguments) -> Result<()> {
-    let run = &arguments.run;
-    let given = [("explain", run.explain), ("dump", run.dump.is_some()), ("frames", run.frames != 1)];
-    match given.iter().find(|(_, is_given)| *is_given) {
-        Some((option, _)) => {
-            Err(Error::setting(*option, "this is for one picture; leave it out, or name a picture such as drawing.png"))
-        }
-        None => Ok(()),
-    }
-}
-
 /// A scene for each picture, and how long reading took, milliseconds.
-pub(super) fn scenes(arguments: &Arguments, style: &Style, model_cache: &ModelCache) -> Result<(Vec<Scene>, f64)> {
-    let settings = arguments.scene_settings()?;
-    if let Some(movement) = &arguments.animation.animate {
+pub(super) fn scenes(request: &Request, models: &ModelCache) -> Result<(Vec<Scene>, f64)> {
+    let settings = &request.scene;
+    if let Some(movement) = &request.animation.animate {
         let start = Instant::now();
-        let frames = model_frames(&arguments.models, &arguments.model.settings()?, movement)?;
+        let frames = model_frames(&request.models, &request.read, movement)?;
         let load_ms = milliseconds_since(start);
-        return Ok((one_scene_a_frame(frames, &settings)?, load_ms));
+        return Ok((one_scene_a_frame(frames, settings)?, load_ms));
     }
-    let Loaded { scene, load_ms, .. } = load_scene(arguments, &settings, style, model_cache)?;
-    let Some(views) = arguments.animation.turntable else { return Ok((vec![scene], load_ms)) };
-    if views >= WORTH_PREPARING && matches!(style, Style::Inking(_)) {
+    let ReadModels { meshes, ms: load_ms, .. } = request.models(models)?;
+    let scene = Scene::new(meshes, settings)?;
+    let Some(views) = request.animation.turntable else { return Ok((vec![scene], load_ms)) };
+    if views >= WORTH_PREPARING && matches!(request.style, Style::Inking(_)) {
         scene.prepare_for_many_views();
     }
     let cameras = scene.turntable(&settings.camera, views)?;

@@ -6,12 +6,13 @@
 //! read and the plans made by the program's own functions.
 
 use super::super::{Arguments as Whole, Command, carry_out, parse};
-use super::{Arguments, ModelCache, animate};
+use super::animate;
 use clap::CommandFactory;
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
+use tinta::request::{ModelCache, Request};
 use tinta::{Backend, Picture, Renderer, Size};
 
 /// A pixel counts as different beyond this, 1/255: what another driver rounds differently, and half a step of the fewer
@@ -98,19 +99,19 @@ fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
         let mut words = words.to_vec();
         let at = words.iter().position(|word| word == "-o").unwrap() + 1;
         words[at] = folder.path().join(name).to_str().unwrap().to_owned();
-        let (arguments, given) = parsed(&words);
-        carry_out(arguments.command, &given, std::time::Instant::now()).unwrap_or_else(|error| refuse(&error));
+        carry_out(parsed(&words).command, "", std::time::Instant::now()).unwrap_or_else(|error| refuse(&error));
     };
-    match parsed(words).0.command {
+    match parsed(words).command {
         Command::Render(arguments) if arguments.output.ends_with(".svg") => {
             into("drawing.svg");
             rasterized(
                 &std::fs::read_to_string(folder.path().join("drawing.svg")).unwrap(),
-                arguments.scene_settings().unwrap().size,
+                arguments.asked().unwrap().0.scene.size,
             )
         }
         Command::Render(arguments) => {
-            opaque(tiled(pictures(&arguments, renderer).unwrap_or_else(|error| refuse(&error))))
+            let request = arguments.asked().unwrap_or_else(|error| refuse(&error)).0;
+            opaque(tiled(pictures(&request, renderer).unwrap_or_else(|error| refuse(&error))))
         }
         // The picture of a comparison that has no times in it: whose line is whose.
         Command::Compare(_) => {
@@ -122,10 +123,9 @@ fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
 }
 
 /// One picture, or those of an animation.
-fn pictures(arguments: &Arguments, renderer: &mut Renderer) -> tinta::Result<Vec<Picture>> {
-    let style = arguments.styles.style(arguments.style_name())?;
-    let (scenes, _) = animate::scenes(arguments, &style, &ModelCache::for_one())?;
-    scenes.iter().map(|scene| renderer.draw(scene, &style.plan(scene, arguments.styles.show)?)).collect()
+fn pictures(request: &Request, renderer: &mut Renderer) -> tinta::Result<Vec<Picture>> {
+    let (scenes, _) = animate::scenes(request, &ModelCache::for_one())?;
+    scenes.iter().map(|scene| renderer.draw(scene, &request.style.plan(scene, request.show)?)).collect()
 }
 
 fn rasterized(svg: &str, size: Size) -> Picture {

@@ -1,31 +1,11 @@
 //! `tinta render` without what a scene does not need: which rules are applied, what they saved, whether the picture is the same.
 
 use super::super::Verdict;
-use super::Arguments;
 use std::path::{Path, PathBuf};
 use tinta::plan::Plan;
-use tinta::plan::prune::{Omission, Pruned, Pruning, Rule, prune};
+use tinta::plan::prune::{Omission, Pruned, Pruning, prune};
 use tinta::renderer::median;
-use tinta::{Error, Picture, Renderer, Result, Scene, Target};
-
-#[derive(clap::Args)]
-#[command(next_help_heading = "Skipping work that cannot change the picture")]
-pub(super) struct PruneArguments {
-    /// Draw everything as published [default: off, work that cannot change the picture is skipped]
-    #[arg(long, hide_short_help = true)]
-    full: bool,
-
-    /// Do not skip these, each explained in docs/pruning.md: border, outside-objects, culled-faces, hidden-faces, unused-light, background-square, empty-pixels, unread-map, overwritten-clear, unread-textures [default: none]
-    #[arg(long, hide_short_help = true, value_name = "NAMES", value_delimiter = ',', conflicts_with = "full")]
-    keep: Vec<Rule>,
-
-    /// Skip all that can be skipped, draw in full, too, and compare byte for byte; if a pixel differs, exit with 1 and write OUTPUT-difference.png [default: off]
-    #[arg(long, hide_short_help = true, conflicts_with = "full")]
-    pub verify: bool,
-}
-
-/// Pictures that make every rule worth its time.
-const ALL_WORTH_IT: u32 = u32::MAX;
+use tinta::{Picture, Renderer, Result, Scene, Target};
 
 /// Least rounds by which what an omission saved is timed.
 const LEAST_ROUNDS: usize = 5;
@@ -33,43 +13,16 @@ const LEAST_ROUNDS: usize = 5;
 /// Most of them.
 const MOST_ROUNDS: usize = 101;
 
-impl PruneArguments {
-    /// How to prune for so many pictures; `None` for not at all.
-    pub(super) fn pruning(&self, renderer: &Renderer, pictures: u32) -> Option<Pruning> {
-        let pictures = if self.verify { ALL_WORTH_IT } else { pictures };
-        (!self.full).then(|| Pruning { keep: self.keep.clone(), ..renderer.pruning(pictures) })
-    }
-
-    /// The plan that is drawn.
-    pub(super) fn pruned(&self, published: &Plan, scene: &Scene, renderer: &Renderer, pictures: u32) -> Pruned {
-        match self.pruning(renderer, pictures) {
-            Some(pruning) => prune(published, scene, &pruning),
-            None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
-        }
-    }
-
-    /// Refuses these options where there is no plan.
-    pub(super) fn refuse(&self) -> Result<()> {
-        let given = [("full", self.full), ("keep", !self.keep.is_empty()), ("verify", self.verify)];
-        match given.iter().find(|(_, is_given)| *is_given) {
-            Some((option, _)) => {
-                Err(Error::setting(*option, "style lines is computed, not drawn by passes; leave it out here"))
-            }
-            None => Ok(()),
-        }
-    }
-}
-
 /// Draws the published plan and compares it with the picture of the shorter one; without a difference no picture of one stays.
 pub(super) fn verify(
-    arguments: &Arguments,
+    output: &str,
     renderer: &mut Renderer,
     scene: &Scene,
     published: &Plan,
     picture: &Picture,
 ) -> Result<Verdict> {
     let full = renderer.draw(scene, published)?;
-    let path = difference_path(&arguments.output);
+    let path = difference_path(output);
     if full.pixels == picture.pixels {
         // One of an earlier run would say what is no longer so.
         let _ = std::fs::remove_file(&path);

@@ -1,15 +1,16 @@
 //! Settings to options and back: every option of the command line that makes a picture, for every style. What values an option
 //! takes is known from its table, so that a new setting is tried here too.
 
-use super::{Arguments, lines};
-use crate::styles::is_ignored;
+use super::{Arguments, is_of_one_run};
+use crate::request::{Layer, Request};
+use crate::styles::{is_ignored, is_of_lines_alone};
 use clap::{CommandFactory, Parser};
 use std::collections::BTreeSet;
 use std::path::Path;
 use tinta::preset::{OptionValue, Options, Preset, SHIPPED};
 use tinta::recipe::option_words;
 use tinta::settings::{HasSettings, Kind, Table};
-use tinta::{LineSettings, LoadOptions, Picture, SceneSettings, Size, Style, StyleName, SvgSettings, Target};
+use tinta::{LoadOptions, Picture, Size, Style, StyleName, Target};
 
 #[derive(Parser)]
 struct Line {
@@ -23,7 +24,11 @@ fn parsed(words: &[String]) -> Arguments {
 }
 
 fn words(options: &Options) -> Vec<String> {
-    options.iter().flat_map(|(name, value)| option_words(name, value)).collect()
+    let word = |(name, value): (&String, &OptionValue)| match value {
+        OptionValue::Text(text) => vec![format!("--{name}={text}")],
+        value => option_words(name, value),
+    };
+    options.iter().flat_map(word).collect()
 }
 
 /// An option with a value other than its default.
@@ -62,19 +67,10 @@ fn of_table<T: HasSettings>(table: &'static Table<T>, file: &Path) -> Vec<Sample
     table.of(None).iter().filter_map(sample).collect()
 }
 
-/// A sample of each setting, those of styles first.
+/// A sample of each setting of a request.
 fn samples(file: &Path) -> Vec<Sample> {
-    let mut samples = of_table(Style::table(), file);
-    for sample in of_table(SceneSettings::table(), file)
-        .into_iter()
-        .chain(of_table(LoadOptions::table(), file))
-        .chain(of_table(SvgSettings::table(), file))
-        .chain(of_table(LineSettings::table(), file))
-    {
-        if samples.iter().all(|known| known.name != sample.name) {
-            samples.push(sample);
-        }
-    }
+    let mut samples = of_table(Request::table(), file);
+    samples.retain(|sample| sample.name != "style");
     // Beyond what a panel offers.
     for (name, value) in [
         ("seed", "12345678901234567890"),
@@ -90,48 +86,29 @@ fn samples(file: &Path) -> Vec<Sample> {
     samples
 }
 
-/// Whether it is a setting of exact lines that no style of pictures has.
-fn is_of_lines(name: &str) -> bool {
-    SvgSettings::table().has(name) && !Style::table().has(name)
+/// What the words ask for in a style; none if the settings refuse one another.
+fn asked(given: &[String], style: &str) -> Option<Request> {
+    let words: Vec<String> = given.iter().cloned().chain([format!("--style={style}")]).collect();
+    Some(parsed(&words).asked().ok()?.0)
 }
 
-/// Options that make a picture and are no settings of style, scene, models or lines.
-const OTHERS: [&str; 8] = ["show", "style", "turntable", "animate", "frame-delay", "full", "keep", "backend"];
-
-/// All options that differ from their defaults, and the arguments they make; none if the settings refuse one another.
-fn written(arguments: &Arguments, style: StyleName) -> Option<Options> {
-    let mut all = arguments.styles.style(style).ok()?.to_options().unwrap();
-    all.extend(arguments.styles.show.to_options());
-    all.extend(arguments.scene_settings().unwrap().to_options().unwrap());
-    all.extend(arguments.model.settings().unwrap().to_options().unwrap());
-    Some(all)
+/// All options that differ from their defaults, and the style.
+fn written(request: &Request) -> Options {
+    let style = request.style.style_name();
+    let mut options = Request::table().options(request, &Request::of_style(style)).unwrap();
+    options.insert("style".to_owned(), OptionValue::text(style.name()));
+    options
 }
 
-/// Asserts that both mean the same.
-fn assert_same(arguments: &Arguments, again: &Arguments, style: StyleName) {
-    assert_eq!(again.style_name(), style);
-    assert_eq!(again.styles.style(style).unwrap(), arguments.styles.style(style).unwrap());
-    assert_eq!(again.styles.show, arguments.styles.show);
-    assert_eq!(again.model.settings().unwrap(), arguments.model.settings().unwrap());
-    let scenes = [arguments, again].map(|one| one.scene_settings().unwrap());
-    assert_eq!(scenes[0].camera, scenes[1].camera);
-    assert_eq!((scenes[0].size, scenes[0].copies), (scenes[1].size, scenes[1].copies));
-    assert_eq!((scenes[0].background, scenes[0].color), (scenes[1].background, scenes[1].color));
-}
-
-fn lines_written(arguments: &Arguments) -> Options {
-    let (lines, drawn) = lines_of(arguments);
-    let mut all = lines.to_options().unwrap();
-    all.extend(drawn.to_options().unwrap());
-    all.insert("style".to_owned(), OptionValue::text("lines"));
-    all
-}
-
-fn assert_same_lines(arguments: &Arguments, again: &Arguments) {
-    let (lines, drawn) = lines_of(again);
-    let (expected_lines, expected) = lines_of(arguments);
-    assert_eq!((lines, &drawn.background), (expected_lines, &SvgSettings::default().background));
-    assert_eq!(SvgSettings { background: expected.background, ..drawn }, expected);
+/// Asserts that what is written asks for the same.
+fn assert_survives(request: &Request) -> Options {
+    let options = written(request);
+    let again = parsed(&words(&options)).asked().unwrap().0;
+    let record = |request: &Request| serde_json::to_string(&Request::table().record(request)).unwrap();
+    assert_eq!(record(&again), record(request), "{options:?}");
+    assert_eq!(again.style, request.style);
+    assert_eq!((again.read.clone(), again.scene.camera.clone()), (request.read.clone(), request.scene.camera.clone()));
+    options
 }
 
 fn picture_file() -> tempfile::NamedTempFile {
@@ -143,17 +120,13 @@ fn picture_file() -> tempfile::NamedTempFile {
 }
 
 #[test]
-fn every_option_that_makes_a_picture_is_in_a_table_or_named_here() {
-    let samples = samples(Path::new("none"));
-    let known: BTreeSet<&str> = samples.iter().map(|sample| sample.name).chain(OTHERS).collect();
-    let command = Line::command();
-    let options: BTreeSet<&str> = command
-        .get_arguments()
-        .filter_map(|arg| arg.get_long())
-        .filter(|name| super::super::preset::is_kept(name))
-        .collect();
-    assert_eq!(options, known);
-    assert!(options.iter().all(|name| tinta::preset::is_known(name)), "{options:?}");
+fn every_option_is_the_requests_or_of_one_run() {
+    let others = ["output", "look", "preset", "camera", "help"];
+    for arg in Line::command().get_arguments() {
+        let Some(name) = arg.get_long() else { continue };
+        let homes = [Request::table().has(name), is_of_one_run(name), others.contains(&name)];
+        assert_eq!(homes.iter().filter(|is_it| **is_it).count(), 1, "--{name}");
+    }
 }
 
 #[test]
@@ -163,23 +136,12 @@ fn every_option_of_a_picture_survives_being_written_and_read() {
     assert!(samples.len() > 80, "{}", samples.len());
     for sample in samples {
         let mut is_written = false;
-        for (style_name, style) in StyleName::ALL.into_iter().filter(|_| !is_of_lines(sample.name)) {
-            let mut given = sample.words();
-            given.push(format!("--style={style_name}"));
-            let arguments = parsed(&given);
-            let Some(options) = written(&arguments, style) else { continue };
-            assert_eq!(options["style"], OptionValue::text(style_name));
-            assert_same(&arguments, &parsed(&words(&options)), style);
+        for (style, _) in StyleName::ALL {
+            let Some(request) = asked(&sample.words(), style) else { continue };
+            let options = assert_survives(&request);
             // A recipe is written as what it sets.
             let sought = if sample.name == "charcoal" { "density" } else { sample.name };
             is_written |= options.contains_key(sought);
-        }
-        // Lines refuse one of the rules for silhouettes.
-        if sample.words() != ["--silhouette=paper"] {
-            let arguments = parsed(&sample.words());
-            let options = lines_written(&arguments);
-            assert_same_lines(&arguments, &parsed(&words(&options)));
-            is_written |= options.contains_key(sample.name);
         }
         assert!(is_written, "--{} is written for no style", sample.name);
     }
@@ -188,53 +150,57 @@ fn every_option_of_a_picture_survives_being_written_and_read() {
 #[test]
 fn an_option_is_said_to_have_no_effect_exactly_where_it_changes_nothing() {
     let file = picture_file();
-    let default_lines = lines_of(&parsed(&[]));
     let mut ignored = 0;
     for sample in samples(file.path()) {
         let name = sample.name;
-        let arguments = parsed(&sample.words());
-        // A style that refuses the option speaks for itself.
-        let changes = |style| arguments.styles.style(style).map_or(true, |changed| changed != Style::named(style));
-        if !is_ignored(name, &[]) {
-            assert!(!StyleName::ALL.iter().any(|(_, style)| changes(*style)), "--{name} is an option of styles");
-            continue;
-        }
+        let options = Options::from([match sample.kind {
+            Kind::Flag => (name.to_owned(), OptionValue::Switch(true)),
+            _ => (name.to_owned(), OptionValue::text(&sample.value)),
+        }]);
         for (style_name, style) in StyleName::ALL {
-            assert_eq!(is_ignored(name, &[style_name]), !changes(style), "--{name} in {style_name}");
-            ignored += usize::from(!changes(style));
-        }
-        // Exact is what lines have anyway, and they refuse the listing's rule.
-        if name != "silhouette" {
-            let is_changed = lines_of(&arguments) != default_lines;
-            assert_eq!(is_ignored(name, &["lines"]), !is_changed, "--{name} in lines");
+            // A style that refuses the option speaks for itself.
+            let is_changed =
+                Style::with_options(style, &options).map_or(true, |changed| changed != Style::named(style));
+            match is_ignored(name, &[]) {
+                false => assert!(!is_changed, "--{name} is an option of styles"),
+                // Exact is what lines have anyway, and they refuse the listing's rule.
+                true if name == "silhouette" && style.draws_lines() => {}
+                true => assert_eq!(is_ignored(name, &[style_name]), !is_changed, "--{name} in {style_name}"),
+            }
+            ignored += usize::from(!is_changed);
         }
     }
     assert!(ignored > 200, "{ignored}");
 }
 
-/// All that the style lines takes from the options of styles.
-fn lines_of(arguments: &Arguments) -> (LineSettings, SvgSettings) {
-    let drawn = lines::svg_settings(arguments, None).unwrap();
-    (arguments.styles.line_settings(&arguments.forms).unwrap(), SvgSettings { title: String::new(), ..drawn })
-}
-
 #[test]
 fn all_options_together_survive_too() {
     let file = picture_file();
-    let excluded = ["no-borders", "transparent", "eye", "dpi", "page", "ink-threshold", "pen", "fit-curves"];
-    let given: Vec<String> =
-        samples(file.path()).iter().filter(|sample| !excluded.contains(&sample.name)).flat_map(Sample::words).collect();
+    let excluded = [
+        "no-borders",
+        "transparent",
+        "eye",
+        "dpi",
+        "page",
+        "ink-threshold",
+        "pen",
+        "fit-curves",
+        "turntable",
+        "animate",
+        "full",
+    ];
+    let samples = samples(file.path());
     let mut fewest = usize::MAX;
     for (style_name, style) in StyleName::ALL {
-        let mut given = given.clone();
-        if style == StyleName::Mrt {
-            given.retain(|word| !word.starts_with("--map-encoding"));
-        }
-        given.push(format!("--style={style_name}"));
-        let arguments = parsed(&given);
-        let options = written(&arguments, style).unwrap();
-        fewest = fewest.min(options.len());
-        assert_same(&arguments, &parsed(&words(&options)), style);
+        let is_given = |sample: &&Sample| {
+            let is_refused = (style == StyleName::Mrt && sample.name == "map-encoding")
+                || (style.draws_lines() && sample.name == "silhouette")
+                || (!style.draws_lines() && is_of_lines_alone(sample.name));
+            !excluded.contains(&sample.name) && !is_refused
+        };
+        let given: Vec<String> = samples.iter().filter(is_given).flat_map(Sample::words).collect();
+        let request = asked(&given, style_name).unwrap_or_else(|| panic!("{style_name}: {given:?}"));
+        fewest = fewest.min(assert_survives(&request).len());
     }
     assert!(fewest >= 18, "{fewest}");
 }
@@ -243,10 +209,8 @@ fn all_options_together_survive_too() {
 fn the_papers_presets_are_the_styles_defaults() {
     for (name, _) in SHIPPED {
         let preset = Preset::read(name).unwrap();
-        let style = preset.style().unwrap();
+        let style = Request::from_layers(&[Layer::File(preset.clone())]).unwrap().0.style;
         assert_eq!(style, Style::named(style.style_name()), "{name}");
-        let arguments = parsed(&words(&preset.options));
-        assert_eq!(arguments.styles.style(style.style_name()).unwrap(), style, "{name}");
         assert!(preset.options.len() > 12, "{name} spells its constants out");
         // Every one of the style's own options is spelt out, but for files, which have none.
         let is_a_constant = |kind: &Kind| !matches!(kind, Kind::File | Kind::Flag);

@@ -174,7 +174,7 @@ fn a_framebuffer_object_in_the_place_of_a_surface_draws_the_same_but_for_lines_a
     for (width, height) in [(96, 64), (160, 120), (64, 64)] {
         let settings = SceneSettings { size: Size { width, height }, ..SceneSettings::default() };
         let scene = Scene::new(vec![mesh.clone()], &settings).unwrap();
-        for (name, style) in StyleName::ALL.into_iter().filter(|(_, style)| *style != StyleName::Sand) {
+        for (name, style) in StyleName::of_passes().filter(|(_, style)| *style != StyleName::Sand) {
             for show in [Show::Final, Show::Map] {
                 let Ok(plan) = Style::named(style).plan(&scene, show) else { continue };
                 let pictures = [&mut without, &mut with].map(|renderer| renderer.draw(&scene, &plan).unwrap());

@@ -68,7 +68,8 @@ impl HasSettings for LoadOptions {
 }
 
 impl LoadOptions {
-    fn settings() -> Vec<Setting<Self>> {
+    /// The settings, also for a table of something that is read.
+    pub fn settings() -> Vec<Setting<Self>> {
         let settings = vec![
             Setting::field(
                 "up-axis",

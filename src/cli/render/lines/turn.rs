@@ -1,20 +1,19 @@
 //! `tinta render --turntable` of exact lines: numbered drawings whose strokes keep their ids.
 
-use super::super::super::model_cache::ModelCache;
-use super::super::super::models::{ReadModels, load_models};
 use super::super::super::signals::Stop;
 use super::super::super::{Verdict, print_json, say};
+use super::super::Rendering;
 use super::super::animate::WORTH_PREPARING;
-use super::super::{Arguments, model_records};
-use super::{Format, asked_lines, comment, is_stopped, progress, svg_settings, watched, write};
+use super::{Format, comment, is_stopped, progress, watched, write};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
 use tinta::animation::NumberedName;
 use tinta::lines::StrokeIds;
-use tinta::record::{LinesStyle, Summary};
+use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::{Error, Result, Scene, VisibleLines};
+use tinta::request::{ReadModels, Session};
+use tinta::{Error, Result, Scene};
 
 /// The names of the drawings.
 ///
@@ -29,42 +28,36 @@ pub(super) fn names(output: &str, format: Format) -> Result<NumberedName> {
 
 /// Draws the views of a turn one after the other.
 pub(super) fn run(
-    arguments: &Arguments,
+    rendering: &Rendering<'_>,
     format: Format,
     views: u32,
-    model_cache: &ModelCache,
+    session: &Session,
     stop: Option<&Stop>,
 ) -> Result<Verdict> {
     let whole = Instant::now();
-    let names = names(&arguments.output, format)?;
-    if arguments.lines.options.contains_key("page") {
+    let Rendering { request, run, output } = *rendering;
+    let names = names(output, format)?;
+    let style = request.line_style().unwrap_or_default();
+    if request.options.contains_key("page") {
         let problem = "each view would fill the paper by itself, and the turn pulse; leave it out, or say --width-mm";
         return Err(Error::setting("page", problem));
     }
-    let settings = asked_lines(arguments, format)?;
-    let scene_settings = arguments.scene_settings()?;
-    let start = Instant::now();
-    let ReadModels { meshes, .. } = load_models(model_cache, &arguments.models, &arguments.model.settings()?)?;
-    let load_ms = milliseconds_since(start);
-    let scene = Scene::new(meshes, &scene_settings)?;
+    let ReadModels { meshes, ms: load_ms, .. } = request.models(&session.models)?;
+    let scene = Scene::new(meshes, &request.scene)?;
     if views >= WORTH_PREPARING {
         scene.prepare_for_many_views();
     }
-    let drawn = svg_settings(arguments, None)?;
-    let mut ids = StrokeIds::new(&scene, &settings);
+    let drawn = style.drawing.clone();
+    let mut ids = StrokeIds::new(&scene, &style.wanted());
     let (mut bytes, mut frame_ms) = (0, Vec::new());
-    for (number, camera) in (1..).zip(scene.turntable(&scene_settings.camera, views)?) {
+    for (number, camera) in (1..).zip(scene.turntable(&request.scene.camera, views)?) {
         let frame = Instant::now();
         let scene = Scene { camera, ..scene.clone() };
         let name = names.with(number);
-        let progress = progress(arguments)?;
-        let lines = match watched(&progress, stop, || VisibleLines::with_progress(&scene, &settings, &progress)) {
+        let progress = progress(rendering);
+        let lines = match watched(&progress, stop, || request.lines(&scene, &progress)) {
             Err(Error::Cancelled) => return Ok(stopped(stop, number - 1, views)),
             found => found?,
-        };
-        let lines = match watched(&progress, stop, || lines.without_specks_with_progress(&drawn, &progress)) {
-            Err(Error::Cancelled) => return Ok(stopped(stop, number - 1, views)),
-            drawn => drawn?,
         };
         let note = lines.partial_note();
         if let Some(note) = &note {
@@ -75,21 +68,21 @@ pub(super) fn run(
             return Ok(stopped(stop, number - 1, views));
         }
         let said = note.map(comment);
-        write(arguments, format, &name, &scene, (&lines, paths), &drawn, said.as_ref())?;
+        write(format, &name, &scene, (&lines, paths), &drawn, said.as_ref())?;
         bytes += Path::new(&name).metadata().map_or(0, |metadata| metadata.len());
         frame_ms.push(milliseconds_since(frame));
     }
     if ids.count() == 0 {
         say("tinta: no line of these classes is visible in any view; see --classes, --eye and --target");
     }
-    if !arguments.run.json {
+    if !run.json {
         return Ok(Verdict::Good);
     }
     print_json(&json!({
         "version": env!("CARGO_PKG_VERSION"),
-        "models": model_records(&scene, arguments.models.len()),
-        "load": arguments.model.settings()?,
-        "style": LinesStyle { lines: settings, svg: Some(drawn) },
+        "models": rendering.model_records(&scene),
+        "load": request.read,
+        "style": request.style,
         "size": scene.size,
         "frames": views,
         "strokes": ids.count(),

@@ -3,42 +3,72 @@
 //! A command line opens what it needs and leaves it at its end; a batch's worker hands the same session to every job. Contexts
 //! belong to the thread that opened them.
 
-use super::model_cache::ModelCache;
-use tinta::{Backend, Renderer, Result};
+use super::ModelCache;
+use crate::error::Result;
+use crate::gl::Backend;
+use crate::mesh::{LoadOptions, Loaded};
+use crate::plan::Submission;
+use crate::renderer::Renderer;
 
 /// Contexts and models.
-pub(super) struct Session {
+#[derive(Debug)]
+pub struct Session {
     open: fn(Backend) -> Result<Renderer>,
     renderers: Vec<(Backend, Renderer)>,
     /// What the job at hand draws by.
     used: Option<Backend>,
     /// Also for other threads: models are read while the first context opens.
-    pub model_cache: ModelCache,
+    pub models: ModelCache,
+    /// How vertices are handed to GL. Default in buffers.
+    pub submission: Submission,
+    /// How many pictures of the models will be drawn: more are worth more finding out of what may be left out. Default 1.
+    pub pictures: u32,
+}
+
+impl Default for Session {
+    fn default() -> Self {
+        Self::for_one()
+    }
 }
 
 impl Session {
     /// For one job: nothing is kept that it does not need.
-    pub(super) fn for_one() -> Self {
-        Self { open: Renderer::new, renderers: Vec::new(), used: None, model_cache: ModelCache::for_one() }
+    pub fn for_one() -> Self {
+        Self::new(Renderer::new, ModelCache::for_one())
     }
 
     /// For many jobs, with this way to open a context.
-    pub(super) fn for_many(open: fn(Backend) -> Result<Renderer>) -> Self {
-        Self { open, renderers: Vec::new(), used: None, model_cache: ModelCache::for_many() }
+    pub fn for_many(open: fn(Backend) -> Result<Renderer>) -> Self {
+        Self::new(open, ModelCache::for_many())
+    }
+
+    fn new(open: fn(Backend) -> Result<Renderer>, models: ModelCache) -> Self {
+        Self { open, renderers: Vec::new(), used: None, models, submission: Submission::default(), pictures: 1 }
+    }
+
+    /// With another way to read models, and somebody who is told what is to be said of them.
+    #[must_use]
+    pub fn reading(mut self, read: fn(&str, &LoadOptions) -> Result<Loaded>, say: fn(&str)) -> Self {
+        self.models = self.models.reading(read, say);
+        self
     }
 
     /// Whether this way to OpenGL is open.
-    pub(super) fn has(&self, backend: Backend) -> bool {
+    pub fn has(&self, backend: Backend) -> bool {
         self.renderers.iter().any(|(known, _)| *known == backend)
     }
 
     /// Opens a context that [`Session::keep`] may be given.
-    pub(super) fn open(&self, backend: Backend) -> Result<Renderer> {
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::new`].
+    pub fn open(&self, backend: Backend) -> Result<Renderer> {
         (self.open)(backend)
     }
 
     /// Keeps an open context for the jobs to come.
-    pub(super) fn keep(&mut self, backend: Backend, renderer: Renderer) -> &mut Renderer {
+    pub fn keep(&mut self, backend: Backend, renderer: Renderer) -> &mut Renderer {
         self.renderers.retain(|(known, _)| *known != backend);
         self.renderers.push((backend, renderer));
         self.used = Some(backend);
@@ -47,7 +77,11 @@ impl Session {
     }
 
     /// The context that is open, or one that is opened now.
-    pub(super) fn renderer(&mut self, backend: Backend) -> Result<&mut Renderer> {
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::new`].
+    pub fn renderer(&mut self, backend: Backend) -> Result<&mut Renderer> {
         match self.renderers.iter().position(|(known, _)| *known == backend) {
             Some(place) => {
                 self.used = Some(backend);
@@ -61,19 +95,18 @@ impl Session {
     }
 
     /// The context that was asked for since this was asked last.
-    pub(super) fn take_used(&mut self) -> Option<&Renderer> {
+    pub fn take_used(&mut self) -> Option<&Renderer> {
         let used = self.used.take()?;
         self.renderers.iter().find(|(known, _)| *known == used).map(|(_, renderer)| renderer)
     }
 
     /// How many GL objects all contexts hold.
-    #[cfg(test)]
-    pub(super) fn live_objects(&self) -> usize {
+    pub fn live_objects(&self) -> usize {
         self.renderers.iter().map(|(_, renderer)| renderer.live_objects()).sum()
     }
 
     /// Lets go of all contexts: one of them is lost.
-    pub(super) fn close(&mut self) {
+    pub fn close(&mut self) {
         self.renderers.clear();
     }
 }

@@ -1,36 +1,64 @@
 //! A cache of the models last read, so that jobs that follow one another do not read the same one again.
 
-use super::models::read;
+use crate::error::Result;
+use crate::mesh::{LoadOptions, LoadStage, Loaded, Mesh, load};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
-use tinta::mesh::LoadStage;
-use tinta::{LoadOptions, Mesh, Result};
 
 /// Reads models, and keeps them where there are many jobs.
-pub(super) struct ModelCache(Mutex<Models>);
+#[derive(Debug)]
+pub struct ModelCache {
+    models: Mutex<Models>,
+    read: fn(&str, &LoadOptions) -> Result<Loaded>,
+    say: fn(&str),
+}
 
 impl ModelCache {
     /// For one job: nothing is kept.
-    pub(super) fn for_one() -> Self {
-        Self(Mutex::new(Models { keeps: false, kept: Vec::new() }))
+    pub fn for_one() -> Self {
+        Self::new(false)
     }
 
     /// For many jobs.
-    pub(super) fn for_many() -> Self {
-        Self(Mutex::new(Models { keeps: true, kept: Vec::new() }))
+    pub fn for_many() -> Self {
+        Self::new(true)
     }
 
-    /// Reads a model, or finds it among those last read.
-    pub(super) fn read(&self, path: &str, options: &LoadOptions) -> Result<Arc<Model>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).read(path, options)
+    fn new(keeps: bool) -> Self {
+        Self {
+            models: Mutex::new(Models { keeps, kept: Vec::new() }),
+            read: |path, options| load(path, options),
+            say: |_| (),
+        }
+    }
+
+    /// With another way to read models, and somebody who is told what is to be said of them.
+    #[must_use]
+    pub fn reading(self, read: fn(&str, &LoadOptions) -> Result<Loaded>, say: fn(&str)) -> Self {
+        Self { read, say, ..self }
+    }
+
+    /// Reads a model, or finds it among those last read; says what is to be said of it either time.
+    ///
+    /// # Errors
+    ///
+    /// Those of the readers.
+    pub fn read(&self, path: &str, options: &LoadOptions) -> Result<Arc<Model>> {
+        let model = self.models.lock().unwrap_or_else(PoisonError::into_inner).read(path, options, self.read)?;
+        model.remarks.iter().for_each(|remark| (self.say)(remark));
+        Ok(model)
     }
 }
 
 /// A model that was read, with what was read beside it and what is to be said of it.
-pub(super) struct Model {
+#[derive(Debug)]
+pub struct Model {
+    /// Its mesh.
     pub mesh: Arc<Mesh>,
+    /// The files that were read besides its own.
     pub files: Vec<PathBuf>,
+    /// What is to be said of it.
     pub remarks: Vec<String>,
     /// How long each stage of reading took, milliseconds.
     pub stages: Vec<(LoadStage, f64)>,
@@ -48,6 +76,7 @@ fn stamp(path: &Path) -> Stamp {
 }
 
 /// The models last read.
+#[derive(Debug)]
 struct Models {
     keeps: bool,
     /// The latest last.
@@ -61,7 +90,12 @@ impl Models {
     /// Most models kept.
     const COUNT: usize = 64;
 
-    fn read(&mut self, path: &str, options: &LoadOptions) -> Result<Arc<Model>> {
+    fn read(
+        &mut self,
+        path: &str,
+        options: &LoadOptions,
+        read: fn(&str, &LoadOptions) -> Result<Loaded>,
+    ) -> Result<Arc<Model>> {
         let is_it = |model: &Arc<Model>| model.path == path && model.options == *options && model.is_as_it_was();
         if let Some(place) = self.kept.iter().position(is_it) {
             let model = self.kept.remove(place);
@@ -124,7 +158,7 @@ mod tests {
         let read = || model_cache.read(&path, &options).unwrap();
         let first = read();
         assert!(Arc::ptr_eq(&first.mesh, &read().mesh));
-        let flat = LoadOptions { normals: tinta::mesh::Normals::Flat, ..options.clone() };
+        let flat = LoadOptions { normals: crate::mesh::Normals::Flat, ..options.clone() };
         assert!(!Arc::ptr_eq(&first.mesh, &model_cache.read(&path, &flat).unwrap().mesh));
         assert!(Arc::ptr_eq(&first.mesh, &read().mesh));
         std::fs::write(&path, format!("{TRIANGLE}f 3 2 1\n")).unwrap();
@@ -143,6 +177,6 @@ mod tests {
             std::fs::write(&path, TRIANGLE).unwrap();
             model_cache.read(path.to_str().unwrap(), &LoadOptions::default()).unwrap();
         }
-        assert_eq!(model_cache.0.lock().unwrap().kept.len(), Models::COUNT);
+        assert_eq!(model_cache.models.lock().unwrap().kept.len(), Models::COUNT);
     }
 }

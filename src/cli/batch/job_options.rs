@@ -1,0 +1,103 @@
+//! A job's options as its command takes them: the same that a command line gives, in the same types.
+
+use super::super::options::{CameraFile, PresetFile};
+use std::path::{Path, PathBuf};
+use tinta::batch::{Job, OUTPUTS, place_in};
+use tinta::choice::nearest;
+use tinta::preset::Look;
+use tinta::recipe::option_words;
+use tinta::request::Request;
+use tinta::settings::{HasSettings, OptionValue, Options};
+use tinta::{Error, ParseError, Result};
+
+/// What a job gives to its command.
+#[derive(Debug)]
+pub(in crate::cli) struct JobOptions {
+    pub models: Vec<String>,
+    /// Where the output lies.
+    pub output: String,
+    /// All others, files that are written at their places.
+    pub options: Options,
+    /// As a command line has it.
+    #[cfg_attr(not(feature = "measuring"), expect(dead_code, reason = "only a measurement's report has it"))]
+    pub command: String,
+}
+
+/// The options that every command has besides its own.
+const COMMON: [&str; 2] = ["preset", "camera"];
+
+impl JobOptions {
+    /// Of a job whose outputs lie in `folder`.
+    pub(super) fn of(job: &Job, folder: &Path) -> Result<Self> {
+        let mut options = Options::new();
+        for (key, value) in &job.options {
+            let value = if OUTPUTS.contains(&key.as_str()) { placed(key, value, folder)? } else { value.clone() };
+            options.insert(key.clone(), value);
+        }
+        let command = command(job, &options);
+        let output = match options.remove("output") {
+            Some(OptionValue::Text(output)) => output,
+            _ => return Err(Error::setting("output", "it is missing; name the file to write")),
+        };
+        if job.models.is_empty() && job.command != tinta::batch::JobCommand::Measure {
+            return Err(Error::setting("model", "it is missing; name a file, or a built-in one such as builtin:bust"));
+        }
+        Ok(Self { models: job.models.clone(), output, options, command })
+    }
+
+    /// Refuses the first option that its command does not have.
+    pub(in crate::cli) fn refuse_unknown(&self, command: &str, is_known: impl Fn(&str) -> bool) -> Result<()> {
+        let is_known = |name: &str| COMMON.contains(&name) || is_known(name);
+        let Some(key) = self.options.keys().find(|key| !is_known(key)) else { return Ok(()) };
+        let names = Request::table().of(None).into_iter().map(|setting| setting.name).chain(COMMON);
+        let names: Vec<&str> = names.filter(|name| is_known(name)).collect();
+        let choice = match nearest(key, &names) {
+            Some(meant) => format!("did you mean {meant}?"),
+            None => format!("keys are long names of tinta {command} --help, and id, command, model"),
+        };
+        let shown = key.chars().take(40).collect::<String>();
+        Err(Error::setting(shown, format!("there is no such option; {choice}")))
+    }
+
+    fn text(&self, option: &str) -> Option<&str> {
+        self.options
+            .get(option)
+            .and_then(|value| if let OptionValue::Text(text) = value { Some(text.as_str()) } else { None })
+    }
+
+    /// The look that it names.
+    pub(in crate::cli) fn look(&self) -> Result<Option<Look>> {
+        let look = self.text("look").map(|name| (name, Look::of_name(name)));
+        look.map(|(name, look)| look.map_err(|ParseError(problem)| Error::value("look", name, problem))).transpose()
+    }
+
+    /// The preset that it names.
+    pub(in crate::cli) fn preset(&self) -> PresetFile {
+        PresetFile { preset: self.text("preset").map(str::to_owned) }
+    }
+
+    /// The file with a camera that it names.
+    pub(in crate::cli) fn camera(&self) -> CameraFile {
+        CameraFile { camera: self.text("camera").map(PathBuf::from) }
+    }
+}
+
+/// A file that the job writes, at its place.
+fn placed(key: &str, value: &OptionValue, folder: &Path) -> Result<OptionValue> {
+    let refuse = |problem: String| Error::setting(key, problem);
+    let OptionValue::Text(output) = value else {
+        return Err(refuse("write the name of a file, as a text".to_owned()));
+    };
+    let place = place_in(folder, output).map_err(|problem| refuse(format!("{output}: {problem}")))?;
+    Ok(OptionValue::text(place.to_string_lossy()))
+}
+
+/// The command line that would do the same.
+fn command(job: &Job, options: &Options) -> String {
+    let name = job.command.name().to_owned();
+    let words = options.iter().flat_map(|(name, value)| match value {
+        OptionValue::Text(text) => vec![format!("--{name}={text}")],
+        value => option_words(name, value),
+    });
+    tinta::shell::command_line([name].into_iter().chain(words).chain(["--".to_owned()]).chain(job.models.clone()))
+}

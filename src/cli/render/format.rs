@@ -1,0 +1,73 @@
+//! What an output's name asks for: lines or pixels.
+
+use std::path::Path;
+use tinta::picture::PictureFormat;
+use tinta::request::Request;
+use tinta::{Error, Result};
+
+/// The files lines are written to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Format {
+    Svg,
+    Pdf,
+    Json,
+    /// Pixels, in the format of the file's name.
+    Picture,
+}
+
+/// Whether a file of this name holds lines.
+pub(in crate::cli) fn is_of_lines(output: &str) -> bool {
+    Format::of_name(output).is_some()
+}
+
+fn extension(output: &str) -> Option<&str> {
+    Path::new(output).extension().and_then(|extension| extension.to_str())
+}
+
+impl Format {
+    /// What a file of this name is, if it holds lines.
+    fn of_name(output: &str) -> Option<Self> {
+        match extension(output).map(str::to_ascii_lowercase).as_deref() {
+            Some("svg") => Some(Self::Svg),
+            Some("pdf") => Some(Self::Pdf),
+            Some("json") => Some(Self::Json),
+            _ => None,
+        }
+    }
+
+    /// The format where lines are drawn, `None` for a picture.
+    ///
+    /// # Errors
+    ///
+    /// Where style and file's name do not go together.
+    pub(super) fn of(request: &Request, output: &str) -> Result<Option<Self>> {
+        let style = request.style.name();
+        let refuse = |problem: String| Err(Error::output(output, problem));
+        match (request.style.lines().is_some(), Self::of_name(output)) {
+            (true, Some(format)) => Ok(Some(format)),
+            (true, None) if output == "-" => Ok(Some(Self::Svg)),
+            (true, None) if PictureFormat::of(Path::new(output)).is_some() => Ok(Some(Self::Picture)),
+            (true, None) => refuse(format!(
+                "style {style} writes .svg, .pdf, .json or a still picture such as .png; name the file so, or leave out --style {style}"
+            )),
+            (false, Some(_)) => refuse(format!(
+                "{} draws pixels; --look technical in its place writes lines, or name a picture such as drawing.png",
+                request.style_said()
+            )),
+            // What is no picture either is refused with all there is to choose from.
+            (false, None) if output == "-" || Path::new(output).is_dir() => Ok(None),
+            (false, None) => match extension(output) {
+                Some(extension) if !is_of_a_picture(extension) => refuse(format!(
+                    "nothing is written as .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for \
+                     lines, .gif or .apng for an animation"
+                )),
+                _ => Ok(None),
+            },
+        }
+    }
+}
+
+fn is_of_a_picture(extension: &str) -> bool {
+    let extension = extension.to_ascii_lowercase();
+    ["png", "jpg", "jpeg", "bmp", "tga", "ppm", "gif", "apng"].contains(&extension.as_str())
+}

@@ -1,0 +1,201 @@
+//! The options of `tinta render` that say what is done with a drawing, not which it is: they are in no preset and no recipe.
+
+use super::super::options::Selection;
+use std::path::PathBuf;
+use std::sync::LazyLock;
+use tinta::plan::Submission;
+use tinta::settings::{HasSettings, Kind, Setting, Table, under};
+use tinta::{Error, Result};
+
+/// What is done with one drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::cli) struct RunSettings {
+    pub submission: Submission,
+    pub frames: u32,
+    pub json: bool,
+    pub explain: bool,
+    /// Seconds that exact lines may take.
+    pub within: Option<f64>,
+    pub partial: bool,
+    pub dump: Option<PathBuf>,
+    pub verify: bool,
+    pub save_preset: Option<String>,
+    pub no_recipe: bool,
+}
+
+impl Default for RunSettings {
+    fn default() -> Self {
+        Self {
+            submission: Submission::default(),
+            frames: 1,
+            json: false,
+            explain: false,
+            within: None,
+            partial: false,
+            dump: None,
+            verify: false,
+            save_preset: None,
+            no_recipe: false,
+        }
+    }
+}
+
+/// All of them.
+pub(in crate::cli) struct OfRun;
+
+impl Selection for OfRun {
+    type Of = RunSettings;
+}
+
+/// Whether this is one of them.
+pub(in crate::cli) fn is_of_one_run(option: &str) -> bool {
+    RunSettings::table().has(option)
+}
+
+/// What a setting that is left open is called.
+const OFF: &str = "off";
+
+impl HasSettings for RunSettings {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<RunSettings>> =
+            LazyLock::new(|| Table { settings: settings(), defaults: vec![RunSettings::default()] });
+        &TABLE
+    }
+}
+
+fn settings() -> Vec<Setting<RunSettings>> {
+    let frames = Setting::of(
+        "frames",
+        "N",
+        Kind::Numbers { count: 1, range: [1.0, 101.0], decimals: 0 },
+        "Frames to draw and time after warm-up, with --json or --explain",
+        |run: &RunSettings| run.frames.to_string(),
+        |run, text| {
+            let frames = text.trim().parse().ok().filter(|frames| (1..=1_000_000).contains(frames));
+            run.frames = frames.ok_or_else(|| "give a whole number from 1 to 1000000".to_owned())?;
+            Ok(())
+        },
+    );
+    let within = Setting::of(
+        "within",
+        "SECONDS",
+        Kind::Numbers { count: 1, range: [0.1, 60.0], decimals: 1 },
+        "End after this time with a sentence and no file, where exact lines are not found by then",
+        |run: &RunSettings| run.within.map_or(OFF.to_owned(), |seconds| seconds.to_string()),
+        |run, text| {
+            let seconds = text.parse().ok().filter(|seconds: &f64| *seconds > 0.0 && seconds.is_finite());
+            run.within = match text {
+                OFF => None,
+                _ => Some(seconds.ok_or_else(|| "write seconds, a number above 0: 5".to_owned())?),
+            };
+            Ok(())
+        },
+    );
+    let running = vec![
+        Setting::field(
+            "submission",
+            "HOW",
+            "Hand vertices to GL in buffers, or as programs of 2001 did, one by one (immediate) or in display lists (display-list); \
+             the picture is the same",
+            |run: &mut RunSettings| &mut run.submission,
+        ),
+        frames,
+        Setting::flag(
+            "json",
+            "Print one JSON record: model, style, camera, GL, times",
+            |run: &RunSettings| run.json,
+            |run, is_on| run.json = is_on,
+        ),
+        Setting::flag(
+            "explain",
+            "Print the plan, its passes and steps, with times; of exact lines their classes and where smooth silhouettes break",
+            |run: &RunSettings| run.explain,
+            |run, is_on| run.explain = is_on,
+        ),
+        within.open(OFF).said("no limit"),
+        Setting::flag(
+            "partial",
+            "With --within, write the lines that are certain by then, into a file that says that it is a part",
+            |run: &RunSettings| run.partial,
+            |run, is_on| run.partial = is_on,
+        ),
+        Setting::open_field(
+            "dump",
+            "DIR",
+            OFF,
+            "Write GL's buffers after every step of the published plan into this folder, as RGBA PNG",
+            |run: &mut RunSettings| &mut run.dump,
+        ),
+    ];
+    let verify = Setting::flag(
+        "verify",
+        "Skip all that can be skipped, draw in full, too, and compare byte for byte; if a pixel differs, exit with 1 and write \
+         OUTPUT-difference.png",
+        |run: &RunSettings| run.verify,
+        |run, is_on| run.verify = is_on,
+    );
+    let save_preset = Setting::of(
+        "save-preset",
+        "FILE",
+        Kind::Text { offered: &[], example: "mine.toml" },
+        "Save the options of this command line and of --preset as a preset, once the picture is drawn",
+        |run: &RunSettings| run.save_preset.clone().unwrap_or(OFF.to_owned()),
+        |run, text| {
+            run.save_preset = Some(text.to_owned());
+            Ok(())
+        },
+    );
+    let no_recipe = Setting::flag(
+        "no-recipe",
+        "Leave out the recipe, from which `tinta again` redraws a .png or .svg, and the file names in it",
+        |run: &RunSettings| run.no_recipe,
+        |run, is_on| run.no_recipe = is_on,
+    );
+    under("Skipping work that cannot change the picture", vec![verify])
+        .chain(under("Presets", vec![save_preset.open(OFF).said(OFF), no_recipe]))
+        .chain(under("Running", running))
+        .collect()
+}
+
+impl RunSettings {
+    /// Whether something is printed of the drawing.
+    pub(super) fn is_told(&self) -> bool {
+        self.json || self.explain
+    }
+
+    /// How many pictures are drawn; to verify, so many that every rule is worth its time.
+    pub(super) fn pictures(&self) -> u32 {
+        if self.verify { u32::MAX } else { self.frames }
+    }
+
+    /// The first of these that is given.
+    fn refuse(given: &[(&str, bool)], problem: &str) -> Result<()> {
+        match given.iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(Error::setting(*option, problem)),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses what only lines have.
+    pub(super) fn refuse_for_pictures(&self) -> Result<()> {
+        let problem = "only exact lines can end before they are done; leave it out, or write a .svg";
+        Self::refuse(&[("within", self.within.is_some()), ("partial", self.partial)], problem)
+    }
+
+    /// Refuses what is for one picture.
+    pub(super) fn refuse_for_animations(&self) -> Result<()> {
+        let given = [("explain", self.explain), ("dump", self.dump.is_some()), ("frames", self.frames != 1)];
+        Self::refuse(&given, "this is for one picture; leave it out, or name a picture such as drawing.png")
+    }
+
+    /// Refuses what only pictures have.
+    pub(super) fn refuse_for_lines(&self) -> Result<()> {
+        let problem =
+            "style lines has no passes and no model's frames; leave it out, or name a picture such as drawing.png";
+        Self::refuse(&[("dump", self.dump.is_some()), ("frames", self.frames != 1)], problem)?;
+        let problem = "style lines is computed, not drawn by passes; leave it out here";
+        Self::refuse(&[("verify", self.verify)], problem)?;
+        let problem = "without a limit there is no part; add --within SECONDS, or leave it out";
+        Self::refuse(&[("partial", self.partial && self.within.is_none())], problem)
+    }
+}

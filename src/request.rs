@@ -1,0 +1,396 @@
+//! One drawing as it is asked for: models, how they are read, scene and camera, style, and what is made of it.
+//!
+//! Every door makes a [`Request`] of layers of options, each beating those below it, and hands it to a [`Session`]: the command
+//! line, a batch, a recipe, the window, Python and the browser differ in where the options come from and where the drawing goes.
+//!
+//! ```
+//! use tinta::request::{Layer, Request};
+//! use tinta::settings::{OptionValue, Options};
+//! use tinta::preset::LOOKS;
+//!
+//! # fn main() -> tinta::Result<()> {
+//! let given: Options = [("tones".to_owned(), OptionValue::text("2"))].into();
+//! let (request, remarks) = Request::from_layers(&[Layer::Look(LOOKS[0]), Layer::Given(given)])?;
+//! assert_eq!(request.style.name(), "ink");
+//! assert_eq!(request.options["tones"], OptionValue::text("2"));
+//! assert!(remarks.is_empty());
+//! # Ok(())
+//! # }
+//! ```
+
+mod draw;
+mod layers;
+mod model_cache;
+mod session;
+
+pub use draw::{Drawn, DrawnLines, DrawnPicture, ReadModels, Times};
+pub use layers::{Layer, OF_PAPER, ignored_remark, layers, pixels_on_paper};
+pub use model_cache::{Model, ModelCache};
+pub use session::Session;
+
+use crate::camera;
+use crate::choice::Choice;
+use crate::error::{Error, FileKind, Result};
+use crate::gl::Backend;
+use crate::mesh::LoadOptions;
+use crate::plan::prune::{Pruning, Rule};
+use crate::renderer::Renderer;
+use crate::scene::SceneSettings;
+use crate::settings::{HasSettings, Kind, Options, Problem, Setting, Table, names_of, under, within};
+use crate::styles::{Ramp, Show, Style, StyleName, TextureSource};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+/// What is asked for.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// The models, as the user named them. Default none.
+    pub models: Vec<String>,
+    /// How they are read.
+    pub read: LoadOptions,
+    /// What is put together of them, from where it is seen, how large the picture is.
+    pub scene: SceneSettings,
+    /// The style with its settings. Default three-pass as published.
+    pub style: Style,
+    /// Which of its pictures. Default the finished one.
+    pub show: Show,
+    /// Which views or frames, where there are several.
+    pub animation: AnimationSettings,
+    /// The way to OpenGL. Default the first that works.
+    pub backend: Backend,
+    /// What is left out of the published plan.
+    pub pruning: PruneSettings,
+    /// Whether all pieces of exact lines are found, whatever the drawing shows of them, and none is left out for being short. Default no.
+    pub tells_all: bool,
+    /// Whether hidden lines are found though the drawing does not show them, and it is counted where smooth silhouettes break. Default no.
+    pub tells_hidden: bool,
+    /// The options that it was made of: what a recipe and a preset keep.
+    pub options: Options,
+    /// Where options that come from a look or a file stand.
+    sources: BTreeMap<String, Source>,
+    /// Files of options whose paths are no text.
+    paths: Vec<(String, PathBuf)>,
+}
+
+/// Where an option stands.
+#[derive(Debug, Clone)]
+struct Source {
+    name: String,
+    line: Option<u64>,
+}
+
+impl Source {
+    fn refuse(&self, problem: String) -> Error {
+        Error::file(FileKind::Preset, self.name.clone(), problem).at(self.line)
+    }
+}
+
+/// Which views of a turn, or frames of a model, are drawn.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct AnimationSettings {
+    /// Views of a full turn. Default none: one picture.
+    pub turntable: Option<u32>,
+    /// Frames whose names begin so, all for an empty text. Default none: one picture.
+    pub animate: Option<String>,
+    /// How long each is shown, milliseconds. Default 100 for a model's frame; a turn takes 2500, at most 200 each.
+    pub frame_delay_ms: Option<u16>,
+}
+
+/// What is left out of a plan.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PruneSettings {
+    /// Nothing. Default no.
+    pub is_full: bool,
+    /// What these rules would leave out is drawn. Default none.
+    pub keep: Vec<Rule>,
+}
+
+impl PruneSettings {
+    /// How to prune for so many pictures; `None` for not at all.
+    pub fn pruning(&self, renderer: &Renderer, pictures: u32) -> Option<Pruning> {
+        (!self.is_full).then(|| Pruning { keep: self.keep.clone(), ..renderer.pruning(pictures) })
+    }
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Self::of_style(StyleName::ThreePass)
+    }
+}
+
+impl HasSettings for Request {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<Request>> = LazyLock::new(|| Table {
+            settings: settings(),
+            defaults: StyleName::ALL.map(|(_, style)| Request::of_style(style)).into(),
+        });
+        &TABLE
+    }
+}
+
+/// What options about the animation are listed under.
+const ANIMATION: &str =
+    "Animation, into FILE.gif, FILE.apng or numbered files such as frame-%04d.png; lines: frame-%04d.svg";
+
+fn settings() -> Vec<Setting<Request>> {
+    let style = Setting::of(
+        "style",
+        "STYLE",
+        Kind::Choice(names_of::<StyleName>()),
+        style_help(),
+        |request: &Request| request.style.name().to_owned(),
+        |request, text| {
+            request.style = Style::named(StyleName::of_name(text)?);
+            Ok(())
+        },
+    )
+    .said("three-pass; into .svg, .pdf and .json: lines")
+    .common()
+    .first();
+    let show = Setting::field(
+        "show",
+        "PICTURE",
+        "Picture to show: final, borders, tones; three-pass, two-pass and mrt also normals, depth, map, ink also map; charcoal and \
+         sand final, diffuse, cem, cet, paper",
+        |request: &mut Request| &mut request.show,
+    );
+    let scene = || within(SceneSettings::settings(), |request: &mut Request| Some(&mut request.scene));
+    let of_camera = |setting: &Setting<Request>| setting.heading == camera::HEADING;
+    let read = within(LoadOptions::settings(), |request: &mut Request| Some(&mut request.read));
+    let styles = within(crate::styles::settings(), |request: &mut Request| Some(&mut request.style));
+    [style]
+        .into_iter()
+        .chain(scene().filter(|setting| !of_camera(setting)))
+        .chain(scene().filter(of_camera))
+        .chain(under("All styles", vec![show]))
+        .chain(styles)
+        .chain(read)
+        .chain(under(ANIMATION, of_animation()))
+        .chain(under("Skipping work that cannot change the picture", of_pruning()))
+        .chain(under("Running", vec![backend()]))
+        .collect()
+}
+
+/// The help of `--style`.
+fn style_help() -> &'static str {
+    static HELP: LazyLock<String> = LazyLock::new(|| format!("Style: {}", StyleName::list()));
+    &HELP
+}
+
+/// A whole number within limits.
+fn whole<N: std::str::FromStr + PartialOrd + std::fmt::Display>(
+    text: &str,
+    range: std::ops::RangeInclusive<N>,
+) -> std::result::Result<N, Problem> {
+    let number = text.trim().parse().ok().filter(|number| range.contains(number));
+    number.ok_or_else(|| format!("give a whole number from {} to {}", range.start(), range.end()).into())
+}
+
+/// What an option is called that is not used.
+const OFF: &str = "off";
+
+fn of_animation() -> Vec<Setting<Request>> {
+    let number = |high| Kind::Numbers { count: 1, range: [1.0, high], decimals: 0 };
+    vec![
+        Setting::of(
+            "turntable",
+            "N",
+            number(360.0),
+            "Draw N views of a full turn around the models",
+            |request: &Request| request.animation.turntable.map_or(OFF.to_owned(), |views| views.to_string()),
+            |request, text| {
+                request.animation.turntable = if text == OFF { None } else { Some(whole(text, 1..=10_000)?) };
+                Ok(())
+            },
+        )
+        .open(OFF)
+        .said(OFF)
+        .common(),
+        Setting::of(
+            "animate",
+            "MOVEMENT",
+            Kind::Text { offered: &[], example: "run" },
+            "Draw all frames of an animated model (MD2), or those of one movement, such as --animate=run",
+            |request: &Request| request.animation.animate.clone().unwrap_or(OFF.to_owned()),
+            |request, text| {
+                request.animation.animate = (text != OFF).then(|| text.to_owned());
+                Ok(())
+            },
+        )
+        .open(OFF)
+        .said(OFF)
+        .standing_alone(),
+        Setting::of(
+            "frame-delay",
+            "MS",
+            number(1000.0),
+            "Time that each picture is shown, in milliseconds",
+            |request: &Request| request.animation.frame_delay_ms.map_or("auto".to_owned(), |ms| ms.to_string()),
+            |request, text| {
+                request.animation.frame_delay_ms = if text == "auto" { None } else { Some(whole(text, 20..=60_000)?) };
+                Ok(())
+            },
+        )
+        .open("auto")
+        .said("100 for a model's frame; a turn takes 2500, at most 200 each"),
+    ]
+}
+
+fn of_pruning() -> Vec<Setting<Request>> {
+    let full = Setting::flag(
+        "full",
+        "Draw everything as published",
+        |request: &Request| request.pruning.is_full,
+        |request, is_on| request.pruning.is_full = is_on,
+    )
+    .said("off, work that cannot change the picture is skipped");
+    static HELP: LazyLock<String> = LazyLock::new(|| {
+        let rules = names_of::<Rule>().join(", ");
+        format!("Do not skip these, each explained in docs/pruning.md: {rules}")
+    });
+    let keep = Setting::of(
+        "keep",
+        "NAMES",
+        Kind::Several(names_of::<Rule>()),
+        &HELP,
+        |request: &Request| match &request.pruning.keep[..] {
+            [] => NONE.to_owned(),
+            rules => rules.iter().map(|rule| rule.name()).collect::<Vec<_>>().join(","),
+        },
+        |request, text| {
+            let rules = text.split(',').filter(|name| *name != NONE).map(Rule::of_name);
+            request.pruning.keep = rules.collect::<std::result::Result<_, _>>()?;
+            Ok(())
+        },
+    );
+    vec![full, keep]
+}
+
+/// No rule.
+const NONE: &str = "none";
+
+/// The setting of the way to OpenGL.
+fn backend() -> Setting<Request> {
+    let help = "OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works)";
+    Setting::field("backend", "BACKEND", help, |request: &mut Request| &mut request.backend)
+}
+
+impl Request {
+    /// With every setting as by default, in this style as published.
+    pub fn of_style(style: StyleName) -> Self {
+        Self {
+            models: Vec::new(),
+            read: LoadOptions::default(),
+            scene: SceneSettings::default(),
+            style: Style::named(style),
+            show: Show::default(),
+            animation: AnimationSettings::default(),
+            backend: Backend::default(),
+            pruning: PruneSettings::default(),
+            tells_all: false,
+            tells_hidden: false,
+            options: Options::new(),
+            sources: BTreeMap::new(),
+            paths: Vec::new(),
+        }
+    }
+
+    /// Of these models.
+    #[must_use]
+    pub fn with_models(self, models: Vec<String>) -> Self {
+        Self { models, ..self }
+    }
+
+    /// The models' names without their folders: what a drawing of them is titled.
+    pub fn title(&self) -> String {
+        let names = self.models.iter().map(|model| match Path::new(model).file_name() {
+            Some(name) => name.to_string_lossy(),
+            None => model.into(),
+        });
+        names.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Whether the picture has no background.
+    pub fn is_transparent(&self) -> bool {
+        self.scene.background == crate::scene::Background::Transparent
+    }
+
+    /// The same in another style, with what the options say of it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Style::with_options`].
+    pub fn in_style(&self, style: StyleName) -> Result<Self> {
+        let mut other = Self { style: Style::with_options(style, &self.options)?, paths: Vec::new(), ..self.clone() };
+        self.paths.iter().try_for_each(|(option, path)| other.set_path(option, path))?;
+        Ok(other)
+    }
+
+    /// Reads the file of an option whose path is no text, which options cannot hold.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::File`] where it cannot be read.
+    pub fn set_path(&mut self, option: &str, path: &Path) -> Result<()> {
+        self.paths.push((option.to_owned(), path.to_owned()));
+        match (&mut self.style, option) {
+            (_, "skin") => self.read.skin = Some(path.to_owned()),
+            (Style::Inking(inking), "ramp") => inking.ramp = Ramp::read(path)?,
+            (Style::Charcoal(charcoal) | Style::Sand(charcoal), option) => {
+                let source = match option {
+                    "cet" => &mut charcoal.cet,
+                    "noise-texture" => &mut charcoal.noise_texture,
+                    "paper" => &mut charcoal.paper,
+                    _ => return Ok(()),
+                };
+                *source = TextureSource::read(path)?;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// The names of the look and the files that options come from.
+    pub fn files(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = self.sources.values().map(|source| source.name.as_str()).collect();
+        names.dedup();
+        names
+    }
+
+    /// The style as whoever asked calls it: by the look that brought it, or by its name.
+    pub fn style_said(&self) -> String {
+        match self.sources.get("style") {
+            Some(source) if source.name.starts_with("look ") => source.name.clone(),
+            _ => format!("style {}", self.style.name()),
+        }
+    }
+
+    /// An error about an option that a look or a file gave, with its name and line.
+    pub fn attributed(&self, error: Error) -> Error {
+        let names = match &error {
+            Error::Setting { name, .. } => std::slice::from_ref(name),
+            Error::Settings { names, .. } => names,
+            _ => return error,
+        };
+        match names.iter().find_map(|name| self.sources.get(name)) {
+            Some(source) => source.refuse(error.to_string()),
+            None => error,
+        }
+    }
+}
+
+/// The options whose value is a file that is read.
+pub fn file_options() -> Vec<&'static str> {
+    let settings = Request::table().of(None).into_iter();
+    settings.filter(|setting| setting.kind == Kind::File).map(|setting| setting.name).collect()
+}
+
+/// Files that the options of a request name.
+pub fn files_named(options: &Options) -> Vec<(&'static str, PathBuf)> {
+    let named = |name: &'static str| match options.get(name) {
+        Some(crate::settings::OptionValue::Text(path)) => Some((name, PathBuf::from(path))),
+        _ => None,
+    };
+    file_options().into_iter().filter_map(named).collect()
+}

@@ -1,0 +1,302 @@
+//! From a request to a picture or lines.
+
+use super::{ModelCache, Request, Session};
+use crate::clock::Instant;
+use crate::edges::SilhouetteRule;
+use crate::error::{Error, Result};
+use crate::lines::{LineSettings, Progress, SvgSettings, VisibleLines};
+use crate::mesh::{LoadStage, Mesh};
+use crate::picture::Picture;
+use crate::plan::Plan;
+use crate::plan::prune::{Kept, Omission, Pruned, prune};
+use crate::renderer::{Renderer, milliseconds_since};
+use crate::scene::Scene;
+use crate::styles::LineStyle;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What came of a request.
+#[derive(Debug)]
+pub enum Drawn {
+    /// A picture that OpenGL drew.
+    Picture(Box<DrawnPicture>),
+    /// Exact lines.
+    Lines(Box<DrawnLines>),
+}
+
+/// A picture, and how it was made.
+#[derive(Debug)]
+pub struct DrawnPicture {
+    /// The scene.
+    pub scene: Scene,
+    /// What was read besides the models' own files.
+    pub files: Vec<PathBuf>,
+    /// What the style does for the scene, before anything is left out.
+    pub published: Plan,
+    /// What was drawn.
+    pub plan: Plan,
+    /// What was left out, and why.
+    pub omissions: Vec<Omission>,
+    /// What was not, and why.
+    pub kept: Vec<Kept>,
+    /// What is to be known of it, a sentence each.
+    pub remarks: Vec<String>,
+    /// The picture.
+    pub picture: Picture,
+    /// How long it took.
+    pub times: Times,
+}
+
+/// How long the stages took, milliseconds.
+#[derive(Debug, Clone, Default)]
+pub struct Times {
+    /// Reading the models and making meshes of them.
+    pub load_ms: f64,
+    /// Each stage's part of that.
+    pub stages: Vec<(LoadStage, f64)>,
+    /// Vertex arrays.
+    pub arrays_ms: f64,
+    /// Plan and pruning.
+    pub plan_ms: f64,
+    /// Opening the context; 0 where it was open.
+    pub context_ms: f64,
+    /// Drawing one triangle meanwhile; `None` where the models were read before.
+    pub warm_up_ms: Option<f64>,
+    /// The first frame.
+    pub first_frame_ms: f64,
+}
+
+/// Lines, and how they were found.
+#[derive(Debug)]
+pub struct DrawnLines {
+    /// The scene.
+    pub scene: Scene,
+    /// What was read besides the models' own files.
+    pub files: Vec<PathBuf>,
+    /// The style that they are drawn in.
+    pub style: LineStyle,
+    /// The lines.
+    pub lines: VisibleLines,
+    /// How long reading took, milliseconds.
+    pub load_ms: f64,
+}
+
+/// The models of a request.
+#[derive(Debug)]
+pub struct ReadModels {
+    /// Their meshes.
+    pub meshes: Vec<Arc<Mesh>>,
+    /// The files that were read besides the models' own.
+    pub files: Vec<PathBuf>,
+    /// How long each stage of reading took for all of them together, milliseconds.
+    pub stages: Vec<(LoadStage, f64)>,
+    /// How long all of it took, milliseconds.
+    pub ms: f64,
+}
+
+/// A scene ready to be drawn, and what is to be done for it.
+struct Planned {
+    scene: Scene,
+    files: Vec<PathBuf>,
+    published: Plan,
+    times: Times,
+}
+
+impl Request {
+    /// Reads the models and draws them.
+    ///
+    /// # Errors
+    ///
+    /// Those of reading, of the settings with this scene, of the way to OpenGL; [`Error::Cancelled`] where `progress` was.
+    pub fn draw(&self, session: &mut Session, progress: &Progress) -> Result<Drawn> {
+        if self.style.lines().is_none() {
+            return self.picture(session).map(|picture| Drawn::Picture(Box::new(picture)));
+        }
+        let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
+        let scene = Scene::new(meshes, &self.scene)?;
+        let lines = self.lines(&scene, progress)?;
+        let style = self.line_style().unwrap_or_default();
+        Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, load_ms })))
+    }
+
+    /// Reads the models.
+    ///
+    /// # Errors
+    ///
+    /// Those of the readers.
+    pub fn models(&self, cache: &ModelCache) -> Result<ReadModels> {
+        let start = Instant::now();
+        let mut models = ReadModels { meshes: Vec::new(), files: Vec::new(), stages: Vec::new(), ms: 0.0 };
+        for path in &self.models {
+            let model = cache.read(path, &self.read)?;
+            models.meshes.push(model.mesh.clone());
+            models.files.extend(model.files.iter().cloned());
+            for (stage, ms) in &model.stages {
+                match models.stages.iter_mut().find(|(other, _)| other == stage) {
+                    Some((_, sum)) => *sum += ms,
+                    None => models.stages.push((*stage, *ms)),
+                }
+            }
+        }
+        models.ms = milliseconds_since(start);
+        Ok(models)
+    }
+
+    /// How lines are drawn: the style's way, on the scene's background, titled after the models. `None` for a style that draws in
+    /// passes.
+    pub fn line_style(&self) -> Option<LineStyle> {
+        let LineStyle { lines, drawing } = self.style.lines()?;
+        let drawing = SvgSettings { title: self.title(), background: self.scene.background, ..drawing };
+        Some(LineStyle { lines, drawing })
+    }
+
+    /// What is to be found for this style.
+    fn wanted(&self, style: &LineStyle) -> LineSettings {
+        let mut wanted = style.wanted();
+        wanted.finds_hidden |= self.tells_all || self.tells_hidden;
+        wanted.finds_outline |= self.tells_all;
+        wanted.counts_changes = self.tells_hidden && wanted.silhouette == SilhouetteRule::Smooth;
+        wanted
+    }
+
+    /// Whether all that is found for this request does for another of the same lines, whatever that one shows of them.
+    pub fn finds_all_for(&self, other: &Self) -> bool {
+        let wanted = [self, other].map(|request| request.line_style().map(|style| request.wanted(&style)));
+        let [Some(own), Some(other)] = wanted else { return false };
+        own.finds_hidden >= other.finds_hidden && own.finds_outline >= other.finds_outline
+    }
+
+    /// Finds the lines of a scene that the drawing shows, short ones too.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a style that draws in passes and for nonsense; those of [`VisibleLines::with_progress`].
+    pub fn all_lines(&self, scene: &Scene, progress: &Progress) -> Result<VisibleLines> {
+        let Some(style) = self.line_style() else {
+            let problem = "this style draws a picture in passes; choose a style of lines";
+            return Err(Error::value("style", self.style.name(), problem));
+        };
+        style.drawing.check()?;
+        VisibleLines::with_progress(scene, &self.wanted(&style), progress)
+    }
+
+    /// Finds the lines of a scene that the drawing shows, without those that are too short to be seen.
+    ///
+    /// # Errors
+    ///
+    /// As [`Request::all_lines`].
+    pub fn lines(&self, scene: &Scene, progress: &Progress) -> Result<VisibleLines> {
+        let lines = self.all_lines(scene, progress)?;
+        let style = self.line_style().unwrap_or_default();
+        match self.tells_all && style.drawing.min_length.is_none() {
+            true => Ok(lines),
+            false => lines.without_specks_with_progress(&style.drawing, progress),
+        }
+    }
+
+    /// What the style does for a scene, as published and without what cannot change so many pictures.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`crate::Style::plan`] and [`Renderer::choose_context`].
+    pub fn plans(&self, scene: &Scene, renderer: &mut Renderer, pictures: u32) -> Result<(Plan, Pruned)> {
+        let published = self.style.plan(scene, self.show)?;
+        let pruned = self.pruned(&published, scene, renderer, pictures)?;
+        Ok((published, pruned))
+    }
+
+    /// A plan without what cannot change so many pictures.
+    fn pruned(&self, published: &Plan, scene: &Scene, renderer: &mut Renderer, pictures: u32) -> Result<Pruned> {
+        renderer.choose_context(scene, published)?;
+        Ok(match self.pruning.pruning(renderer, pictures) {
+            Some(pruning) => prune(published, scene, &pruning),
+            None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
+        })
+    }
+
+    /// Draws a scene that is there already.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Request::plans`] and [`Renderer::draw`].
+    pub fn picture_of(&self, scene: &Scene, renderer: &mut Renderer) -> Result<Picture> {
+        let (_, Pruned { plan, .. }) = self.plans(scene, renderer, 1)?;
+        renderer.draw(scene, &plan)
+    }
+
+    fn picture(&self, session: &mut Session) -> Result<DrawnPicture> {
+        let (mut times, loaded) = self.ready(session);
+        let Planned { scene, files, published, times: of_loading } = loaded?;
+        let pictures = session.pictures;
+        let renderer = session.renderer(self.backend)?;
+        let start = Instant::now();
+        let Pruned { plan, omissions, kept } = self.pruned(&published, &scene, renderer, pictures)?;
+        times.plan_ms = of_loading.plan_ms + milliseconds_since(start);
+        let remarks = [self.style.remarks(&scene), renderer.remarks(&plan)].concat();
+        let start = Instant::now();
+        let picture = renderer.draw(&scene, &plan)?;
+        times.first_frame_ms = milliseconds_since(start);
+        let Times { load_ms, stages, arrays_ms, .. } = of_loading;
+        let times = Times { load_ms, stages, arrays_ms, ..times };
+        Ok(DrawnPicture { scene, files, published, plan, omissions, kept, remarks, picture, times })
+    }
+
+    /// Reads the models and gets a renderer ready meanwhile, unless the session has one.
+    fn ready(&self, session: &mut Session) -> (Times, Result<Planned>) {
+        let backend = self.backend;
+        if session.has(backend) {
+            return (Times::default(), self.planned(&session.models, session.submission));
+        }
+        let shared = &*session;
+        let (models, submission) = (&shared.models, shared.submission);
+        let load = || self.planned(models, submission);
+        // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
+        let (opened, loaded) = std::thread::scope(|scope| {
+            // Where no second thread can be had, one after the other.
+            let Ok(loading) = std::thread::Builder::new().spawn_scoped(scope, load) else {
+                let loaded = load();
+                return (self.open(shared, || true), loaded);
+            };
+            let opened = self.open(shared, || loading.is_finished());
+            match loading.join() {
+                Ok(loaded) => (opened, loaded),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        });
+        match opened {
+            Ok((renderer, times)) => {
+                session.keep(backend, renderer);
+                (times, loaded)
+            }
+            // What is wrong with the models is said first.
+            Err(error) => (Times::default(), loaded.and(Err(error))),
+        }
+    }
+
+    /// Opens the context and, if the models are not there yet, warms it up.
+    fn open(&self, session: &Session, models_are_read: impl Fn() -> bool) -> Result<(Renderer, Times)> {
+        let start = Instant::now();
+        let mut renderer = session.open(self.backend)?;
+        let mut times = Times { context_ms: milliseconds_since(start), ..Times::default() };
+        if !models_are_read() {
+            let start = Instant::now();
+            let pruning = self.pruning.pruning(&renderer, session.pictures);
+            renderer.warm_up(&self.scene, &self.style, self.show, pruning.as_ref())?;
+            times.warm_up_ms = Some(milliseconds_since(start));
+        }
+        Ok((renderer, times))
+    }
+
+    /// Reads the models, puts the scene together and plans it, which finds its edges where the style draws them.
+    fn planned(&self, cache: &ModelCache, submission: crate::plan::Submission) -> Result<Planned> {
+        let ReadModels { meshes, files, stages, ms: load_ms } = self.models(cache)?;
+        let scene = Scene::new(meshes, &self.scene)?;
+        let start = Instant::now();
+        scene.make_arrays();
+        let arrays_ms = milliseconds_since(start);
+        let start = Instant::now();
+        let published = Plan { submission, ..self.style.plan(&scene, self.show)? };
+        let times = Times { load_ms, stages, arrays_ms, plan_ms: milliseconds_since(start), ..Times::default() };
+        Ok(Planned { scene, files, published, times })
+    }
+}

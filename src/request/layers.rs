@@ -1,0 +1,306 @@
+//! Layers of options, each beating those below it, as one request.
+
+use super::{Request, Source};
+use crate::camera;
+use crate::choice::meant_or;
+use crate::error::{Error, Result};
+use crate::lines::SvgSettings;
+use crate::preset::{LOOKS, Look, Preset};
+use crate::scene::SceneSettings;
+use crate::settings::{EXCLUSIVE, HasSettings, OptionValue, Options, refuse_exclusive};
+use crate::styles::{StyleName, is_ignored, is_of_lines_alone};
+
+/// Where options come from.
+#[derive(Debug, Clone)]
+pub enum Layer {
+    /// The style that is drawn where no layer names one; no recipe keeps it.
+    Style(StyleName),
+    /// A look: what it says of other styles than the one that is drawn does not count.
+    Look(Look),
+    /// A file, or something that stands for one: a preset, a recipe, a camera.
+    File(Preset),
+    /// A camera: what is below it says nothing of the camera.
+    Camera(Preset),
+    /// What was given by hand. Of what has no effect on the style that is drawn a remark tells.
+    Given(Options),
+}
+
+/// The layers of a drawing, the lowest first: the look that is named, or the first one where nothing is said of style or look
+/// and no lines are drawn; then files; then what was given.
+///
+/// # Errors
+///
+/// As [`Look::preset`].
+pub fn layers(look: Option<Look>, files: Vec<Preset>, given: Options, draws_lines: bool) -> Vec<Layer> {
+    let is_said = !files.is_empty() || given.contains_key("style") || draws_lines;
+    let look = look.or(if is_said { None } else { Some(LOOKS[0]) });
+    let style = draws_lines.then_some(Layer::Style(StyleName::Lines));
+    let below = style.into_iter().chain(look.map(Layer::Look));
+    below.chain(files.into_iter().map(Layer::File)).chain([Layer::Given(given)]).collect()
+}
+
+/// A layer's options in the words of this version, and what they are read from where that has a name.
+struct Read {
+    options: Options,
+    file: Option<Preset>,
+    is_look: bool,
+}
+
+impl Read {
+    fn of(layer: &Layer) -> Result<Self> {
+        let of_file =
+            |file: &Preset, is_look| Self { options: file.options.clone(), file: Some(file.clone()), is_look };
+        Ok(match layer {
+            Layer::Style(_) => Self { options: Options::new(), file: None, is_look: false },
+            Layer::Look(look) => of_file(&look.preset()?, true),
+            Layer::File(file) | Layer::Camera(file) => of_file(file, false),
+            Layer::Given(options) => Self { options: options.clone(), file: None, is_look: false },
+        })
+    }
+
+    fn refuse(&self, option: &str, problem: Error) -> Error {
+        match &self.file {
+            Some(file) => file.refuse(option, problem.to_string()),
+            None => problem,
+        }
+    }
+
+    /// Checks every option by itself, and that none excludes another.
+    fn check(mut self) -> Result<Self> {
+        let table = Request::table();
+        for (name, value) in std::mem::take(&mut self.options) {
+            let mut settings = table.settings.iter().filter(|setting| setting.name == name);
+            let Some(setting) = settings.next() else { return Err(self.refuse(&name, unknown(&name))) };
+            let kept =
+                setting.kept(value).map_err(|problem| self.refuse(&name, Error::setting(name.clone(), problem)))?;
+            if let OptionValue::Text(text) = &kept {
+                table
+                    .check(&name, text)
+                    .map_err(|problem| self.refuse(&name, Error::value(name.clone(), text, problem)))?;
+            }
+            self.options.insert(name, kept);
+        }
+        match refuse_exclusive(&self.options) {
+            Err(Error::Settings { names, problem }) => {
+                let first = names.first().cloned().unwrap_or_default();
+                Err(self.refuse(&first, Error::Settings { names, problem }))
+            }
+            checked => checked.map(|()| self),
+        }
+    }
+}
+
+/// What to say of an option that there is not.
+fn unknown(name: &str) -> Error {
+    let names: Vec<&str> = Request::table().of(None).into_iter().map(|setting| setting.name).collect();
+    let choice = meant_or(name, &names, "keys are long names of tinta render --help");
+    Error::setting(name.chars().take(40).collect::<String>(), format!("there is no such option; {choice}"))
+}
+
+/// Whether a value says that something is off.
+fn is_off(value: &OptionValue) -> bool {
+    *value == OptionValue::Switch(false)
+}
+
+fn is_of_camera(name: &str) -> bool {
+    SceneSettings::table().settings.iter().any(|setting| setting.name == name && setting.heading == camera::HEADING)
+}
+
+/// Whether what is given above excludes this option.
+fn is_excluded(name: &str, above: &Options) -> bool {
+    let is_given = |name: &str| above.get(name).is_some_and(|value| !is_off(value));
+    let excludes = |(one, others): &(&str, &[&str])| {
+        (*one == name && others.iter().any(|other| is_given(other))) || (others.contains(&name) && is_given(one))
+    };
+    EXCLUSIVE.iter().any(excludes)
+}
+
+impl Request {
+    /// Puts layers together, the lowest first, and says what of the options given by hand changes nothing.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for an option or a value that there is not, and for an option of exact lines where a picture is drawn;
+    /// [`Error::File`] with the line where a file's option is refused; [`Error::Settings`] for options that exclude each other.
+    pub fn from_layers(layers: &[Layer]) -> Result<(Self, Vec<String>)> {
+        let read: Vec<Read> = layers.iter().map(|layer| Read::of(layer)?.check()).collect::<Result<_>>()?;
+        let named = read.iter().rev().find_map(|read| match read.options.get("style") {
+            Some(OptionValue::Text(style)) => style.parse().ok(),
+            _ => None,
+        });
+        let otherwise =
+            layers.iter().find_map(|layer| if let Layer::Style(style) = layer { Some(*style) } else { None });
+        let style: StyleName = named.or(otherwise).unwrap_or(StyleName::ThreePass);
+        let mut request = Self::of_style(style);
+        let mut has_camera = false;
+        for (layer, read) in layers.iter().zip(&read).rev() {
+            let above = request.options.clone();
+            for (name, value) in &read.options {
+                let is_of_another = read.is_look && is_ignored(name, &[style.name()]);
+                let is_beaten =
+                    above.contains_key(name) || is_excluded(name, &above) || has_camera && is_of_camera(name);
+                if is_beaten || is_of_another {
+                    continue;
+                }
+                request.options.insert(name.clone(), value.clone());
+                if let Some(file) = &read.file {
+                    let source = Source { name: file.name.clone(), line: file.line_of(name) };
+                    request.sources.insert(name.clone(), source);
+                }
+            }
+            has_camera |= matches!(layer, Layer::Camera(_));
+        }
+        request.options.retain(|_, value| !is_off(value));
+        let options = request.options.clone();
+        if !style.draws_lines()
+            && let Some(option) = options.keys().find(|option| is_of_lines_alone(option))
+        {
+            let problem = match OF_PAPER.contains(&option.as_str()) {
+                true => pixels_on_paper(&options),
+                false => "only style lines has this; leave it out, or write a .svg".to_owned(),
+            };
+            return Err(request.attributed(Error::setting(option.clone(), problem)));
+        }
+        Self::table().apply(&mut request, &options).map_err(|error| request.attributed(error))?;
+        let given =
+            layers.iter().filter_map(|layer| if let Layer::Given(options) = layer { Some(options) } else { None });
+        let remark = ignored_remark(given.flat_map(Options::keys).map(String::as_str), &[style.name()]);
+        Ok((request, remark.into_iter().collect()))
+    }
+
+    /// As [`Request::from_layers`], of options alone.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn from_given(options: &Options) -> Result<Self> {
+        Ok(Self::from_layers(&[Layer::Given(options.clone())])?.0)
+    }
+}
+
+/// The options that are about paper.
+pub const OF_PAPER: [&str; 4] = ["page", "width-mm", "dpi", "margin"];
+
+/// What to say of paper where pixels are written.
+pub fn pixels_on_paper(options: &Options) -> String {
+    /// Dots an inch of a print.
+    const DPI: f64 = 300.0;
+    match SvgSettings::from_options(options).ok().and_then(|drawing| drawing.page_size.pixels(DPI)) {
+        Some(size) => format!("a picture has pixels and no paper; for {DPI} dpi say --size {size}, or write a .svg"),
+        None => "a picture has pixels and no paper; say --size, or write a .svg".to_owned(),
+    }
+}
+
+/// What to say of options that none of the styles that are drawn has.
+pub fn ignored_remark<'a>(options: impl Iterator<Item = &'a str>, styles: &[&str]) -> Option<String> {
+    let ignored: Vec<&str> = options.filter(|option| is_ignored(option, styles)).collect();
+    let (first, rest) = ignored.split_first()?;
+    let mut names = format!("--{first}");
+    rest.iter().for_each(|option| names.push_str(&format!(", --{option}")));
+    let (have, it) = if rest.is_empty() { ("has", "it") } else { ("have", "them") };
+    let mut drawn = styles.to_vec();
+    drawn.dedup();
+    let plural = if drawn.len() > 1 { "s" } else { "" };
+    let names_of_styles = || StyleName::ALL.into_iter().map(|(name, _)| name);
+    let of_all = names_of_styles().find(|style| ignored.iter().all(|option| !is_ignored(option, &[style])));
+    let has_it = match of_all {
+        Some(style) => format!("style {style} has {it}"),
+        // Of options that no style has all of, each has one of its own.
+        None => {
+            let of_one = |option: &&str| names_of_styles().find(|style| !is_ignored(option, &[style]));
+            let pairs = ignored.iter().filter_map(|option| Some(format!("style {} has --{option}", of_one(option)?)));
+            pairs.collect::<Vec<_>>().join(", ")
+        }
+    };
+    Some(format!("{names} {have} no effect on style{plural} {}; {has_it}", drawn.join(" and ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::styles::Style;
+
+    fn given(options: &[(&str, &str)]) -> Layer {
+        Layer::Given(options.iter().map(|(name, value)| ((*name).to_owned(), OptionValue::text(*value))).collect())
+    }
+
+    fn file(text: &str) -> Layer {
+        Layer::File(Preset::parse("a.toml", text).unwrap())
+    }
+
+    fn remark(options: &[&str], styles: &[&str]) -> Option<String> {
+        ignored_remark(options.iter().copied(), styles)
+    }
+
+    #[test]
+    fn options_of_other_styles_are_named_and_those_of_this_one_not_at_all() {
+        let names = ["filter", "seed", "size", "tones"];
+        let expected = "--filter, --tones have no effect on style charcoal; style three-pass has them";
+        assert_eq!(remark(&names, &["charcoal"]).as_deref(), Some(expected));
+        assert_eq!(remark(&names, &["three-pass"]).unwrap().split(' ').next(), Some("--seed"));
+        let expected =
+            "--filter, --seed have no effect on style phong; style three-pass has --filter, style charcoal has --seed";
+        assert_eq!(remark(&["filter", "seed"], &["phong"]).as_deref(), Some(expected));
+    }
+
+    #[test]
+    fn of_two_styles_one_is_enough() {
+        let names = ["ink-threshold", "joints", "tones"];
+        let expected = "--ink-threshold has no effect on styles three-pass and inking; style dietrich has it";
+        assert_eq!(remark(&names, &["three-pass", "inking"]).as_deref(), Some(expected));
+        assert!(remark(&["joints"], &["ink", "ink"]).unwrap().contains("on style ink; style inking has it"));
+    }
+
+    #[test]
+    fn a_layer_beats_those_below_and_what_excludes_them() {
+        let layers = [file("tones = 1\nview = \"top\"\nseed = 3\n"), given(&[("tones", "2"), ("eye", "1,2,3")])];
+        let (request, remarks) = Request::from_layers(&layers).unwrap();
+        assert_eq!(request.options.keys().collect::<Vec<_>>(), ["eye", "seed", "tones"]);
+        let Style::ThreePass(cartoon) = &request.style else { panic!("three-pass") };
+        assert_eq!((cartoon.tones.count, remarks), (2, Vec::new()));
+        // A file may turn off what is below it.
+        let (request, _) = Request::from_layers(&[file("parallel = true\n"), file("parallel = false\n")]).unwrap();
+        assert!(!request.scene.camera.parallel && request.options.is_empty());
+    }
+
+    #[test]
+    fn a_look_says_nothing_of_other_styles() {
+        let (request, _) = Request::from_layers(&[Layer::Look(LOOKS[0]), given(&[("style", "inking")])]).unwrap();
+        assert!(
+            !request.options.contains_key("tones") && request.options.contains_key("size"),
+            "{:?}",
+            request.options
+        );
+    }
+
+    #[test]
+    fn errors_name_the_file_and_line_of_the_option() {
+        let refused = |layers: &[Layer]| Request::from_layers(layers).unwrap_err().to_string();
+        assert_eq!(
+            refused(&[file("\ntones = \"many\"")]),
+            "a.toml: line 2: tones many: give a whole number from 0 to 255"
+        );
+        // Even where it is beaten.
+        assert!(refused(&[file("tones = \"many\""), given(&[("tones", "2")])]).starts_with("a.toml: line 1"));
+        assert!(refused(&[file("tone = 2")]).contains("line 1: tone: there is no such option; did you mean tones?"));
+        assert!(refused(&[file("eye = [1, 2, 3]\nview = \"top\"")]).contains("exclude each other"));
+        assert_eq!(
+            refused(&[given(&[("hidden", "dashed")])]),
+            "hidden: only style lines has this; leave it out, or write a .svg"
+        );
+        let late = Request::from_layers(&[file("tones = 4")]).unwrap().0;
+        assert_eq!(late.attributed(Error::setting("tones", "no")).to_string(), "a.toml: line 1: tones: no");
+    }
+
+    #[test]
+    fn the_first_look_is_drawn_where_nothing_is_said() {
+        let style = |look, given: Options, draws_lines| {
+            let layers = layers(look, Vec::new(), given, draws_lines);
+            Request::from_layers(&layers).unwrap().0.style.name()
+        };
+        assert_eq!(style(None, Options::new(), false), "ink");
+        assert_eq!(style(None, Options::new(), true), "lines");
+        assert_eq!(style(Some(LOOKS[2]), Options::new(), false), "charcoal");
+        assert_eq!(style(None, Options::from([("style".to_owned(), OptionValue::text("phong"))]), false), "phong");
+    }
+}

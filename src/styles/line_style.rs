@@ -1,0 +1,55 @@
+//! Exact visible lines as a style: which lines are found and how they are drawn.
+
+use crate::lines::{Hidden, LineSettings, SvgSettings};
+use crate::settings::{Setting, within};
+
+/// What settings of edges are listed under.
+const LINES: &str = "Style lines: which lines";
+
+/// Exact visible lines.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LineStyle {
+    /// Which lines there are. What is found of them besides follows from `drawing`: see [`LineStyle::wanted`].
+    pub lines: LineSettings,
+    /// How they are drawn.
+    pub drawing: SvgSettings,
+}
+
+impl LineStyle {
+    /// The settings of the lines, then of the drawing.
+    pub(super) fn settings() -> Vec<Setting<Self>> {
+        let lines = within(LineSettings::settings(), |style: &mut Self| Some(&mut style.lines));
+        // Those of edges have no heading of their own: other styles have them, too.
+        let lines = lines.map(|mut setting| {
+            setting.heading = if setting.heading.is_empty() { LINES } else { setting.heading };
+            setting
+        });
+        lines.chain(within(SvgSettings::settings(), |style: &mut Self| Some(&mut style.drawing))).collect()
+    }
+
+    /// What is to be found for this drawing: outlines and hidden lines only where they show.
+    pub fn wanted(&self) -> LineSettings {
+        LineSettings {
+            finds_outline: self.drawing.tells_outline(),
+            finds_hidden: self.drawing.hidden != Hidden::None,
+            ..self.lines.clone()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::edges::Class;
+    use crate::scene::Color;
+
+    #[test]
+    fn only_what_the_drawing_shows_is_looked_for() {
+        let mut style = LineStyle::default();
+        style.drawing.class_colors.0.set_class(Class::Crease, Color([1.0, 0.0, 0.0]));
+        assert!(!style.wanted().finds_outline && !style.wanted().finds_hidden);
+        style.drawing.class_colors.0.set_outline(Color([1.0, 0.0, 0.0]));
+        style.drawing.hidden = Hidden::Dashed;
+        assert!(style.wanted().finds_outline && style.wanted().finds_hidden);
+    }
+}
