@@ -351,13 +351,6 @@ impl Request {
         Ok(())
     }
 
-    /// The names of the look and the files that options come from.
-    pub fn files(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = self.sources.values().map(|source| source.name.as_str()).collect();
-        names.dedup();
-        names
-    }
-
     /// The style as whoever asked calls it: by the look that brought it, or by its name.
     pub fn style_said(&self) -> String {
         match self.sources.get("style") {

@@ -89,6 +89,7 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
         render("bad-value", r#","tones":9"#),
         render("two-ways", r#","eye":"1,2,3","view":"front""#),
         render("no-text", r#","json":"yes""#),
+        render("two-presets", r#","preset":["a.toml","b.toml"]"#),
         render("help", r#","help":true"#),
         r#"{"id":"no-model","command":"render","model":"no-such.obj","output":"no.png"}"#.to_owned(),
         r#"{"id":"nul","command":"render","model":"a\u0000b.obj","output":"nul.png"}"#.to_owned(),
@@ -104,7 +105,7 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
     let out = folder.path("out");
     let output = tinta(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "1"]);
     assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-    assert!(said(&output).contains("tinta: 5 of 16 jobs done, 11 failed"), "{}", said(&output));
+    assert!(said(&output).contains("tinta: 5 of 17 jobs done, 12 failed"), "{}", said(&output));
     let entries = rows(&format!("{out}/batch-1-of-1.jsonl"));
     let of = |id: &str| entries.iter().find(|entry| entry["id"] == id).unwrap_or_else(|| panic!("{id}"));
     for (id, kind, words) in [
@@ -112,6 +113,7 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
         ("bad-value", "setting", "tones 9: there are 1, 2 or 3 tones"),
         ("two-ways", "setting", "eye and view: they exclude each other"),
         ("no-text", "setting", "json: write true or false"),
+        ("two-presets", "setting", "preset: write one name, as a text"),
         ("help", "setting", "help: there is no such option"),
         ("no-model", "model", "no-such.obj: there is no such file"),
         ("nul", "model", "a\\u{0}b.obj"),

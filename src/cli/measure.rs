@@ -96,9 +96,12 @@ impl Arguments {
 
     /// Refuses what does not go together.
     fn check(&self) -> Result<()> {
-        let is_given = |name: &str| self.how.options.contains_key(name);
+        let is_given = |name: &str| match name {
+            "model" => !self.models.is_empty(),
+            name => self.how.options.contains_key(name),
+        };
         let excluded: &[(&str, bool, &[&str])] = &[
-            ("merge", !self.merge.is_empty(), &["suite", "against", "resume"]),
+            ("merge", !self.merge.is_empty(), &["model", "suite", "against", "resume"]),
             ("against", is_given("against"), &["suite"]),
         ];
         for (one, is_there, others) in excluded {

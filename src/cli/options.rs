@@ -1,7 +1,7 @@
 //! Options that more than one command takes: loops over the tables of settings.
 //!
 //! Name, values, help and default of each are declared beside the struct it sets, see `tinta::settings`. What is no setting
-//! of a struct stands here: which settings a command has, which exclude each other, paths that are no text.
+//! of a struct stands here: which settings a command has, paths that are no text.
 
 #[cfg(test)]
 mod tests;
@@ -182,7 +182,6 @@ impl Selection for OfSubject {
 #[command(next_help_heading = camera::HEADING)]
 pub(super) struct CameraFile {
     /// Read the camera from this file: the JSON that --json prints, a picture that tinta drew, a glTF or GLB model, or the 16 numbers of the matrix from world to clip space, row by row; single options override it [default: none]
-    // Its settings stand among the others by the time anyone asks: see preset.rs.
     #[arg(id = "camera", long, hide_short_help = true, value_name = "FILE")]
     pub camera: Option<PathBuf>,
 }

@@ -39,6 +39,10 @@ impl JobOptions {
             Some(OptionValue::Text(output)) => output,
             _ => return Err(Error::setting("output", "it is missing; name the file to write")),
         };
+        let is_text = |name: &&str| matches!(options.get(*name), None | Some(OptionValue::Text(_)));
+        if let Some(name) = ["look", "preset", "camera"].iter().find(|name| !is_text(name)) {
+            return Err(Error::setting(*name, "write one name, as a text"));
+        }
         if job.models.is_empty() && job.command != tinta::batch::JobCommand::Measure {
             return Err(Error::setting("model", "it is missing; name a file, or a built-in one such as builtin:bust"));
         }
