@@ -36,7 +36,7 @@ use crate::mesh::LoadOptions;
 use crate::plan::prune::{Pruning, Rule};
 use crate::renderer::Renderer;
 use crate::scene::SceneSettings;
-use crate::settings::{HasSettings, Kind, Options, Problem, Setting, Table, names_of, under, within};
+use crate::settings::{HasSettings, Kind, Options, Setting, Table, names_of, under, within};
 use crate::styles::{Ramp, Show, Style, StyleName, TextureSource};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -94,7 +94,7 @@ pub struct AnimationSettings {
     /// Frames whose names begin so, all for an empty text. Default none: one picture.
     pub animate: Option<String>,
     /// How long each is shown, milliseconds. Default 100 for a model's frame; a turn takes 2500, at most 200 each.
-    pub frame_delay_ms: Option<u16>,
+    pub frame_delay_ms: Option<u32>,
 }
 
 /// What is left out of a plan.
@@ -178,61 +178,39 @@ fn style_help() -> &'static str {
     &HELP
 }
 
-/// A whole number within limits.
-fn whole<N: std::str::FromStr + PartialOrd + std::fmt::Display>(
-    text: &str,
-    range: std::ops::RangeInclusive<N>,
-) -> std::result::Result<N, Problem> {
-    let number = text.trim().parse().ok().filter(|number| range.contains(number));
-    number.ok_or_else(|| format!("give a whole number from {} to {}", range.start(), range.end()).into())
-}
-
 /// What an option is called that is not used.
 const OFF: &str = "off";
 
 fn of_animation() -> Vec<Setting<Request>> {
-    let number = |high| Kind::Numbers { count: 1, range: [1.0, high], decimals: 0 };
     vec![
-        Setting::of(
+        Setting::open_field(
             "turntable",
             "N",
-            number(360.0),
+            OFF,
             "Draw N views of a full turn around the models",
-            |request: &Request| request.animation.turntable.map_or(OFF.to_owned(), |views| views.to_string()),
-            |request, text| {
-                request.animation.turntable = if text == OFF { None } else { Some(whole(text, 1..=10_000)?) };
-                Ok(())
-            },
+            |request: &mut Request| &mut request.animation.turntable,
         )
-        .open(OFF)
-        .said(OFF)
+        .whole(1..=10_000)
+        .range(1.0, 360.0, 0)
         .common(),
-        Setting::of(
+        Setting::open_field(
             "animate",
             "MOVEMENT",
-            Kind::Text { offered: &[], example: "run" },
+            OFF,
             "Draw all frames of an animated model (MD2), or those of one movement, such as --animate=run",
-            |request: &Request| request.animation.animate.clone().unwrap_or(OFF.to_owned()),
-            |request, text| {
-                request.animation.animate = (text != OFF).then(|| text.to_owned());
-                Ok(())
-            },
+            |request: &mut Request| &mut request.animation.animate,
         )
-        .open(OFF)
-        .said(OFF)
+        .like("run")
         .standing_alone(),
-        Setting::of(
+        Setting::open_field(
             "frame-delay",
             "MS",
-            number(1000.0),
+            "auto",
             "Time that each picture is shown, in milliseconds",
-            |request: &Request| request.animation.frame_delay_ms.map_or("auto".to_owned(), |ms| ms.to_string()),
-            |request, text| {
-                request.animation.frame_delay_ms = if text == "auto" { None } else { Some(whole(text, 20..=60_000)?) };
-                Ok(())
-            },
+            |request: &mut Request| &mut request.animation.frame_delay_ms,
         )
-        .open("auto")
+        .whole(20..=60_000)
+        .range(1.0, 1000.0, 0)
         .said("100 for a model's frame; a turn takes 2500, at most 200 each"),
     ]
 }
@@ -294,6 +272,11 @@ impl Request {
             sources: BTreeMap::new(),
             paths: Vec::new(),
         }
+    }
+
+    /// This picture of this style, of scenes that are there already.
+    pub fn of_picture(style: &Style, show: Show) -> Self {
+        Self { style: style.clone(), show, ..Self::default() }
     }
 
     /// Of these models.

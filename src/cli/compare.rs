@@ -3,7 +3,6 @@
 use super::batch::JobOptions;
 use super::inputs::Inputs;
 use super::options::{Below, CameraFile, Chosen, OfComparison, PresetFile, Selection};
-use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use std::time::Instant;
@@ -103,37 +102,23 @@ fn style(
 
 fn settings() -> Vec<Setting<CompareSettings>> {
     static LEFT: LazyLock<String> = LazyLock::new(|| format!("Style on the left: {}", StyleName::list_with_lines()));
-    let whole = |text: &str, range: RangeInclusive<u32>| {
-        let number = text.trim().parse().ok().filter(|number| range.contains(number));
-        number.ok_or_else(|| format!("give a whole number from {} to {}", range.start(), range.end()))
-    };
-    let tolerance = Setting::of(
+    let tolerance = Setting::field(
         "tolerance",
         "PIXELS",
-        Kind::Numbers { count: 1, range: [0.0, 64.0], decimals: 0 },
         "Distance within which two styles' ink counts as the same, in pixels, up to 64",
-        |how: &CompareSettings| how.tolerance_px.to_string(),
-        move |how, text| {
-            how.tolerance_px = whole(text, 0..=64)?;
-            Ok(())
-        },
+        |how: &mut CompareSettings| &mut how.tolerance_px,
     );
-    let frames = Setting::of(
+    let frames = Setting::field(
         "frames",
         "N",
-        Kind::Numbers { count: 1, range: [1.0, 101.0], decimals: 0 },
         "Frames of each style to draw and time after warm-up",
-        |how: &CompareSettings| how.frames.to_string(),
-        move |how, text| {
-            how.frames = whole(text, 1..=1_000_000)?;
-            Ok(())
-        },
+        |how: &mut CompareSettings| &mut how.frames,
     );
     vec![
         style("left", &LEFT, |how| &mut how.left),
         style("right", "Style on the right", |how| &mut how.right),
-        tolerance,
-        frames,
+        tolerance.whole(0..=64).range(0.0, 64.0, 0),
+        frames.whole(1..=1_000_000).range(1.0, 101.0, 0),
         Setting::flag("json", "Print one JSON record", |how: &CompareSettings| how.json, |how, is_on| how.json = is_on),
     ]
 }

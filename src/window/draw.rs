@@ -12,8 +12,8 @@ use crate::gl::{Backend, ContextInfo};
 use crate::measure::Ink;
 use crate::orbit::Orbit;
 use crate::picture::Picture;
-use crate::plan::prune::prune;
 use crate::renderer::{PassTime, Renderer, median, milliseconds_since};
+use crate::request::Request;
 use crate::scene::{Scene, SceneSettings};
 use crate::styles::{Show, Style};
 use std::collections::HashMap;
@@ -166,10 +166,7 @@ impl Drawer {
     ///
     /// As [`Renderer::render`].
     pub fn draw_scene(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<Picture> {
-        let plan = style.plan(scene, show)?;
-        self.renderer.choose_context(scene, &plan)?;
-        let plan = prune(&plan, scene, &self.renderer.pruning(1)).plan;
-        self.renderer.draw(scene, &plan)
+        Request::of_picture(style, show).picture_of(scene, &mut self.renderer)
     }
 
     fn frame_ms(&mut self, scene: &Scene, style: &Style) -> Result<f64> {
@@ -187,10 +184,8 @@ impl Drawer {
         let scene = job.scene()?;
         let mut costs = Vec::new();
         for (side, style, _) in &job.drawings {
-            let plan = style.plan(&scene, Show::Final)?;
-            self.renderer.choose_context(&scene, &plan)?;
-            let plan = prune(&plan, &scene, &self.renderer.pruning(1)).plan;
-            let passes = self.renderer.time_passes(&scene, &plan, TIMED_FRAMES)?;
+            let (_, pruned) = Request::of_picture(style, Show::Final).plans(&scene, &mut self.renderer, 1)?;
+            let passes = self.renderer.time_passes(&scene, &pruned.plan, TIMED_FRAMES)?;
             let frames: Result<Vec<f64>> = (0..TIMED_FRAMES).map(|_| self.frame_ms(&scene, style)).collect();
             let frame_ms = median(frames?).unwrap_or_default();
             let ink = Ink::of_style(&mut self.renderer, &scene, style)?;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// One of the two styles of a split view; of a single one the left.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
     /// Left.

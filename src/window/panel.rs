@@ -98,53 +98,19 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
     changes(ui, style.style_name().info().origin, look, &controls::of(style), side, events);
     ui.separator();
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        let words = search(ui);
+        let mut list = Listed { words: search(ui), events };
         if lines == LinesShown::Over {
-            grouped(
-                ui,
-                controls::of(state.style_of_lines()),
-                |_| "Exact lines of both sides".to_owned(),
-                &words,
-                |ui, control| {
-                    let option = control.option();
-                    let change = ui.push_id(("lines", control.setting.name), |ui| widget::show(ui, control)).inner;
-                    events.extend(change.map(|change| match change {
-                        Change::Set(value) => ViewerEvent::Lines(option, value),
-                        Change::Default => ViewerEvent::LinesDefault(option),
-                    }));
-                },
-            );
+            let title = |_: &str| "Exact lines of both sides".to_owned();
+            let of_lines = controls::of(state.style_of_lines());
+            list.show(ui, "lines", of_lines, title, ViewerEvent::Lines, ViewerEvent::LinesDefault);
         }
-        grouped(
-            ui,
-            controls::of(style),
-            |heading| of_style_heading(heading, style.name()),
-            &words,
-            |ui, control| {
-                let option = control.option();
-                let change = ui.push_id((control.setting.name, side as usize), |ui| widget::show(ui, control)).inner;
-                events.extend(change.map(|change| match change {
-                    Change::Set(value) => ViewerEvent::Set(side, option, value),
-                    Change::Default => ViewerEvent::Default(side, option),
-                }));
-            },
-        );
-        grouped(ui, controls::of_scene(&state.scene_settings()), by_heading, &words, |ui, control| {
-            let option = control.option();
-            let change = ui.push_id(("scene", control.setting.name), |ui| widget::show(ui, control)).inner;
-            events.extend(change.map(|change| match change {
-                Change::Set(value) => ViewerEvent::Scene(option, value),
-                Change::Default => ViewerEvent::SceneDefault(option),
-            }));
-        });
-        grouped(ui, controls::of_load(&state.load), by_heading, &words, |ui, control| {
-            let option = control.option();
-            let change = ui.push_id(("models", control.setting.name), |ui| widget::show(ui, control)).inner;
-            events.extend(change.map(|change| match change {
-                Change::Set(value) => ViewerEvent::Model(option, value),
-                Change::Default => ViewerEvent::ModelDefault(option),
-            }));
-        });
+        let title = |heading: &str| of_style_heading(heading, style.name());
+        let set = |option, value| ViewerEvent::Set(side, option, value);
+        list.show(ui, side, controls::of(style), title, set, |option| ViewerEvent::Default(side, option));
+        let of_scene = controls::of_scene(&state.scene_settings());
+        list.show(ui, "scene", of_scene, by_heading, ViewerEvent::Scene, ViewerEvent::SceneDefault);
+        let of_models = controls::of_load(&state.load);
+        list.show(ui, "models", of_models, by_heading, ViewerEvent::Model, ViewerEvent::ModelDefault);
         ui.separator();
         ui.label("the same by");
         for command in viewer.commands() {
@@ -182,27 +148,44 @@ fn of_style_heading(heading: &str, style: &str) -> String {
     if heading.starts_with("Style") { format!("Style {style}") } else { by_heading(heading) }
 }
 
-/// Controls under their headings, which fold as long as nothing is looked for.
-fn grouped<T: Clone + 'static>(
-    ui: &mut Ui,
-    controls: Vec<Control<T>>,
-    title: impl Fn(&str) -> String,
-    words: &str,
-    mut one: impl FnMut(&mut Ui, &Control<T>),
-) {
-    let found: Vec<Control<T>> = controls.into_iter().filter(|control| control.is_found_by(words)).collect();
-    for group in found.chunk_by(|a, b| title(a.setting.heading) == title(b.setting.heading)) {
-        let whole = group[0].setting.heading;
-        let heading = RichText::new(title(whole)).strong();
-        if words.is_empty() {
-            egui::CollapsingHeader::new(heading)
-                .default_open(true)
-                .show_unindented(ui, |ui| group.iter().for_each(|control| one(ui, control)))
-                .header_response
-                .on_hover_text(whole);
-        } else {
-            ui.label(heading).on_hover_text(whole);
-            group.iter().for_each(|control| one(ui, control));
+/// Lists of controls, as far as they are looked for, and the events they make.
+struct Listed<'a> {
+    words: String,
+    events: &'a mut Vec<ViewerEvent>,
+}
+
+impl Listed<'_> {
+    /// Shows controls under their headings, which fold as long as nothing is looked for.
+    fn show<T: Clone + 'static>(
+        &mut self,
+        ui: &mut Ui,
+        id: impl std::hash::Hash + Copy,
+        controls: Vec<Control<T>>,
+        title: impl Fn(&str) -> String,
+        set: impl Fn(String, String) -> ViewerEvent,
+        back: impl Fn(String) -> ViewerEvent,
+    ) {
+        let found: Vec<Control<T>> = controls.into_iter().filter(|control| control.is_found_by(&self.words)).collect();
+        let mut one = |ui: &mut Ui, control: &Control<T>| {
+            let change = ui.push_id((id, control.setting.name), |ui| widget::show(ui, control)).inner;
+            self.events.extend(change.map(|change| match change {
+                Change::Set(value) => set(control.option(), value),
+                Change::Default => back(control.option()),
+            }));
+        };
+        for group in found.chunk_by(|a, b| title(a.setting.heading) == title(b.setting.heading)) {
+            let whole = group[0].setting.heading;
+            let heading = RichText::new(title(whole)).strong();
+            if self.words.is_empty() {
+                egui::CollapsingHeader::new(heading)
+                    .default_open(true)
+                    .show_unindented(ui, |ui| group.iter().for_each(|control| one(ui, control)))
+                    .header_response
+                    .on_hover_text(whole);
+            } else {
+                ui.label(heading).on_hover_text(whole);
+                group.iter().for_each(|control| one(ui, control));
+            }
         }
     }
 }

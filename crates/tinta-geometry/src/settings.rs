@@ -36,6 +36,7 @@ use crate::error::{Error, ParseError, Result};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::{Debug, Formatter};
+use std::ops::RangeInclusive;
 
 /// Options by their long names without dashes, each at most once.
 pub type Options = BTreeMap<String, OptionValue>;
@@ -399,6 +400,27 @@ impl<T: Clone + 'static> Setting<T> {
             set(of, text)?;
             Ok(check(of)?)
         });
+        self
+    }
+
+    /// As whole numbers within these limits only.
+    #[must_use]
+    pub fn whole(mut self, limits: RangeInclusive<u32>) -> Self {
+        let (set, open) = (self.set, self.open);
+        self.set = Box::new(move |of, text| {
+            let number = text.trim().parse().ok();
+            if Some(text) != open && !number.is_some_and(|number| limits.contains(&number)) {
+                return Err(format!("give a whole number from {} to {}", limits.start(), limits.end()).into());
+            }
+            set(of, text)
+        });
+        self
+    }
+
+    /// With a text that is not the default, for those who try it.
+    #[must_use]
+    pub fn like(mut self, example: &'static str) -> Self {
+        self.kind = Kind::Text { offered: &[], example };
         self
     }
 

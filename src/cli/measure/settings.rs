@@ -121,29 +121,9 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
             Ok(())
         },
     );
-    let frames = Of::of(
-        "frames",
-        "N",
-        Kind::Numbers { count: 1, range: [1.0, 101.0], decimals: 0 },
-        "Frames to time for each setting",
-        |how: &HowMeasured| how.frames.map_or("auto".to_owned(), |frames| frames.to_string()),
-        |how, text| {
-            let frames = text.trim().parse().ok().filter(|frames| (1..=100_000).contains(frames));
-            how.frames = Some(frames.ok_or_else(|| "give a whole number from 1 to 100000".to_owned())?);
-            Ok(())
-        },
-    );
-    let machine = Of::of(
-        "machine",
-        "NAME",
-        Kind::Text { offered: &[], example: "desk" },
-        "Name of this machine in the report",
-        |how: &HowMeasured| how.machine.clone().unwrap_or_default(),
-        |how, text| {
-            how.machine = Some(text.to_owned());
-            Ok(())
-        },
-    );
+    let frames = Of::open_field("frames", "N", "auto", "Frames to time for each setting", |how| &mut how.frames);
+    let machine = Of::open_field("machine", "NAME", "", "Name of this machine in the report", |how| &mut how.machine)
+        .like("desk");
     let against = "What lines are compared with: the exact lines of the models (lines), or the true contour of smooth surfaces (smooth), \
                    whose models are built-in ones, by default all of them with about 1,000, 10,000 and 100,000 triangles";
     let suite = "Set of built-in models: papers (bust, ant), solids (gear, open box), all";
@@ -153,7 +133,7 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
         Of::open_field("suite", "SUITE", "", suite, |how| &mut how.suite).said("none").common(),
         sizes.common(),
         styles.common(),
-        frames.said("21, with --quick 7").common(),
+        frames.whole(1..=100_000).range(1.0, 101.0, 0).said("21, with --quick 7").common(),
         Of::flag("quick", "Measure fewer settings and frames", |how| how.quick, |how, is_on| how.quick = is_on)
             .common(),
         Of::field("tolerance", "PIXELS", "Distance within which ink and line count as the same, in pixels", |how| {

@@ -64,18 +64,14 @@ impl HasSettings for RunSettings {
 }
 
 fn settings() -> Vec<Setting<RunSettings>> {
-    let frames = Setting::of(
+    let frames = Setting::field(
         "frames",
         "N",
-        Kind::Numbers { count: 1, range: [1.0, 101.0], decimals: 0 },
         "Frames to draw and time after warm-up, with --json or --explain",
-        |run: &RunSettings| run.frames.to_string(),
-        |run, text| {
-            let frames = text.trim().parse().ok().filter(|frames| (1..=1_000_000).contains(frames));
-            run.frames = frames.ok_or_else(|| "give a whole number from 1 to 1000000".to_owned())?;
-            Ok(())
-        },
-    );
+        |run: &mut RunSettings| &mut run.frames,
+    )
+    .whole(1..=1_000_000)
+    .range(1.0, 101.0, 0);
     let within = Setting::of(
         "within",
         "SECONDS",
@@ -134,16 +130,12 @@ fn settings() -> Vec<Setting<RunSettings>> {
         |run: &RunSettings| run.verify,
         |run, is_on| run.verify = is_on,
     );
-    let save_preset = Setting::of(
+    let save_preset = Setting::open_field(
         "save-preset",
         "FILE",
-        Kind::Text { offered: &[], example: "mine.toml" },
+        OFF,
         "Save the options of this command line and of --preset as a preset, once the picture is drawn",
-        |run: &RunSettings| run.save_preset.clone().unwrap_or(OFF.to_owned()),
-        |run, text| {
-            run.save_preset = Some(text.to_owned());
-            Ok(())
-        },
+        |run: &mut RunSettings| &mut run.save_preset,
     );
     let no_recipe = Setting::flag(
         "no-recipe",
@@ -152,7 +144,7 @@ fn settings() -> Vec<Setting<RunSettings>> {
         |run, is_on| run.no_recipe = is_on,
     );
     under("Skipping work that cannot change the picture", vec![verify])
-        .chain(under("Presets", vec![save_preset.open(OFF).said(OFF), no_recipe]))
+        .chain(under("Presets", vec![save_preset.like("mine.toml"), no_recipe]))
         .chain(under("Running", running))
         .collect()
 }

@@ -247,3 +247,17 @@ impl Value for PathBuf {
         Ok(Self::from(text))
     }
 }
+
+impl Value for String {
+    fn kind() -> Kind {
+        Kind::Text { offered: &[], example: "text" }
+    }
+
+    fn text(&self) -> String {
+        self.clone()
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        Ok(text.to_owned())
+    }
+}
