@@ -148,7 +148,7 @@ fn turned(base: &Scene, frame: usize) -> Scene {
 }
 
 fn panda_times(python: &str, model: &Path, size: Size, frames: usize) -> Vec<f64> {
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers/panda3d_ink.py");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("benches/peers/panda3d_ink.py");
     let output = Command::new("xvfb-run")
         .args(["-a", python, script.to_str().expect("a path"), model.to_str().expect("a path")])
         .args([size.width.to_string(), size.height.to_string(), frames.to_string()])
@@ -247,7 +247,7 @@ impl Drop for XDisplay {
 }
 
 fn empty_egl(folder: &Path) -> Option<PathBuf> {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers/empty_egl.c");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("benches/peers/empty_egl.c");
     let program = folder.join("empty-egl");
     let status = Command::new("cc").arg("-O2").arg(source).arg("-o").arg(&program).args(["-lEGL", "-lGL"]).status();
     status.is_ok_and(|status| status.success()).then_some(program)

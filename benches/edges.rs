@@ -135,7 +135,7 @@ fn write_arrays(mesh: &Mesh, folder: &Path) -> [PathBuf; 2] {
 }
 
 fn peer(mut command: Command, script: &str, arrays: &[PathBuf; 2], arguments: &[String]) -> Value {
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers").join(script);
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("benches/peers").join(script);
     let output = command.arg(script).args(arrays).args(arguments).output().expect("the peer can be started");
     let text = String::from_utf8_lossy(&output.stdout);
     let line = text.lines().rfind(|line| line.starts_with('{'));

@@ -141,7 +141,7 @@ fn freestyle_lines_ms(output: &str) -> f64 {
 }
 
 fn peer(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("benches/peers").join(name)
 }
 
 /// Most memory the process ever held, by GNU time.
@@ -177,7 +177,7 @@ fn growth() -> Value {
             json!({ "triangles": count, "ms": times, "segments": segments })
         })
         .collect();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench/lines-growth.svg");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("target/bench/lines-growth.svg");
     std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
     plot(&points, &path).expect("the plot can be drawn");
     println!("plot: {}", path.display());

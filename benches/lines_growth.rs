@@ -71,7 +71,8 @@ fn main() {
         curves.push(curve);
     }
     curves.retain(|curve| !curve.points.is_empty());
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench/lines-families.svg");
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("target/bench/lines-families.svg");
     std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
     let words = ["exact lines of families of scenes, 512x512", "triangles", "milliseconds, with the SVG"];
     plot(&curves, words, &path).expect("the plot can be drawn");

@@ -28,7 +28,8 @@ struct Settings {
 }
 
 fn settings() -> Option<Settings> {
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/models/stanford-bunny.obj");
+    let model =
+        Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("../shared/models/stanford-bunny.obj");
     let mut settings = Settings { model, rounds: 11, size: Size { width: 1600, height: 1200 }, python: None };
     let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
     while let Some(argument) = arguments.next() {
@@ -111,7 +112,13 @@ fn contestants(settings: &Settings, picture: &Path, display: Option<&Display>) -
         true => all.push(("f3d", f3d)),
         false => println!("SKIPPED f3d: it is not installed, or draws nothing here"),
     }
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers/pyvista_picture.py").display().to_string();
+    let script = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .ancestors()
+        .nth(2)
+        .unwrap()
+        .join("benches/peers/pyvista_picture.py")
+        .display()
+        .to_string();
     let pyvista = settings.python.as_ref().map(|python| {
         with_display(vec![
             python.clone(),

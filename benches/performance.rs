@@ -273,7 +273,7 @@ fn finish(curves: &[Curve], title: &str, sizes: &str, file: &str) {
         let [start, slope] = curve.line();
         println!("  {:<52}{start:>9.3} ms{:>10.3} ns{:>7.0} %", curve.name, slope * 1e6, curve.worst_miss() * 100.0);
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench").join(file);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("target/bench").join(file);
     std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
     plot(curves, [title, sizes, "milliseconds a frame"], &path).expect("the plot can be drawn");
     println!("  plot: {}", path.display());

@@ -32,7 +32,7 @@ fn main() {
         let rows: Vec<Value> = rows.iter().map(|(name, times)| json!({ "name": name, "ms": times })).collect();
         tables.push(json!({ "size": size, "textures": rows }));
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench/textures.json");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("target/bench/textures.json");
     std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
     std::fs::write(&path, serde_json::to_string_pretty(&tables).expect("JSON")).expect("the record can be written");
     println!("raw values: {}", path.display());

@@ -73,8 +73,6 @@
 //! | pictures and animations | [`picture`], [`animation`] |
 //! | one drawing from layers of options, as every door asks for it | [`request`] |
 //! | presets, and pictures that can be made again | [`preset`], [`recipe`] |
-//! | error against run time | [`measure`], [`report`], [`figures`], [`stress`] |
-//! | anyone's drawing against the exact lines | [`judge`] |
 //!
 //! # How it is built
 //!
@@ -91,23 +89,23 @@
 //!
 //! # Cargo features
 //!
-//! `cli`, `measuring` and `window` are on by default. For the library alone turn them off with `default-features = false` and
-//! choose: `animation`, `formats` (glTF and JPEG), `presets`, `recipes`, `measuring`, of it `line-error` alone; `assimp` adds the formats that the system's
-//! libassimp reads.
+//! `cli` and `window` are on by default. For the library alone turn them off with `default-features = false` and choose:
+//! `animation`, `formats` (glTF and JPEG), `presets`, `recipes`; `assimp` adds the formats that the system's libassimp reads.
+//! Error against run time is measured by the package `tinta-lab`, which lies above this one.
 
 #![deny(unreachable_pub)]
 
 // Floors, from the ground up: a module uses those above it in this list and none below (`tests/floors.rs`).
 
 // Geometry, without GL: from a file to the lines that are seen. A crate of its own, with its floors in its own list.
-#[cfg(any(feature = "measuring", feature = "recipes"))]
+#[cfg(any(feature = "cli", feature = "recipes"))]
 use tinta_geometry::markup;
-#[cfg(feature = "measuring")]
+#[cfg(feature = "window")]
 use tinta_geometry::threads;
 use tinta_geometry::{bytes, clock, files, values};
 pub use tinta_geometry::{camera, choice, edges, error, hiding, limits, lines, scene, settings, tolerances};
 
-mod random;
+pub mod random;
 pub mod output;
 mod builtin;
 pub mod mesh;
@@ -118,7 +116,6 @@ pub mod glsl;
 pub mod plan;
 pub mod textures;
 pub mod styles;
-pub mod provenance;
 
 // Drawing it.
 pub mod gl;
@@ -136,26 +133,12 @@ pub mod preset;
 pub mod shell;
 #[cfg(feature = "recipes")]
 pub mod recipe;
-pub mod compare;
 pub mod record;
 #[cfg(feature = "presets")]
 pub mod request;
 
-// What it is worth.
-#[cfg(any(feature = "cli", feature = "measuring"))]
-pub mod contact_sheet;
-#[cfg(feature = "line-error")]
-pub mod measure;
-#[cfg(feature = "judging")]
-pub mod judge;
-#[cfg(any(feature = "cli", feature = "measuring"))]
+#[cfg(feature = "cli")]
 pub mod page;
-#[cfg(feature = "measuring")]
-pub mod report;
-#[cfg(feature = "measuring")]
-pub mod figures;
-#[cfg(feature = "measuring")]
-pub mod stress;
 
 // Many at once, by hand, and by the command line, which speaks of the library as any program does.
 #[cfg(feature = "cli")]

@@ -126,7 +126,8 @@ fn is_device(path: &Path) -> bool {
 }
 
 /// A file's new contents, whole on the disk, under no name yet or under one that goes away with this.
-pub(crate) struct Staged {
+#[derive(Debug)]
+pub struct Staged {
     path: PathBuf,
     temporary: StagedFile,
 }
@@ -137,7 +138,7 @@ impl Staged {
     /// # Errors
     ///
     /// [`Error::File`] when the disk is full, or the folder gone.
-    pub(crate) fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
+    pub fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
         let mut staged = Self::begin(path)?;
         staged.add(bytes)?;
         staged.settle()?;
@@ -182,7 +183,7 @@ impl Staged {
     /// # Errors
     ///
     /// [`Error::File`] when the folder is gone.
-    pub(crate) fn put_in_place(self) -> Result<()> {
+    pub fn put_in_place(self) -> Result<()> {
         self.temporary.put_in_place(&resolved(&self.path)).map_err(|error| refused(&self.path, &error))
     }
 }

@@ -20,8 +20,7 @@ mod powers_of_two;
 mod read;
 mod small;
 
-pub(crate) use materials::MaterialPictures;
-pub use materials::material_pictures;
+pub use materials::{MaterialPictures, material_pictures};
 
 use crate::error::{Error, Result};
 use crate::output::{Staged, check_file, check_name, write_standard_output, write_whole};

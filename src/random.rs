@@ -1,18 +1,27 @@
 //! Random numbers that are the same everywhere: SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number
 //! generators", 2014). Ten lines instead of a crate, whose next version could give other numbers.
+//!
+//! ```
+//! use tinta::random::Random;
+//!
+//! let mut dice = Random::new(7, "dice");
+//! assert!((0..100).all(|_| dice.below(6) < 6));
+//! ```
 
-pub(crate) struct Random(u64);
+/// A sequence of numbers.
+#[derive(Debug)]
+pub struct Random(u64);
 
 impl Random {
     /// Numbers for one purpose: textures of one seed must not be made of the same numbers.
-    pub(crate) fn new(seed: u64, purpose: &str) -> Self {
+    pub fn new(seed: u64, purpose: &str) -> Self {
         let mut random = Self(seed);
         purpose.bytes().for_each(|byte| random.0 = random.bits() ^ u64::from(byte));
         random
     }
 
     /// 64 random bits.
-    pub(crate) fn bits(&mut self) -> u64 {
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -20,14 +29,12 @@ impl Random {
     }
 
     /// A number from -1 up to but not 1, with all the digits an f64 has there.
-    #[cfg(feature = "measuring")]
-    pub(crate) fn signed_f64(&mut self) -> f64 {
+    pub fn signed_f64(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
     /// A number below `count`, which is at least 1.
-    #[cfg(feature = "measuring")]
-    pub(crate) fn below(&mut self, count: usize) -> usize {
+    pub fn below(&mut self, count: usize) -> usize {
         (self.bits() % count as u64) as usize
     }
 }

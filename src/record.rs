@@ -12,7 +12,6 @@ mod lines;
 pub use lines::{LineCounts, LinesMade, lines_json};
 
 use crate::camera::Projection;
-use crate::compare::AgreementNumbers;
 use crate::edges::{ClassCounts, ClassSet, SilhouetteRule};
 use crate::gl::ContextInfo;
 use crate::mesh::{Defects, LoadOptions, Mesh};
@@ -172,38 +171,6 @@ pub struct EdgeRecord {
     pub hierarchy_ms: Summary,
     /// The silhouette by the hierarchy.
     pub silhouette_by_hierarchy_ms: Summary,
-}
-
-/// One of two drawings of a comparison.
-#[derive(Debug, Clone, Serialize)]
-pub struct DrawingRecord {
-    /// The style with every setting.
-    pub style: Style,
-    /// Making the first plan: edge list, classes and planes included, where the style needs them.
-    pub plan_ms: f64,
-    /// The frames after warm-up, each with a plan of its own, read-back included, milliseconds.
-    pub frame_ms: Summary,
-}
-
-/// Two drawings of one scene and how far their lines agree.
-#[derive(Debug, Clone, Serialize)]
-pub struct ComparisonRecord {
-    /// tinta's version.
-    pub version: &'static str,
-    /// All models together.
-    pub model: ModelRecord,
-    /// The picture's size.
-    pub size: Size,
-    /// The camera, world space.
-    pub camera: CameraRecord,
-    /// The context.
-    pub gl: ContextInfo,
-    /// The left drawing.
-    pub left: DrawingRecord,
-    /// The right drawing.
-    pub right: DrawingRecord,
-    /// Pixels of ink, and how many both have.
-    pub agreement: AgreementNumbers,
 }
 
 /// A camera in numbers; lengths in file units, matrices as 16 numbers column by column.

@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `state.rs`, `event.rs`, `line_style.rs`, `controls.rs`, `buffer.rs`, `paint.rs`, `compose.rs` | values: what is shown, what happens, how it changes |
 //! | `viewer.rs` | the state with the threads that work for it |
-//! | `draw.rs`, `coarse.rs`, `render_threads.rs`, `exact.rs`, `load.rs`, `watch.rs`, `cost.rs`, `save.rs`, `dialogue.rs`, `report.rs` | the threads and what they tell |
+//! | `draw.rs`, `coarse.rs`, `render_threads.rs`, `exact.rs`, `load.rs`, `watch.rs`, `cost.rs`, `line_measure.rs`, `save.rs`, `dialogue.rs`, `report.rs` | the threads and what they tell |
 //! | `ui.rs`, `panel.rs`, `widget.rs`, `plot.rs`, `label.rs`, `keys.rs` | widgets: they read the state and make events |
 //! | `app.rs`, `replay.rs`, `player.rs` | the window itself, and recordings played in it |
 //!
@@ -36,6 +36,7 @@ mod event;
 mod exact;
 mod keys;
 mod label;
+mod line_measure;
 mod line_style;
 mod load;
 mod paint;
@@ -61,6 +62,7 @@ pub use cost::{Costs, Point, SideCost};
 pub use draw::{Drawer, Drawing, Job};
 pub use event::{Effect, Layout, Save, Side, ViewerEvent};
 pub use exact::{ExactLines, Found, LineJob};
+pub use line_measure::{Darkness, DrawInk, LineMeasure, LineScore, ScoreInk};
 pub use line_style::{LINE_SETTINGS, LinesShown};
 pub use load::Stage;
 pub use paint::{over, painted};

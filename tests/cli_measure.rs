@@ -1,7 +1,7 @@
 //! `tinta measure` as a user meets it.
 
 use crate::cli::{Folder, refused_in_one_line, tinta};
-use tinta::measure::Row;
+use tinta_lab::measure::Row;
 
 /// A run small enough for a test.
 fn run(folder: &str, more: &[&str]) -> std::process::Output {

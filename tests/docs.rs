@@ -1,6 +1,6 @@
 //! What the documents name exists: files, folders, headings, options and commands; what they say is printed is printed.
 //!
-//! That each `tinta` command parses is checked beside the parser: `src/cli/documents.rs`.
+//! That each `tinta` command parses is checked beside the parser: `crates/tinta-lab/src/commands/documents.rs`.
 
 use crate::support::root;
 use std::path::PathBuf;
@@ -228,9 +228,10 @@ fn cargo_fault(words: &[&str], manifest: &str, sources: &str) -> Option<String> 
 
 #[test]
 fn every_cargo_and_script_command_in_the_documents_names_what_is_there() {
-    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let manifests = ["Cargo.toml", "crates/tinta-cli/Cargo.toml", "crates/tinta-lab/Cargo.toml"];
+    let manifest: String = manifests.map(|path| std::fs::read_to_string(root().join(path)).unwrap()).concat();
     let mut sources = String::new();
-    let mut folders = vec![root().join("tests"), root().join("src")];
+    let mut folders = ["tests", "src", "crates/tinta-lab/src"].map(|folder| root().join(folder)).to_vec();
     while let Some(folder) = folders.pop() {
         for path in std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()) {
             match path.extension() {
@@ -369,7 +370,7 @@ fn the_limits_are_documented_as_they_are() {
 #[test]
 fn every_public_module_has_an_example_that_is_compiled() {
     let mut modules = Vec::new();
-    for folder in ["src", "crates/tinta-geometry/src"] {
+    for folder in ["src", "crates/tinta-geometry/src", "crates/tinta-lab/src"] {
         let library = std::fs::read_to_string(root().join(folder).join("lib.rs")).unwrap();
         let lines: Vec<&str> = library.lines().collect();
         let public = lines.windows(2).filter(|pair| pair[0] != "#[doc(hidden)]");

@@ -5,12 +5,12 @@ use roxmltree::{Document, ParsingOptions};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
-use tinta::figures::{
+use tinta::gl::is_software;
+use tinta::{Backend, Picture, Size};
+use tinta_lab::figures::{
     Claim, Content, Drawing, Figure, HowToMeasure, Panel, TRIANGLES, Text, Turn, claims, figures, kernels, measure,
     measure_claims, only, pass_columns,
 };
-use tinta::gl::is_software;
-use tinta::{Backend, Picture, Size};
 
 const SIZE: Size = Size { width: 48, height: 48 };
 

@@ -210,9 +210,9 @@ fn pipes_and_folders_are_refused_wherever_a_file_is_read_and_nobody_waits_for_th
         refused(&tinta(&["measure", "--merge", file, "-o", &new]), &[what]);
     }
     refused(&tinta(&["edges", "builtin:ant", "--skin", &pipe]), &["not a regular file"]);
-    for open in
-        [tinta::report::RowLog::create, |folder: &Path| tinta::report::RowLog::resume(folder).map(|(log, _)| log)]
-    {
+    for open in [tinta_lab::report::RowLog::create, |folder: &Path| {
+        tinta_lab::report::RowLog::resume(folder).map(|(log, _)| log)
+    }] {
         let message = open(Path::new(&inside)).unwrap_err().to_string();
         assert!(message.contains("results.jsonl: this is not a regular file"), "{message}");
     }

@@ -4,10 +4,10 @@ use crate::support::{BACKENDS, public_models, renderer, scene, scene_with};
 use std::fmt::Write as _;
 use tinta::edges::CreaseAngle;
 use tinta::lines::LineSettings;
-use tinta::measure::{Ink as Drawn, LineError, Reference};
 use tinta::plan::{Step, Value};
 use tinta::styles::{Ink, LineWidth, Quality};
 use tinta::{Picture, Renderer, Scene, SceneSettings, Show, Size, Style};
+use tinta_lab::measure::{Ink as Drawn, LineError, Reference};
 
 fn best(removes_specks: Option<bool>) -> Style {
     Style::Ink(Ink { quality: Quality::Best, removes_specks, ..Ink::default() })

@@ -1,10 +1,9 @@
 //! The styles inking and dietrich, drawn: against closed forms, against each other's variants, in every option.
 
 use crate::shapes::{cuboid, icosphere};
-use crate::support::{BACKENDS, renderer, scene, scene_with};
+use crate::support::{BACKENDS, renderer, root, scene, scene_with};
 use glam::DVec3;
 use std::sync::Arc;
-use tinta::compare::{Agreement, InkMask};
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
 use tinta::mesh::Normals;
 use tinta::picture::Difference;
@@ -14,6 +13,7 @@ use tinta::{
     Backend, Background, CameraSettings, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Show, Size, Style,
     load,
 };
+use tinta_lab::compare::{Agreement, InkMask};
 
 const EQUAL: Difference = Difference { largest: 0, pixels: 0 };
 
@@ -129,7 +129,8 @@ fn by_the_texts_normals_painted_pixels_get_another_tone() {
     let style = Inking { is_inked: false, ..Inking::default() };
     let mut painted = |model: &str, normals, smooth_angle_degrees| {
         let options = LoadOptions { normals, smooth_angle_degrees, ..LoadOptions::default() };
-        let mesh = Arc::new(load(model, &options).unwrap().mesh);
+        let path = if model.starts_with("builtin:") { model.into() } else { root().join(model).display().to_string() };
+        let mesh = Arc::new(load(&path, &options).unwrap().mesh);
         draw(&mut renderer, &Scene::new(vec![mesh], &settings).unwrap(), style.clone(), Show::Final)
     };
     let mut wrong = Vec::new();

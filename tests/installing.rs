@@ -140,11 +140,11 @@ fn manual_pages_have_no_warnings() {
     }
 }
 
-/// The lines of [package.metadata.deb] in Cargo.toml.
+/// The lines of [package.metadata.deb] in the program's Cargo.toml, paths from the top folder.
 fn deb() -> String {
-    let text = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let text = std::fs::read_to_string(root().join("crates/tinta-cli/Cargo.toml")).unwrap();
     let rest = text.split_once("\n[package.metadata.deb]\n").unwrap().1;
-    rest.split_once("\n[").unwrap().0.to_owned()
+    rest.split_once("\n[").unwrap().0.replace("../../", "")
 }
 
 #[test]

@@ -4,9 +4,9 @@ use crate::cli::{Folder, refused_in_one_line, tinta};
 use crate::support::{renderer, scene};
 use glam::DVec2;
 use serde_json::Value;
-use tinta::judge::{InkColor, JudgeSettings, Judgement, drawing, judge};
-use tinta::measure::{Ink, Reference, Row};
 use tinta::{Backend, LineSettings, Picture, Scene, Size, Style, StyleName, SvgSettings, lines};
+use tinta_lab::judge::{InkColor, JudgeSettings, Judgement, drawing, judge};
+use tinta_lab::measure::{Ink, Reference, Row};
 
 const SIDE: u32 = 120;
 
@@ -164,7 +164,7 @@ fn rows_of_drawings_are_added_to_a_folder_and_land_in_its_plot() {
     let output =
         tinta(&["judge", &svg, "--model", "builtin:open-box", "-o", &out, "--names", "third", "--machine", "here"]);
     assert_eq!(output.status.code(), Some(0));
-    let rows: Vec<Row> = tinta::report::read_rows(format!("{out}/results.jsonl").as_ref()).unwrap();
+    let rows: Vec<Row> = tinta_lab::report::read_rows(format!("{out}/results.jsonl").as_ref()).unwrap();
     assert_eq!(rows.iter().map(|row| row.style.as_str()).collect::<Vec<_>>(), ["one", "other", "third"]);
     assert_eq!(rows.iter().map(|row| row.time.median_ms).collect::<Vec<_>>(), [500.0, 1500.0, 0.0]);
     let plot = std::fs::read_to_string(format!("{out}/plot-lines.svg")).unwrap();

@@ -47,7 +47,9 @@ fn every_dependency_has_an_allowed_licence_and_comes_from_the_registry() {
         assert!(is_satisfied(licence, &allowed), "{name} has the licence {licence:?}");
         // A crate from the registry is named with its version only, any other with where it comes from.
         let elsewhere = name.contains("(/") || name.contains("://");
-        let own = ["tinta ", "tinta-geometry ", "tinta-npr ", "tinta-web "].iter().any(|own| name.starts_with(own));
+        let own = ["tinta ", "tinta-geometry ", "tinta-cli ", "tinta-lab ", "tinta-npr ", "tinta-web "]
+            .iter()
+            .any(|own| name.starts_with(own));
         assert!(!elsewhere || own, "{name} does not come from the registry");
     }
 }
@@ -89,7 +91,13 @@ fn every_crate_that_is_named_has_a_row_in_the_documents() {
         .filter_map(|line| line.strip_prefix("| "))
         .flat_map(|row| row.split(" |").next().unwrap_or_default().split(", "))
         .collect();
-    for (manifest, least) in [("Cargo.toml", 10), ("crates/tinta-geometry/Cargo.toml", 10), ("python/Cargo.toml", 3)] {
+    for (manifest, least) in [
+        ("Cargo.toml", 10),
+        ("crates/tinta-cli/Cargo.toml", 5),
+        ("crates/tinta-geometry/Cargo.toml", 10),
+        ("crates/tinta-lab/Cargo.toml", 10),
+        ("python/Cargo.toml", 3),
+    ] {
         let text = std::fs::read_to_string(root().join(manifest)).unwrap();
         let mut is_list = false;
         let mut found = 0;

@@ -6,7 +6,6 @@ use crate::support::{BACKENDS, failure_folder, public_models, renderer, skip};
 use crate::svg::rendered;
 use std::sync::Arc;
 use tinta::camera::{CameraSettings, View};
-use tinta::compare::{Agreement, InkMask};
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
 use tinta::lines::closed_forms::ClosedForm;
 use tinta::lines::{Length, svg};
@@ -15,6 +14,7 @@ use tinta::{
     LineSettings, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Size, Style, SvgSettings, VisibleLines,
     load,
 };
+use tinta_lab::compare::{Agreement, InkMask};
 
 /// Share of either drawing's ink that the other has within 2 pixels.
 const SHARE: f64 = 0.99;

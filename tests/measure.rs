@@ -5,10 +5,10 @@ use glam::DVec2;
 use serde_json::Value;
 use tinta::edges::{Class, SilhouetteRule};
 use tinta::lines::{LineSettings, first_hits};
-use tinta::measure::{INK_FROM, Ink, Reference, ReferenceLight, Verdict};
 use tinta::record::lines_json;
 use tinta::styles::{Border, Cartoon, Charcoal, Filter, Improvements, Inking, PaintMode, Tones};
 use tinta::{Background, CameraSettings, Color, Mesh, Picture, Scene, SceneSettings, Show, Size, Style, StyleName};
+use tinta_lab::measure::{INK_FROM, Ink, Reference, ReferenceLight, Verdict};
 
 const SIZE: u32 = 100;
 

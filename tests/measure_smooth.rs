@@ -3,10 +3,10 @@
 use crate::cli::{Folder, refused_in_one_line, tinta};
 use glam::DVec2;
 use tinta::lines::closed_forms::ClosedForm;
-use tinta::measure::{Against, Reference, Row};
 use tinta::mesh::builtin;
-use tinta::report::curves;
 use tinta::{CameraSettings, LineSettings, LoadOptions, Scene, SceneSettings, View, load};
+use tinta_lab::measure::{Against, Reference, Row};
+use tinta_lab::report::curves;
 
 fn scene(model: &str, camera: CameraSettings) -> Scene {
     let mesh = std::sync::Arc::new(load(model, &LoadOptions::default()).unwrap().mesh);

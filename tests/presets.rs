@@ -3,10 +3,10 @@
 use crate::cli::{Folder, refused_in_one_line, tinta};
 use serde_json::Value;
 use tinta::LoadOptions;
-use tinta::measure::Row;
 use tinta::preset::{OptionValue, Preset, SHIPPED};
 use tinta::recipe::option_words;
 use tinta::settings::HasSettings;
+use tinta_lab::measure::Row;
 
 fn made(arguments: &[&str]) -> Vec<u8> {
     let output = tinta(arguments);

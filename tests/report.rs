@@ -4,8 +4,8 @@ use image::{ImageFormat, Rgb, RgbImage};
 use roxmltree::Document;
 use std::collections::BTreeMap;
 use std::io::{Cursor, Write};
-use tinta::measure::{LineError, PassRow, Row, RunTime, ToneError};
-use tinta::report::{
+use tinta_lab::measure::{LineError, PassRow, Row, RunTime, ToneError};
+use tinta_lab::report::{
     Measure, ROWS_FILE, ReportInfo, ReportPicture, RowLog, Shape, columns, csv, html, machines, pareto, plot, points,
     read_rows, write,
 };
@@ -17,7 +17,7 @@ pub const NASTY: &str = "\"a\", <b>&amp;</b> '\u{1}' ]]> </script>, é\n.obj";
 pub fn row(machine: &str, model: &str, options: &str, median_ms: f64, f1: f64) -> Row {
     let style = options.split_whitespace().nth(1).unwrap().to_owned();
     let lines = LineError {
-        against: tinta::measure::Against::Lines,
+        against: tinta_lab::measure::Against::Lines,
         tolerance_px: 2.0,
         ink_from: 64,
         ignored_creases_degrees: [20.0, 66.4],
@@ -311,7 +311,7 @@ fn a_plot_names_its_front_and_holds_only_finite_numbers_inside_it() {
             let mut labelled = 0;
             for (point, _) in points.points.iter().zip(front).filter(|(_, is_on)| *is_on) {
                 let is_same =
-                    |other: &&tinta::report::Point| (other.time_ms, other.error) == (point.time_ms, point.error);
+                    |other: &&tinta_lab::report::Point| (other.time_ms, other.error) == (point.time_ms, point.error);
                 let names: Vec<&str> = points.points.iter().filter(is_same).map(|point| point.name.as_str()).collect();
                 let words = |name: &&str| name.split(' ').next().unwrap().to_owned();
                 let is_there = names.iter().any(|name| texts.iter().any(|text| text.starts_with(&words(name))));

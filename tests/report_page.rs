@@ -6,8 +6,8 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use std::path::Path;
 use std::process::Command;
-use tinta::measure::Row;
-use tinta::report::{html, write};
+use tinta_lab::measure::Row;
+use tinta_lab::report::{html, write};
 
 /// Run inside the page; hands its findings to the page around it.
 const CHECK: &str = r##"

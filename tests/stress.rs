@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::process::Command;
 use std::sync::OnceLock;
 use tinta::Backend;
-use tinta::stress::{Group, Row, StressSettings, Summary, run};
+use tinta_lab::stress::{Group, Row, StressSettings, Summary, run};
 
 /// One case of each kind, carried out once for all quick tests; but for turns, of which one takes half a minute.
 /// `lines_invariance.rs` draws exact lines in other sizes.

@@ -24,7 +24,7 @@ pub fn backend_names() -> [&'static str; 2] {
 
 /// The project's folder.
 pub fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap()
 }
 
 /// Says that a test checks less than it could; written past the test harness, which would keep it to itself.

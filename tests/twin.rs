@@ -180,7 +180,7 @@ fn the_gaussian_weighs_its_centre_as_the_papers_filter_does_and_nothing_in_all()
 #[test]
 fn the_printed_matrices_are_the_twins_weights() {
     for (name, filter) in Filter::ALL {
-        let [kernel] = tinta::figures::kernels(filter)[..] else { continue };
+        let [kernel] = tinta_lab::figures::kernels(filter)[..] else { continue };
         if name.starts_with("mitchell") {
             continue;
         }

@@ -18,6 +18,7 @@ fn viewer(models: &[&str], backend: Backend, shaders: Option<&Path>) -> Viewer {
         backend,
         shaders: shaders.map(Path::to_path_buf),
         folder: std::env::temp_dir(),
+        line_measure: Some(tinta_lab::line_measure()),
     };
     let mut viewer = Viewer::start(options, || {}).unwrap();
     viewer.rest().unwrap();
@@ -213,6 +214,7 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
         backend: Backend::Egl,
         shaders: None,
         folder: folder.path().to_path_buf(),
+        line_measure: Some(tinta_lab::line_measure()),
     };
     let mut viewer = Viewer::start(options, || {}).unwrap();
     viewer.event(ViewerEvent::Resize([96, 80]));
@@ -268,6 +270,7 @@ fn saving_viewer(model: &str, folder: &Path) -> Viewer {
         backend: Backend::Auto,
         shaders: None,
         folder: folder.to_path_buf(),
+        line_measure: Some(tinta_lab::line_measure()),
     };
     let mut viewer = Viewer::start(options, || {}).unwrap();
     viewer.event(ViewerEvent::Resize([160, 120]));
@@ -484,6 +487,7 @@ fn in_a_split_both_styles_are_saved_under_their_own_names_and_no_file_twice() {
         backend: Backend::Egl,
         shaders: None,
         folder: folder.path().to_path_buf(),
+        line_measure: Some(tinta_lab::line_measure()),
     };
     let mut viewer = Viewer::start(options, || {}).unwrap();
     let right = ViewerEvent::Style(Side::Right, "phong".to_owned());

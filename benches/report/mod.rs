@@ -6,7 +6,8 @@ use tinta::renderer::median;
 
 /// Writes the record to `target/bench/NAME.json` and says where.
 pub fn write_record(name: &str, record: &Value) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("target/bench/{name}.json"));
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join(format!("target/bench/{name}.json"));
     std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
     std::fs::write(&path, serde_json::to_string_pretty(record).expect("JSON")).expect("the record can be written");
     println!("raw values: {}", path.display());

@@ -131,11 +131,11 @@ pub fn ramp(bytes: &[u8]) {
 
 /// Measured rows, as `results.jsonl` has them: written again they are the same.
 pub fn rows(bytes: &[u8]) {
-    match tinta::report::rows_of_bytes(bytes, "results.jsonl") {
+    match tinta_lab::report::rows_of_bytes(bytes, "results.jsonl") {
         Ok(rows) => rows.iter().for_each(|row| {
             let line = serde_json::to_string(row).expect("a row is text and numbers");
             assert_eq!(
-                tinta::report::rows_of_bytes(line.as_bytes(), "again").expect("just written").first(),
+                tinta_lab::report::rows_of_bytes(line.as_bytes(), "again").expect("just written").first(),
                 Some(row)
             );
         }),

@@ -1,12 +1,11 @@
 //! The command line out of any bytes: one word a line.
 
 use std::ffi::OsString;
-use tinta::cli;
 
 /// Parses the words; what is wrong with them is one line.
 pub fn command_line(bytes: &[u8]) {
     let words = bytes.split(|byte| *byte == b'\n').map(word);
-    match cli::check(std::iter::once(OsString::from("tinta")).chain(words)) {
+    match tinta_lab::program().check(std::iter::once(OsString::from("tinta")).chain(words)) {
         Ok(help) => assert!(help.is_none_or(|help| !help.is_empty())),
         Err(said) => assert!(said.len() > 8 && !said.contains(char::is_control), "{said}"),
     }

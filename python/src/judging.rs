@@ -11,11 +11,11 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
-use tinta::compare::{Agreement, InkMask};
-use tinta::measure::{MeasureSettings, Setting, Subject};
 use tinta::plan::Submission;
 use tinta::settings::{OptionValue, Options};
 use tinta::{Backend, Error, ParseError, Result, Show, Style, StyleName};
+use tinta_lab::compare::{Agreement, InkMask};
+use tinta_lab::measure::{MeasureSettings, Setting, Subject};
 
 /// Measures settings on meshes together: a row each. Every item of `asked` is a style with its settings.
 #[pyfunction]
@@ -43,13 +43,13 @@ pub(crate) fn measure<'py>(
     let scene = drawable(py, meshes, &asked.request.scene)?;
     let subject = done(py, || (), move || Subject::new(&asked.title, scene, 0.0))?;
     let rows = drawn(py, backend, move |renderer| {
-        let (measured, left_out) = tinta::measure::measure(renderer, &subject, &settings, &how, |_| ())?;
+        let (measured, left_out) = tinta_lab::measure::measure(renderer, &subject, &settings, &how, |_| ())?;
         match left_out.is_empty() {
             true => Ok(measured),
             false => Err(Error::setting("settings", left_out.join("; "))),
         }
     })?;
-    rows.iter().map(|measured| dictionary(py, tinta::report::record(&measured.row))).collect()
+    rows.iter().map(|measured| dictionary(py, tinta_lab::report::record(&measured.row))).collect()
 }
 
 /// A style with its settings, of a dictionary with its name under `style`.

@@ -2,6 +2,7 @@
 
 use super::render::{self, is_of_lines, is_of_one_run};
 use super::standard_input;
+use super::{Command, given};
 use super::{Verdict, say};
 use crate::files::shown;
 use std::path::{Path, PathBuf};
@@ -9,6 +10,12 @@ use tinta::limits::PICTURE_BYTES;
 use tinta::request::{Layer, Request};
 use tinta::settings::HasSettings;
 use tinta::{Backend, Error, Picture, Recipe, Result, Size, StyleName};
+
+/// The command.
+pub(super) const COMMAND: Command = Command {
+    examples: &["tinta again cow.png -o again.png                redraw it by its recipe"],
+    ..Command::new("again", <Arguments as clap::Args>::augment_args, |matches, _| run(&given::<Arguments>(matches)?))
+};
 
 /// Redraw a picture from its recipe, and compare the two
 #[derive(clap::Args)]

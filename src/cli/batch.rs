@@ -14,8 +14,9 @@ mod worker_process;
 use super::progress::Progress;
 use super::signals::Stop;
 use super::standard_input;
-use super::{Verdict, plain, print, print_json, say};
-pub(super) use job_options::JobOptions;
+use super::{Command, given};
+use super::{Program, Verdict, plain, print, print_json, say};
+pub use job_options::JobOptions;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -23,6 +24,14 @@ use tinta::batch::{Entry, Failure, Job, Journal, List, Outcome, Slice, Status, S
 use tinta::limits::REMARKS;
 use tinta::{Error, Result};
 use worker_process::WorkerProcess;
+
+/// The command.
+pub(super) const COMMAND: Command = Command {
+    examples: &["tinta batch jobs.jsonl -o pictures              run many jobs from a list"],
+    ..Command::new("batch", <Arguments as clap::Args>::augment_args, |matches, call| {
+        run(&given::<Arguments>(matches)?, call.program)
+    })
+};
 
 /// Run a list of jobs, one line of JSON each, on all cores
 #[derive(clap::Args)]
@@ -74,14 +83,14 @@ pub(super) struct Arguments {
 
 /// Carries the list out, or sums up what was carried out; exit code 1 where a job failed or is missing, 128 and the signal's
 /// number where a signal ended it with jobs to do.
-pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
+pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<Verdict> {
     if let Some(folder) = &arguments.summary {
         return sum_up(folder, arguments.json);
     }
     let none = || Error::CommandLine { problem: "LIST and --output DIR are needed".to_owned() };
     let folder = arguments.output.as_deref().ok_or_else(none)?;
     if arguments.worker {
-        return worker::serve(folder).map(|()| Verdict::Good);
+        return worker::serve(folder, program).map(|()| Verdict::Good);
     }
     let list = match arguments.list.as_deref().ok_or_else(none)? {
         path if path == Path::new(standard_input::DASH) => {

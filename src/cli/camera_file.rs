@@ -30,7 +30,7 @@ pub(super) fn read(path: &Path) -> Result<Preset> {
 }
 
 /// Those of some options that are about the camera.
-pub(super) fn of_camera(mut options: Options) -> Options {
+pub fn of_camera(mut options: Options) -> Options {
     let is_of_camera =
         |name: &str| SceneSettings::table().settings.iter().any(|s| s.name == name && s.heading == camera::HEADING);
     options.retain(|name, value| is_of_camera(name) && *value != OptionValue::Switch(false));

@@ -5,13 +5,21 @@
 
 mod values;
 
+use super::{Command as OfProgram, Program, Verdict, given};
 use clap::Command;
 use clap_complete::Shell as Written;
 use tinta::Result;
 use tinta::mesh::BUILTINS;
 use tinta::preset::SHIPPED;
-#[cfg(test)]
-pub(crate) use values::of_table;
+pub use values::{of_table, with_values};
+
+/// The command.
+pub(super) const COMMAND: OfProgram = OfProgram {
+    examples: &["tinta completions bash                          or zsh, fish"],
+    ..OfProgram::new("completions", <Arguments as clap::Args>::augment_args, |matches, call| {
+        run(&given::<Arguments>(matches)?, call.program).map(|()| Verdict::Good)
+    })
+};
 
 /// Print a completion script for a shell: commands, options, values and files
 #[derive(clap::Args)]
@@ -38,16 +46,16 @@ enum Shell {
     Fish,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<()> {
-    super::print(&script(arguments.shell))
+pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<()> {
+    super::print(&script(arguments.shell, program))
 }
 
 /// Options whose value is a preset, and the arguments that are models.
 const PRESET: &str = "preset";
 const MODELS: [&str; 2] = ["models", "model"];
 
-fn script(shell: Shell) -> String {
-    let command = values::with_values(super::help::whole());
+fn script(shell: Shell, program: &Program) -> String {
+    let command = with_values(program);
     let written = |shell: Written| {
         let mut script = Vec::new();
         clap_complete::generate(shell, &mut command.clone(), "tinta", &mut script);

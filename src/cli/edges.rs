@@ -2,6 +2,7 @@
 
 use super::models::load_meshes;
 use super::options::{Below, CameraFile, Chosen, OfSubject, Selection};
+use super::{Command, Verdict, given};
 use std::time::Instant;
 use tinta::edges::{Class, ClassSet, Classes, NormalCones, SilhouetteRule, Silhouettes};
 use tinta::record::{CameraRecord, EdgeRecord, ModelRecord, Summary};
@@ -9,6 +10,14 @@ use tinta::renderer::milliseconds_since;
 use tinta::settings::Setting;
 use tinta::styles::Inking;
 use tinta::{EdgeList, Error, Result, Scene, Style, StyleName};
+
+/// The command.
+pub(super) const COMMAND: Command = Command {
+    examples: &["tinta edges cow.obj                             count edges by class"],
+    ..Command::new("edges", <Arguments as clap::Args>::augment_args, |matches, _| {
+        run(&given::<Arguments>(matches)?).map(|()| Verdict::Good)
+    })
+};
 
 /// Count a model's edges by class, and time how they are found
 #[derive(clap::Args)]

@@ -3,8 +3,8 @@
 //! Which these are is declared with the settings (`Setting::common`), and with the options of single commands as clap has it
 //! (`hide_short_help`). clap would give each option of a long help three lines; here both are set as its short one is.
 
-use super::Arguments;
-use clap::{Arg, ArgAction, Command, CommandFactory};
+use super::Program;
+use clap::{Arg, ArgAction, Command};
 use std::ffi::OsString;
 use tinta::preset::{LOOKS, OptionValue, Options};
 use tinta::settings::on_off;
@@ -12,15 +12,41 @@ use tinta::settings::on_off;
 /// A help of at most so many lines is one page, and needs no shorter one.
 const PAGE_LINES: usize = 60;
 
+/// Examples below the program's help before those of the commands.
+const EXAMPLE: &str = "tinta cow.obj                                   show a model, or draw it";
+
+/// What the exit code says.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  1  a check found a difference, or a job of a batch failed
+  2  not done; one sentence on standard error says why";
+
+/// Below the program's help.
+fn after_help(program: &Program) -> String {
+    let examples = program.commands().iter().flat_map(|command| command.examples);
+    let lines = [&EXAMPLE].into_iter().chain(examples).map(|example| format!("  {example}\n"));
+    format!("Examples:\n{}\n{EXIT_CODES}", lines.collect::<String>())
+}
+
 /// The program's commands; help lists every option.
-pub(super) fn whole() -> Command {
-    commands().mut_subcommands(unmarked)
+pub(super) fn whole(program: &Program) -> Command {
+    commands(program).mut_subcommands(unmarked)
 }
 
 /// The program's commands; what has a look tells the look's defaults.
-fn commands() -> Command {
+fn commands(program: &Program) -> Command {
     let look = LOOKS[0].preset().map(|preset| preset.options).unwrap_or_default();
-    Arguments::command().mut_subcommands(|command| {
+    let all = program.commands().iter().map(|command| (command.arguments)(Command::new(command.name)));
+    let whole = Command::new("tinta")
+        .version(env!("CARGO_PKG_VERSION"))
+        .about("Draw 3D models as cartoons, ink, charcoal and line art")
+        .max_term_width(100)
+        .subcommand_required(true)
+        .arg_required_else_help(true)
+        .after_help(after_help(program))
+        .subcommands(all);
+    whole.mut_subcommands(|command| {
         let has_looks = options(&command).any(|arg| arg.get_long() == Some("look"));
         if has_looks { command.mut_args(|arg| with_drawn_default(arg, &look)) } else { command }
     })
@@ -54,11 +80,11 @@ pub(super) fn unmarked(command: Command) -> Command {
 
 /// The program's commands for these words, the program's name first: where they ask for the short help, that is what help
 /// prints.
-pub(super) fn command(words: &[OsString]) -> Command {
+pub(super) fn command(program: &Program, words: &[OsString]) -> Command {
     if !words.iter().skip(1).take_while(|word| *word != "--").any(|word| word == "-h") {
-        return whole();
+        return whole(program);
     }
-    commands().mut_subcommands(|command| {
+    commands(program).mut_subcommands(|command| {
         let needed: Vec<String> = command.get_arguments().filter(|arg| !arg.is_hide_short_help_set()).map(id).collect();
         let whole = unmarked(command);
         if lines(&whole) <= PAGE_LINES { whole } else { shortened(whole, &needed) }
@@ -108,7 +134,7 @@ mod tests {
 
     fn help_of(line: &str) -> String {
         let words: Vec<OsString> = line.split(' ').map(OsString::from).collect();
-        command(&words).term_width(80).try_get_matches_from(&words).unwrap_err().to_string()
+        command(&Program::default(), &words).term_width(80).try_get_matches_from(&words).unwrap_err().to_string()
     }
 
     /// The options that a help lists.
@@ -119,7 +145,7 @@ mod tests {
 
     #[test]
     fn the_short_help_of_every_command_fits_on_a_page() {
-        for subcommand in Arguments::command().get_subcommands() {
+        for subcommand in commands(&Program::default()).get_subcommands() {
             let name = subcommand.get_name();
             let short = help_of(&format!("tinta {name} -h"));
             assert!(short.lines().count() <= PAGE_LINES, "{name}: {} lines\n{short}", short.lines().count());
@@ -133,7 +159,7 @@ mod tests {
         let all = listed(&whole);
         assert!(listed(&short).iter().all(|option| all.contains(option)), "{short}");
         assert!((10..=20).contains(&listed(&short).len()), "{short}");
-        let command = Arguments::command();
+        let command = commands(&Program::default());
         let render = command.find_subcommand("render").unwrap();
         for arg in options(render) {
             let option = format!("--{}", arg.get_long().unwrap());
@@ -153,7 +179,7 @@ mod tests {
     #[test]
     fn help_states_the_defaults_of_the_look_that_is_drawn() {
         let look = LOOKS[0].preset().unwrap().options;
-        let command = whole();
+        let command = whole(&Program::default());
         for name in ["render", "view"] {
             let Some(command) = command.find_subcommand(name) else { continue };
             for arg in options(command) {
@@ -171,13 +197,13 @@ mod tests {
                 assert!(is_stated || help.ends_with(&format!("[default: {value}]")), "{name} --{option}: {help}");
             }
         }
-        let measure = command.find_subcommand("compare").unwrap();
-        assert!(options(measure).all(|arg| !arg.get_help().unwrap().to_string().contains("; published: ")));
+        let edges = command.find_subcommand("edges").unwrap();
+        assert!(options(edges).all(|arg| !arg.get_help().unwrap().to_string().contains("; published: ")));
     }
 
     #[test]
     fn a_help_of_one_page_is_the_same_for_both() {
-        for name in ["textures", "figures", "info", "again"] {
+        for name in ["textures", "info", "again"] {
             assert_eq!(help_of(&format!("tinta {name} -h")), help_of(&format!("tinta {name} --help")));
         }
     }
@@ -185,7 +211,8 @@ mod tests {
     #[test]
     fn no_line_of_the_examples_is_broken_on_a_narrow_terminal() {
         let help = help_of("tinta --help");
-        let written = Arguments::command().get_after_help().unwrap().to_string();
+        let command = commands(&Program::default());
+        let written = command.get_after_help().unwrap().to_string();
         assert!(help.contains(&written), "{help}");
     }
 }

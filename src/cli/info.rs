@@ -1,9 +1,16 @@
 //! `tinta info`: tries every backend and prints its properties or why it failed.
 
 use super::Verdict;
+use super::{Command, given};
 use tinta::drivers::{Checked, Found, check};
 use tinta::gl::context::{Attempt, Outcome, attempts};
 use tinta::{Backend, Error, Result};
+
+/// The command.
+pub(super) const COMMAND: Command = Command {
+    examples: &["tinta info                                      list the OpenGL backends"],
+    ..Command::new("info", <Arguments as clap::Args>::augment_args, |matches, _| run(&given::<Arguments>(matches)?))
+};
 
 /// Show which OpenGL backends work on this machine, and why the others do not
 #[derive(clap::Args)]

@@ -6,11 +6,12 @@ use tinta::settings::Options;
 use tinta::{Error, Result};
 
 /// What a command reads, as far as its command line says.
-pub(super) struct Inputs(Vec<(&'static str, PathBuf)>);
+#[derive(Debug)]
+pub struct Inputs(Vec<(&'static str, PathBuf)>);
 
 impl Inputs {
     /// The models, the files that options name, and presets, a camera's file among them.
-    pub(super) fn new(models: &[String], options: &Options, presets: &[&str]) -> Self {
+    pub fn new(models: &[String], options: &Options, presets: &[&str]) -> Self {
         let models = models.iter().map(|model| ("model", PathBuf::from(model)));
         let presets = presets.iter().map(|preset| ("preset", PathBuf::from(preset)));
         Self(models.chain(files_named(options)).chain(presets).collect())
@@ -22,7 +23,7 @@ impl Inputs {
     }
 
     /// Refuses to write over any of them; an output with a number in it, `frame-%04d.png`, stands for all of its pictures.
-    pub(super) fn keep(&self, output: &str) -> Result<()> {
+    pub fn keep(&self, output: &str) -> Result<()> {
         let is_it = |input: &Path| match output.split_once('%') {
             None => same(Path::new(output), input),
             Some((before, after)) => is_numbered(before, after, input),
@@ -36,7 +37,7 @@ impl Inputs {
     }
 
     /// The same of files in a folder.
-    pub(super) fn keep_in<'a>(&self, folder: &Path, names: impl IntoIterator<Item = &'a str>) -> Result<()> {
+    pub fn keep_in<'a>(&self, folder: &Path, names: impl IntoIterator<Item = &'a str>) -> Result<()> {
         names.into_iter().try_for_each(|name| self.keep(&folder.join(name).to_string_lossy()))
     }
 }

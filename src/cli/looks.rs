@@ -1,6 +1,7 @@
 //! `tinta looks`: what a model looks like in each look.
 
 use super::render::{self, RunSettings};
+use super::{Command, Verdict, given};
 use std::fmt::Write;
 use std::path::PathBuf;
 use tinta::markup::escaped;
@@ -9,6 +10,14 @@ use tinta::preset::{LOOKS, Look};
 use tinta::request::{Request, layers};
 use tinta::settings::{OptionValue, Options};
 use tinta::{Result, SceneSettings, Size, TextTarget};
+
+/// The command.
+pub(super) const COMMAND: Command = Command {
+    examples: &["tinta looks cow.obj -o looks                    draw it in every look"],
+    ..Command::new("looks", <Arguments as clap::Args>::augment_args, |matches, _| {
+        run(&given::<Arguments>(matches)?).map(|()| Verdict::Good)
+    })
+};
 
 /// Say what looks there are, or draw a model in each
 #[derive(clap::Args)]
@@ -115,9 +124,12 @@ mod tests {
             ("a.png --look print --size 64x32", [64, 32]),
         ] {
             let words = format!("tinta render builtin:bust -o {more}");
-            let parsed = super::super::parse(words.split(' ').map(std::ffi::OsString::from)).unwrap();
-            let super::super::Command::Render(render) = parsed.command else { panic!("{words}") };
-            assert_eq!(render.asked().unwrap().0.scene.size, Size { width: size[0], height: size[1] }, "{words}");
+            let words: Vec<String> = words.split(' ').map(str::to_owned).collect();
+            assert_eq!(
+                super::super::render::asked_by(&words).unwrap().0.scene.size,
+                Size { width: size[0], height: size[1] },
+                "{words:?}"
+            );
         }
         assert_eq!(default_size(), Size { width: 1280, height: 960 });
     }

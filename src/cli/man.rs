@@ -3,11 +3,20 @@
 //! clap_mangen writes names, synopses and options from the definition that also reads the command line. Examples, exit
 //! codes, environment and the texts below `--help` are put below them.
 
+use super::{Command as OfProgram, Program, Verdict, given};
 use clap::Command;
 use clap_mangen::Man;
 use roff::{Roff, bold, roman};
 use std::path::PathBuf;
 use tinta::{Result, TextTarget};
+
+/// The command.
+pub(super) const COMMAND: OfProgram = OfProgram {
+    examples: &["tinta man -o man                                write the manual pages"],
+    ..OfProgram::new("man", <Arguments as clap::Args>::augment_args, |matches, call| {
+        run(&given::<Arguments>(matches)?, call.program).map(|()| Verdict::Good)
+    })
+};
 
 /// Write the manual pages: tinta.1, and one for each command, such as tinta-render.1
 #[derive(clap::Args)]
@@ -21,9 +30,9 @@ pub(super) struct Arguments {
     output: PathBuf,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<()> {
+pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<()> {
     super::make_folder(&arguments.output)?;
-    let targets = pages().into_iter().map(|page| {
+    let targets = pages(program).into_iter().map(|page| {
         let path = arguments.output.join(&page.file);
         TextTarget::check(&path.to_string_lossy()).map(|target| (target, page.text))
     });
@@ -73,8 +82,8 @@ const EXIT_CODES: [(&str, &str); 4] = [
 /// Further ones of `tinta batch`.
 const EXIT_CODES_OF_BATCH: [(&str, &str); 1] = [("75", "Another run is working on the same slice; try again later.")];
 
-fn pages() -> Vec<Page> {
-    let mut whole = super::help::whole().disable_help_subcommand(true);
+fn pages(program: &Program) -> Vec<Page> {
+    let mut whole = program.command_line().disable_help_subcommand(true);
     whole.build();
     let examples = examples(&whole);
     let all: Vec<String> = whole.get_subcommands().map(|command| command.get_name().to_owned()).collect();

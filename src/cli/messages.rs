@@ -33,7 +33,7 @@ pub(super) fn is_captured() -> bool {
 }
 
 /// Says a line to the person, on standard error; nobody listening is no error.
-pub(crate) fn say(line: &str) {
+pub fn say(line: &str) {
     let line = plain(line);
     match CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
         Some(captured) => captured.said.push(line.strip_prefix("tinta: ").map(str::to_owned).unwrap_or(line)),
@@ -43,7 +43,7 @@ pub(crate) fn say(line: &str) {
 
 /// A line that is one: a file's name may hold anything, and must neither break the line nor turn it around nor command the
 /// terminal.
-pub(crate) fn plain(line: &str) -> String {
+pub fn plain(line: &str) -> String {
     let is_unseen =
         |c: char| matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     line.chars()
@@ -52,7 +52,7 @@ pub(crate) fn plain(line: &str) -> String {
 }
 
 /// Writes text to standard output; a reader that has heard enough (`| head`) is no error.
-pub(super) fn print(text: &str) -> Result<()> {
+pub fn print(text: &str) -> Result<()> {
     if let Some(captured) = CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
         captured.printed.push_str(text);
         return Ok(());
@@ -77,7 +77,7 @@ pub(super) fn print_help(help: &clap::Error) -> Result<()> {
 const STANDARD_OUTPUT: &str = "-";
 
 /// Refuses standard output that was closed when the program began.
-pub(super) fn check_output(output: &str) -> Result<()> {
+pub fn check_output(output: &str) -> Result<()> {
     match output == STANDARD_OUTPUT && standard_output::was_closed() {
         true => Err(Error::output(STANDARD_OUTPUT, "standard output is closed; name a file, or leave it open")),
         false => Ok(()),

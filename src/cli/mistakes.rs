@@ -156,10 +156,10 @@ fn stem(model: &OsString) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::check;
+    use super::super::Program;
 
     fn said(line: &str) -> String {
-        check(line.split(' ').map(Into::into)).unwrap_err()
+        Program::default().check(line.split(' ').map(Into::into)).unwrap_err()
     }
 
     #[test]
@@ -209,11 +209,6 @@ mod tests {
             ("tinta render --size 64 builtin:gear cow.obj", picture("gear")),
             ("tinta render -", picture("picture")),
             ("tinta render a;b.obj", picture("picture")),
-            ("tinta compare cow.obj", picture("cow")),
-            (
-                "tinta measure cow.obj",
-                "--output is missing; name the folder to write into: -o results; see --help".to_owned(),
-            ),
             (
                 "tinta render",
                 "a model and --output are missing: tinta render cow.obj -o cow.png; see --help".to_owned(),

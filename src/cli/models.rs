@@ -29,7 +29,7 @@ pub(super) fn session_for_many(open: fn(Backend) -> Result<Renderer>) -> Session
 }
 
 /// Reads models and says what is to be said of them.
-pub(super) fn load_meshes(paths: &[String], options: &LoadOptions) -> Result<Vec<Arc<Mesh>>> {
+pub fn load_meshes(paths: &[String], options: &LoadOptions) -> Result<Vec<Arc<Mesh>>> {
     let cache = ModelCache::for_one().reading(read, say);
     paths.iter().map(|path| Ok(cache.read(path, options)?.mesh.clone())).collect()
 }

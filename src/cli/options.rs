@@ -15,11 +15,10 @@ use tinta::camera;
 use tinta::preset::{LOOKS, Look, Preset};
 use tinta::request::{Layer, Request, layers};
 use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
-use tinta::styles::is_of_lines_alone;
-use tinta::{LoadOptions, Result, SceneSettings, Style};
+use tinta::{LoadOptions, Result};
 
 /// Some of a table's settings as options.
-pub(super) trait Selection {
+pub trait Selection {
     /// Whose settings.
     type Of: HasSettings;
 
@@ -33,7 +32,8 @@ pub(super) trait Selection {
 }
 
 /// What is given of a selection on the command line.
-pub(super) struct Chosen<S> {
+#[derive(Debug)]
+pub struct Chosen<S> {
     /// By name, as a preset has it.
     pub options: Options,
     /// Files whose paths are no text, which options cannot hold.
@@ -47,19 +47,19 @@ impl<S: Selection> Chosen<S> {
     }
 
     /// Those of some options that are of this selection, for a command that is not given by words.
-    pub(super) fn of_options(options: &Options) -> Self {
+    pub fn of_options(options: &Options) -> Self {
         let options = options.iter().filter(|(name, _)| Self::all().any(|setting| setting.name == **name));
         let options = options.map(|(name, value)| (name.clone(), value.clone())).collect();
         Self { options, paths: Vec::new(), selection: PhantomData }
     }
 
     /// Whether it has an option of this name.
-    pub(super) fn has(option: &str) -> bool {
+    pub fn has(option: &str) -> bool {
         Self::all().any(|setting| setting.name == option)
     }
 
     /// What is given as settings of their own.
-    pub(super) fn settings(&self) -> Result<S::Of>
+    pub fn settings(&self) -> Result<S::Of>
     where
         S::Of: Default,
     {
@@ -154,20 +154,9 @@ impl Selection for OfRequest {
     type Of = Request;
 }
 
-/// What a comparison of two styles has: no lines, no animation.
-pub(super) struct OfComparison;
-
-impl Selection for OfComparison {
-    type Of = Request;
-
-    fn has(setting: &Setting<Request>) -> bool {
-        let is_of_passes = Style::table().has(setting.name) && !is_of_lines_alone(setting.name);
-        is_of_passes || SceneSettings::table().has(setting.name) || OfSubject::has(setting) || setting.name == "backend"
-    }
-}
-
 /// A model and from where it is seen.
-pub(super) struct OfSubject;
+#[derive(Debug)]
+pub struct OfSubject;
 
 impl Selection for OfSubject {
     type Of = Request;
@@ -178,18 +167,18 @@ impl Selection for OfSubject {
 }
 
 /// `--camera`.
-#[derive(clap::Args, Default)]
+#[derive(Debug, clap::Args, Default)]
 #[command(next_help_heading = camera::HEADING)]
-pub(super) struct CameraFile {
+pub struct CameraFile {
     /// Read the camera from this file: the JSON that --json prints, a picture that tinta drew, a glTF or GLB model, or the 16 numbers of the matrix from world to clip space, row by row; single options override it [default: none]
     #[arg(id = "camera", long, hide_short_help = true, value_name = "FILE")]
     pub camera: Option<PathBuf>,
 }
 
 /// `--preset`.
-#[derive(clap::Args, Default)]
+#[derive(Debug, clap::Args, Default)]
 #[command(next_help_heading = "Presets")]
-pub(super) struct PresetFile {
+pub struct PresetFile {
     /// Read options from this TOML file, under their long names, or a paper's constants: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand; the command line overrides it [default: none]
     #[arg(long, value_name = "FILE")]
     pub preset: Option<String>,
@@ -207,8 +196,8 @@ pub(super) struct NamedLook {
 }
 
 /// What lies below the options of a command line.
-#[derive(Default)]
-pub(super) struct Below<'a> {
+#[derive(Debug, Default)]
+pub struct Below<'a> {
     pub look: Option<Look>,
     pub preset: Option<&'a str>,
     pub camera: Option<&'a Path>,
@@ -222,7 +211,7 @@ pub(super) struct Below<'a> {
 
 impl<S: Selection<Of = Request>> Chosen<S> {
     /// The request that these options make, and what of them changes nothing.
-    pub(super) fn request(&self, models: &[String], below: &Below<'_>) -> Result<(Request, Vec<String>)> {
+    pub fn request(&self, models: &[String], below: &Below<'_>) -> Result<(Request, Vec<String>)> {
         let preset = below.preset.map(Preset::read).transpose()?;
         if let Some(preset) = &preset {
             // The style of a comparison is the one on the left.
@@ -237,13 +226,7 @@ impl<S: Selection<Of = Request>> Chosen<S> {
     }
 
     /// The request that these options make over a layer.
-    #[cfg(feature = "measuring")]
-    pub(super) fn request_over(
-        &self,
-        layer: Layer,
-        models: &[String],
-        below: &Below<'_>,
-    ) -> Result<(Request, Vec<String>)> {
+    pub fn request_over(&self, layer: Layer, models: &[String], below: &Below<'_>) -> Result<(Request, Vec<String>)> {
         self.request_of(vec![layer, Layer::Given(self.options.clone())], models, below)
     }
 
@@ -265,7 +248,7 @@ impl<S: Selection<Of = Request>> Chosen<S> {
 }
 
 /// Refuses options of a preset that a command does not have.
-pub(super) fn refuse_of_other_commands(preset: &Preset, command: &str, has: impl Fn(&str) -> bool) -> Result<()> {
+pub fn refuse_of_other_commands(preset: &Preset, command: &str, has: impl Fn(&str) -> bool) -> Result<()> {
     match preset.options.keys().find(|key| !has(key)) {
         Some(key) if Request::table().has(key) => {
             let problem =

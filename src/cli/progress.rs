@@ -1,21 +1,19 @@
 //! A progress bar for commands that take a while: on standard error, and only where that is a terminal.
 
-#[cfg(feature = "measuring")]
 mod estimate;
-#[cfg(feature = "measuring")]
 mod timed;
 
 use super::messages::is_captured;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-#[cfg(feature = "measuring")]
-pub(super) use {estimate::Steps, timed::TimedProgress};
+pub use {estimate::Steps, timed::TimedProgress};
 
 /// Disappears when it is dropped, so that a message after it stands in a line of its own.
-pub(super) struct Progress(ProgressBar);
+#[derive(Debug)]
+pub struct Progress(ProgressBar);
 
 impl Progress {
     /// A bar for `count` steps with the word for what is done, such as "drawing".
-    pub(super) fn new(what: &'static str, count: u64) -> Self {
+    pub fn new(what: &'static str, count: u64) -> Self {
         let progress = Self(bar(what, count));
         progress.show_share();
         progress
@@ -28,7 +26,7 @@ impl Progress {
     }
 
     /// So many steps are done of so many.
-    pub(super) fn set(&self, done: u64, count: u64) {
+    pub fn set(&self, done: u64, count: u64) {
         if self.0.length() != Some(count) {
             self.0.set_length(count);
             self.show_share();
@@ -37,7 +35,7 @@ impl Progress {
     }
 
     /// Nothing is known yet of how much there is to do.
-    pub(super) fn wait(&self) {
+    pub fn wait(&self) {
         if let Ok(style) = ProgressStyle::with_template("{msg}, {elapsed} so far") {
             self.0.set_style(style);
         }
@@ -46,7 +44,7 @@ impl Progress {
     }
 
     /// One step more is done.
-    pub(super) fn step(&self) {
+    pub fn step(&self) {
         self.0.inc(1);
     }
 }

@@ -5,13 +5,12 @@ mod explain;
 mod format;
 mod keep;
 mod lines;
-#[cfg(test)]
-mod option_pictures;
 mod prune;
 #[cfg(test)]
 mod round_trip;
 mod settings;
 
+pub use animate::scenes;
 pub(super) use format::is_of_lines;
 pub(super) use settings::{OfRun, RunSettings, is_of_one_run};
 
@@ -19,6 +18,7 @@ use super::Verdict;
 use super::batch::JobOptions;
 use super::inputs::Inputs;
 use super::options::{Below, CameraFile, Chosen, NamedLook, OfRequest, PresetFile};
+use super::{Command, given};
 use format::Format;
 use std::path::Path;
 use tinta::mesh::BUILTINS;
@@ -27,6 +27,25 @@ use tinta::record::{CameraRecord, Made, ModelRecord, PictureMade, Record, Summar
 use tinta::request::{Drawn, DrawnPicture, Request, Session, Times};
 use tinta::settings::refuse_exclusive;
 use tinta::{Error, Result, Scene, Target};
+
+/// The command.
+pub(super) const COMMAND: Command = Command {
+    examples: &[
+        "tinta render cow.obj -o cow.png                 draw it into this file",
+        "tinta render builtin:bust -o bust.png           draw a built-in model",
+        "tinta render cow.obj -o cow.png --style ink     choose a style",
+        "tinta render cow.obj -o cow.svg                 write the exact visible lines",
+        "tinta render cow.obj -o cow.gif --turntable 60  turn the model once around",
+        "tinta render cow.obj -o cow.png --preset a.toml read options from a file",
+    ],
+    job: Some(|job| {
+        let arguments = Arguments::of_job(job)?;
+        Ok(Box::new(move |_, session| run(&arguments, session)))
+    }),
+    ..Command::new("render", <Arguments as clap::Args>::augment_args, |matches, call| {
+        run(&given::<Arguments>(matches)?, call.session)
+    })
+};
 
 /// Draw models into a picture, an animation or a line drawing
 #[derive(clap::Args)]
@@ -125,6 +144,19 @@ const WARM_UP: usize = 2;
 
 /// Most frames drawn again to time single passes.
 const PASS_FRAMES: usize = 21;
+
+/// The request of a command line of this command, the program's name first, and where it is drawn into.
+///
+/// # Errors
+///
+/// Those of the options.
+pub fn asked_by(words: &[String]) -> Result<(Request, String)> {
+    let matches =
+        <Arguments as clap::Args>::augment_args(clap::Command::new("render")).try_get_matches_from(&words[1..]);
+    let matches = matches.map_err(|error| Error::CommandLine { problem: error.to_string() })?;
+    let arguments: Arguments = given(&matches)?;
+    Ok((arguments.asked()?.0, arguments.output))
+}
 
 /// Draws what the arguments say.
 pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdict> {

@@ -1,6 +1,7 @@
 //! `tinta textures`: the charcoal drawing's textures as files, to be looked at and used elsewhere.
 
 use super::options::{Chosen, Selection};
+use super::{Command, Verdict, given};
 use serde_json::json;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -9,6 +10,14 @@ use tinta::settings::Setting;
 use tinta::styles::{Charcoal, Ramp};
 use tinta::textures::{ContrastTexture, NoiseTexture, PaperTexture};
 use tinta::{Picture, Result, Size, Style, StyleName, Target};
+
+/// The command.
+pub(super) const COMMAND: Command = Command {
+    examples: &["tinta textures -o textures                      write charcoal's textures"],
+    ..Command::new("textures", <Arguments as clap::Args>::augment_args, |matches, _| {
+        run(&given::<Arguments>(matches)?).map(|()| Verdict::Good)
+    })
+};
 
 /// Write the textures of the styles: charcoal's grain, noise and paper, and the paint's ramp
 #[derive(clap::Args)]

@@ -2,17 +2,26 @@
 
 use super::options::{Below, Chosen, NamedLook, PresetFile, Selection};
 use super::standard_input;
+use super::{Call, Command, Verdict, given};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 use tinta::mesh::refuse_address;
 use tinta::request::Request;
-use tinta::settings::{HasSettings, Setting};
+use tinta::settings::{HasSettings, Setting, names_of};
 use tinta::styles::is_of_lines_alone;
 use tinta::window::{
     Buffer, LINE_SETTINGS, Layout, Orbit, Replay, SCENE_SETTINGS, Side, ViewerEvent, ViewerOptions, ViewerState,
     WindowOptions, open,
 };
 use tinta::{Error, LoadOptions, Result, Size, Style, StyleName};
+
+/// The command.
+pub(super) const COMMAND: Command = Command {
+    examples: &["tinta view cow.obj                              turn it, try styles"],
+    offers: |option| if option == "right" { names_of::<StyleName>() } else { Vec::new() },
+    ..Command::new("view", <Arguments as clap::Args>::augment_args, |matches, call| {
+        run(&given::<Arguments>(matches)?, call).map(|()| Verdict::Good)
+    })
+};
 
 /// Show models in a window: turn them, compare styles, change every setting
 #[derive(clap::Args)]
@@ -75,7 +84,7 @@ impl Selection for OfWindow {
 }
 
 /// Opens the window and returns when it is closed.
-pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
+pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
     for (option, folder) in [("glsl", arguments.glsl.as_ref()), ("folder", Some(&arguments.folder))] {
         if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
             return Err(Error::value(option, folder.display(), "there is no such folder; check the name"));
@@ -109,8 +118,9 @@ pub(super) fn run(arguments: &Arguments, started: Instant) -> Result<()> {
         backend: request.backend,
         shaders: arguments.glsl.clone(),
         folder: arguments.folder.clone(),
+        line_measure: call.program.line_measure,
     };
-    let record = open(WindowOptions { viewer, size: arguments.window, replay, started })?;
+    let record = open(WindowOptions { viewer, size: arguments.window, replay, started: call.started })?;
     match record {
         Some(record) if arguments.json => super::print_json(&record),
         _ => Ok(()),

@@ -10,6 +10,7 @@ use std::path::Path;
 use tempfile::NamedTempFile;
 
 /// Such a file. Dropped, it is gone.
+#[derive(Debug)]
 pub(super) enum StagedFile {
     /// No name leads to it.
     #[cfg(target_os = "linux")]

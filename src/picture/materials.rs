@@ -21,7 +21,7 @@ enum Source<'a> {
 
 /// The pictures on the materials of a scene's objects, each read once for all copies of an object.
 #[derive(Debug, Default)]
-pub(crate) struct MaterialPictures(Vec<(ObjectIdentity, Vec<Option<Arc<Picture>>>)>);
+pub struct MaterialPictures(Vec<(ObjectIdentity, Vec<Option<Arc<Picture>>>)>);
 
 impl MaterialPictures {
     /// Reads what these objects have and is not there yet, and lets go of what is no longer theirs.
@@ -29,7 +29,7 @@ impl MaterialPictures {
     /// # Errors
     ///
     /// [`Error::File`](crate::Error::Picture) when one cannot be read.
-    pub(crate) fn prepare(&mut self, objects: &[Object]) -> Result<()> {
+    pub fn prepare(&mut self, objects: &[Object]) -> Result<()> {
         self.0.retain(|(identity, _)| objects.iter().any(|object| identity.is_of(object)));
         for object in objects {
             if self.0.iter().all(|(identity, _)| !identity.is_of(object)) {
@@ -40,7 +40,7 @@ impl MaterialPictures {
     }
 
     /// An object's, by material; `None` for a material without one, and no list before [`MaterialPictures::prepare`].
-    pub(crate) fn of(&self, object: &Object) -> &[Option<Arc<Picture>>] {
+    pub fn of(&self, object: &Object) -> &[Option<Arc<Picture>>] {
         self.0.iter().find(|(identity, _)| identity.is_of(object)).map_or(&[], |(_, pictures)| pictures)
     }
 }

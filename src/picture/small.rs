@@ -12,8 +12,7 @@ const TABLE: usize = 256;
 impl Picture {
     /// The picture as a PNG, opaque: with as many bits a channel as a file of `most_bytes` allows, or with the fewest that are still
     /// looked at. `None` for a picture without a pixel.
-    #[cfg_attr(not(feature = "measuring"), expect(dead_code, reason = "only a page of figures holds so many pictures"))]
-    pub(crate) fn small_png(&self, most_bytes: usize) -> Option<Vec<u8>> {
+    pub fn small_png(&self, most_bytes: usize) -> Option<Vec<u8>> {
         let of = |bits| self.with_bits(bits);
         (FEWEST_BITS + 1..=8).rev().filter_map(of).find(|bytes| bytes.len() <= most_bytes).or_else(|| of(FEWEST_BITS))
     }

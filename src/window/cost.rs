@@ -5,16 +5,13 @@
 
 use super::draw::Cost;
 use super::event::Side;
+use super::line_measure::{LineMeasure, LineScore};
 use super::report::{Report, Reporter};
 use crate::error::Result;
-use crate::lines::{LineSettings, Progress};
-use crate::measure::{Ink, LineError, Reference};
+use crate::lines::Progress;
 use crate::renderer::PassTime;
 use crate::scene::Scene;
 use std::sync::Arc;
-
-/// Distance within which ink lies on a line, pixels: that of `tinta measure`.
-const TOLERANCE_PX: f64 = 2.0;
 
 /// What is known of the picture that is shown.
 #[derive(Debug, Default)]
@@ -40,7 +37,7 @@ pub struct SideCost {
     /// Each pass and its time.
     pub passes: Vec<PassTime>,
     /// Its lines' error; `None` until it is known and for a style without lines.
-    pub error: Option<LineError>,
+    pub error: Option<LineScore>,
     /// Whether it draws lines.
     pub has_lines: bool,
 }
@@ -81,22 +78,20 @@ impl Costs {
     }
 
     /// Takes a picture's cost and starts to measure its lines.
-    pub fn take(&mut self, scene: Scene, costs: Vec<Cost>, reporter: Reporter) {
+    pub fn take(&mut self, scene: Scene, costs: Vec<Cost>, measure: Option<LineMeasure>, reporter: Reporter) {
         self.style_changed();
         let mut inks = Vec::new();
-        for Cost { side, style, frame_ms, passes, ink } in costs {
-            self.sides.push(SideCost { side, style, frame_ms, passes, error: None, has_lines: ink.is_some() });
+        for Cost { side, style, frame_ms, passes, has_lines, ink } in costs {
+            self.sides.push(SideCost { side, style, frame_ms, passes, error: None, has_lines });
             inks.extend(ink.map(|ink| (side, ink)));
         }
-        if inks.is_empty() {
-            return;
-        }
+        let Some(measure) = measure.filter(|_| !inks.is_empty()) else { return };
         let progress = Arc::new(Progress::default());
         self.measuring = Some(progress.clone());
         let number = self.number;
         let work = move || {
             // Given up, or a scene that has no lines to be found: then there is no number to show.
-            let errors = errors(&scene, &inks, &progress).unwrap_or_default();
+            let errors = errors(measure, &scene, inks, &progress).unwrap_or_default();
             reporter.say(Report::Measured(number, errors));
         };
         if std::thread::Builder::new().name("measuring".to_owned()).spawn(work).is_err() {
@@ -105,7 +100,7 @@ impl Costs {
     }
 
     /// Takes what was measured, unless the view has changed since.
-    pub fn measured(&mut self, number: u64, errors: Vec<(Side, LineError)>) {
+    pub fn measured(&mut self, number: u64, errors: Vec<(Side, LineScore)>) {
         if number != self.number {
             return;
         }
@@ -122,7 +117,12 @@ impl Costs {
     }
 }
 
-fn errors(scene: &Scene, inks: &[(Side, Ink)], progress: &Progress) -> Result<Vec<(Side, LineError)>> {
-    let reference = Reference::with_progress(scene, &LineSettings::as_published(), progress)?;
-    Ok(inks.iter().map(|(side, ink)| (*side, ink.error(&reference, TOLERANCE_PX))).collect())
+fn errors(
+    measure: LineMeasure,
+    scene: &Scene,
+    inks: Vec<(Side, Vec<u8>)>,
+    progress: &Progress,
+) -> Result<Vec<(Side, LineScore)>> {
+    let (sides, inks): (Vec<Side>, Vec<Vec<u8>>) = inks.into_iter().unzip();
+    Ok(sides.into_iter().zip((measure.scores)(scene, inks, progress)?).collect())
 }

@@ -5,11 +5,11 @@
 
 use super::coarse;
 use super::event::Side;
+use super::line_measure::LineMeasure;
 use super::report::{Report, Reporter};
 use crate::camera::CameraSettings;
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
-use crate::measure::Ink;
 use crate::orbit::Orbit;
 use crate::picture::Picture;
 use crate::renderer::{PassTime, Renderer, median, milliseconds_since};
@@ -59,8 +59,10 @@ pub struct Cost {
     pub frame_ms: f64,
     /// Time of each pass.
     pub passes: Vec<PassTime>,
-    /// The lines it draws; `None` for a style without.
-    pub ink: Option<Ink>,
+    /// Whether the style draws lines.
+    pub has_lines: bool,
+    /// How dark each pixel of its lines is; `None` without lines, and where they are not measured.
+    pub ink: Option<Vec<u8>>,
 }
 
 /// What a drawing thread is told.
@@ -68,7 +70,7 @@ pub(super) enum Order {
     /// Draw this.
     Draw(Box<Job>),
     /// Time this and draw its lines by themselves.
-    MeasureCost(Box<Job>),
+    MeasureCost(Box<Job>, Option<LineMeasure>),
     /// Use these shaders instead of those built in, by their paths below `glsl/`.
     Shaders(HashMap<String, String>),
 }
@@ -180,7 +182,7 @@ impl Drawer {
     /// # Errors
     ///
     /// As [`Renderer::render`].
-    pub fn measure_cost(&mut self, job: &Job) -> Result<(Scene, Vec<Cost>)> {
+    pub fn measure_cost(&mut self, job: &Job, measure: Option<LineMeasure>) -> Result<(Scene, Vec<Cost>)> {
         let scene = job.scene()?;
         let mut costs = Vec::new();
         for (side, style, _) in &job.drawings {
@@ -188,8 +190,12 @@ impl Drawer {
             let passes = self.renderer.time_passes(&scene, &pruned.plan, TIMED_FRAMES)?;
             let frames: Result<Vec<f64>> = (0..TIMED_FRAMES).map(|_| self.frame_ms(&scene, style)).collect();
             let frame_ms = median(frames?).unwrap_or_default();
-            let ink = Ink::of_style(&mut self.renderer, &scene, style)?;
-            costs.push(Cost { side: *side, style: style.name(), frame_ms, passes, ink });
+            let ink = match measure {
+                Some(measure) => (measure.ink)(&mut self.renderer, &scene, style)?,
+                None => None,
+            };
+            let has_lines = style.style_name().has_lines();
+            costs.push(Cost { side: *side, style: style.name(), frame_ms, passes, has_lines, ink });
         }
         Ok((scene, costs))
     }
@@ -267,7 +273,7 @@ fn work(backend: Backend, number: usize, orders: &Receiver<Order>, reporter: &Re
                 Ok((drawings, shader_log)) => Report::Drawn { thread: number, drawings, shader_log },
                 Err(error) => Report::NotDrawn(number, error),
             },
-            Order::MeasureCost(job) => match drawer.measure_cost(&job) {
+            Order::MeasureCost(job, measure) => match drawer.measure_cost(&job, measure) {
                 Ok((scene, costs)) => Report::Cost { scene: Box::new(scene), costs },
                 Err(error) => Report::NotPriced(error),
             },

@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer) {
         }
         match &side_cost.error {
             Some(error) => {
-                let distance = error.ink_to_reference_px.map_or("-".to_owned(), |[mean, _]| format!("{mean:.2} px"));
+                let distance = error.mean_px.map_or("-".to_owned(), |mean| format!("{mean:.2} px"));
                 ui.label(format!(
                     "lines: F1 {:.3}, found {:.0} %, right {:.0} %, off by {distance}",
                     error.f1,

@@ -6,6 +6,7 @@
 //! device: the same library's driver with a screen of its own.
 
 use super::draw::{self, Job, Order};
+use super::line_measure::LineMeasure;
 use super::report::Reporter;
 use crate::gl::{Backend, ContextInfo};
 use crate::threads::cores;
@@ -117,8 +118,8 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When it has ended.
-    pub(super) fn measure_cost(&self, job: Job) -> Result<(), Ended> {
-        self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::MeasureCost(Box::new(job))))
+    pub(super) fn measure_cost(&self, job: Job, measure: Option<LineMeasure>) -> Result<(), Ended> {
+        self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::MeasureCost(Box::new(job), measure)))
     }
 
     /// Has shaders used from now on.

@@ -3,10 +3,10 @@
 use super::draw::{Cost, Drawing};
 use super::event::Side;
 use super::exact::Found;
+use super::line_measure::LineScore;
 use super::load::{LoadedModels, Stage};
 use crate::error::{Error, Result};
 use crate::gl::ContextInfo;
-use crate::measure::LineError;
 use crate::scene::Scene;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -52,7 +52,7 @@ pub enum Report {
     /// Hidden faces are known now: frames are faster from here on.
     Prepared,
     /// The error of a side's lines against the exact ones.
-    Measured(u64, Vec<(Side, LineError)>),
+    Measured(u64, Vec<(Side, LineScore)>),
     /// The exact lines of a view, or why there are none.
     Lines(Box<Result<Found>>),
     /// Models were chosen, or none.

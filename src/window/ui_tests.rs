@@ -17,7 +17,9 @@ impl Frames {
     fn new() -> Self {
         let state = ViewerState::new(vec!["builtin:open-box".to_owned()], Default::default());
         let (load, backend, folder) = (LoadOptions::default(), Backend::Auto, std::env::temp_dir());
-        let viewer = Viewer::start(ViewerOptions { state, load, backend, shaders: None, folder }, || {}).unwrap();
+        let viewer =
+            Viewer::start(ViewerOptions { state, load, backend, shaders: None, folder, line_measure: None }, || {})
+                .unwrap();
         let context = Context::default();
         context.set_fonts(crate::window::app::fonts());
         let mut frames = Self { viewer, context, textures: Textures::default() };

@@ -9,6 +9,7 @@ use super::cost::Costs;
 use super::draw::{Drawing, Job};
 use super::event::{Effect, Save, Side, ViewerEvent};
 use super::exact::{ExactLines, LineJob};
+use super::line_measure::LineMeasure;
 use super::line_style::LinesShown;
 use super::load::{LoadedModels, Loader, Stage};
 use super::paint::over;
@@ -40,6 +41,8 @@ pub struct ViewerOptions {
     pub shaders: Option<PathBuf>,
     /// Where files are written.
     pub folder: PathBuf,
+    /// How lines are measured. Without one their error is not shown.
+    pub line_measure: Option<LineMeasure>,
 }
 
 /// The viewer.
@@ -59,6 +62,7 @@ pub struct Viewer {
     /// Whether the user is moving the view just now.
     pub is_moving: bool,
     surroundings: Surroundings,
+    line_measure: Option<LineMeasure>,
     scene: Option<Arc<Scene>>,
     drawings: Vec<Drawing>,
     /// Counts drawings.
@@ -128,6 +132,7 @@ impl Viewer {
             problem: None,
             is_moving: false,
             surroundings,
+            line_measure: options.line_measure,
             scene: None,
             drawings: Vec::new(),
             drawings_number: 0,
@@ -234,7 +239,7 @@ impl Viewer {
             && self.problem.is_none()
         {
             self.is_pricing = true;
-            self.render_threads.measure_cost(job)
+            self.render_threads.measure_cost(job, self.line_measure)
         } else {
             Ok(())
         };
@@ -427,7 +432,7 @@ impl Viewer {
                 self.is_pricing = false;
                 let is_current = self.job().zip(self.drawn.as_ref()).is_some_and(|(job, drawn)| job.is_same(drawn));
                 if is_current {
-                    self.costs.take(*scene, costs, self.reporter.clone());
+                    self.costs.take(*scene, costs, self.line_measure, self.reporter.clone());
                 }
             }
             Report::NotPriced(error) => {

@@ -4,12 +4,12 @@ use crate::errors::{said, unreadable};
 use serde_json::json;
 use std::sync::Arc;
 use tinta::lines::{self, Progress};
-use tinta::measure::{Ink, Reference};
 use tinta::mesh::{Loaded, load, read_bytes};
 use tinta::recipe::{Driver, FileRecord};
 use tinta::request::{Layer, Request};
 use tinta::settings::Options;
 use tinta::{LineSettings, LoadOptions, Mesh, Recipe, Scene, SceneSettings, Size, StyleName, SvgSettings};
+use tinta_lab::measure::{Ink, Reference};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 

@@ -3,7 +3,6 @@
 use crate::errors::{said, unreadable};
 use crate::model::{Model, asked};
 use serde_json::json;
-use tinta::measure::Ink;
 use tinta::orbit::Orbit;
 use tinta::plan::Step;
 use tinta::recipe::Driver;
@@ -11,6 +10,7 @@ use tinta::renderer::Renderer;
 use tinta::request::Request;
 use tinta::settings::{HasSettings, Options};
 use tinta::{Picture, Scene, SceneSettings, StyleName, View};
+use tinta_lab::measure::Ink;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 use web_sys::HtmlCanvasElement;

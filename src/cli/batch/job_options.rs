@@ -12,14 +12,14 @@ use tinta::{Error, ParseError, Result};
 
 /// What a job gives to its command.
 #[derive(Debug)]
-pub(in crate::cli) struct JobOptions {
+pub struct JobOptions {
+    /// The models.
     pub models: Vec<String>,
     /// Where the output lies.
     pub output: String,
     /// All others, files that are written at their places.
     pub options: Options,
     /// As a command line has it.
-    #[cfg_attr(not(feature = "measuring"), expect(dead_code, reason = "only a measurement's report has it"))]
     pub command: String,
 }
 
@@ -50,7 +50,7 @@ impl JobOptions {
     }
 
     /// Refuses the first option that its command does not have.
-    pub(in crate::cli) fn refuse_unknown(&self, command: &str, is_known: impl Fn(&str) -> bool) -> Result<()> {
+    pub fn refuse_unknown(&self, command: &str, is_known: impl Fn(&str) -> bool) -> Result<()> {
         let is_known = |name: &str| COMMON.contains(&name) || is_known(name);
         let Some(key) = self.options.keys().find(|key| !is_known(key)) else { return Ok(()) };
         let names = Request::table().of(None).into_iter().map(|setting| setting.name).chain(COMMON);
@@ -70,18 +70,18 @@ impl JobOptions {
     }
 
     /// The look that it names.
-    pub(in crate::cli) fn look(&self) -> Result<Option<Look>> {
+    pub fn look(&self) -> Result<Option<Look>> {
         let look = self.text("look").map(|name| (name, Look::of_name(name)));
         look.map(|(name, look)| look.map_err(|ParseError(problem)| Error::value("look", name, problem))).transpose()
     }
 
     /// The preset that it names.
-    pub(in crate::cli) fn preset(&self) -> PresetFile {
+    pub fn preset(&self) -> PresetFile {
         PresetFile { preset: self.text("preset").map(str::to_owned) }
     }
 
     /// The file with a camera that it names.
-    pub(in crate::cli) fn camera(&self) -> CameraFile {
+    pub fn camera(&self) -> CameraFile {
         CameraFile { camera: self.text("camera").map(PathBuf::from) }
     }
 }

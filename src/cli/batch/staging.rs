@@ -38,7 +38,6 @@ impl StagedFolder {
         Ok(Some(Self { staged, place }))
     }
 
-    #[cfg_attr(not(feature = "measuring"), expect(dead_code, reason = "only a measurement has a folder"))]
     /// Where it is written until it is whole.
     pub(super) fn path(&self) -> &Path {
         &self.staged

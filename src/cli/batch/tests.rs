@@ -1,5 +1,6 @@
 //! A worker's jobs in this process, with contexts that fail on purpose.
 
+use super::super::Program;
 use super::super::models::session_for_many;
 use super::worker::carry_out;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -24,7 +25,7 @@ fn outcomes(open: fn(Backend) -> Result<Renderer>, jobs: usize) -> (Vec<Outcome>
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = tempfile::tempdir().unwrap();
     let mut session = session_for_many(open);
-    let outcomes = (0..jobs).map(|id| carry_out(&job(id), folder.path(), &mut session)).collect();
+    let outcomes = (0..jobs).map(|id| carry_out(&job(id), folder.path(), &Program::default(), &mut session)).collect();
     let objects = session.live_objects();
     (outcomes, objects)
 }

@@ -1,9 +1,7 @@
 //! Child side of a worker process: jobs from standard input, one after another, in one session.
 
-#[cfg(feature = "measuring")]
-use super::super::measure;
 use super::super::signals;
-use super::super::{Verdict, compare, messages, models, render};
+use super::super::{Program, Task, Verdict, messages, models};
 use super::JobOptions;
 use super::staging::{self, StagedFolder};
 use std::io::{BufRead, Write};
@@ -20,7 +18,7 @@ use tinta::settings::OptionValue;
 use tinta::{Error, Renderer, Result};
 
 /// Does what it is told until nobody tells any more.
-pub(super) fn serve(folder: &Path) -> Result<()> {
+pub(super) fn serve(folder: &Path, program: &Program) -> Result<()> {
     signals::leave_to_the_run();
     let gone =
         |error: std::io::Error| Error::output("-", format!("the parent process has ended ({error})")).because(&error);
@@ -29,7 +27,7 @@ pub(super) fn serve(folder: &Path) -> Result<()> {
     let mut session = models::session_for_many(Renderer::new);
     for line in lines {
         let outcome = match Job::parse(&line) {
-            Ok(job) => carry_out(&job, folder, &mut session),
+            Ok(job) => carry_out(&job, folder, program, &mut session),
             Err(problem) => Outcome::failed("command-line", problem),
         };
         let mut out = std::io::stdout().lock();
@@ -60,13 +58,13 @@ fn lines(is_busy: &Arc<AtomicBool>) -> std::io::Result<Receiver<Vec<u8>>> {
 }
 
 /// Does a job; a second time in new contexts where the first one's was lost.
-pub(super) fn carry_out(job: &Job, folder: &Path, session: &mut Session) -> Outcome {
+pub(super) fn carry_out(job: &Job, folder: &Path, program: &Program, session: &mut Session) -> Outcome {
     let start = Instant::now();
     let mut tries = 0;
     let (result, captured) = loop {
         tries += 1;
         messages::capture();
-        let result = once(job, folder, session);
+        let result = once(job, folder, program, session);
         let captured = messages::captured();
         match result {
             Err(Error::ContextLost { .. }) if tries == 1 => session.close(),
@@ -97,50 +95,30 @@ pub(super) fn carry_out(job: &Job, folder: &Path, session: &mut Session) -> Outc
     outcome
 }
 
-/// Does a job by the function that the command line has.
-fn once(job: &Job, folder: &Path, session: &mut Session) -> Result<(Verdict, Option<Driver>)> {
+/// Does a job by its command.
+fn once(job: &Job, folder: &Path, program: &Program, session: &mut Session) -> Result<(Verdict, Option<Driver>)> {
     let options = JobOptions::of(job, folder)?;
-    let command = Command::of(job.command, &options)?;
+    let task = task(job.command, &options, program)?;
     make_folders(job, folder)?;
     let staged = StagedFolder::of(job, folder)?;
     session.take_used();
-    let verdict = match command {
-        Command::Render(arguments) => render::run(&arguments, session)?,
-        Command::Compare(arguments) => compare::run(&arguments, session).map(|()| Verdict::Good)?,
-        #[cfg(feature = "measuring")]
-        Command::Measure(arguments) => {
-            let folder = staged.as_ref().map_or(Path::new(&options.output), |staged| staged.path()).to_owned();
-            measure::run(&arguments.resumed(folder), &options.command, session).map(|()| Verdict::Good)?
-        }
-    };
+    let verdict = task(staged.as_ref().map(StagedFolder::path), session)?;
     staged.map_or(Ok(()), |staged| staged.put_in_place())?;
     let driver = session.take_used().map(|renderer| Driver::new(renderer.context()));
     Ok((verdict, driver))
 }
 
-/// What a job does.
-enum Command {
-    Render(Box<render::Arguments>),
-    Compare(Box<compare::Arguments>),
-    #[cfg(feature = "measuring")]
-    Measure(Box<measure::Arguments>),
-}
-
-impl Command {
-    fn of(command: JobCommand, options: &JobOptions) -> Result<Self> {
-        Ok(match command {
-            JobCommand::Render => Self::Render(Box::new(render::Arguments::of_job(options)?)),
-            JobCommand::Compare => Self::Compare(Box::new(compare::Arguments::of_job(options)?)),
-            #[cfg(feature = "measuring")]
-            JobCommand::Measure => Self::Measure(Box::new(measure::Arguments::of_job(options)?)),
-            #[cfg(not(feature = "measuring"))]
-            JobCommand::Measure => {
-                return Err(Error::setting(
-                    "command",
-                    "this program was built without measuring; a job is render or compare",
-                ));
-            }
-        })
+/// The job as a task of its command.
+fn task(command: JobCommand, options: &JobOptions, program: &Program) -> Result<Task> {
+    let known = program.named(command.name()).and_then(|command| command.job);
+    match known {
+        Some(job) => job(options),
+        None => {
+            let names = program.commands().iter().filter(|command| command.job.is_some()).map(|command| command.name);
+            let names: Vec<&str> = names.collect();
+            let problem = format!("this program was built without it; a job is {}", names.join(" or "));
+            Err(Error::value("command", command.name(), problem))
+        }
     }
 }
 

@@ -5,7 +5,7 @@
 
 /// Steps of one kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Steps {
+pub struct Steps {
     /// How many.
     pub count: usize,
     /// How long one is expected to take, seconds.
@@ -14,7 +14,7 @@ pub(crate) struct Steps {
 
 impl Steps {
     /// How long all of them are expected to take, seconds.
-    pub(crate) fn total(self) -> f64 {
+    pub fn total(self) -> f64 {
         self.count as f64 * self.seconds
     }
 }

@@ -7,7 +7,8 @@ use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
 /// A bar for steps of several kinds, whose length and time left go by how long each kind takes.
-pub(in crate::cli) struct TimedProgress {
+#[derive(Debug)]
+pub struct TimedProgress {
     bar: ProgressBar,
     estimate: RefCell<Estimate>,
     start: Instant,
@@ -18,7 +19,7 @@ impl TimedProgress {
     const PARTS: u64 = 1000;
 
     /// A bar with the word for what is done, such as "measuring", that begins now.
-    pub(in crate::cli) fn new(what: &'static str, kinds: &[Steps]) -> Self {
+    pub fn new(what: &'static str, kinds: &[Steps]) -> Self {
         let bar = bar(what, Self::PARTS);
         if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:32}] {prefix} left") {
             bar.set_style(style.progress_chars("=> "));
@@ -29,13 +30,13 @@ impl TimedProgress {
     }
 
     /// A step of this kind is done.
-    pub(in crate::cli) fn step(&self, kind: usize) {
+    pub fn step(&self, kind: usize) {
         self.estimate.borrow_mut().step(kind, self.start.elapsed().as_secs_f64());
         self.show();
     }
 
     /// So many steps of this kind need not be done.
-    pub(in crate::cli) fn skip(&self, kind: usize, count: usize) {
+    pub fn skip(&self, kind: usize, count: usize) {
         self.estimate.borrow_mut().skip(kind, count);
         self.show();
     }

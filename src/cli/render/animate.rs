@@ -98,7 +98,7 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
 }
 
 /// A scene for each picture, and how long reading took, milliseconds.
-pub(super) fn scenes(request: &Request, models: &ModelCache) -> Result<(Vec<Scene>, f64)> {
+pub fn scenes(request: &Request, models: &ModelCache) -> Result<(Vec<Scene>, f64)> {
     let settings = &request.scene;
     if let Some(movement) = &request.animation.animate {
         let start = Instant::now();

@@ -105,8 +105,7 @@ pub(super) struct Made {
 
 impl CharcoalPictures {
     /// Noise, contrast-enhanced texture and paper of these settings.
-    #[cfg(feature = "measuring")]
-    pub(crate) fn all(&self, charcoal: &Charcoal) -> Result<(Arc<Picture>, Arc<Picture>, Arc<Picture>)> {
+    pub fn all(&self, charcoal: &Charcoal) -> Result<(Arc<Picture>, Arc<Picture>, Arc<Picture>)> {
         self.of(charcoal).map(|Made { noise, cet, paper, .. }| (noise, cet, paper))
     }
 

@@ -1,0 +1,50 @@
+//! The commands of the laboratory, one file each.
+
+mod compare;
+#[cfg(all(test, feature = "judging", feature = "window"))]
+mod documents;
+#[cfg(feature = "measuring")]
+mod figures;
+#[cfg(feature = "judging")]
+mod judge;
+#[cfg(feature = "measuring")]
+mod measure;
+#[cfg(all(test, feature = "judging"))]
+mod offered;
+#[cfg(all(test, feature = "judging"))]
+mod option_pictures;
+mod provenance;
+#[cfg(feature = "measuring")]
+mod stress;
+
+use tinta::cli::{
+    Command, Program, Verdict, batch, camera_file, completions, given, inputs, json_text, make_folder, messages,
+    models, options, print, print_json, progress, say,
+};
+
+/// The commands of this package, as help lists them.
+const COMMANDS: &[Command] = &[
+    compare::COMMAND,
+    #[cfg(feature = "measuring")]
+    measure::COMMAND,
+    #[cfg(feature = "judging")]
+    judge::COMMAND,
+    #[cfg(feature = "measuring")]
+    figures::COMMAND,
+    #[cfg(feature = "measuring")]
+    stress::COMMAND,
+    provenance::COMMAND,
+];
+
+/// The commands of this package, as help lists them.
+pub fn commands() -> &'static [Command] {
+    COMMANDS
+}
+
+/// The program with all commands.
+pub fn program() -> Program {
+    let program = Program::default().with(COMMANDS.iter().copied());
+    #[cfg(feature = "window")]
+    let program = program.measuring_lines_by(crate::line_measure());
+    program
+}

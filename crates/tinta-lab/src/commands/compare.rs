@@ -1,0 +1,351 @@
+//! `tinta compare`: draws one scene in two styles and overlays their lines.
+
+use super::batch::JobOptions;
+use super::completions::of_table;
+use super::inputs::Inputs;
+use super::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, Selection};
+use super::{Command, Verdict, given};
+use crate::compare::{Agreement, AgreementNumbers, BOTH_COLOR, InkMask, LEFT_COLOR, RIGHT_COLOR};
+use crate::contact_sheet::{Caption, Panel, sheet};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+use std::time::Instant;
+use tinta::gl::ContextInfo;
+use tinta::record::{CameraRecord, ModelRecord, Summary};
+use tinta::renderer::milliseconds_since;
+use tinta::request::{Request, Session, ignored_remark};
+use tinta::settings::{HasSettings, Kind, Setting, Table};
+use tinta::styles::is_of_lines_alone;
+use tinta::{Error, Picture, Result, Scene, Show, StyleName, Target};
+use tinta::{SceneSettings, Size, Style};
+
+/// The command.
+pub(super) const COMMAND: Command = Command {
+    examples: &["tinta compare builtin:gear -o both.png          compare lines of two styles"],
+    job: Some(|job| {
+        let arguments = Arguments::of_job(job)?;
+        Ok(Box::new(move |_, session| run(&arguments, session).map(|()| Verdict::Good)))
+    }),
+    offers: of_table::<CompareSettings>,
+    ..Command::new("compare", <Arguments as clap::Args>::augment_args, |matches, call| {
+        run(&given::<Arguments>(matches)?, call.session).map(|()| Verdict::Good)
+    })
+};
+
+/// Draw one scene in two styles side by side, and show which lines both drew
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input; several make one scene
+    #[arg(required = true, value_name = "MODEL")]
+    models: Vec<String>,
+
+    /// Sheet to write (.png .jpg .bmp .tga .ppm), or, ending in /, a folder for the sheet and its three pictures
+    #[arg(short, long, value_name = "FILE|DIR")]
+    output: String,
+
+    #[command(flatten)]
+    how: Chosen<OfHow>,
+
+    #[command(flatten)]
+    options: Chosen<OfComparison>,
+
+    #[command(flatten)]
+    preset: PresetFile,
+
+    #[command(flatten)]
+    camera: CameraFile,
+}
+
+impl Arguments {
+    /// Of a job's options.
+    pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
+        job.refuse_unknown("compare", |name| Chosen::<OfHow>::has(name) || Chosen::<OfComparison>::has(name))?;
+        Ok(Self {
+            models: job.models.clone(),
+            output: job.output.clone(),
+            how: Chosen::of_options(&job.options),
+            options: Chosen::of_options(&job.options),
+            preset: job.preset(),
+            camera: job.camera(),
+        })
+    }
+}
+
+/// How two styles are compared.
+#[derive(Debug, Clone)]
+pub(super) struct CompareSettings {
+    left: StyleName,
+    right: StyleName,
+    tolerance_px: u32,
+    frames: u32,
+    json: bool,
+}
+
+impl Default for CompareSettings {
+    fn default() -> Self {
+        Self { left: StyleName::ThreePass, right: StyleName::Inking, tolerance_px: 2, frames: 11, json: false }
+    }
+}
+
+/// All of them.
+pub(super) struct OfHow;
+
+impl Selection for OfHow {
+    type Of = CompareSettings;
+    const HAS_HEADINGS: bool = false;
+}
+
+impl HasSettings for CompareSettings {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<CompareSettings>> =
+            LazyLock::new(|| Table { settings: settings(), defaults: vec![CompareSettings::default()] });
+        &TABLE
+    }
+}
+
+/// What a comparison of two styles has: no lines, no animation.
+struct OfComparison;
+
+impl Selection for OfComparison {
+    type Of = Request;
+
+    fn has(setting: &Setting<Request>) -> bool {
+        let is_of_passes = Style::table().has(setting.name) && !is_of_lines_alone(setting.name);
+        is_of_passes || SceneSettings::table().has(setting.name) || OfSubject::has(setting) || setting.name == "backend"
+    }
+}
+
+/// A style that is compared.
+fn style(
+    name: &'static str,
+    help: &'static str,
+    field: fn(&mut CompareSettings) -> &mut StyleName,
+) -> Setting<CompareSettings> {
+    let names = StyleName::of_passes().map(|(name, _)| name).collect();
+    let get = move |how: &CompareSettings| field(&mut how.clone()).name().to_owned();
+    let set = move |how: &mut CompareSettings, text: &str| {
+        *field(how) = StyleName::named_of_passes(text)?;
+        Ok(())
+    };
+    Setting::of(name, "STYLE", Kind::Choice(names), help, get, set).common()
+}
+
+fn settings() -> Vec<Setting<CompareSettings>> {
+    static LEFT: LazyLock<String> = LazyLock::new(|| format!("Style on the left: {}", StyleName::list_with_lines()));
+    let tolerance = Setting::field(
+        "tolerance",
+        "PIXELS",
+        "Distance within which two styles' ink counts as the same, in pixels, up to 64",
+        |how: &mut CompareSettings| &mut how.tolerance_px,
+    );
+    let frames = Setting::field(
+        "frames",
+        "N",
+        "Frames of each style to draw and time after warm-up",
+        |how: &mut CompareSettings| &mut how.frames,
+    );
+    vec![
+        style("left", &LEFT, |how| &mut how.left),
+        style("right", "Style on the right", |how| &mut how.right),
+        tolerance.whole(0..=64).range(0.0, 64.0, 0),
+        frames.whole(1..=1_000_000).range(1.0, 101.0, 0),
+        Setting::flag("json", "Print one JSON record", |how: &CompareSettings| how.json, |how, is_on| how.json = is_on),
+    ]
+}
+
+/// One of two drawings of a comparison.
+#[derive(Debug, Clone, Serialize)]
+struct DrawingRecord {
+    /// The style with every setting.
+    style: Style,
+    /// Making the first plan: edge list, classes and planes included, where the style needs them.
+    plan_ms: f64,
+    /// The frames after warm-up, each with a plan of its own, read-back included, milliseconds.
+    frame_ms: Summary,
+}
+
+/// Two drawings of one scene and how far their lines agree.
+#[derive(Debug, Clone, Serialize)]
+struct ComparisonRecord {
+    /// tinta's version.
+    version: &'static str,
+    /// All models together.
+    model: ModelRecord,
+    /// The picture's size.
+    size: Size,
+    /// The camera, world space.
+    camera: CameraRecord,
+    /// The context.
+    gl: ContextInfo,
+    /// The left drawing.
+    left: DrawingRecord,
+    /// The right drawing.
+    right: DrawingRecord,
+    /// Pixels of ink, and how many both have.
+    agreement: AgreementNumbers,
+}
+
+/// Frames drawn before measuring.
+const WARM_UP: usize = 2;
+
+/// One style's part.
+struct Drawing {
+    picture: Picture,
+    ink: InkMask,
+    record: DrawingRecord,
+}
+
+pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
+    let (preset, camera) = (arguments.preset.preset.as_deref(), arguments.camera.camera.as_deref());
+    let (request, _) = arguments
+        .options
+        .request(&arguments.models, &Below { preset, camera, command: "compare", ..Below::default() })?;
+    let files: Vec<&str> = preset.into_iter().chain(camera.and_then(Path::to_str)).collect();
+    compare(arguments, &request, &files, session).map_err(|error| request.attributed(error))
+}
+
+fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &mut Session) -> Result<()> {
+    let mut how = arguments.how.settings()?;
+    // A preset's style is the one on the left.
+    let is_of_preset = request.options.contains_key("style") && !arguments.how.options.contains_key("left");
+    if is_of_preset {
+        how.left = request.style.style_name();
+    }
+    let left = if is_of_preset { "style" } else { "left" };
+    super::messages::check_output(&arguments.output)?;
+    let inputs = Inputs::new(&request.models, &request.options, files);
+    inputs.keep(&arguments.output)?;
+    inputs.keep_in(Path::new(&arguments.output), NAMES)?;
+    let output = Output::check(&arguments.output)?;
+    if how.json && matches!(output, Output::File(Target::Stdout)) {
+        return Err(Error::value("o", "-", "the sheet and --json cannot share standard output; name a file"));
+    }
+    if request.options.contains_key("no-borders") {
+        return Err(Error::setting("no-borders", "compare needs the lines; leave it out"));
+    }
+    for (option, name) in [(left, how.left), ("right", how.right)] {
+        if !name.has_lines() {
+            return Err(Error::value(
+                option,
+                name.name(),
+                format!("this style has no lines to compare; choose one of {}", StyleName::list_with_lines()),
+            ));
+        }
+    }
+    let styles = [request.in_style(how.left)?.style, request.in_style(how.right)?.style];
+    let meshes = request.models(&session.models)?.meshes;
+    let count = meshes.len();
+    let scene = Scene::new(meshes, &request.scene)?;
+    let renderer = session.renderer(request.backend)?;
+    let mut draw = |style: &tinta::Style| -> Result<Drawing> {
+        let start = Instant::now();
+        let plan = style.plan(&scene, Show::Final)?;
+        let plan_ms = milliseconds_since(start);
+        let lines = style.plan(&scene, Show::Borders)?;
+        renderer.remarks(&plan).iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
+        let ink = InkMask::of(&renderer.draw(&scene, &lines)?);
+        let picture = renderer.draw(&scene, &plan)?;
+        renderer.time_frames(&scene, &plan, WARM_UP, 1)?;
+        // As when the view moves: silhouettes and light are due in every frame.
+        let mut frame = || -> Result<f64> {
+            let start = Instant::now();
+            let plan = style.plan(&scene, Show::Final)?;
+            renderer.time_frames(&scene, &plan, 0, 1)?;
+            Ok(milliseconds_since(start))
+        };
+        let times: Result<Vec<f64>> = (0..how.frames).map(|_| frame()).collect();
+        let record = DrawingRecord { style: style.clone(), plan_ms, frame_ms: Summary::new(times?) };
+        Ok(Drawing { picture, ink, record })
+    };
+    let [left, right] = [draw(&styles[0])?, draw(&styles[1])?];
+    let agreement = Agreement::of(&left.ink, &right.ink, how.tolerance_px)
+        .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; choose another"))?;
+    let map = agreement.picture(scene.size);
+    let models: Vec<ModelRecord> = scene.objects[..count].iter().map(|object| ModelRecord::new(&object.mesh)).collect();
+    let record = ComparisonRecord {
+        version: env!("CARGO_PKG_VERSION"),
+        model: ModelRecord::together(&models),
+        size: scene.size,
+        camera: CameraRecord::new(&scene),
+        gl: renderer.context().clone(),
+        left: left.record,
+        right: right.record,
+        agreement: agreement.numbers,
+    };
+    let names = [how.left, how.right].map(StyleName::name);
+    let panels = [
+        panel(names[0], &record.left, left.picture),
+        panel(names[1], &record.right, right.picture),
+        Panel { title: "their lines".to_owned(), subtitle: String::new(), picture: map },
+    ];
+    let whole = sheet(&panels, &captions(&record, names, &arguments.models));
+    output.write(&whole, panels)?;
+    let given = arguments.options.options.keys().map(String::as_str);
+    ignored_remark(given, &names).iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
+    if how.json { super::print_json(&record) } else { Ok(()) }
+}
+
+fn panel(name: &str, record: &DrawingRecord, picture: Picture) -> Panel {
+    Panel { title: name.to_owned(), subtitle: format!("{:.1} ms a frame", record.frame_ms.median), picture }
+}
+
+fn captions(record: &ComparisonRecord, [left, right]: [&str; 2], names_of_models: &[String]) -> Vec<Caption> {
+    let AgreementNumbers { tolerance_px, left_px, right_px, only_left_px, only_right_px, .. } = record.agreement;
+    let percent = |share: Option<f64>| share.map_or("nothing".to_owned(), |share| format!("{:.1} %", share * 100.0));
+    let (left_shared, right_shared) = (percent(record.agreement.left_shared), percent(record.agreement.right_shared));
+    let line = |swatch: Option<[u8; 3]>, text: String| Caption { swatch, text };
+    let first = &names_of_models[0];
+    let file = Path::new(first).file_name().map_or(first.as_str().into(), |name| name.to_string_lossy());
+    let others = match names_of_models.len() - 1 {
+        0 => String::new(),
+        count => format!(" and {count} more"),
+    };
+    vec![
+        line(Some(BOTH_COLOR), format!("both: {left_shared} of {left}'s ink, {right_shared} of {right}'s")),
+        line(Some(LEFT_COLOR), format!("only {left}: {only_left_px} of its {left_px} px")),
+        line(Some(RIGHT_COLOR), format!("only {right}: {only_right_px} of its {right_px} px")),
+        line(
+            None,
+            format!(
+                "{file}{others}, {} triangles, {} px, ink within {tolerance_px} px counts as the same, {}",
+                record.model.triangles, record.size, record.gl.renderer
+            ),
+        ),
+    ]
+}
+
+/// One file, or a folder of four.
+enum Output {
+    File(Target),
+    Folder([Target; 4]),
+}
+
+const NAMES: [&str; 4] = ["sheet.png", "left.png", "right.png", "lines.png"];
+
+impl Output {
+    fn check(path: &str) -> Result<Self> {
+        let is_folder = path.ends_with(['/', std::path::MAIN_SEPARATOR]) || Path::new(path).is_dir();
+        if !is_folder {
+            return Target::check(path, false).map(Self::File);
+        }
+        std::fs::create_dir_all(path).map_err(|error| {
+            Error::output(path, format!("the folder cannot be created ({error}); choose another")).because(&error)
+        })?;
+        let file = |name: &str| {
+            let file: PathBuf = Path::new(path).join(name);
+            Target::check(&file.to_string_lossy(), false)
+        };
+        Ok(Self::Folder([file(NAMES[0])?, file(NAMES[1])?, file(NAMES[2])?, file(NAMES[3])?]))
+    }
+
+    fn write(&self, sheet: &Picture, panels: [Panel; 3]) -> Result<()> {
+        match self {
+            Self::File(target) => target.write(sheet),
+            Self::Folder(targets) => {
+                let pictures = [sheet].into_iter().chain(panels.iter().map(|panel| &panel.picture));
+                Target::write_all(targets.iter().zip(pictures))
+            }
+        }
+    }
+}

@@ -1,0 +1,295 @@
+//! Which settings are measured: each as the options that `tinta render` takes, so that a row can be drawn again.
+
+use super::super::options::Selection;
+use crate::measure::{Against, Setting};
+use std::sync::LazyLock;
+use tinta::plan::Submission;
+use tinta::recipe::option_words;
+use tinta::request::Request;
+use tinta::settings::{self, HasSettings, Kind, OptionValue, Options, Problem, Table};
+use tinta::shell::quoted;
+use tinta::styles::Origin;
+use tinta::{Backend, Error, Result, Size, Style, StyleName};
+
+/// How is measured.
+#[derive(Debug, Clone)]
+pub(in crate::commands) struct HowMeasured {
+    pub against: Option<Against>,
+    pub suite: Option<Suite>,
+    pub sizes: Vec<Size>,
+    pub styles: Vec<StyleName>,
+    pub frames: Option<u32>,
+    pub quick: bool,
+    pub tolerance_px: f64,
+    pub resume: bool,
+    pub machine: Option<String>,
+    pub backend: Backend,
+}
+
+impl Default for HowMeasured {
+    fn default() -> Self {
+        Self {
+            against: None,
+            suite: None,
+            sizes: vec![Size { width: 512, height: 512 }],
+            styles: Vec::new(),
+            frames: None,
+            quick: false,
+            tolerance_px: 2.0,
+            resume: false,
+            machine: None,
+            backend: Backend::default(),
+        }
+    }
+}
+
+/// Built-in models that are measured together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::commands) enum Suite {
+    Papers,
+    Solids,
+    All,
+}
+
+impl Suite {
+    /// All of them, as the user writes them.
+    const ALL: [(&'static str, Self); 3] = [("papers", Self::Papers), ("solids", Self::Solids), ("all", Self::All)];
+
+    /// Their names.
+    pub(super) fn models(self) -> &'static [&'static str] {
+        const ALL: [&str; 4] = ["builtin:bust", "builtin:ant", "builtin:gear", "builtin:open-box"];
+        match self {
+            Self::Papers => &ALL[..2],
+            Self::Solids => &ALL[2..],
+            Self::All => &ALL,
+        }
+    }
+}
+
+tinta_geometry::choices!(Suite);
+
+/// All of them.
+pub(in crate::commands) struct OfHow;
+
+impl Selection for OfHow {
+    type Of = HowMeasured;
+    const HAS_HEADINGS: bool = false;
+}
+
+impl HasSettings for HowMeasured {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<HowMeasured>> =
+            LazyLock::new(|| Table { settings: of_how(), defaults: vec![HowMeasured::default()] });
+        &TABLE
+    }
+}
+
+/// Values with commas between; a word for none.
+fn listed<T: ToString>(values: &[T], none: &str) -> String {
+    match values {
+        [] => none.to_owned(),
+        values => values.iter().map(ToString::to_string).collect::<Vec<_>>().join(","),
+    }
+}
+
+fn values<T: std::str::FromStr<Err = tinta::ParseError>>(text: &str) -> std::result::Result<Vec<T>, Problem> {
+    Ok(text.split(',').map(|value| value.trim().parse()).collect::<std::result::Result<_, _>>()?)
+}
+
+fn of_how() -> Vec<settings::Setting<HowMeasured>> {
+    type Of = settings::Setting<HowMeasured>;
+    let sizes = Of::of(
+        "size",
+        "SIZES",
+        Kind::Text { offered: &[], example: "64x64,128x128" },
+        "Sizes in pixels, separated by commas",
+        |how: &HowMeasured| listed(&how.sizes, ""),
+        |how, text| {
+            how.sizes = values(text)?;
+            Ok(())
+        },
+    );
+    let styles = Of::of(
+        "styles",
+        "STYLES",
+        Kind::Several(StyleName::of_passes().map(|(name, _)| name).collect()),
+        "Styles, separated by commas",
+        |how: &HowMeasured| listed(&how.styles, "all"),
+        |how, text| {
+            let named = || text.split(',').map(|name| StyleName::named_of_passes(name.trim()));
+            how.styles = if text == "all" { Vec::new() } else { named().collect::<std::result::Result<_, _>>()? };
+            Ok(())
+        },
+    );
+    let frames = Of::open_field("frames", "N", "auto", "Frames to time for each setting", |how| &mut how.frames);
+    let machine = Of::open_field("machine", "NAME", "", "Name of this machine in the report", |how| &mut how.machine)
+        .like("desk");
+    let against = "What lines are compared with: the exact lines of the models (lines), or the true contour of smooth surfaces (smooth), \
+                   whose models are built-in ones, by default all of them with about 1,000, 10,000 and 100,000 triangles";
+    let suite = "Set of built-in models: papers (bust, ant), solids (gear, open box), all";
+    let backend = "OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works)";
+    vec![
+        Of::open_field("against", "WHAT", "", against, |how| &mut how.against).said("lines").common(),
+        Of::open_field("suite", "SUITE", "", suite, |how| &mut how.suite).said("none").common(),
+        sizes.common(),
+        styles.common(),
+        frames.whole(1..=100_000).range(1.0, 101.0, 0).said("21, with --quick 7").common(),
+        Of::flag("quick", "Measure fewer settings and frames", |how| how.quick, |how, is_on| how.quick = is_on)
+            .common(),
+        Of::field("tolerance", "PIXELS", "Distance within which ink and line count as the same, in pixels", |how| {
+            &mut how.tolerance_px
+        }),
+        Of::flag(
+            "resume",
+            "Continue an interrupted run in the same folder",
+            |how| how.resume,
+            |how, is_on| how.resume = is_on,
+        )
+        .common(),
+        machine.said("system, processor, threads"),
+        Of::field("backend", "BACKEND", backend, |how| &mut how.backend),
+    ]
+}
+
+/// What is measured besides even when it has to be quick.
+const QUICK: [&str; 10] = [
+    "--style ink",
+    "--style ink --quality best",
+    "--style three-pass --map-encoding float --slope-threshold on",
+    "--style three-pass --filter sobel",
+    "--style three-pass --detection-factor 1",
+    "--style inking --silhouette exact",
+    "--style inking --silhouette exact --smooth off --line-width 1",
+    "--style three-pass --cull back",
+    "--style mrt",
+    "--style mrt --cull back",
+];
+
+/// What is measured besides when there is time.
+const FULL: [&str; 34] = [
+    "--style inking --silhouette exact --polygon-offset 0,0",
+    "--style inking --silhouette exact --classes boundary,non-manifold,silhouette,crease,material",
+    "--style inking --light vertex-shader",
+    "--style inking --submission immediate",
+    "--style inking --submission display-list",
+    "--style charcoal --improve all",
+    "--style three-pass --map-encoding biased",
+    "--style three-pass --map-encoding float16",
+    "--style three-pass --map-encoding float",
+    "--style three-pass --map-encoding depth-texture",
+    "--style three-pass --map-target texture",
+    "--style three-pass --slope-threshold on",
+    "--style three-pass --map-encoding biased --filter sobel",
+    "--style three-pass --border-width 1",
+    "--style three-pass --supersample 2 --border-width 2",
+    "--style three-pass --supersample 4 --border-width 2",
+    "--style two-pass --map-encoding float --slope-threshold on",
+    "--style three-pass --filter laplacian8",
+    "--style three-pass --filter mitchell",
+    "--style three-pass --filter mitchell-two",
+    "--style three-pass --filter roberts",
+    "--style three-pass --filter gaussian",
+    "--style three-pass --filter sobel --detection-factor 0.5",
+    "--style three-pass --tones 1",
+    "--style three-pass --tones 2",
+    "--style three-pass --tone-lookup texture",
+    "--style three-pass --background-quad off",
+    "--style two-pass --filter sobel",
+    "--style two-pass --background-quad off",
+    "--style two-pass --cull back",
+    "--style inking --silhouette exact --line-drawing quads",
+    "--style inking --silhouette exact --smooth off",
+    "--style inking --silhouette exact --ink-depth test",
+    "--style dietrich --ink-threshold 0.15",
+];
+
+/// The settings of some styles, all of them for none named: first the styles of the texts by default, then what is listed above, and
+/// styles of this project that are not.
+pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setting>> {
+    let of_defaults = |is_own: bool| {
+        let styles = StyleName::lines_first().into_iter().filter(|style| !style.draws_lines());
+        let wanted = styles.filter(move |style| (style.info().origin == Origin::Own) == is_own);
+        wanted.map(|style| format!("--style {}", style.name()))
+    };
+    let listed = |list: &'static [&'static str]| list.iter().map(|options| (*options).to_owned());
+    let own = of_defaults(true).filter(|options| !QUICK.contains(&options.as_str()));
+    let others = listed(&QUICK).chain(own).chain(listed(if is_quick { &[] } else { &FULL }));
+    let faithful = of_defaults(false).map(|options| (options, true));
+    faithful
+        .chain(others.map(|options| (options, false)))
+        .map(|(options, is_faithful)| setting(options, is_faithful))
+        .filter(|setting| match setting {
+            Ok((name, _)) => styles.is_empty() || styles.contains(name),
+            Err(_) => true,
+        })
+        .map(|setting| setting.map(|(_, setting)| setting))
+        .collect()
+}
+
+fn setting(text: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let mut options: Options = words
+        .chunks(2)
+        .filter_map(|pair| Some((pair.first()?.strip_prefix("--")?.to_owned(), OptionValue::text(*pair.get(1)?))))
+        .collect();
+    // How vertices are handed over is no part of a drawing.
+    let submission = match options.remove("submission") {
+        Some(OptionValue::Text(how)) => {
+            how.parse().map_err(|problem: tinta::ParseError| Error::value("submission", how, problem))?
+        }
+        _ => Submission::default(),
+    };
+    let style = Request::from_given(&options)?.style;
+    Ok((style.style_name(), Setting { style, submission, options: text, is_faithful }))
+}
+
+/// Inking with the contours of smooth surfaces.
+pub(super) fn smooth_inking() -> Result<Setting> {
+    let options = [("style", "inking"), ("silhouette", "smooth")];
+    let options = options.map(|(name, value)| (name.to_owned(), OptionValue::text(value))).into();
+    setting_of(&Request::from_given(&options)?)
+}
+
+/// The setting that a request's style is.
+pub(super) fn setting_of(request: &Request) -> Result<Setting> {
+    let style = request.style.clone();
+    let is_faithful = style == Style::named(style.style_name());
+    // What is as by default is left out, as in the settings above.
+    let mut changed = style.to_options()?;
+    changed.remove("style");
+    let words = changed.iter().flat_map(|(name, value)| option_words(name, value));
+    let options = words.fold(format!("--style {}", style.name()), |text, word| text + " " + &quoted(&word));
+    Ok(Setting { style, submission: Submission::default(), options, is_faithful })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_setting_is_one_that_render_takes_and_none_comes_twice() {
+        let all = settings(&[], false).unwrap();
+        for (name, style) in StyleName::of_passes() {
+            assert!(all.iter().any(|setting| setting.style == Style::named(style)), "{name} is not measured");
+        }
+        for (index, setting) in all.iter().enumerate() {
+            let is_same = |other: &Setting| other.style == setting.style && other.submission == setting.submission;
+            assert!(!all[..index].iter().any(is_same), "{}", setting.options);
+            assert!(all[..index].iter().all(|other| other.options != setting.options), "{}", setting.options);
+        }
+    }
+
+    #[test]
+    fn the_faithful_ones_are_the_librarys_defaults() {
+        for setting in settings(&[], true).unwrap().iter().filter(|setting| setting.is_faithful) {
+            let name = setting.options.trim_start_matches("--style ").parse().unwrap();
+            assert_eq!(setting.style, Style::named(name));
+        }
+    }
+
+    #[test]
+    fn styles_can_be_chosen() {
+        let chosen = settings(&[StyleName::Dietrich], false).unwrap();
+        assert!(!chosen.is_empty() && chosen.iter().all(|setting| setting.options.contains("dietrich")));
+    }
+}

@@ -1,0 +1,156 @@
+//! The claims about edges: counts, silhouettes from many places, and the listing's own search, timed.
+
+use super::super::lab::{Lab, MODELS};
+use super::super::{Finding, Number};
+use crate::figures::{Panel, Shot, panel};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::time::Instant;
+use tinta::camera::{CameraSettings, View};
+use tinta::edges::{Class, ClassSet, CreaseAngle, EdgeList, Incidence, SilhouetteRule};
+use tinta::error::Result;
+use tinta::mesh::Mesh;
+use tinta::plan::Step;
+use tinta::renderer::{median, milliseconds_since};
+use tinta::scene::{Scene, SceneSettings};
+use tinta::styles::{Inking, PaintMode, Show, Style};
+
+pub(super) fn one_or_two_faces(lab: &mut Lab<'_>) -> Result<Finding> {
+    let (mut edges, mut more) = (0, 0);
+    for model in MODELS {
+        let list = EdgeList::new(&*lab.mesh(model)?);
+        edges += list.len();
+        more += list.incidence().iter().filter(|incidence| **incidence == Incidence::NonManifold).count();
+    }
+    Ok(Finding::of(
+        more == 0,
+        vec![Number::count("edges of three triangles or more", more), Number::count("of", edges)],
+    ))
+}
+
+/// The silhouette edges of the first object.
+fn silhouette(scene: &Scene, rule: SilhouetteRule) -> BTreeSet<u32> {
+    let object = &scene.objects[0];
+    scene.edges(object).silhouette(scene.eye(object, rule), rule).into_iter().collect()
+}
+
+fn from(lab: &mut Lab<'_>, azimuth_degrees: f64, fov_y_degrees: f64) -> Result<Arc<Scene>> {
+    let view = View { azimuth_degrees, elevation_degrees: 20.0 };
+    let camera = CameraSettings { view, fov_y_degrees, ..CameraSettings::default() };
+    lab.seen("builtin:bust", SceneSettings { camera, ..SceneSettings::default() })
+}
+
+pub(super) fn every_frame(lab: &mut Lab<'_>) -> Result<Finding> {
+    let fov = CameraSettings::default().fov_y_degrees;
+    let [before, after] = [0.0, 5.0].map(|azimuth| from(lab, azimuth, fov));
+    let [before, after] = [before?, after?].map(|scene| silhouette(&scene, SilhouetteRule::Exact));
+    let stayed = before.intersection(&after).count();
+    let changed = 1.0 - stayed as f64 / before.len().max(1) as f64;
+    Ok(Finding::of(changed > 0.0, vec![Number::share("of the silhouette edges no longer are any", changed)]))
+}
+
+pub(super) fn sixty_six_degrees(_: &mut Lab<'_>) -> Result<Finding> {
+    let degrees = 0.4f64.acos().to_degrees();
+    Ok(Finding::of(degrees.round() == 66.0, vec![Number::new("arccos(0.4)", degrees, "degrees", 2)]))
+}
+
+pub(super) fn needs_no_shader(lab: &mut Lab<'_>) -> Result<Finding> {
+    let scene = lab.scene("builtin:bust")?;
+    let plan = Style::Inking(Inking::default()).plan(&scene, Show::Final)?;
+    let shaders = plan.steps().filter(|(_, step)| matches!(step, Step::Draw(draw) if draw.program.is_some())).count();
+    Ok(Finding::of(shaders == 0, vec![Number::count("steps with a shader", shaders)]))
+}
+
+/// How many places around the bust.
+const PLACES: usize = 24;
+
+pub(super) fn every_view(lab: &mut Lab<'_>) -> Result<Finding> {
+    let mut numbers = Vec::new();
+    let mut is_correct = true;
+    for (fov, what) in [(60.0, "found, seen with 60 degrees"), (30.0, "with 30 degrees")] {
+        let (mut found, mut exact, mut wrong) = (0, 0, 0);
+        for place in 0..PLACES {
+            let scene = from(lab, place as f64 * 360.0 / PLACES as f64, fov)?;
+            let [listing, right] =
+                [SilhouetteRule::Published, SilhouetteRule::Exact].map(|rule| silhouette(&scene, rule));
+            found += listing.intersection(&right).count();
+            wrong += listing.difference(&right).count();
+            exact += right.len();
+        }
+        is_correct &= found == exact && wrong == 0;
+        numbers.push(Number::share(what, found as f64 / exact.max(1) as f64));
+    }
+    Ok(Finding::of(is_correct, numbers))
+}
+
+pub(super) fn every_view_panels() -> Vec<Panel> {
+    let wide =
+        || Shot { camera: CameraSettings { fov_y_degrees: 60.0, ..CameraSettings::default() }, options: "--fov 60" };
+    let shown = |file: &str, label, silhouette, rule: &str| {
+        let inking = Inking { paint: PaintMode::None, silhouette, ..Inking::default() };
+        let options = format!("--style inking --paint none --silhouette {rule}");
+        panel(file, label, "builtin:bust", wide(), Style::Inking(inking), &options)
+    };
+    vec![
+        shown("claim-d-every-view-listing", "the listing's rule", SilhouetteRule::Published, "paper"),
+        shown("claim-d-every-view-exact", "the exact rule", SilhouetteRule::Exact, "exact"),
+    ]
+}
+
+pub(super) fn threshold(lab: &mut Lab<'_>) -> Result<Finding> {
+    let scene = lab.scene("builtin:bust")?;
+    let edges = scene.edges(&scene.objects[0]);
+    let creases = |degrees| -> Result<usize> {
+        let classes = edges.classes(CreaseAngle::from_degrees(degrees)?, ClassSet::of(&[Class::Crease]));
+        Ok(*classes.counts().of(Class::Crease))
+    };
+    let [fine, text, coarse] = [creases(20.0)?, creases(0.4f64.acos().to_degrees())?, creases(100.0)?];
+    Ok(Finding::of(
+        fine > text && text > coarse,
+        vec![
+            Number::count("creases from 20 degrees on", fine),
+            Number::count("from the text's 66", text),
+            Number::count("from 100", coarse),
+        ],
+    ))
+}
+
+/// The listing's list: each side of each triangle is looked for among all edges so far. How many edges it finds.
+fn listings_search(mesh: &Mesh) -> usize {
+    let mut edges: Vec<[u32; 2]> = Vec::with_capacity(mesh.triangles.len() * 3);
+    for [a, b, c] in &mesh.triangles {
+        for (from, to) in [(a, b), (a, c), (b, c)] {
+            let edge = [*from.min(to), *from.max(to)];
+            if !edges.contains(&edge) {
+                edges.push(edge);
+            }
+        }
+    }
+    edges.len()
+}
+
+pub(super) fn computing(lab: &mut Lab<'_>) -> Result<Finding> {
+    let mesh = lab.mesh("builtin:bust")?;
+    let start = Instant::now();
+    let found = listings_search(&mesh);
+    let search_ms = milliseconds_since(start);
+    // The search is what the listing's list is: as many edges as the library's.
+    debug_assert_eq!(found, EdgeList::new(&mesh).len());
+    let scene = lab.scene("builtin:bust")?;
+    let plan = Style::Inking(Inking::default()).plan(&scene, Show::Final)?;
+    let frame = lab.times(vec![(scene.clone(), plan)])?[0].median_ms;
+    let each_frame = (0..9).map(|_| {
+        let start = Instant::now();
+        silhouette(&scene, SilhouetteRule::Published);
+        milliseconds_since(start)
+    });
+    let each_frame = median(each_frame.collect()).unwrap_or_default();
+    Ok(Finding::of(
+        search_ms > frame,
+        vec![
+            Number::new("the listing's search, once a model", search_ms, "ms", 0),
+            Number::new("a frame", frame, "ms", 1),
+            Number::new("silhouettes, of each frame", each_frame, "ms", 2),
+        ],
+    ))
+}

@@ -1,0 +1,240 @@
+//! The page that shows the figures by the texts' own numbers: one XHTML file with its style and its pictures in it.
+//!
+//! In: what was drawn and measured. Out: text. It needs no other file, no network and no script, and is as readable on a
+//! telephone. Its pictures have fewer colours than the files beside it, so that all of them fit into one page.
+
+mod claims;
+mod diagrams;
+mod numbers;
+
+use super::{ClaimRecord, Content, Figure, Numbers, PassColumn, Text};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use serde::Serialize;
+use std::fmt::Write;
+use tinta::page::{Pictures, beginning};
+use tinta::picture::Picture;
+use tinta::scene::Size;
+use tinta::styles::{Show, Style};
+use tinta_geometry::markup::escaped;
+
+/// A figure as it came out, for the page and for `figures.json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FigureRecord {
+    /// As `--only` takes it.
+    pub id: &'static str,
+    /// The text it is in.
+    pub text: &'static str,
+    /// The text's own number.
+    pub number: &'static str,
+    /// What it is of.
+    pub title: &'static str,
+    /// What the text's figure shows and what ours shows.
+    pub caption: &'static str,
+    /// What was written.
+    pub pictures: Vec<PictureRecord>,
+    /// Labels of pictures that were left out, each with the reason.
+    pub left_out: Vec<String>,
+    /// Why none was drawn, where none is ever drawn.
+    pub not_drawn: Option<&'static str>,
+    /// The passes that it is a diagram of.
+    pub passes: Vec<PassColumn>,
+    /// The whole command that made all of it.
+    pub command: String,
+    #[serde(skip)]
+    text_index: Text,
+}
+
+/// A file of a figure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PictureRecord {
+    /// Its name, beside the page.
+    pub file: String,
+    /// What tells it from its neighbours.
+    pub label: String,
+    /// Pixels.
+    pub size: Size,
+    /// What draws it alone.
+    pub command: Option<String>,
+    /// The style and its settings, for drawn models.
+    pub style: Option<Style>,
+    /// Which of the style's pictures.
+    pub show: Option<Show>,
+    /// What the page shows: [`png_source`] or [`svg_source`].
+    #[serde(skip)]
+    pub source: String,
+}
+
+/// What a picture of the page may take, bytes, unless it is grain all over: sixty of them and more stay below six million in
+/// base 64.
+const MOST_BYTES: usize = 80_000;
+
+/// A picture as an address that holds it.
+pub fn png_source(picture: &Picture) -> String {
+    let bytes = picture.small_png(MOST_BYTES).unwrap_or_default();
+    format!("data:image/png;base64,{}", BASE64_STANDARD.encode(bytes))
+}
+
+/// A plot as an address that holds it.
+pub fn svg_source(text: &str) -> String {
+    format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(text))
+}
+
+impl FigureRecord {
+    /// A record of a figure without pictures yet.
+    pub fn new(figure: &Figure, command: String) -> Self {
+        let Figure { id, text, number, title, caption, .. } = *figure;
+        Self {
+            id,
+            text: text.name(),
+            number,
+            title,
+            caption,
+            pictures: Vec::new(),
+            left_out: Vec::new(),
+            not_drawn: if let Content::NotDrawn(reason) = figure.content { Some(reason) } else { None },
+            passes: Vec::new(),
+            command,
+            text_index: text,
+        }
+    }
+}
+
+/// What was drawn, measured and found.
+#[derive(Debug, Clone, Copy)]
+pub struct Shown<'a> {
+    /// The figures.
+    pub figures: &'a [FigureRecord],
+    /// Section 5's numbers, where they were measured.
+    pub numbers: Option<&'a Numbers>,
+    /// What was found of claims.
+    pub claims: &'a [ClaimRecord],
+    /// The pictures of claims, by their ids.
+    pub claim_pictures: &'a [(&'static str, Vec<PictureRecord>)],
+}
+
+/// The page.
+pub fn page(shown: Shown<'_>, gl: &str, size: Size) -> String {
+    let mut out = String::new();
+    // Writing to a String cannot fail.
+    let _ = write(&mut out, shown, gl, size);
+    out
+}
+
+fn write(out: &mut String, shown: Shown<'_>, gl: &str, size: Size) -> std::fmt::Result {
+    let Shown { figures: records, numbers, .. } = shown;
+    let version = env!("CARGO_PKG_VERSION");
+    out.push_str(&beginning("Three texts' figures, drawn again", Pictures::Within));
+    writeln!(out, "<h1>Three texts' figures, drawn again</h1>")?;
+    writeln!(
+        out,
+        "<p>Every figure of the three texts by its own number, diagrams included: drawn anew with models of our own, or named with \
+         the reason why not. Drawn by tinta {version} at {size} pixels on {}; the files beside this page hold each picture in all \
+         its colours.</p>\n<p>The originals' pictures were not at hand: the texts were read as text alone, and what a figure shows \
+         is known from its caption and from what is said of it.</p>",
+        escaped(gl)
+    )?;
+    if let Some(numbers) = numbers {
+        writeln!(out, "<p>{}</p>", escaped(&numbers::summary(numbers)))?;
+    }
+    writeln!(out, "<nav>")?;
+    for record in records {
+        let text = record.text.split(' ').next().unwrap_or_default();
+        writeln!(out, "<a href=\"#{}\">{text}, {}</a>", record.id, lower_first(record.number))?;
+    }
+    writeln!(out, "</nav>")?;
+    for text in Text::ALL {
+        let mut of_text = records.iter().filter(|record| record.text_index == text).peekable();
+        if of_text.peek().is_none() {
+            continue;
+        }
+        writeln!(out, "<h2>{}</h2>\n<p class=\"hint\"><cite>{}</cite></p>", text.name(), text.title())?;
+        writeln!(out, "<div class=\"figures\">")?;
+        for record in of_text {
+            section(out, record, shown)?;
+        }
+        writeln!(out, "</div>")?;
+    }
+    writeln!(out, "</body>\n</html>")
+}
+
+fn section(out: &mut String, record: &FigureRecord, shown: Shown<'_>) -> std::fmt::Result {
+    let has_columns = !record.passes.is_empty() || record.id.ends_with("-claims") || record.id.ends_with("-numbers");
+    let class = if record.pictures.len() > 1 || has_columns { " class=\"wide\"" } else { "" };
+    writeln!(out, "<section id=\"{}\"{class}>", record.id)?;
+    writeln!(
+        out,
+        "<h3>{}. {}</h3>\n<p>{}</p>",
+        escaped(record.number),
+        escaped(record.title),
+        escaped(record.caption)
+    )?;
+    pictures(out, record.pictures.iter(), record.title)?;
+    for line in &record.left_out {
+        writeln!(out, "<p class=\"left-out\">Left out: {}.</p>", escaped(line))?;
+    }
+    if let Some(reason) = record.not_drawn {
+        return writeln!(out, "<p class=\"left-out\">Not drawn: {}.</p>\n</section>", escaped(reason));
+    }
+    if !record.passes.is_empty() {
+        diagrams::passes(out, &record.passes)?;
+        return writeln!(out, "</section>");
+    }
+    if record.id.ends_with("-claims") {
+        claims::claims(out, record.text_index, shown.claims, shown.claim_pictures)?;
+    }
+    if let Some(measured) = shown.numbers {
+        numbers::tables(out, record.id, measured)?;
+    }
+    let commands: Vec<String> = record.pictures.iter().filter_map(|picture| picture.command.clone()).collect();
+    let text = if commands.is_empty() { record.command.clone() } else { commands.join("\n") };
+    writeln!(out, "<pre>{}</pre>\n</section>", escaped(&text))
+}
+
+/// Figures whose pictures stand beside their filters' matrices.
+const WITH_MATRICES: [&str; 2] = ["evangelista-10", "evangelista-11"];
+
+/// Pictures side by side.
+fn pictures<'p>(
+    out: &mut String,
+    records: impl ExactSizeIterator<Item = &'p PictureRecord>,
+    title: &str,
+) -> std::fmt::Result {
+    if records.len() == 0 {
+        return Ok(());
+    }
+    let class = if records.len() > 2 { "row many" } else { "row" };
+    writeln!(out, "<div class=\"{class}\">")?;
+    for picture in records {
+        let (file, label, Size { width, height }) = (escaped(&picture.file), escaped(&picture.label), picture.size);
+        let alt = format!("{}: {label}", escaped(title));
+        writeln!(
+            out,
+            "<figure><img src=\"{}\" data-file=\"{file}\" width=\"{width}\" height=\"{height}\" alt=\"{alt}\" />\
+             <figcaption>{label}</figcaption>",
+            picture.source
+        )?;
+        if WITH_MATRICES.iter().any(|id| picture.file.starts_with(id)) {
+            diagrams::matrices(out, picture.style.as_ref())?;
+        }
+        writeln!(out, "</figure>")?;
+    }
+    writeln!(out, "</div>")
+}
+
+fn lower_first(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_files_and_drivers_cannot_break_the_page() {
+        let nothing = Shown { figures: &[], numbers: None, claims: &[], claim_pictures: &[] };
+        let page = page(nothing, "<script>", Size { width: 4, height: 3 });
+        assert!(page.contains("&lt;script&gt;") && !page.contains("<script"));
+    }
+}

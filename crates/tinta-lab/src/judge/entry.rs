@@ -1,0 +1,49 @@
+//! A judged drawing as a row of measured settings, so that it lands in the same tables and plots.
+
+use super::Judgement;
+use crate::measure::{Row, RunTime};
+use tinta::scene::{Scene, Size};
+
+/// A drawing and what is known of it besides its ink.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// What it is called, such as the program that drew it.
+    pub name: String,
+    /// The model as the user named it.
+    pub model: String,
+    /// What the machine is called.
+    pub machine: String,
+    /// How long it took, seconds; 0 where nobody says.
+    pub seconds: f64,
+}
+
+impl Entry {
+    /// The row of its judgement.
+    pub fn row(&self, scene: &Scene, judgement: &Judgement) -> Row {
+        let Size { width, height } = scene.size;
+        let median_ms = self.seconds * 1e3;
+        Row {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            machine: self.machine.clone(),
+            renderer: "none".to_owned(),
+            model: self.model.clone(),
+            triangles: scene.triangle_count(),
+            size: [width, height],
+            style: self.name.clone(),
+            options: self.name.clone(),
+            is_faithful: true,
+            lines: Some(judgement.lines.clone()),
+            tones: None,
+            time: RunTime {
+                load_ms: 0.0,
+                edges_ms: 0.0,
+                plan_ms: 0.0,
+                first_frame_ms: median_ms,
+                frames_ms: if self.seconds > 0.0 { vec![median_ms] } else { Vec::new() },
+                median_ms,
+                quartiles_ms: [median_ms; 2],
+                passes: Vec::new(),
+            },
+        }
+    }
+}

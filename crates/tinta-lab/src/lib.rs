@@ -1,0 +1,41 @@
+//! The laboratory of tinta: what a drawing is worth. It lies above the library `tinta`, which draws.
+//!
+//! | for | see |
+//! |---|---|
+//! | error against run time | [`measure`], `report`, `figures` |
+//! | two styles' lines beside each other | [`compare`] |
+//! | anyone's drawing against the exact lines | `judge` |
+//! | extreme cases | `stress` |
+//! | whose each value of a style is | [`provenance`] |
+//! | the commands, as the program registers them | `commands` |
+//!
+//! # Cargo features
+//!
+//! None is on by default; then [`measure`] says how far a picture's ink is from the exact lines. `measuring` adds reports,
+//! figures and stress, `judging` other programs' drawings, `cli` the commands, `window` the measure that the window shows.
+
+#![deny(unreachable_pub)]
+
+// Floors, from the ground up: a module uses those above it in this list and none below (`tests/floors.rs`).
+pub mod compare;
+pub mod provenance;
+#[cfg(feature = "cli")]
+pub mod contact_sheet;
+pub mod measure;
+#[cfg(feature = "judging")]
+pub mod judge;
+#[cfg(feature = "measuring")]
+pub mod report;
+#[cfg(feature = "measuring")]
+pub mod figures;
+#[cfg(feature = "measuring")]
+pub mod stress;
+#[cfg(feature = "window")]
+mod window;
+#[cfg(feature = "cli")]
+mod commands;
+
+#[cfg(feature = "cli")]
+pub use commands::{commands, program};
+#[cfg(feature = "window")]
+pub use window::line_measure;

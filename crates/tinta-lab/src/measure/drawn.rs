@@ -1,0 +1,92 @@
+//! Exact lines as a row beside the styles: measured as lines, not as pixels.
+
+use super::ink::Ink;
+use super::reference::{Reference, Sample, distance, fine_tree, samples_of, total};
+use super::run::quartiles;
+use super::{LineError, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
+use std::time::Instant;
+use tinta::edges::{Class, ClassSet, SilhouetteRule};
+use tinta::error::Result;
+use tinta::lines::{LineSettings, Raster, SvgSettings, VisibleLines, raster};
+use tinta::picture::Picture;
+use tinta::renderer::{median, milliseconds_since};
+use tinta::scene::{Scene, Size};
+use tinta::settings::Value;
+use tinta::styles::StyleName;
+
+/// What `tinta render` is given for the silhouettes that a rule finds, with options of the scene.
+pub fn line_options(silhouette: SilhouetteRule, scene_options: &str) -> String {
+    format!("--style lines --classes silhouette --silhouette {}{scene_options}", silhouette.text())
+}
+
+/// Measures the silhouettes that style lines finds by a rule; `options` as by [`line_options`]. A frame is finding them, nothing known before but what belongs to the mesh alone,
+/// without drawing them.
+///
+/// # Errors
+///
+/// As [`VisibleLines::of`].
+pub fn measure_lines(
+    subject: &Subject,
+    silhouette: SilhouetteRule,
+    options: String,
+    frames: usize,
+    how: &MeasureSettings,
+) -> Result<Measured> {
+    let classes = ClassSet::of(&[Class::Silhouette]);
+    let settings = LineSettings { classes, silhouette, finds_hidden: false, ..LineSettings::default() };
+    let start = Instant::now();
+    let lines = VisibleLines::of(&subject.scene, &settings)?;
+    let first_frame_ms = milliseconds_since(start);
+    let mut frames_ms = Vec::new();
+    for _ in 0..frames {
+        let start = Instant::now();
+        VisibleLines::of(&subject.scene, &settings)?;
+        frames_ms.push(milliseconds_since(start));
+    }
+    let Raster { size, pixels } = raster(&lines, &SvgSettings::default())?;
+    let drawing = Picture { size, pixels };
+    let error_picture = error_picture(&Ink::on_white(&drawing), &subject.reference, how.tolerance_px);
+    let Size { width, height } = subject.scene.size;
+    let row = Row {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        machine: how.machine.clone(),
+        renderer: "none".to_owned(),
+        model: subject.model.clone(),
+        triangles: Scene::triangle_count(&subject.scene),
+        size: [width, height],
+        style: StyleName::Lines.name().to_owned(),
+        options,
+        is_faithful: false,
+        lines: Some(error(&lines, &subject.reference, how.tolerance_px)),
+        tones: None,
+        time: RunTime {
+            load_ms: subject.load_ms,
+            edges_ms: subject.edges_ms,
+            plan_ms: 0.0,
+            first_frame_ms,
+            median_ms: median(frames_ms.clone()).unwrap_or_default(),
+            quartiles_ms: quartiles(&frames_ms),
+            frames_ms,
+            passes: Vec::new(),
+        },
+    };
+    Ok(Measured { row, drawing, error_picture: Some(error_picture) })
+}
+
+/// The error of lines: as that of ink, every point of a line as dark as any.
+fn error(lines: &VisibleLines, reference: &Reference, tolerance_px: f64) -> LineError {
+    let visible = lines.segments.iter().filter(|segment| segment.is_visible);
+    let drawn: Vec<Sample> = visible.clone().flat_map(samples_of).collect();
+    let drawn_tree = fine_tree(visible.map(|segment| segment.ends_px));
+    let to_drawn: Vec<f64> = reference.samples.iter().map(|sample| distance(&drawn_tree, sample.px)).collect();
+    let is_counted = |sample: &&Sample| {
+        let is_near = |distance: f64| distance <= tolerance_px;
+        is_near(reference.distance_px(sample.px)) || !is_near(reference.distance_to_ignored_px(sample.px))
+    };
+    let counted = drawn.iter().filter(is_counted);
+    let to_reference = counted.map(|sample| (reference.distance_px(sample.px), sample.length_px)).collect();
+    LineError {
+        ink_px: total(drawn.iter().map(|sample| sample.length_px)),
+        ..LineError::of_distances(reference, tolerance_px, &to_drawn, to_reference)
+    }
+}

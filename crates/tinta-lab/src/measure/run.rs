@@ -1,0 +1,273 @@
+//! Draws settings, times them in turn and measures them.
+
+use super::error_picture::error_picture;
+use super::ink::Ink;
+use super::reference::Reference;
+use super::tones::ReferenceLight;
+use super::{PassRow, Row, RunTime};
+use std::time::Instant;
+use tinta::edges::{ClassSet, Classes, MeshEdges, Silhouettes};
+use tinta::error::{Error, Result};
+use tinta::lines::LineSettings;
+use tinta::lines::closed_forms::ClosedForm;
+use tinta::picture::Picture;
+use tinta::plan::{Plan, Submission};
+use tinta::renderer::{Renderer, median, milliseconds_since};
+use tinta::scene::{Scene, Size};
+use tinta::styles::{Show, Style};
+
+/// A style with settings, and how the user asks for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// The style.
+    pub style: Style,
+    /// How its vertices are handed to GL.
+    pub submission: Submission,
+    /// Its options for `tinta render`.
+    pub options: String,
+    /// Whether these are the published program's own.
+    pub is_faithful: bool,
+}
+
+/// A scene with what its pictures are measured against.
+#[derive(Debug)]
+pub struct Subject {
+    /// The model as the user named it.
+    pub model: String,
+    /// The scene, on a white background.
+    pub scene: Scene,
+    /// Its lines.
+    pub reference: Reference,
+    /// Its light.
+    pub light: ReferenceLight,
+    /// Reading the model, milliseconds.
+    pub load_ms: f64,
+    /// Finding its edges, milliseconds.
+    pub edges_ms: f64,
+}
+
+/// A measured setting.
+#[derive(Debug)]
+pub struct Measured {
+    /// The numbers.
+    pub row: Row,
+    /// What the style draws.
+    pub drawing: Picture,
+    /// Agreed ink black, missed lines red, invented ink blue, what does not count grey; `None` without lines.
+    pub error_picture: Option<Picture>,
+}
+
+/// How often and against what settings are measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasureSettings {
+    /// Distance within which ink and line count as the same, pixels. Default 2.
+    pub tolerance_px: f64,
+    /// Frames of each setting that are timed. Default 21.
+    pub frames: usize,
+    /// What the machine is called in the rows.
+    pub machine: String,
+}
+
+impl Default for MeasureSettings {
+    fn default() -> Self {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let machine = format!("{} {}, {threads} threads", std::env::consts::OS, std::env::consts::ARCH);
+        Self { tolerance_px: 2.0, frames: 21, machine }
+    }
+}
+
+impl MeasureSettings {
+    /// Refuses nonsense, before any work.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a tolerance that is no distance, and for no frame.
+    pub fn check(&self) -> Result<()> {
+        if !(self.tolerance_px > 0.0 && self.tolerance_px <= 1000.0) {
+            let problem = "it is a number of pixels above 0 and at most 1000";
+            return Err(Error::value("tolerance", self.tolerance_px, problem));
+        }
+        match self.frames {
+            0 => Err(Error::value("frames", "0", "at least one frame is needed to time one")),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Frames drawn before any are timed.
+const WARM_UP: usize = 2;
+
+/// Frames of a setting that follow one another before the next one's turn.
+const FRAMES_A_TURN: usize = 3;
+
+impl Subject {
+    /// Finds a scene's references.
+    ///
+    /// # Errors
+    ///
+    /// As [`Reference::of`].
+    pub fn new(model: &str, scene: Scene, load_ms: f64) -> Result<Self> {
+        let reference = Reference::of(&scene, &LineSettings::as_published())?;
+        Self::with_reference(model, scene, reference, load_ms)
+    }
+
+    /// As [`Subject::new`], lines to be compared with the contour of the surface that the scene's only object is a mesh of.
+    ///
+    /// # Errors
+    ///
+    /// As [`Reference::of_surface`].
+    pub fn of_surface(model: &str, scene: Scene, surface: &ClosedForm, load_ms: f64) -> Result<Self> {
+        let reference = Reference::of_surface(&scene, surface)?;
+        Self::with_reference(model, scene, reference, load_ms)
+    }
+
+    fn with_reference(model: &str, scene: Scene, reference: Reference, load_ms: f64) -> Result<Self> {
+        let light = ReferenceLight::of(&scene);
+        let start = Instant::now();
+        for object in &scene.objects {
+            let edges = MeshEdges::new(object.mesh.clone());
+            Classes::new(&object.mesh, edges.list(), reference.crease_angle, ClassSet::EDGES);
+            Silhouettes::new(&object.mesh, edges.list());
+        }
+        let edges_ms = milliseconds_since(start);
+        Ok(Self { model: model.to_owned(), scene, reference, light, load_ms, edges_ms })
+    }
+}
+
+/// A setting on its way.
+struct Contestant {
+    plan: Plan,
+    measured: Measured,
+}
+
+/// What [`measure`] has done when it says so.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeasureStep {
+    /// A setting was drawn and its errors measured: one for each setting.
+    Errors,
+    /// Some frames of a setting were timed: [`turns`] for each setting that could be drawn.
+    Turn,
+}
+
+/// Measures settings on a subject. Their errors one by one, their frames in turns, so that a busy moment hits all of them;
+/// `step` is told of each step. A setting that this scene cannot be drawn with is left out, and the reason
+/// returned beside the rows.
+///
+/// # Errors
+///
+/// As [`Renderer::draw`].
+pub fn measure(
+    renderer: &mut Renderer,
+    subject: &Subject,
+    settings: &[Setting],
+    how: &MeasureSettings,
+    mut step: impl FnMut(MeasureStep),
+) -> Result<(Vec<Measured>, Vec<String>)> {
+    let (mut contestants, mut left_out) = (Vec::new(), Vec::new());
+    for setting in settings {
+        match contestant(renderer, subject, setting, how) {
+            Ok(contestant) => contestants.push(contestant),
+            Err(error @ (Error::Setting { .. } | Error::Settings { .. })) => {
+                let reason = error.with_dashes();
+                left_out.push(format!("{}: {} is left out ({reason})", subject.model, setting.options));
+            }
+            Err(error) => return Err(error),
+        }
+        step(MeasureStep::Errors);
+    }
+    for turn in 0..turns(how.frames) {
+        let frames = FRAMES_A_TURN.min(how.frames - turn * FRAMES_A_TURN);
+        for contestant in &mut contestants {
+            let times = renderer.time_frames(&subject.scene, &contestant.plan, 1, frames)?;
+            contestant.measured.row.time.frames_ms.extend(times);
+            step(MeasureStep::Turn);
+        }
+    }
+    for contestant in &mut contestants {
+        let time = &mut contestant.measured.row.time;
+        let passes = renderer.time_passes(&subject.scene, &contestant.plan, FRAMES_A_TURN)?;
+        let row = |pass: tinta::renderer::PassTime| PassRow {
+            name: pass.name.to_owned(),
+            cpu_ms: pass.cpu_ms,
+            gpu_ms: pass.gpu_ms,
+        };
+        time.passes = passes.into_iter().map(row).collect();
+        time.median_ms = median(time.frames_ms.clone()).unwrap_or_default();
+        time.quartiles_ms = quartiles(&time.frames_ms);
+    }
+    Ok((contestants.into_iter().map(|contestant| contestant.measured).collect(), left_out))
+}
+
+/// In how many turns so many frames of a setting are timed.
+pub fn turns(frames: usize) -> usize {
+    frames.div_ceil(FRAMES_A_TURN)
+}
+
+/// How many frames are drawn in a turn: those that are timed, and one before them.
+pub fn frames_a_turn(frames: usize) -> usize {
+    1 + frames.min(FRAMES_A_TURN)
+}
+
+/// A setting's errors, its plan, and its first frame.
+fn contestant(
+    renderer: &mut Renderer,
+    subject: &Subject,
+    setting: &Setting,
+    how: &MeasureSettings,
+) -> Result<Contestant> {
+    let scene = &subject.scene;
+    let style = &setting.style;
+    let start = Instant::now();
+    let plan = Plan { submission: setting.submission, ..style.plan(scene, Show::Final)? };
+    let plan_ms = milliseconds_since(start);
+    let start = Instant::now();
+    let drawing = renderer.draw(scene, &plan)?;
+    let first_frame_ms = milliseconds_since(start);
+    renderer.time_frames(scene, &plan, WARM_UP, 1)?;
+    let ink = Ink::of_style(renderer, scene, style)?;
+    let shown = shading_of(style);
+    let tones = match style {
+        Style::Inking(_) | Style::Dietrich(_) => None,
+        _ => {
+            let picture = renderer.draw(scene, &style.plan(scene, shown)?)?;
+            subject.light.error(&picture, style, scene, &subject.reference)?
+        }
+    };
+    let Size { width, height } = scene.size;
+    let row = Row {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        machine: how.machine.clone(),
+        renderer: renderer.context().renderer.clone(),
+        model: subject.model.clone(),
+        triangles: scene.triangle_count(),
+        size: [width, height],
+        style: style.name().to_owned(),
+        options: setting.options.clone(),
+        is_faithful: setting.is_faithful,
+        lines: ink.as_ref().map(|ink| ink.error(&subject.reference, how.tolerance_px)),
+        tones,
+        time: RunTime {
+            load_ms: subject.load_ms,
+            edges_ms: if matches!(style, Style::Inking(_)) { subject.edges_ms } else { 0.0 },
+            plan_ms,
+            first_frame_ms,
+            frames_ms: Vec::new(),
+            median_ms: 0.0,
+            quartiles_ms: [0.0; 2],
+            passes: Vec::new(),
+        },
+    };
+    let error_picture = ink.map(|ink| error_picture(&ink, &subject.reference, how.tolerance_px));
+    Ok(Contestant { plan, measured: Measured { row, drawing, error_picture } })
+}
+
+/// The picture of a style that its shading alone makes.
+pub(crate) fn shading_of(style: &Style) -> Show {
+    if style.has_tones() { Show::Tones } else { Show::Final }
+}
+
+pub(super) fn quartiles(times: &[f64]) -> [f64; 2] {
+    let mut sorted = times.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    [1, 3].map(|quarter| sorted.get(sorted.len() * quarter / 4).copied().unwrap_or_default())
+}

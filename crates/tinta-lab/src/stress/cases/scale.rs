@@ -1,0 +1,76 @@
+//! Models of any size anywhere: what counts is a model's shape.
+
+use super::{Case, Drawing, Group};
+use crate::stress::{Shape, Study, Variant};
+use glam::DVec3;
+use tinta::camera::CameraSettings;
+
+/// Share of the pixels that may differ from the picture of the model as it is: its coordinates round differently, and an edge
+/// that passes a pixel's middle by less than that falls on its other side.
+const ROUNDED: f64 = 0.002;
+
+pub(super) fn cases() -> Vec<Case> {
+    let rendered = |name: String, drawing| Case::rendered(Group::Scale, name, drawing);
+    let mut all = Vec::new();
+    for scale in [1e-30, 1e-6, 1e6, 1e30] {
+        let drawing = Drawing { shape: Shape::Builtin("builtin:gear"), scale, ..compared() };
+        let case = rendered(format!("a gear {scale:e} times as large"), drawing);
+        all.push(case.with("unit_differing", 0.0, ROUNDED).with("unit_lines_differing", 0.0, ROUNDED));
+    }
+    for scale in [1e-58, 1e58] {
+        let drawing = Drawing { shape: Shape::Cube, scale, ..compared() };
+        all.push(rendered(format!("a cube {scale:e} times as large"), drawing).with("unit_differing", 0.0, ROUNDED));
+    }
+    for (scale, kind, words) in [(1e-62, "model", "radius"), (1e61, "model", "scale it down")] {
+        let drawing = Drawing { shape: Shape::Cube, scale, ..Drawing::default() };
+        let name = format!("a cube {scale:e} times as large");
+        all.push(Case::refused(Group::Scale, name, drawing, kind, words));
+    }
+    // Beyond 1e8 an f64 knows a unit model's coordinates to 1e-8 only, and welding at 1e-7 of its size still holds.
+    for (distance, differing) in [(1e3, ROUNDED), (1e5, ROUNDED), (1e7, ROUNDED), (1e9, 0.01)] {
+        let offset = DVec3::new(1.0, -0.7, 0.4) * distance;
+        let drawing = Drawing { shape: Shape::Builtin("builtin:gear"), offset, ..compared() };
+        let case = rendered(format!("a gear {distance:e} units away from the origin"), drawing);
+        all.push(case.with("unit_differing", 0.0, differing).with("unit_lines_differing", 0.0, differing));
+    }
+    let smaller = Shape::CubeAndSmaller(1e6);
+    all.push(rendered(
+        "a cube and one a million times smaller".to_owned(),
+        Drawing { shape: smaller, ..Drawing::default() },
+    ));
+    // A millionth of a unit wide, seen from three millionths away, with the large cube's front behind it.
+    let middle = DVec3::new(0.5, 0.5, 1.0 + 1.5e-6);
+    let camera = CameraSettings {
+        eye: Some(middle + DVec3::new(1.5e-6, 1e-6, 3e-6)),
+        target: Some(middle),
+        near: Some(1e-6),
+        ..CameraSettings::default()
+    };
+    let near = Drawing { shape: smaller, camera, ..Drawing::default() };
+    all.push(rendered("the smaller cube seen from nearby".to_owned(), near).with("lines_px", 100.0, 600.0));
+    all.push(rendered("flat in one axis".to_owned(), Drawing { shape: Shape::Flat, ..Drawing::default() }));
+    let edge_on =
+        CameraSettings { view: "right".parse().unwrap_or(CameraSettings::default().view), ..Default::default() };
+    all.push(rendered(
+        "flat in one axis, seen edge-on".to_owned(),
+        Drawing { shape: Shape::Flat, camera: edge_on, ..Drawing::default() },
+    ));
+    let many = Drawing {
+        shape: Shape::Cube,
+        copies: 2500,
+        study: Study::Picture,
+        variants: Variant::of_lines(),
+        ..Drawing::default()
+    };
+    all.push(rendered("2500 copies of a cube".to_owned(), many));
+    for (shape, name) in [(Shape::Point, "a single point"), (Shape::Line, "a line"), (Shape::Nothing, "nothing at all")]
+    {
+        let drawing = Drawing { shape, variants: Variant::of_lines(), ..Drawing::default() };
+        all.push(Case::refused(Group::Scale, name, drawing, "model", "no"));
+    }
+    all
+}
+
+fn compared() -> Drawing {
+    Drawing { is_compared_with_unit: true, ..Drawing::default() }
+}

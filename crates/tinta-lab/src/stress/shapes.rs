@@ -1,0 +1,394 @@
+//! The shapes that stiff cases are made of: small, each with one thing wrong or extreme, in units of about 1.
+
+use glam::{DVec2, DVec3, Vec2};
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+use tinta::error::Result;
+use tinta::mesh::{LoadOptions, Material, Mesh, load};
+use tinta::picture::{Picture, write_rgba_png};
+use tinta::scene::Size;
+
+/// A shape by name; what has a parameter has it here.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// One of the models that need no file.
+    Builtin(&'static str),
+    /// A sphere of 8 * 4^cuts triangles, an octahedron cut again and again.
+    Ball(u32),
+    /// The same with all triangles wound the other way.
+    InsideOut(u32),
+    /// A cube from 0 to 1.
+    Cube,
+    /// A cube from 0 to 1 and, before the middle of its front, another this much smaller.
+    CubeAndSmaller(f64),
+    /// Nothing.
+    Nothing,
+    /// One triangle.
+    Triangle,
+    /// Three vertices in one place.
+    Point,
+    /// Three vertices on a line.
+    Line,
+    /// A vertex of which one coordinate is this, in a square whose other corners are sound.
+    BadVertex(f64),
+    /// A needle this much longer than wide, standing on a triangle.
+    Needle(f64),
+    /// A ball with triangles without area strewn over its edges.
+    ZeroAreas,
+    /// A ball with triangles on its edges whose third corner lies between the others but for rounding.
+    Slivers,
+    /// Every triangle of a cube three times.
+    Duplicates,
+    /// Every triangle of a cube also the other way round.
+    OppositeDuplicates,
+    /// This many squares that share one edge.
+    Fins(u32),
+    /// A band with one side and one edge.
+    Moebius,
+    /// A square beside two half as long, whose common corner lies on its side.
+    TJunction,
+    /// A cube that stands on another, with part of a face in common.
+    Contact,
+    /// Two cubes that pass through one another.
+    Piercing,
+    /// This many triangles that share nothing.
+    Isolated(u32),
+    /// This many triangles around one vertex, in a plane.
+    Fan(u32),
+    /// Two squares whose normals differ by this angle, degrees.
+    Hinge(f64),
+    /// Four squares side by side, each a tenth of a unit behind the last: seen from the front they differ by depth only.
+    Terraces,
+    /// A wavy sheet, pressed flat along z.
+    Flat,
+    /// A square of two triangles with a picture on it.
+    Textured,
+    /// A long strip that reaches from before the eye of these cases to far behind it, through the point (1, 1, 1) of eye
+    /// space, where the articles' light stands.
+    ThroughTheLight,
+}
+
+/// Positions and triangles.
+type Triangles = (Vec<DVec3>, Vec<[u32; 3]>);
+
+impl Shape {
+    /// The shape as a mesh, each position `scale` times as far from the origin and then moved by `offset`; `folder` takes the
+    /// picture of a shape that has one.
+    ///
+    /// # Errors
+    ///
+    /// As a file's that holds the same triangles.
+    pub fn mesh(self, scale: f64, offset: DVec3, folder: &Path) -> Result<Mesh> {
+        let (positions, triangles) = match self {
+            Self::Builtin(name) if scale == 1.0 && offset == DVec3::ZERO => {
+                return Ok(load(name, &LoadOptions::default())?.mesh);
+            }
+            Self::Builtin(name) => {
+                let mesh = load(name, &LoadOptions::default())?.mesh;
+                (mesh.positions, mesh.triangles)
+            }
+            other => other.triangles(),
+        };
+        let positions = positions.into_iter().map(|point| point * scale + offset).collect();
+        let mesh = Mesh::of_triangles("a stiff case", positions, &triangles, &LoadOptions::default())?;
+        match self {
+            Self::Textured => with_picture(mesh, folder),
+            _ => Ok(mesh),
+        }
+    }
+
+    fn triangles(self) -> Triangles {
+        match self {
+            Self::Builtin(_) | Self::Nothing => Default::default(),
+            Self::Ball(cuts) => ball(cuts),
+            Self::InsideOut(cuts) => turned_round(ball(cuts)),
+            Self::Cube => cube(DVec3::ZERO, DVec3::ONE),
+            Self::CubeAndSmaller(times) => {
+                let side = 1.0 / times;
+                let corner = DVec3::new(0.5 - side * 0.5, 0.5 - side * 0.5, 1.0 + side);
+                both(cube(DVec3::ZERO, DVec3::ONE), cube(corner, corner + side))
+            }
+            Self::Triangle => (vec![DVec3::ZERO, DVec3::X, DVec3::Y], vec![[0, 1, 2]]),
+            Self::Point => (vec![DVec3::splat(0.25); 3], vec![[0, 1, 2]]),
+            Self::Line => (vec![DVec3::ZERO, DVec3::X, DVec3::X * 2.0], vec![[0, 1, 2]]),
+            Self::BadVertex(bad) => {
+                let (mut points, mut faces) = cube(DVec3::ZERO, DVec3::ONE);
+                points.push(DVec3::new(bad, 0.5, 0.5));
+                faces.push([0, 1, 8]);
+                (points, faces)
+            }
+            Self::Needle(ratio) => {
+                let points = [DVec3::ZERO, DVec3::X / ratio, DVec3::Y, DVec3::X * 0.5, DVec3::new(0.25, 0.0, 0.3)];
+                (points.to_vec(), vec![[0, 1, 2], [0, 3, 4]])
+            }
+            Self::ZeroAreas => {
+                let (mut points, mut faces) = ball(2);
+                for [a, b, _] in faces.clone() {
+                    points.push(points[a as usize]);
+                    faces.extend([[a, b, points.len() as u32 - 1], [a, b, b], [a, a, a]]);
+                }
+                (points, faces)
+            }
+            Self::Slivers => {
+                let (mut points, mut faces) = ball(2);
+                for [a, b, _] in faces.clone() {
+                    points.push(points[a as usize].midpoint(points[b as usize]));
+                    faces.push([a, b, points.len() as u32 - 1]);
+                }
+                (points, faces)
+            }
+            Self::Duplicates => {
+                let (points, faces) = cube(DVec3::ZERO, DVec3::ONE);
+                (points, faces.repeat(3))
+            }
+            Self::OppositeDuplicates => {
+                let one = cube(DVec3::ZERO, DVec3::ONE);
+                both(one.clone(), turned_round(one))
+            }
+            Self::Fins(count) => fins(count),
+            Self::Moebius => moebius(64),
+            Self::TJunction => {
+                let points =
+                    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (2.0, 0.0), (2.0, 0.5), (1.0, 0.5), (2.0, 1.0)];
+                let points = points.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
+                (points, vec![[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 6], [6, 5, 7], [6, 7, 2]])
+            }
+            Self::Contact => {
+                both(cube(DVec3::ZERO, DVec3::ONE), cube(DVec3::new(0.25, 1.0, 0.25), DVec3::new(1.25, 1.5, 0.75)))
+            }
+            Self::Piercing => {
+                let (points, faces) = cube(DVec3::new(0.35, -0.2, 0.3), DVec3::new(0.75, 1.3, 0.8));
+                let turn = glam::DQuat::from_rotation_z(0.4) * glam::DQuat::from_rotation_x(0.3);
+                both(cube(DVec3::ZERO, DVec3::ONE), (points.into_iter().map(|point| turn * point).collect(), faces))
+            }
+            Self::Isolated(count) => isolated(count),
+            Self::Fan(count) => {
+                let rim = (0..count).map(|step| {
+                    let angle = f64::from(step) / f64::from(count) * TAU;
+                    DVec3::new(angle.cos(), angle.sin(), 0.0)
+                });
+                let points = std::iter::once(DVec3::ZERO).chain(rim).collect();
+                (points, (0..count).map(|step| [0, 1 + step, 1 + (step + 1) % count]).collect())
+            }
+            Self::Hinge(degrees) => {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                // The hinge is the z axis; one leaf lies in y = 0, the other is bent down from it.
+                let leaf = DVec3::new(cos, -sin, 0.0);
+                let points = vec![DVec3::ZERO, DVec3::Z, DVec3::Z - DVec3::X, DVec3::NEG_X, leaf, leaf + DVec3::Z];
+                (points, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [0, 5, 1]])
+            }
+            Self::Terraces => {
+                let points = (0..4).flat_map(|step| {
+                    let (left, back) = (f64::from(step) * 0.5, f64::from(step) * -0.1);
+                    [(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(left + x, y, back))
+                });
+                (
+                    points.collect(),
+                    (0..4).flat_map(|step| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|i| i + step * 4))).collect(),
+                )
+            }
+            Self::Flat => sheet(12),
+            Self::Textured => {
+                let points = vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
+                (points, vec![[0, 1, 2], [0, 2, 3]])
+            }
+            Self::ThroughTheLight => {
+                let points = vec![
+                    DVec3::ONE,
+                    DVec3::new(-0.6, -0.5, -3.0),
+                    DVec3::new(0.6, -0.5, -3.0),
+                    DVec3::Y * 0.5 - DVec3::Z * 3.0,
+                ];
+                (points, vec![[0, 1, 2], [0, 2, 3], [0, 3, 1]])
+            }
+        }
+    }
+}
+
+/// Two shapes as one.
+fn both(mut first: Triangles, second: Triangles) -> Triangles {
+    let start = first.0.len() as u32;
+    first.0.extend(second.0);
+    first.1.extend(second.1.into_iter().map(|face| face.map(|index| index + start)));
+    first
+}
+
+fn turned_round((points, faces): Triangles) -> Triangles {
+    (points, faces.into_iter().map(|[a, b, c]| [a, c, b]).collect())
+}
+
+fn cube(low: DVec3, high: DVec3) -> Triangles {
+    let pick = |corner: u32, axis: usize| if corner >> axis & 1 == 1 { high[axis] } else { low[axis] };
+    let points = (0..8).map(|corner| DVec3::new(pick(corner, 0), pick(corner, 1), pick(corner, 2))).collect();
+    let squares = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    (points, squares.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect())
+}
+
+/// An octahedron cut and rounded again and again.
+fn ball(cuts: u32) -> Triangles {
+    let mut points = vec![DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+    let mut faces: Vec<[u32; 3]> =
+        vec![[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
+    for _ in 0..cuts {
+        let mut middles = std::collections::HashMap::new();
+        let mut middle = |points: &mut Vec<DVec3>, a: u32, b: u32| {
+            *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                points.push((points[a as usize] + points[b as usize]).normalize());
+                points.len() as u32 - 1
+            })
+        };
+        let mut cut = Vec::with_capacity(faces.len() * 4);
+        for [a, b, c] in faces {
+            let [ab, bc, ca] = [middle(&mut points, a, b), middle(&mut points, b, c), middle(&mut points, c, a)];
+            cut.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+        }
+        faces = cut;
+    }
+    (points, faces)
+}
+
+fn fins(count: u32) -> Triangles {
+    let mut points = vec![DVec3::ZERO, DVec3::Y];
+    let mut faces = Vec::new();
+    for fin in 0..count {
+        let angle = f64::from(fin) / f64::from(count) * TAU;
+        let out = DVec3::new(angle.cos(), 0.0, angle.sin());
+        let first = points.len() as u32;
+        points.extend([out, out + DVec3::Y]);
+        faces.extend([[0, first, first + 1], [0, first + 1, 1]]);
+    }
+    (points, faces)
+}
+
+fn moebius(steps: u32) -> Triangles {
+    let rung = |step: u32| {
+        let around = f64::from(step) / f64::from(steps) * TAU;
+        let half = around * 0.5;
+        let out = DVec3::new(around.cos(), 0.0, around.sin());
+        let across = (out * half.cos() + DVec3::Y * half.sin()) * 0.4;
+        [out - across, out + across]
+    };
+    let points = (0..steps).flat_map(rung).collect();
+    let faces = (0..steps).flat_map(|step| {
+        let [a, b] = [step * 2, step * 2 + 1];
+        // The last rung meets the first one turned over.
+        let [c, d] = if step + 1 == steps { [1, 0] } else { [a + 2, b + 2] };
+        [[a, b, c], [b, d, c]]
+    });
+    (points, faces.collect())
+}
+
+/// Small triangles on a grid, each turned by itself.
+fn isolated(count: u32) -> Triangles {
+    let side = f64::from(count).sqrt().ceil();
+    let corner = |index: u32, corner: u32| {
+        let place = DVec2::new(f64::from(index) % side, (f64::from(index) / side).floor()) / side;
+        let angle = f64::from(index) * 0.7 + f64::from(corner) * TAU / 3.0;
+        let depth = (place.x * 9.0).sin() * (place.y * 7.0).cos() * 0.2;
+        DVec3::new(place.x + angle.cos() * 0.4 / side, place.y + angle.sin() * 0.4 / side, depth)
+    };
+    let points = (0..count).flat_map(|index| (0..3).map(move |place| corner(index, place))).collect();
+    (points, (0..count).map(|index| [index * 3, index * 3 + 1, index * 3 + 2]).collect())
+}
+
+/// A sheet of squares in the plane z = 0 whose rim is wavy.
+fn sheet(side: u32) -> Triangles {
+    let at = |x: u32, y: u32| {
+        let (x, y) = (f64::from(x) / f64::from(side), f64::from(y) / f64::from(side));
+        DVec3::new(x + (y * PI * 3.0).sin() * 0.05, y + (x * PI * 2.0).sin() * 0.05, 0.0)
+    };
+    let points = (0..=side).flat_map(|y| (0..=side).map(move |x| at(x, y))).collect();
+    let faces = (0..side).flat_map(|y| {
+        (0..side).flat_map(move |x| {
+            let [a, b] = [y * (side + 1) + x, (y + 1) * (side + 1) + x];
+            [[a, a + 1, b + 1], [a, b + 1, b]]
+        })
+    });
+    (points, faces.collect())
+}
+
+/// Puts a chequered picture onto a square whose corners are its mesh's positions.
+fn with_picture(mesh: Mesh, folder: &Path) -> Result<Mesh> {
+    const SIDE: u32 = 16;
+    let path = folder.join("chequers.png");
+    let color = |index: u32| match (index % SIDE / 2 + index / SIDE / 2) % 2 {
+        0 => [210, 180, 120, 255],
+        _ => [90, 60, 40, 255],
+    };
+    let pixels = (0..SIDE * SIDE).flat_map(color).collect();
+    write_rgba_png(&Picture { size: Size { width: SIDE, height: SIDE }, pixels }, &path)?;
+    let (low, high) = mesh.bounds();
+    let place = |point: &DVec3| ((*point - low) / (high - low).max_element()).truncate().as_vec2();
+    let coordinates: Vec<Vec2> = mesh.positions.iter().map(place).collect();
+    Ok(Mesh {
+        texture_coordinates: coordinates,
+        triangle_texture_coordinates: mesh.triangles.clone(),
+        materials: vec![Material {
+            name: "chequers".to_owned(),
+            color: None,
+            texture: Some(path),
+            ..Material::default()
+        }],
+        triangle_materials: vec![0; mesh.triangles.len()],
+        ..mesh
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tinta::edges::{EdgeList, Incidence};
+
+    fn mesh(shape: Shape) -> Mesh {
+        shape.mesh(1.0, DVec3::ZERO, Path::new("")).unwrap()
+    }
+
+    /// Boundary, inner, reversed and non-manifold edges.
+    fn incidences(shape: Shape) -> [usize; 4] {
+        let mesh = mesh(shape);
+        let list = EdgeList::new(&mesh);
+        [Incidence::Boundary, Incidence::Inner, Incidence::InnerReversed, Incidence::NonManifold]
+            .map(|kind| list.incidence().iter().filter(|incidence| **incidence == kind).count())
+    }
+
+    #[test]
+    fn shapes_have_the_edges_their_names_say() {
+        assert_eq!(incidences(Shape::Cube), [0, 18, 0, 0]);
+        assert_eq!(incidences(Shape::Ball(2)), [0, 192, 0, 0]);
+        assert_eq!(incidences(Shape::Fins(5)), [15, 5, 0, 1]);
+        assert_eq!(incidences(Shape::Fan(100)), [100, 100, 0, 0]);
+        assert_eq!(incidences(Shape::Isolated(7)), [21, 0, 0, 0]);
+        assert_eq!(incidences(Shape::Hinge(60.0)), [6, 3, 0, 0]);
+        // A band of 64 rungs has one rim of 128 edges, and one rung where its two ends meet the wrong way round.
+        assert_eq!(incidences(Shape::Moebius), [128, 127, 1, 0]);
+        // Twice the same faces in opposite directions: each of the cube's edges has four of them.
+        assert_eq!(incidences(Shape::OppositeDuplicates), [0, 0, 0, 18]);
+    }
+
+    #[test]
+    fn a_cubes_and_a_balls_normals_point_outward_and_turned_round_inward() {
+        let outward = |shape: Shape, middle: DVec3| {
+            let mesh = mesh(shape);
+            let corners = |face: &[u32; 3]| face.map(|index| mesh.positions[index as usize] - middle);
+            mesh.triangles
+                .iter()
+                .filter(|face| {
+                    let [a, b, c] = corners(face);
+                    (b - a).cross(c - a).dot(a) > 0.0
+                })
+                .count()
+        };
+        assert_eq!(outward(Shape::Cube, DVec3::splat(0.5)), 12);
+        assert_eq!(outward(Shape::Ball(1), DVec3::ZERO), 32);
+        assert_eq!(outward(Shape::InsideOut(1), DVec3::ZERO), 0);
+    }
+
+    #[test]
+    fn what_is_nothing_is_refused_and_what_is_bad_is_left_out() {
+        let refused = |shape: Shape| shape.mesh(1.0, DVec3::ZERO, Path::new("")).unwrap_err().kind();
+        assert_eq!([Shape::Nothing, Shape::Point, Shape::Line].map(refused), ["model"; 3]);
+        assert_eq!(mesh(Shape::BadVertex(f64::NAN)).triangles.len(), 12);
+        assert_eq!(mesh(Shape::Duplicates).defects.duplicate_triangles, 24);
+        assert_eq!(mesh(Shape::ZeroAreas).triangles.len(), 128);
+    }
+}

@@ -1,5 +1,0 @@
-//! The program `tinta`.
-
-fn main() -> std::process::ExitCode {
-    tinta::cli::main()
-}
