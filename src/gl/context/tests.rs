@@ -116,10 +116,10 @@ fn two_screens_draw_the_same_at_once() {
 }
 
 #[test]
-#[ignore = "exhaustive: three thousand pictures by each of two threads"]
+#[ignore = "exhaustive: five hundred pictures by each of two threads"]
 fn two_screens_draw_the_same_at_once_for_long() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    draw_at_once(3000, [Backend::Egl, Backend::Surfaceless]);
+    draw_at_once(500, [Backend::Egl, Backend::Surfaceless]);
 }
 
 /// EGL's context as macOS has one: without a surface that could be drawn into.
