@@ -15,7 +15,6 @@
 //! # }
 //! ```
 
-mod assimp;
 pub mod defects;
 mod folder;
 mod format;

@@ -4,7 +4,7 @@ use super::folder::Folder;
 use super::format::{self, Format};
 #[cfg(feature = "gltf")]
 use super::gltf;
-use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, text, three_ds};
+use super::{Defects, Mesh, ModelFrame, lying, md2, obj, ply, skin, soup::Soup, stl, text, three_ds};
 use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
 use crate::files::{self, Failure};
@@ -471,8 +471,7 @@ fn soup(
     }
     let bytes = &*text::decoded(bytes);
     let named = Format::by_name(path);
-    let found =
-        Format::by_content(bytes).filter(|found| !matches!(named, Some(Format::Assimp(_))) || found.is_unmistakable());
+    let found = Format::by_content(bytes).filter(|found| format::unread(path).is_none() || found.is_unmistakable());
     let format = found.or(named).ok_or_else(|| {
         let problem = match format::unread(path) {
             Some(format) => not_read(format),
@@ -510,7 +509,6 @@ fn soup(
                 "this build does not read glTF; build with the feature gltf, or save it as OBJ",
             ));
         }
-        Format::Assimp(format) => assimp::read(bytes, format, path, options, folder, remarks)?,
     };
     soup.check_memory(bytes.len(), path)?;
     Ok(soup)
