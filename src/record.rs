@@ -166,12 +166,8 @@ pub struct EdgeRecord {
     pub classify_ms: Summary,
     /// The faces' planes, once a mesh.
     pub planes_ms: Summary,
-    /// The silhouette, looking at every edge.
+    /// The silhouette.
     pub silhouette_ms: Summary,
-    /// The hierarchy of normal cones, once a mesh.
-    pub hierarchy_ms: Summary,
-    /// The silhouette by the hierarchy.
-    pub silhouette_by_hierarchy_ms: Summary,
 }
 
 /// One of two drawings of a comparison.

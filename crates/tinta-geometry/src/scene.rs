@@ -345,11 +345,6 @@ impl Scene {
         object.curvatures.get(&object.mesh, self.edges(object).list(), crease_angle, smoothing)
     }
 
-    /// Prepares every object's edges for an animation; see [`MeshEdges::prepare_for_many_views`].
-    pub fn prepare_for_many_views(&self) {
-        self.objects.iter().for_each(|object| self.edges(object).prepare_for_many_views());
-    }
-
     /// Where an object is seen from, in its mesh's own coordinates; for the listing's rule always the camera's axis.
     pub fn eye(&self, object: &Object, rule: SilhouetteRule) -> Eye {
         match (rule, self.camera.projection) {
