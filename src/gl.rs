@@ -19,7 +19,6 @@
 #![expect(unsafe_code, reason = "OpenGL is a C interface; this module wraps all of it")]
 
 pub mod context;
-mod display_lists;
 mod edges;
 pub(crate) mod execute;
 mod faults;

@@ -1,4 +1,4 @@
-//! How a plan's vertices reach GL: the same picture by the calls of three times.
+//! How a plan's vertices reach GL: the same picture by the calls of two times.
 
 use serde::Serialize;
 
@@ -11,14 +11,11 @@ pub enum Submission {
     Buffers,
     /// glBegin, a call for each vertex and each of its attributes, glEnd, in every picture: as C. Dachsbacher's listing.
     Immediate,
-    /// The same calls compiled once into display lists, which are then called by their number.
-    DisplayList,
 }
 
 impl Submission {
     /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 3] =
-        [("buffers", Self::Buffers), ("immediate", Self::Immediate), ("display-list", Self::DisplayList)];
+    pub const ALL: [(&'static str, Self); 2] = [("buffers", Self::Buffers), ("immediate", Self::Immediate)];
 }
 
 tinta_geometry::choices!(Submission);

@@ -186,12 +186,11 @@ const QUICK: [&str; 10] = [
 ];
 
 /// What is measured besides when there is time.
-const FULL: [&str; 34] = [
+const FULL: [&str; 33] = [
     "--style inking --silhouette exact --polygon-offset 0,0",
     "--style inking --silhouette exact --classes boundary,non-manifold,silhouette,crease,material",
     "--style inking --light vertex-shader",
     "--style inking --submission immediate",
-    "--style inking --submission display-list",
     "--style charcoal --improve all",
     "--style three-pass --map-encoding biased",
     "--style three-pass --map-encoding float16",

@@ -11,7 +11,7 @@ use tinta::plan::prune::Pruned;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
 use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Session};
-use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings, Style};
+use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings};
 
 /// How long a turn takes unless told otherwise, milliseconds; few views are not shown longer than 200 each.
 const TURN_MS: u32 = 2500;
