@@ -7,9 +7,7 @@ use crate::support::{public_models, skip};
 use glam::DVec3;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use tinta::edges::{
-    Class, ClassCounts, ClassSet, Classes, CreaseAngle, Eye, Incidence, SilhouetteRule, Silhouettes,
-};
+use tinta::edges::{Class, ClassCounts, ClassSet, Classes, CreaseAngle, Eye, Incidence, SilhouetteRule, Silhouettes};
 use tinta::{EdgeList, LoadOptions, Mesh, load};
 
 fn counts(mesh: &Mesh) -> (EdgeList, ClassCounts) {

@@ -20,13 +20,7 @@ impl MeshEdges {
     /// Builds the list; everything else is made when first asked for.
     pub fn new(mesh: Arc<Mesh>) -> Self {
         let list = EdgeList::new(&mesh);
-        Self {
-            mesh,
-            list,
-            silhouettes: OnceLock::new(),
-            classes: Mutex::new(None),
-            smooth: Mutex::new(None),
-        }
+        Self { mesh, list, silhouettes: OnceLock::new(), classes: Mutex::new(None), smooth: Mutex::new(None) }
     }
 
     /// The mesh.

@@ -178,14 +178,7 @@ impl Silhouettes {
 
     /// Adds those of the edges whose faces are wound against each other that are silhouette: by the exact rule when one face
     /// is turned round; by the listing's, which knows no such edges, as they are.
-    fn add_reversed(
-        &self,
-        mesh: &Mesh,
-        edges: &EdgeList,
-        eye: Eye,
-        rule: SilhouetteRule,
-        found: &mut Vec<u32>,
-    ) {
+    fn add_reversed(&self, mesh: &Mesh, edges: &EdgeList, eye: Eye, rule: SilhouetteRule, found: &mut Vec<u32>) {
         let local = self.local_eye(eye, rule);
         let along_view = |face: u32| along_view(self.planes[face as usize], &local);
         let side = |face: u32| {
