@@ -43,18 +43,16 @@ impl Default for HowMeasured {
     }
 }
 
-/// Built-in models that are measured together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::cli) enum Suite {
-    Papers,
-    Solids,
-    All,
+tinta_geometry::choices! {
+    /// Built-in models that are measured together.
+    pub(in crate::cli) enum Suite {
+        Papers = "papers",
+        Solids = "solids",
+        All = "all",
+    }
 }
 
 impl Suite {
-    /// All of them, as the user writes them.
-    const ALL: [(&'static str, Self); 3] = [("papers", Self::Papers), ("solids", Self::Solids), ("all", Self::All)];
-
     /// Their names.
     pub(super) fn models(self) -> &'static [&'static str] {
         const ALL: [&str; 4] = ["builtin:bust", "builtin:ant", "builtin:gear", "builtin:open-box"];
@@ -65,8 +63,6 @@ impl Suite {
         }
     }
 }
-
-tinta_geometry::choices!(Suite);
 
 /// All of them.
 pub(in crate::cli) struct OfHow;

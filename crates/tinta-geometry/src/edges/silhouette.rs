@@ -9,29 +9,24 @@ use crate::mesh::{Mesh, triangle_normal};
 use crate::settings::Setting;
 use crate::threads::{filled, in_parallel, ranges, threads_for};
 use glam::{DVec3, Vec3, Vec4};
-use serde::Serialize;
 
-/// How it is decided whether an edge is silhouette.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SilhouetteRule {
-    /// The listing's: the product of both normals' components along the camera's axis is at most 1e-8, for every edge the
-    /// same axis. In perspective that misses edges and invents others.
-    #[default]
-    #[serde(rename = "paper")]
-    Published,
-    /// One face's front is seen and the other's is not, by exact arithmetic.
-    Exact,
-    /// Where the curved surface that the faces stand for turns away: through the faces, and along edges only where they are sharp,
-    /// see [`crate::lines::smooth_silhouettes`]. Asked for edges alone it is [`SilhouetteRule::Exact`].
-    Smooth,
+crate::choices! {
+    /// How it is decided whether an edge is silhouette.
+    #[derive(Default)]
+    pub enum SilhouetteRule {
+        /// The listing's: the product of both normals' components along the camera's axis is at most 1e-8, for every edge the
+        /// same axis. In perspective that misses edges and invents others.
+        #[default]
+        Published = "paper",
+        /// One face's front is seen and the other's is not, by exact arithmetic.
+        Exact = "exact",
+        /// Where the curved surface that the faces stand for turns away: through the faces, and along edges only where they are sharp,
+        /// see [`crate::lines::smooth_silhouettes`]. Asked for edges alone it is [`SilhouetteRule::Exact`].
+        Smooth = "smooth",
+    }
 }
 
 impl SilhouetteRule {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 3] =
-        [("paper", Self::Published), ("exact", Self::Exact), ("smooth", Self::Smooth)];
-
     /// The setting of a style.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         Setting::field(
@@ -45,8 +40,6 @@ impl SilhouetteRule {
         .said("paper; style lines: exact")
     }
 }
-
-crate::choices!(SilhouetteRule);
 
 /// The listing's bound on the product of two normals' components along the view.
 const PUBLISHED_BOUND: f32 = 0.000_000_01;
