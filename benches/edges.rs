@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 use std::time::Instant;
-use tinta::edges::{Class, ClassSet, Classes, CreaseAngle, Eye, NormalCones, SilhouetteRule, Silhouettes};
+use tinta::edges::{Class, ClassSet, Classes, CreaseAngle, Eye, SilhouetteRule, Silhouettes};
 use tinta::renderer::{median, milliseconds_since};
 use tinta::styles::Inking;
 use tinta::{Backend, EdgeList, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, load};
@@ -168,16 +168,13 @@ fn edge_tables(settings: &Settings, mesh: &Mesh, repeats: usize, folder: &Path) 
         "numpy",
         "silhouette, one thread",
         "silhouette, all threads",
-        "silhouette by normal cones",
         "vtkPolyDataSilhouette",
         "numpy silhouette",
         "planes for silhouettes, once",
-        "normal cones, once",
     ];
     let mut series: Vec<Series> = names.iter().map(|name| Series::new(name)).collect();
     let all_threads = std::thread::available_parallelism().map_or(1, usize::from);
     let silhouettes = Silhouettes::new(mesh, &edges);
-    let cones = NormalCones::new(mesh, &edges, &silhouettes);
     let mut found = Value::Null;
     for round in 0..settings.rounds {
         for _ in 0..repeats {
@@ -202,20 +199,15 @@ fn edge_tables(settings: &Settings, mesh: &Mesh, repeats: usize, folder: &Path) 
             series[slot].times.extend(times);
             found
         };
-        let plain = all(4, &|eye| silhouettes.find_with_threads(mesh, &edges, eye, rule, 1));
-        all(5, &|eye| silhouettes.find_with_threads(mesh, &edges, eye, rule, all_threads));
-        let by_cones = all(6, &|eye| cones.find(mesh, &edges, &silhouettes, eye, rule));
-        assert_eq!(plain, by_cones);
+        let one = all(4, &|eye| silhouettes.find_with_threads(mesh, &edges, eye, rule, 1));
+        assert_eq!(one, all(5, &|eye| silhouettes.find_with_threads(mesh, &edges, eye, rule, all_threads)));
         let start = Instant::now();
         black_box(Silhouettes::new(mesh, &edges));
-        series[9].times.push(milliseconds_since(start));
-        let start = Instant::now();
-        black_box(NormalCones::new(mesh, &edges, &silhouettes));
-        series[10].times.push(milliseconds_since(start));
+        series[8].times.push(milliseconds_since(start));
         if let Some(python) = &settings.python {
             let record = peer(Command::new(python), "vtk_edges.py", &arrays, &[repeats.to_string()]);
             for (slot, name) in
-                [(2, "feature_edges_ms"), (3, "numpy_edges_ms"), (7, "silhouette_ms"), (8, "numpy_silhouette_ms")]
+                [(2, "feature_edges_ms"), (3, "numpy_edges_ms"), (6, "silhouette_ms"), (7, "numpy_silhouette_ms")]
             {
                 series[slot].times.extend(times(&record, name));
             }
@@ -241,10 +233,7 @@ fn edge_tables(settings: &Settings, mesh: &Mesh, repeats: usize, folder: &Path) 
 fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, folder: &Path) -> Value {
     println!("\ninked frame, 512 x 512, plan and read-back included");
     let size = Size { width: 512, height: 512 };
-    let scene_of =
-        || Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() }).expect("a scene");
-    let (prepared, plain) = (scene_of(), scene_of());
-    prepared.prepare_for_many_views();
+    let scene = Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() }).expect("a scene");
     let mut renderer = Renderer::new(Backend::Auto).expect("a context");
     let style = |cull_back_faces, is_smooth| {
         Style::Inking(Inking { silhouette: SilhouetteRule::Exact, cull_back_faces, is_smooth, ..Inking::default() })
@@ -261,18 +250,14 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, folder: &Path) -> Value {
         renderer.draw(scene, &plan).expect("a frame")
     };
     let arrays = write_arrays(mesh, folder);
-    for round in 0..settings.rounds {
+    for _ in 0..settings.rounds {
         for ((_, style), series) in contestants.iter().zip(&mut series) {
-            draw(&mut renderer, &turned(&prepared, 0), style);
+            draw(&mut renderer, &turned(&scene, 0), style);
             for frame in 0..FRAMES {
-                let scene = turned(&prepared, frame);
+                let scene = turned(&scene, frame);
                 let start = Instant::now();
-                let picture = draw(&mut renderer, &scene, style);
+                black_box(draw(&mut renderer, &scene, style));
                 series.times.push(milliseconds_since(start));
-                if round == 0 {
-                    let plain = draw(&mut renderer, &turned(&plain, frame), style);
-                    assert_eq!(picture, plain, "the hierarchy draws the same pixels as the plain way");
-                }
             }
         }
         if let Some(python) = &settings.python {
@@ -285,7 +270,7 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, folder: &Path) -> Value {
     series.retain(|one| !one.times.is_empty());
     let plans: Vec<f64> = (0..FRAMES)
         .map(|frame| {
-            let scene = turned(&prepared, frame);
+            let scene = turned(&scene, frame);
             let start = Instant::now();
             black_box(contestants[0].1.plan(&scene, Show::Final).expect("a plan"));
             milliseconds_since(start)

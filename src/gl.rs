@@ -1,6 +1,6 @@
 //! OpenGL 2.1: contexts without a window, the fixed-function calls glow lacks, objects with owners, plans carried out.
 //!
-//! With `crates/tinta-geometry/src/mesh/assimp/library.rs` the only module with `unsafe` code. In: a [`crate::plan::Plan`] and a [`crate::scene::Scene`]. Out: pixels and times.
+//! All `unsafe` code of the drawing is here. In: a [`crate::plan::Plan`] and a [`crate::scene::Scene`]. Out: pixels and times.
 //! It knows no style. Every `unsafe` block here rests on two facts, which its comment names: the context these functions
 //! were loaded from is current on this thread, and the objects passed are alive.
 //!
@@ -19,7 +19,6 @@
 #![expect(unsafe_code, reason = "OpenGL is a C interface; this module wraps all of it")]
 
 pub mod context;
-mod display_lists;
 mod edges;
 pub(crate) mod execute;
 mod faults;

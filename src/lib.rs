@@ -84,13 +84,13 @@
 //! ```
 //!
 //! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`], but for
-//! what calls libassimp (cargo feature `assimp`) and a look at standard output before `main` (cargo feature `cli`). Everything
+//! a look at standard output before `main` (cargo feature `cli`). Everything
 //! else is tested without a context, a window or a clock.
 //!
 //! # Cargo features
 //!
 //! `cli` and `window` are on by default. For the library alone turn them off with `default-features = false` and choose:
-//! `animation`, `formats` (glTF and JPEG), `presets`, `recipes`; `assimp` adds the formats that the system's libassimp reads.
+//! `animation`, `formats` (glTF and JPEG), `presets`, `recipes`.
 //! Error against run time is measured by the package `tinta-lab`, which lies above this one.
 
 #![deny(unreachable_pub)]

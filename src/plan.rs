@@ -244,22 +244,17 @@ pub enum Mark {
     Points,
 }
 
-/// How lines get their width.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum LineDrawing {
-    /// As GL draws lines and points; as quads where the width is beyond the driver's range.
-    #[default]
-    Gl,
-    /// As quads facing the eye, computed here; not smoothed.
-    Quads,
+tinta_geometry::choices! {
+    /// How lines get their width.
+    #[derive(Default)]
+    pub enum LineDrawing {
+        /// As GL draws lines and points; as quads where the width is beyond the driver's range.
+        #[default]
+        Gl = "gl",
+        /// As quads facing the eye, computed here; not smoothed.
+        Quads = "quads",
+    }
 }
-
-impl LineDrawing {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("gl", Self::Gl), ("quads", Self::Quads)];
-}
-
-tinta_geometry::choices!(LineDrawing);
 
 /// A vertex shader and the fragment shaders linked with it, by their paths below `glsl/`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]

@@ -165,12 +165,8 @@ pub struct EdgeRecord {
     pub classify_ms: Summary,
     /// The faces' planes, once a mesh.
     pub planes_ms: Summary,
-    /// The silhouette, looking at every edge.
+    /// The silhouette.
     pub silhouette_ms: Summary,
-    /// The hierarchy of normal cones, once a mesh.
-    pub hierarchy_ms: Summary,
-    /// The silhouette by the hierarchy.
-    pub silhouette_by_hierarchy_ms: Summary,
 }
 
 /// A camera in numbers; lengths in file units, matrices as 16 numbers column by column.

@@ -202,32 +202,33 @@ const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
 /// Pictures of the drawings in charcoal and sand.
 const CHARCOAL_SHOWS: &[Show] = &[Show::Final, Show::Diffuse, Show::Cem, Show::Cet, Show::Paper];
 
-/// Which of a style's pictures is wanted.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum Show {
-    /// The finished picture.
-    #[default]
-    Final,
-    /// The normal map: red, green, blue of the map (figure 9, left).
-    Normals,
-    /// The depth map: alpha of the map as grey, near is dark (figure 9, right).
-    Depth,
-    /// The map itself, four channels.
-    Map,
-    /// The borders alone (figure 12).
-    Borders,
-    /// The tones alone (figure 5).
-    Tones,
-    /// The light of a charcoal drawing (Valente 2007, figure 4, left).
-    Diffuse,
-    /// The contrast-enhanced model (figure 4, right).
-    Cem,
-    /// The contrast-enhanced texture where the model reads it.
-    Cet,
-    /// The paper alone.
-    Paper,
+tinta_geometry::choices! {
+    /// Which of a style's pictures is wanted.
+    #[derive(Default)]
+    #[non_exhaustive]
+    pub enum Show {
+        /// The finished picture.
+        #[default]
+        Final = "final",
+        /// The normal map: red, green, blue of the map (figure 9, left).
+        Normals = "normals",
+        /// The depth map: alpha of the map as grey, near is dark (figure 9, right).
+        Depth = "depth",
+        /// The map itself, four channels.
+        Map = "map",
+        /// The borders alone (figure 12).
+        Borders = "borders",
+        /// The tones alone (figure 5).
+        Tones = "tones",
+        /// The light of a charcoal drawing (Valente 2007, figure 4, left).
+        Diffuse = "diffuse",
+        /// The contrast-enhanced model (figure 4, right).
+        Cem = "cem",
+        /// The contrast-enhanced texture where the model reads it.
+        Cet = "cet",
+        /// The paper alone.
+        Paper = "paper",
+    }
 }
 
 impl Style {
@@ -433,8 +434,6 @@ impl StyleName {
     }
 }
 
-tinta_geometry::choices!(StyleName);
-
 impl Show {
     /// The option that shows this picture; none for the finished one.
     pub fn to_options(self) -> Options {
@@ -446,23 +445,7 @@ impl Show {
     fn is_of_charcoal(self) -> bool {
         matches!(self, Self::Diffuse | Self::Cem | Self::Cet | Self::Paper)
     }
-
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 10] = [
-        ("final", Self::Final),
-        ("normals", Self::Normals),
-        ("depth", Self::Depth),
-        ("map", Self::Map),
-        ("borders", Self::Borders),
-        ("tones", Self::Tones),
-        ("diffuse", Self::Diffuse),
-        ("cem", Self::Cem),
-        ("cet", Self::Cet),
-        ("paper", Self::Paper),
-    ];
 }
-
-tinta_geometry::choices!(Show);
 
 #[cfg(test)]
 mod settings_tests;

@@ -13,8 +13,7 @@ fn edges_are_counted_by_class_and_timed_as_often_as_asked() {
         assert_eq!(classes[class], count, "{class}");
     }
     assert_eq!(classes.get("intersection"), None, "they are not looked for");
-    for times in ["build_ms", "classify_ms", "planes_ms", "silhouette_ms", "hierarchy_ms", "silhouette_by_hierarchy_ms"]
-    {
+    for times in ["build_ms", "classify_ms", "planes_ms", "silhouette_ms"] {
         assert_eq!(record[times]["all"].as_array().map(Vec::len), Some(3), "{times}");
     }
     assert_eq!(record["model"]["defects"]["degenerate_triangles"], 0);

@@ -20,7 +20,7 @@ fn documents() -> Vec<(PathBuf, String)> {
 }
 
 /// Folders of this project; a word that begins with one is a path.
-const FOLDERS: [&str; 21] = [
+const FOLDERS: [&str; 20] = [
     ".ci/",
     "crates/",
     "src/",
@@ -41,7 +41,6 @@ const FOLDERS: [&str; 21] = [
     "dachsbacher/",
     "dietrich/",
     "valente/",
-    "make/",
 ];
 
 /// The words of a line that begin like a path of this project, quoted or not; patterns and placeholders are none.

@@ -54,6 +54,25 @@ fn bomb(width: u32, height: u32) -> Vec<u8> {
         .concat()
 }
 
+#[test]
+fn formats_that_are_not_read_are_refused_by_name_whatever_their_lines_look_like() {
+    let folder = Folder::new();
+    for (name, format) in [
+        ("foo.ms3d", "MS3D"),
+        ("foo.X", "X"),
+        ("foo.dxf", "DXF"),
+        ("foo.lwo", "LWO"),
+        ("foo.nff", "NFF"),
+        ("foo.fbx", "FBX"),
+    ] {
+        let model = folder.file(name, b"v 0 0 0\nf 1 1 1\n");
+        let sentence = format!("{name}: {format} is not read; export it as STL, OBJ or glTF");
+        refused(&tinta(&["edges", &model]), &[&sentence]);
+    }
+    let model = folder.file("foo.q3o", b"quick3Do");
+    refused(&tinta(&["edges", &model]), &["foo.q3o: this is not a model in a supported format"]);
+}
+
 #[cfg(unix)]
 #[test]
 fn files_that_lie_about_their_counts_are_refused_without_the_memory() {

@@ -249,18 +249,6 @@ fn light_from_the_vertex_shader_paints_what_light_from_the_cpu_does() {
 }
 
 #[test]
-fn silhouettes_by_the_hierarchy_give_the_same_pixels() {
-    let mut renderer = renderer(BACKENDS[0]);
-    let [plain, prepared] = [(); 2].map(|()| scene("builtin:bust", 200, 200));
-    prepared.prepare_for_many_views();
-    for silhouette in [SilhouetteRule::Published, SilhouetteRule::Exact] {
-        let style = Inking { silhouette, ..Inking::default() };
-        let [plain, prepared] = [&plain, &prepared].map(|scene| draw(&mut renderer, scene, style.clone(), Show::Final));
-        assert_eq!(plain.difference(&prepared), Some(EQUAL));
-    }
-}
-
-#[test]
 fn quads_lie_where_gls_lines_do_and_have_their_width() {
     for backend in *BACKENDS {
         let mut renderer = renderer(backend);

@@ -3,7 +3,6 @@
 mod adding_a_style;
 mod animation;
 mod api;
-mod assimp;
 mod batch;
 mod batch_killed;
 mod batch_places;

@@ -1,11 +1,11 @@
-//! Silhouettes: closed loops on closed solids, rational arithmetic, the listing's rule, the hierarchy.
+//! Silhouettes: closed loops on closed solids, rational arithmetic, the listing's rule.
 
 use crate::shapes::{Random, cuboid, icosphere, mesh, random_eye, random_mesh};
 use glam::DVec3;
 use num_rational::BigRational;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use tinta::edges::{Eye, Incidence, NormalCones, Side, SilhouetteRule, Silhouettes, side_of_face};
+use tinta::edges::{Eye, Incidence, Side, SilhouetteRule, Silhouettes, side_of_face};
 use tinta::{EdgeList, Mesh};
 
 /// The loops that edges form: `None` if at some position other than two of them meet.
@@ -36,14 +36,12 @@ fn the_silhouette_of_a_sphere_is_one_closed_loop_from_any_eye_outside() {
     let sphere = icosphere(3);
     let edges = EdgeList::new(&sphere);
     let silhouettes = Silhouettes::new(&sphere, &edges);
-    let cones = NormalCones::new(&sphere, &edges, &silhouettes);
     let mut random = Random(7);
     for _ in 0..1000 {
         let eye = random.direction() * (1.001 + 5.0 * random.number().powi(3));
         for eye in [Eye::Point(eye), Eye::Direction(eye)] {
             let found = silhouettes.find(&sphere, &edges, eye, SilhouetteRule::Exact);
             assert_eq!(loops(&edges, &found), Some(1), "{eye:?}");
-            assert_eq!(cones.find(&sphere, &edges, &silhouettes, eye, SilhouetteRule::Exact), found, "{eye:?}");
         }
     }
     let inside = Eye::Point(DVec3::new(0.1, 0.2, -0.3));
@@ -92,8 +90,6 @@ proptest! {
             };
             prop_assert_eq!(found.binary_search(&(edge as u32)).is_ok(), expected, "edge {}", edge);
         }
-        let cones = NormalCones::new(&mesh, &edges, &silhouettes);
-        prop_assert_eq!(cones.find(&mesh, &edges, &silhouettes, eye, SilhouetteRule::Exact), found);
     }
 
     #[test]
@@ -118,8 +114,6 @@ proptest! {
                 }
             }
         }
-        let cones = NormalCones::new(&mesh, &edges, &silhouettes);
-        prop_assert_eq!(cones.find(&mesh, &edges, &silhouettes, Eye::Direction(view), SilhouetteRule::Published), found);
     }
 }
 
@@ -218,6 +212,16 @@ fn cap(degrees: f64, rings: u32) -> Mesh {
     mesh(positions.collect(), triangles)
 }
 
+/// The silhouette edges of a mesh wound one way, each face's side asked for by itself.
+fn by_sides(mesh: &Mesh, edges: &EdgeList, eye: Eye) -> Vec<u32> {
+    let is_front = |face: &u32| side_of_face(corners(mesh, *face), eye) == Side::Front;
+    let is_silhouette = |edge: &u32| match edges.faces(*edge) {
+        [first, second] => is_front(first) != is_front(second),
+        _ => false,
+    };
+    (0..edges.len() as u32).filter(is_silhouette).collect()
+}
+
 fn check_close_eyes(cases: usize) {
     let mut random = Random(5);
     let mut silhouettes_found = 0;
@@ -226,7 +230,6 @@ fn check_close_eyes(cases: usize) {
             let cap = cap(degrees, rings);
             let edges = EdgeList::new(&cap);
             let silhouettes = Silhouettes::new(&cap, &edges);
-            let cones = NormalCones::new(&cap, &edges, &silhouettes);
             for case in 0..cases {
                 let face = cap.triangles[case % cap.triangles.len()].map(|corner| cap.positions[corner as usize]);
                 let normal = (face[1] - face[0]).cross(face[2] - face[0]).normalize();
@@ -234,12 +237,9 @@ fn check_close_eyes(cases: usize) {
                 let near = (face[0] + face[1] + face[2]) / 3.0 + normal * away + random.direction() * away * 0.5;
                 let across = normal.any_orthonormal_vector() + normal * away + random.direction() * 1e-3;
                 for eye in [Eye::Point(near), Eye::Point(DVec3::Z * (1.0 + away)), Eye::Direction(across)] {
-                    for (_, rule) in SilhouetteRule::ALL {
-                        let plain = silhouettes.find(&cap, &edges, eye, rule);
-                        let found = cones.find(&cap, &edges, &silhouettes, eye, rule);
-                        assert_eq!(found, plain, "{degrees} degrees, {rings} rings, {eye:?} {rule:?}");
-                        silhouettes_found += plain.len();
-                    }
+                    let found = silhouettes.find(&cap, &edges, eye, SilhouetteRule::Exact);
+                    assert_eq!(found, by_sides(&cap, &edges, eye), "{degrees} degrees, {rings} rings, {eye:?}");
+                    silhouettes_found += found.len();
                 }
             }
         }
@@ -248,13 +248,13 @@ fn check_close_eyes(cases: usize) {
 }
 
 #[test]
-fn the_hierarchy_finds_the_silhouettes_from_a_few_eyes_close_to_a_surface() {
+fn silhouettes_from_a_few_eyes_close_to_a_surface_are_those_of_its_faces_sides() {
     check_close_eyes(40);
 }
 
 #[test]
 #[ignore = "exhaustive: 21,600 eyes"]
-fn the_hierarchy_finds_every_silhouette_from_eyes_close_to_a_surface() {
+fn every_silhouette_from_eyes_close_to_a_surface_is_that_of_its_faces_sides() {
     check_close_eyes(400);
 }
 
@@ -291,17 +291,16 @@ fn the_papers_rule_takes_edges_between_faces_that_are_both_edge_on_and_the_exact
 }
 
 #[test]
-fn a_thin_blade_seen_along_its_flat_is_silhouette_by_the_hierarchy_too() {
+fn a_thin_blade_seen_along_its_flat_has_the_silhouette_of_its_faces_sides() {
     let blade = mesh(
         vec![DVec3::ZERO, DVec3::Z, DVec3::new(-1.0, 2e-4, 0.5), DVec3::new(-1.0, -2e-4, 0.5)],
         vec![[0, 1, 2], [1, 0, 3]],
     );
     let edges = EdgeList::new(&blade);
     let silhouettes = Silhouettes::new(&blade, &edges);
-    let cones = NormalCones::new(&blade, &edges, &silhouettes);
     for y in [1e-4, 1e-3, 2.4e-3, 3e-3, 0.1] {
         let eye = Eye::Direction(DVec3::new(10.0, y, 0.0));
-        let plain = silhouettes.find(&blade, &edges, eye, SilhouetteRule::Exact);
-        assert_eq!(cones.find(&blade, &edges, &silhouettes, eye, SilhouetteRule::Exact), plain, "{y}");
+        let found = silhouettes.find(&blade, &edges, eye, SilhouetteRule::Exact);
+        assert_eq!(found, by_sides(&blade, &edges, eye), "{y}");
     }
 }

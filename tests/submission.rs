@@ -1,4 +1,4 @@
-//! Vertices by buffers, one by one, and by display lists: the same bytes in every style, and what is said where they cannot be.
+//! Vertices by buffers and one by one: the same bytes in every style, and what is said where they cannot be.
 
 use crate::support::{BACKENDS, renderer, scene, scene_with, styles};
 use tinta::edges::SilhouetteRule;
@@ -8,19 +8,17 @@ use tinta::plan::{LineDrawing, Plan, Submission};
 use tinta::styles::{Inking, LightOn, PaintMode, RampRow};
 use tinta::{Backend, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName};
 
-const OLD: [Submission; 2] = [Submission::Immediate, Submission::DisplayList];
-
 fn drawn(renderer: &mut Renderer, scene: &Scene, plan: &Plan, submission: Submission) -> Picture {
     renderer.draw(scene, &Plan { submission, ..plan.clone() }).unwrap()
 }
 
-/// Both old ways draw this plan as buffers do, first and again.
+/// glBegin and glEnd draw this plan as buffers do, first and again.
 fn check(renderer: &mut Renderer, scene: &Scene, plan: &Plan, what: &str) {
     let expected = drawn(renderer, scene, plan, Submission::Buffers);
-    for submission in [OLD, OLD].concat() {
-        let actual = drawn(renderer, scene, plan, submission);
+    for _ in 0..2 {
+        let actual = drawn(renderer, scene, plan, Submission::Immediate);
         let different = expected.difference(&actual).map(|difference| difference.pixels);
-        assert_eq!(different, Some(0), "{what} by {submission}");
+        assert_eq!(different, Some(0), "{what}");
     }
 }
 
@@ -87,28 +85,14 @@ fn a_models_own_picture_lies_the_same_by_every_way_to_hand_vertices_over() {
 }
 
 #[test]
-fn display_lists_are_made_once_and_gone_with_the_plan_that_asked_for_them() {
+fn vertices_sent_one_by_one_leave_no_objects() {
     let mut renderer = renderer(BACKENDS[0]);
     let scene = scene("builtin:bust", 64, 64);
     let plan = Style::named(StyleName::Inking).plan(&scene, Show::Final).unwrap();
     drawn(&mut renderer, &scene, &plan, Submission::Buffers);
     let without = renderer.live_objects();
-    let mut held = Vec::new();
-    for _ in 0..3 {
-        drawn(&mut renderer, &scene, &plan, Submission::DisplayList);
-        held.push(renderer.live_objects());
-    }
-    assert!(held[0] > without + 10 && held.iter().all(|count| *count == held[0]), "{without}, then {held:?}");
     drawn(&mut renderer, &scene, &plan, Submission::Immediate);
     assert_eq!(renderer.live_objects(), without);
-    // Another view: the lists of the first one are called no more, and gone after one picture.
-    drawn(&mut renderer, &scene, &plan, Submission::DisplayList);
-    let other = Style::named(StyleName::Phong).plan(&scene, Show::Final).unwrap();
-    drawn(&mut renderer, &scene, &other, Submission::DisplayList);
-    drawn(&mut renderer, &scene, &other, Submission::DisplayList);
-    let of_other = renderer.live_objects();
-    drawn(&mut renderer, &scene, &other, Submission::DisplayList);
-    assert_eq!(renderer.live_objects(), of_other);
     assert_eq!(renderer.close(), 0);
 }
 
@@ -118,11 +102,10 @@ fn a_driver_without_glbegin_says_so_in_a_sentence_and_draws_from_buffers() {
     let plan = Style::named(StyleName::Inking).plan(&scene, Show::Final).unwrap();
     for backend in *BACKENDS {
         let mut core = Renderer::with_fault(backend, Fault::NoImmediateMode).unwrap();
-        for submission in OLD {
-            let error = core.draw(&scene, &Plan { submission, ..plan.clone() }).unwrap_err().to_string();
-            assert!(error.starts_with(&format!("submission {submission}: ")), "{error}");
-            assert!(error.contains("has no glBegin") && error.contains("leave this out"), "{error}");
-        }
+        let immediate = Plan { submission: Submission::Immediate, ..plan.clone() };
+        let error = core.draw(&scene, &immediate).unwrap_err().to_string();
+        assert!(error.starts_with("submission immediate: "), "{error}");
+        assert!(error.contains("has no glBegin") && error.contains("leave this out"), "{error}");
         let expected = drawn(&mut renderer(backend), &scene, &plan, Submission::Buffers);
         assert_eq!(drawn(&mut core, &scene, &plan, Submission::Buffers), expected);
     }
@@ -135,7 +118,6 @@ fn the_plan_says_how_vertices_are_handed_over() {
     let said = |submission| Plan { submission, ..plan.clone() }.to_string().lines().next().unwrap().to_owned();
     assert_eq!(said(Submission::Buffers), "pass 1: paint");
     assert_eq!(said(Submission::Immediate), "vertices sent one by one, by glBegin and glEnd");
-    assert_eq!(said(Submission::DisplayList), "vertices compiled into display lists");
 }
 
 #[test]
@@ -150,19 +132,19 @@ fn the_command_line_draws_the_same_file_by_every_way_to_hand_vertices_over() {
         (std::fs::read(out).unwrap(), String::from_utf8(output.stdout).unwrap())
     };
     let (expected, _) = made("buffers", "a.png", &[]);
-    for submission in OLD {
-        let (bytes, said) = made(&submission.to_string(), "b.png", &["--json", "--verify"]);
-        assert!(bytes == expected, "{submission}");
-        let record: serde_json::Value = serde_json::from_str(&said).unwrap();
-        assert_eq!(record["submission"], submission.to_string());
-    }
+    let (bytes, said) = made("immediate", "b.png", &["--json", "--verify"]);
+    assert!(bytes == expected);
+    let record: serde_json::Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(record["submission"], "immediate");
     let turn = |submission| made(submission, "turn.gif", &["--turntable", "2"]).0;
     assert!(turn("immediate") == turn("buffers"));
     let out = folder.path("c.png");
-    crate::cli::refused_in_one_line(
-        &["render", "builtin:gear", "-o", &out, "--submission", "telegraph"],
-        &["--submission", "buffers, immediate, display-list"],
-    );
+    for other in ["telegraph", "display-list"] {
+        crate::cli::refused_in_one_line(
+            &["render", "builtin:gear", "-o", &out, "--submission", other],
+            &["--submission", "buffers, immediate"],
+        );
+    }
 }
 
 #[test]

@@ -32,7 +32,6 @@ pub fn lines(segments: Vec<LineSegment>) -> VisibleLines {
         segments,
         edges: ClassCounts::default(),
         changes: None,
-        healed: None,
         covered_triangles: 0,
         undecided: 0,
         has_specks: false,

@@ -1,6 +1,6 @@
-"""Writes the types that editors read: python -m tinta_npr._stubs > python/tinta_npr/__init__.pyi
+"""Writes the types that editors read: scripts/python puts what `python -m tinta_npr._stubs` prints into the wheel.
 
-The settings come from the same tables as the functions' own help; a test holds the file to them.
+The settings come from the same tables as the functions' own help.
 """
 
 import inspect

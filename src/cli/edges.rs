@@ -4,7 +4,7 @@ use super::models::load_meshes;
 use super::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use super::{Command, Verdict, given};
 use std::time::Instant;
-use tinta::edges::{Class, ClassSet, Classes, NormalCones, SilhouetteRule, Silhouettes};
+use tinta::edges::{Class, ClassSet, Classes, SilhouetteRule, Silhouettes};
 use tinta::record::{CameraRecord, EdgeRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
 use tinta::settings::Setting;
@@ -73,7 +73,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let eye = scene.eye(&scene.objects[0], rule);
 
     // Timed like frames: every round does all of it anew.
-    let mut times: [Vec<f64>; 6] = Default::default();
+    let mut times: [Vec<f64>; 4] = Default::default();
     let mut last = None;
     for _ in 0..arguments.frames {
         let mut clock = Instant::now();
@@ -86,22 +86,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
         let planes = lap();
         let silhouette = silhouettes.find(&mesh, &edges, eye, rule);
         let search = lap();
-        let cones = NormalCones::new(&mesh, &edges, &silhouettes);
-        let hierarchy = lap();
-        let again = cones.find(&mesh, &edges, &silhouettes, eye, rule);
-        let search_hierarchy = lap();
-        for (times, time) in times.iter_mut().zip([build, classify, planes, search, hierarchy, search_hierarchy]) {
+        for (times, time) in times.iter_mut().zip([build, classify, planes, search]) {
             times.push(time);
         }
-        debug_assert_eq!(silhouette, again);
         last = Some((edges, classes, silhouette));
     }
     let Some((edges, classes, silhouette)) = last else { return Ok(()) };
     scene.edges(&scene.objects[0]).remark().iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     let mut counts = classes.counts();
     counts.silhouette = silhouette.len();
-    let [build_ms, classify_ms, planes_ms, silhouette_ms, hierarchy_ms, silhouette_by_hierarchy_ms] =
-        times.map(Summary::new);
+    let [build_ms, classify_ms, planes_ms, silhouette_ms] = times.map(Summary::new);
     let record = EdgeRecord {
         version: env!("CARGO_PKG_VERSION"),
         model: ModelRecord::new(&mesh),
@@ -118,8 +112,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
         classify_ms,
         planes_ms,
         silhouette_ms,
-        hierarchy_ms,
-        silhouette_by_hierarchy_ms,
     };
     if arguments.json { super::print_json(&record) } else { super::print(&in_words(&record)) }
 }
@@ -153,8 +145,6 @@ fn in_words(record: &EdgeRecord) -> String {
         ("classify", &record.classify_ms),
         ("planes", &record.planes_ms),
         ("silhouette", &record.silhouette_ms),
-        ("hierarchy", &record.hierarchy_ms),
-        ("  silhouette", &record.silhouette_by_hierarchy_ms),
     ] {
         text.push_str(&format!("{name:<16}{:>10.3}{:>10.3}{:>10.3}\n", times.median, times.min, times.max));
     }

@@ -46,41 +46,28 @@ pub(in crate::gl) use surface_framebuffer::SurfaceFramebuffer;
 
 use serde::Serialize;
 
-/// Which way to take.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum Backend {
-    /// Those of this system, in this order: WGL, CGL, EGL, OSMesa, EGL's surfaceless platform. The first that works; for pictures
-    /// too large for it the next that draws them.
-    #[default]
-    Auto,
-    /// EGL on a device, without a window system; hardware first.
-    Egl,
-    /// EGL on Mesa's surfaceless platform: another screen of the same driver, so that two contexts need not take turns.
-    Surfaceless,
-    /// Mesa's off-screen library, which Mesa has no more since 25.1.
-    OsMesa,
-    /// Windows' own, beside a window that is never shown.
-    Wgl,
-    /// That of macOS.
-    Cgl,
+tinta_geometry::choices! {
+    /// Which way to take. Those of other systems are refused with a sentence when they are asked for: a recipe or a script that
+    /// names one is understood everywhere.
+    #[derive(Default)]
+    #[non_exhaustive]
+    pub enum Backend {
+        /// Those of this system, in this order: WGL, CGL, EGL, OSMesa, EGL's surfaceless platform. The first that works; for pictures
+        /// too large for it the next that draws them.
+        #[default]
+        Auto = "auto",
+        /// EGL on a device, without a window system; hardware first.
+        Egl = "egl",
+        /// EGL on Mesa's surfaceless platform: another screen of the same driver, so that two contexts need not take turns.
+        Surfaceless = "surfaceless",
+        /// Mesa's off-screen library, which Mesa has no more since 25.1.
+        OsMesa = "osmesa",
+        /// Windows' own, beside a window that is never shown.
+        Wgl = "wgl",
+        /// That of macOS.
+        Cgl = "cgl",
+    }
 }
-
-impl Backend {
-    /// All of them, as the user writes them. Those of other systems are refused with a sentence when they are asked for: a recipe or
-    /// a script that names one is understood everywhere.
-    pub const ALL: [(&'static str, Self); 6] = [
-        ("auto", Self::Auto),
-        ("egl", Self::Egl),
-        ("surfaceless", Self::Surfaceless),
-        ("osmesa", Self::OsMesa),
-        ("wgl", Self::Wgl),
-        ("cgl", Self::Cgl),
-    ];
-}
-
-tinta_geometry::choices!(Backend);
 
 /// One way that was tried.
 #[derive(Debug, Clone, Serialize)]

@@ -1,9 +1,8 @@
 //! Edges drawn by GL: indices into the objects' own vertices, so that a line lies where the faces beside it do.
 
 use super::Gl;
-use super::display_lists::{Content, Same};
 use super::execute::Resources;
-use super::immediate::{Places, Vertices};
+use super::immediate::{self, Places, Vertices};
 use super::legacy::{self, MODELVIEW, PROJECTION};
 use super::meshes::of_another_scene;
 use super::objects::Buffer;
@@ -107,15 +106,7 @@ impl Resources {
                 }
             } else {
                 let places = Places::Positions(run.vertices(scene.arrays(object)));
-                let content = Content::Edges {
-                    mesh: Same::as_this(&object.mesh),
-                    unit: scene.radius,
-                    runs: Same::as_this(runs),
-                    run: number,
-                    mark,
-                };
-                let vertices = Vertices::new(mode, places, indices);
-                self.lists.draw(&self.gl, self.submission, content, &vertices)?;
+                immediate::draw(&self.gl, &Vertices::new(mode, places, indices))?;
             }
             first += indices.len();
         }
@@ -166,8 +157,7 @@ impl Resources {
             }
             if self.submission != Submission::Buffers {
                 let (indices, places) = ((0..quads.len() as u32).collect::<Vec<u32>>(), Places::Clip(&quads));
-                let vertices = Vertices::new(legacy::QUADS, places, &indices);
-                self.lists.draw(&self.gl, self.submission, Content::Once, &vertices)?;
+                immediate::draw(&self.gl, &Vertices::new(legacy::QUADS, places, &indices))?;
                 continue;
             }
             let buffer = Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&quads))?;

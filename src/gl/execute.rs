@@ -1,9 +1,9 @@
 //! Executes plans step by step; every draw sets all the state it needs.
 
 use super::Gl;
-use super::display_lists::{self, DisplayLists};
 use super::edges::EdgeIndices;
 use super::fixed_function;
+use super::immediate;
 use super::legacy;
 use super::meshes::{FaceIndices, MeshBuffers, OfVertices};
 use super::objects::{Buffer, Program, Shader, TimerQuery};
@@ -44,9 +44,8 @@ pub(crate) struct Resources {
     pub(super) has_pipeline: bool,
     /// The edges last drawn as lines and as points, as indices on the device.
     pub(super) edges: [Option<EdgeIndices>; 2],
-    /// How the plan at hand wants vertices handed over, and those kept for that.
+    /// How the plan at hand wants vertices handed over.
     pub(super) submission: Submission,
-    pub(super) lists: DisplayLists,
 }
 
 impl Resources {
@@ -68,7 +67,6 @@ impl Resources {
             has_pipeline: legacy::HAS_PIPELINE,
             edges: [None, None],
             submission: Submission::Buffers,
-            lists: DisplayLists::default(),
         }
     }
 
@@ -83,10 +81,9 @@ impl Resources {
             gl.glow.color_mask(true, true, true, true);
         }
         if plan.submission != Submission::Buffers {
-            display_lists::available(&gl, plan.submission)?;
+            immediate::available(&gl)?;
         }
         self.submission = plan.submission;
-        self.lists.prepare(plan.submission);
         self.upload_meshes(scene)?;
         self.upload_faces(scene, plan)?;
         self.upload_paint(plan)?;

@@ -1,22 +1,18 @@
-//! glBegin to glEnd, and display lists: the calls by which vertices reached GL before buffers, loaded by name, as glow lacks
-//! them.
+//! glBegin to glEnd: the calls by which vertices reached GL before buffers, loaded by name, as glow lacks them.
 //!
 //! In: vertices on this side, in the order they are drawn. Out: the same picture as by buffers, by a call for each vertex and
 //! attribute. Only what a draw reads is sent: normals go to shaders, texture coordinates to the units that have them.
 
+use super::Gl;
 use super::legacy::FIXED_UNITS;
+use crate::error::{Error, Result};
+use crate::plan::Submission;
 use std::ffi::{CStr, c_void};
-
-/// `GL_COMPILE`
-const COMPILE: u32 = 0x1300;
 
 type Mode = unsafe extern "system" fn(u32);
 type End = unsafe extern "system" fn();
 type Floats = unsafe extern "system" fn(*const f32);
 type FloatsOf = unsafe extern "system" fn(u32, *const f32);
-type NewList = unsafe extern "system" fn(u32, u32);
-type GenerateLists = unsafe extern "system" fn(i32) -> u32;
-type DeleteLists = unsafe extern "system" fn(u32, i32);
 
 /// The functions, each of the type the specification gives it.
 pub(super) struct Immediate {
@@ -28,11 +24,6 @@ pub(super) struct Immediate {
     color: Floats,
     coordinate: Floats,
     coordinate_of: FloatsOf,
-    generate_lists: GenerateLists,
-    new_list: NewList,
-    end_list: End,
-    call_list: Mode,
-    delete_lists: DeleteLists,
 }
 
 /// Vertices in the order they are drawn.
@@ -90,16 +81,11 @@ impl Immediate {
                 color: std::mem::transmute::<*const c_void, Floats>(find(c"glColor4fv")?),
                 coordinate: std::mem::transmute::<*const c_void, Floats>(find(c"glTexCoord2fv")?),
                 coordinate_of: std::mem::transmute::<*const c_void, FloatsOf>(find(c"glMultiTexCoord2fv")?),
-                generate_lists: std::mem::transmute::<*const c_void, GenerateLists>(find(c"glGenLists")?),
-                new_list: std::mem::transmute::<*const c_void, NewList>(find(c"glNewList")?),
-                end_list: std::mem::transmute::<*const c_void, End>(find(c"glEndList")?),
-                call_list: std::mem::transmute::<*const c_void, Mode>(find(c"glCallList")?),
-                delete_lists: std::mem::transmute::<*const c_void, DeleteLists>(find(c"glDeleteLists")?),
             })
         }
     }
 
-    /// Sends the vertices, to be drawn now or to be compiled.
+    /// Draws the vertices.
     ///
     /// # Safety
     ///
@@ -134,48 +120,23 @@ impl Immediate {
             (self.end)();
         }
     }
+}
 
-    /// A new list's name, or 0 if there is none left.
-    ///
-    /// # Safety
-    ///
-    /// The context is current.
-    pub(super) unsafe fn new_list(&self) -> u32 {
-        // SAFETY: the caller's promise.
-        unsafe { (self.generate_lists)(1) }
-    }
+/// Draws vertices by glBegin and glEnd, if the driver has them.
+pub(super) fn draw(gl: &Gl, vertices: &Vertices<'_>) -> Result<()> {
+    let immediate = available(gl)?;
+    // SAFETY: the context is current, and glBegin and glEnd are called in pairs and nowhere else.
+    unsafe { immediate.send(vertices) };
+    Ok(())
+}
 
-    /// Compiles vertices into a list, and draws nothing.
-    ///
-    /// # Safety
-    ///
-    /// As [`Immediate::send`], and the list is one of the context's own.
-    pub(super) unsafe fn compile(&self, list: u32, vertices: &Vertices<'_>) {
-        // SAFETY: the caller's promise.
-        unsafe {
-            (self.new_list)(list, COMPILE);
-            self.send(vertices);
-            (self.end_list)();
-        }
-    }
-
-    /// Draws what was compiled into a list.
-    ///
-    /// # Safety
-    ///
-    /// The context is current and the list one of its own.
-    pub(super) unsafe fn call(&self, list: u32) {
-        // SAFETY: the caller's promise.
-        unsafe { (self.call_list)(list) }
-    }
-
-    /// Deletes a list.
-    ///
-    /// # Safety
-    ///
-    /// The context is current and the list one of its own.
-    pub(super) unsafe fn delete_list(&self, name: u32) {
-        // SAFETY: the caller's promise.
-        unsafe { (self.delete_lists)(name, 1) }
-    }
+/// The functions, if the driver has them.
+pub(super) fn available(gl: &Gl) -> Result<&Immediate> {
+    gl.immediate.as_ref().map_err(|missing| {
+        let problem = format!(
+            "{} has no {missing}, by which programs of 2001 drew; leave this out, buffers draw the same picture",
+            gl.info.renderer
+        );
+        Error::value("submission", Submission::Immediate, problem)
+    })
 }

@@ -1,9 +1,8 @@
 //! The scene's meshes on the device, and how they are drawn.
 
 use super::Gl;
-use super::display_lists::{Content, Same};
 use super::execute::Resources;
-use super::immediate::{Places, Vertices};
+use super::immediate::{self, Places, Vertices};
 use super::legacy::{FIXED_UNITS, MODELVIEW, PROJECTION};
 use super::objects::Buffer;
 use crate::error::{Error, Result};
@@ -150,7 +149,7 @@ impl Resources {
                     bound = None;
                 }
             }
-            for (number, part) in parts.iter().enumerate() {
+            for part in parts.iter() {
                 let color = match paint {
                     Paint::Materials => {
                         let Color([red, green, blue]) = scene.material_color(&object.mesh, part.material);
@@ -166,7 +165,7 @@ impl Resources {
                 unsafe { self.gl.legacy.color(color) };
                 if self.submission != Submission::Buffers {
                     let has_normals = draw.program.is_some();
-                    let faces = RunOfFaces { object, listed, number, part, lists, material_unit, has_normals };
+                    let faces = RunOfFaces { object, listed, part, lists, material_unit, has_normals };
                     self.send_faces(scene, &faces)?;
                     continue;
                 }
@@ -183,7 +182,7 @@ impl Resources {
 
     /// Draws a run of faces without buffers.
     fn send_faces(&self, scene: &Scene, faces: &RunOfFaces<'_>) -> Result<()> {
-        let RunOfFaces { object, listed, number, part, lists, material_unit, has_normals } = *faces;
+        let RunOfFaces { object, listed, part, lists, material_unit, has_normals } = *faces;
         let arrays = scene.arrays(object);
         let own_unit = material_unit.filter(|_| !arrays.texture_coordinates.is_empty());
         let mut coordinates = [None; FIXED_UNITS as usize];
@@ -202,17 +201,7 @@ impl Resources {
             colors: lists.colors.map(|list| list.as_slice()),
             coordinates,
         };
-        let content = Content::Faces {
-            mesh: Same::as_this(&object.mesh),
-            unit: scene.radius,
-            list: listed.map(Same::as_this),
-            part: number,
-            coordinates: lists.coordinates.map(Same::as_this),
-            colors: lists.colors.map(Same::as_this),
-            own_unit,
-            has_normals,
-        };
-        self.lists.draw(&self.gl, self.submission, content, &vertices)
+        immediate::draw(&self.gl, &vertices)
     }
 }
 
@@ -222,8 +211,7 @@ struct RunOfFaces<'a> {
     object: &'a Object,
     /// The list they are in, if not all of the object's faces are drawn.
     listed: Option<&'a Arc<FaceList>>,
-    /// Which run of the list or object it is, and what is in it.
-    number: usize,
+    /// Which run of the list or object it is.
     part: &'a Part,
     lists: PaintLists<'a>,
     material_unit: Option<u32>,

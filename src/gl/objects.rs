@@ -71,38 +71,6 @@ impl Drop for Buffer {
     }
 }
 
-/// A display list.
-pub(super) struct DisplayList {
-    live: Live,
-    name: u32,
-}
-
-impl DisplayList {
-    /// An empty list, for drivers that have lists.
-    pub(super) fn new(gl: &Rc<Gl>) -> Result<Self> {
-        // SAFETY: the context is current.
-        let name = gl.immediate.as_ref().map_or(0, |immediate| unsafe { immediate.new_list() });
-        match name {
-            0 => Err(out_of_names("glGenLists gave no name".to_owned())),
-            name => Ok(Self { live: Live::new(gl), name }),
-        }
-    }
-
-    /// What GL calls it.
-    pub(super) fn name(&self) -> u32 {
-        self.name
-    }
-}
-
-impl Drop for DisplayList {
-    fn drop(&mut self) {
-        if let Ok(immediate) = &self.live.0.immediate {
-            // SAFETY: the context is current and this list alive and ours.
-            unsafe { immediate.delete_list(self.name) }
-        }
-    }
-}
-
 /// A texture.
 pub(super) struct Texture {
     live: Live,
@@ -352,7 +320,6 @@ mod tests {
             let query = TimerQuery::new(gl).unwrap();
             query.begin();
             query.end();
-            let list = DisplayList::new(gl).unwrap();
             let (buffer_id, texture_id, program_id) = (buffer.id, texture.id, program.id);
             // SAFETY: the context is current; asking after a name is safe whether or not it is alive.
             let alive = || unsafe {
@@ -360,8 +327,8 @@ mod tests {
                 [glow.is_buffer(buffer_id), glow.is_texture(texture_id), glow.is_program(program_id)]
             };
             assert_eq!(alive(), [true; 3], "{backend:?}");
-            assert_eq!(gl.live_objects.get(), 5, "the shaders went with the linking");
-            drop((buffer, texture, program, query, list));
+            assert_eq!(gl.live_objects.get(), 4, "the shaders went with the linking");
+            drop((buffer, texture, program, query));
             assert_eq!(alive(), [false; 3], "{backend:?}");
             assert_eq!(gl.live_objects.get(), 0);
         }

@@ -16,7 +16,6 @@ impl fmt::Display for Plan {
         match self.submission {
             Submission::Buffers => {}
             Submission::Immediate => writeln!(out, "vertices sent one by one, by glBegin and glEnd")?,
-            Submission::DisplayList => writeln!(out, "vertices compiled into display lists")?,
         }
         for (number, pass) in self.passes.iter().enumerate() {
             write!(out, "pass {}: {}{}", number + 1, pass.name, pass.target)?;

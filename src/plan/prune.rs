@@ -19,48 +19,34 @@ use crate::scene::{Rectangle, Scene, Size};
 use serde::Serialize;
 use std::cell::OnceCell;
 
-/// A kind of thing that can be left out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum Rule {
-    /// Draws that add nothing: the border's square where its filter is multiplied by 0.
-    Border,
-    /// Objects outside the picture.
-    OutsideObjects,
-    /// Faces that the driver would cull anyway.
-    CulledFaces,
-    /// Faces of closed surfaces, turned away and behind faces that are not.
-    HiddenFaces,
-    /// Light that no tone depends on: highlights below three tones, all of it with one.
-    UnusedLight,
-    /// The background square where clearing does the same.
-    BackgroundSquare,
-    /// Pixels of full-screen squares that no object reaches.
-    EmptyPixels,
-    /// Drawing and copying that nothing reads: the map of a picture without borders.
-    UnreadMap,
-    /// Clearing colours that the next step draws over.
-    OverwrittenClear,
-    /// Pictures and tables of tones that no step reads.
-    UnreadTextures,
+tinta_geometry::choices! {
+    /// A kind of thing that can be left out, in the order in which the rules are applied.
+    #[non_exhaustive]
+    pub enum Rule {
+        /// Draws that add nothing: the border's square where its filter is multiplied by 0.
+        Border = "border",
+        /// Objects outside the picture.
+        OutsideObjects = "outside-objects",
+        /// Faces that the driver would cull anyway.
+        CulledFaces = "culled-faces",
+        /// Faces of closed surfaces, turned away and behind faces that are not.
+        HiddenFaces = "hidden-faces",
+        /// Light that no tone depends on: highlights below three tones, all of it with one.
+        UnusedLight = "unused-light",
+        /// The background square where clearing does the same.
+        BackgroundSquare = "background-square",
+        /// Pixels of full-screen squares that no object reaches.
+        EmptyPixels = "empty-pixels",
+        /// Drawing and copying that nothing reads: the map of a picture without borders.
+        UnreadMap = "unread-map",
+        /// Clearing colours that the next step draws over.
+        OverwrittenClear = "overwritten-clear",
+        /// Pictures and tables of tones that no step reads.
+        UnreadTextures = "unread-textures",
+    }
 }
 
 impl Rule {
-    /// All of them, in the order they are applied, as the user writes them.
-    pub const ALL: [(&'static str, Self); 10] = [
-        ("border", Self::Border),
-        ("outside-objects", Self::OutsideObjects),
-        ("culled-faces", Self::CulledFaces),
-        ("hidden-faces", Self::HiddenFaces),
-        ("unused-light", Self::UnusedLight),
-        ("background-square", Self::BackgroundSquare),
-        ("empty-pixels", Self::EmptyPixels),
-        ("unread-map", Self::UnreadMap),
-        ("overwritten-clear", Self::OverwrittenClear),
-        ("unread-textures", Self::UnreadTextures),
-    ];
-
     /// As the user writes it.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -83,8 +69,6 @@ impl Rule {
         }
     }
 }
-
-tinta_geometry::choices!(Rule);
 
 /// How to prune; [`crate::Renderer::pruning`] has what holds of a renderer.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -3,7 +3,7 @@
 use super::CameraRecord;
 use crate::edges::ClassCounts;
 use crate::error::{Error, Result};
-use crate::lines::{Healed, LinePath, LineTimes, VisibilityChanges, VisibleLines};
+use crate::lines::{LinePath, LineTimes, VisibilityChanges, VisibleLines};
 use crate::scene::Scene;
 use serde::Serialize;
 use std::fmt::Write;
@@ -16,9 +16,6 @@ pub struct LinesMade {
     /// Where along smooth silhouettes what is seen begins and ends; absent with others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changes: Option<VisibilityChanges>,
-    /// Which gaps of them were joined; absent where none were to be.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub healed: Option<Healed>,
     /// How many lines are missing because the time was over.
     pub undecided: usize,
     /// Pieces of lines, and what they were chained to.

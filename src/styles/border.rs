@@ -6,7 +6,6 @@ use crate::error::{Error, Result};
 use crate::plan::{Blend, Depth, Draw, Facts, Geometry, Program, Texture, Uniform, Value, WhereEven};
 use crate::scene::{Scene, Size};
 use crate::settings::{ON_OFF, Setting, under};
-use serde::Serialize;
 
 /// Settings of the border; the defaults are the listing's.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,41 +25,29 @@ pub struct Border {
 /// by 2 of which a second difference can be off.
 const LEAST_GAP: [f32; 2] = [1.5, 2.0];
 
-/// The edge filters, each over the four channels of the map.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Filter {
-    /// The Laplacian over four neighbours (figure 11): the article's.
-    Laplacian4,
-    /// The Laplacian over eight neighbours (figure 10, left; Nienhaus and Doellner 2003).
-    Laplacian8,
-    /// The centre against its diagonal neighbours (figure 10, right; Mitchell 2002).
-    Mitchell,
-    /// The same in two programs, as Mitchell's shading language made him: one reads the normals, one the depth, and each is
-    /// blended (section 4.1). Where both answer, the line is fainter than with one program.
-    #[serde(rename = "mitchell-two")]
-    MitchellTwo,
-    /// Sobel's gradient.
-    Sobel,
-    /// Roberts' cross.
-    Roberts,
-    /// The centre against the Gaussian mean of the 3 x 3 pixels around it: our reading of the fourth filter that the article
-    /// names.
-    Gaussian,
+tinta_geometry::choices! {
+    /// The edge filters, each over the four channels of the map.
+    pub enum Filter {
+        /// The Laplacian over four neighbours (figure 11): the article's.
+        Laplacian4 = "laplacian4",
+        /// The Laplacian over eight neighbours (figure 10, left; Nienhaus and Doellner 2003).
+        Laplacian8 = "laplacian8",
+        /// The centre against its diagonal neighbours (figure 10, right; Mitchell 2002).
+        Mitchell = "mitchell",
+        /// The same in two programs, as Mitchell's shading language made him: one reads the normals, one the depth, and each is
+        /// blended (section 4.1). Where both answer, the line is fainter than with one program.
+        MitchellTwo = "mitchell-two",
+        /// Sobel's gradient.
+        Sobel = "sobel",
+        /// Roberts' cross.
+        Roberts = "roberts",
+        /// The centre against the Gaussian mean of the 3 x 3 pixels around it: our reading of the fourth filter that the article
+        /// names.
+        Gaussian = "gaussian",
+    }
 }
 
 impl Filter {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 7] = [
-        ("laplacian4", Self::Laplacian4),
-        ("laplacian8", Self::Laplacian8),
-        ("mitchell", Self::Mitchell),
-        ("mitchell-two", Self::MitchellTwo),
-        ("sobel", Self::Sobel),
-        ("roberts", Self::Roberts),
-        ("gaussian", Self::Gaussian),
-    ];
-
     /// The programs that draw it one after the other: each one's pass and shader.
     fn programs(self) -> &'static [(&'static str, &'static str)] {
         match self {
@@ -77,8 +64,6 @@ impl Filter {
         }
     }
 }
-
-tinta_geometry::choices!(Filter);
 
 impl Default for Border {
     fn default() -> Self {

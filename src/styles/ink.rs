@@ -56,38 +56,32 @@ pub struct Ink {
     pub map_target: MapTarget,
 }
 
-/// What turns where there is a crease.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum CreaseBy {
-    /// The planes of the triangles: every fold of a model, also the small ones of scans.
-    #[default]
-    Planes,
-    /// The model's normals, where they are split: where none are in the file, along edges that the smoothing angle exceeds and that go
-    /// on from vertex to vertex.
-    Normals,
+tinta_geometry::choices! {
+    /// What turns where there is a crease.
+    #[derive(Default)]
+    pub enum CreaseBy {
+        /// The planes of the triangles: every fold of a model, also the small ones of scans.
+        #[default]
+        Planes = "planes",
+        /// The model's normals, where they are split: where none are in the file, along edges that the smoothing angle exceeds and that go
+        /// on from vertex to vertex.
+        Normals = "normals",
+    }
 }
 
-impl CreaseBy {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("planes", Self::Planes), ("normals", Self::Normals)];
-}
-
-tinta_geometry::choices!(CreaseBy);
-
-/// How much time a picture may take.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Quality {
-    /// No more than the faithful three passes.
-    #[default]
-    Standard,
-    /// As much as helps: drawn larger, without specks, and shrunk.
-    Best,
+tinta_geometry::choices! {
+    /// How much time a picture may take.
+    #[derive(Default)]
+    pub enum Quality {
+        /// No more than the faithful three passes.
+        #[default]
+        Standard = "standard",
+        /// As much as helps: drawn larger, without specks, and shrunk.
+        Best = "best",
+    }
 }
 
 impl Quality {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("standard", Self::Standard), ("best", Self::Best)];
-
     /// How much larger than the picture it is drawn.
     fn supersample(self) -> Supersample {
         match self {
@@ -96,8 +90,6 @@ impl Quality {
         }
     }
 }
-
-tinta_geometry::choices!(Quality);
 
 impl Default for Ink {
     fn default() -> Self {

@@ -196,50 +196,32 @@ impl Inking {
     }
 }
 
-/// How faces are painted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PaintMode {
-    /// In the background's colour: they only hide lines.
-    None,
-    /// Each material in its colour.
-    Flat,
-    /// By the light, looked up in the ramp at every pixel.
-    Ramp,
-    /// By the light on each face, looked up in the ramp once a face: flat shading, which shows the triangles.
-    FlatShaded,
-    /// By the light at each vertex, looked up in the ramp there; between vertices the colours are mixed: Gouraud shading, in
-    /// which there are more colours than the ramp has.
-    Gouraud,
+tinta_geometry::choices! {
+    /// How faces are painted.
+    pub enum PaintMode {
+        /// In the background's colour: they only hide lines.
+        None = "none",
+        /// Each material in its colour.
+        Flat = "flat",
+        /// By the light, looked up in the ramp at every pixel.
+        Ramp = "ramp",
+        /// By the light on each face, looked up in the ramp once a face: flat shading, which shows the triangles.
+        FlatShaded = "flat-shaded",
+        /// By the light at each vertex, looked up in the ramp there; between vertices the colours are mixed: Gouraud shading, in
+        /// which there are more colours than the ramp has.
+        Gouraud = "gouraud",
+    }
 }
 
-impl PaintMode {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 5] = [
-        ("none", Self::None),
-        ("flat", Self::Flat),
-        ("ramp", Self::Ramp),
-        ("flat-shaded", Self::FlatShaded),
-        ("gouraud", Self::Gouraud),
-    ];
+tinta_geometry::choices! {
+    /// Where the light that the ramp is looked up by is computed.
+    pub enum LightOn {
+        /// On the CPU at every vertex, as in the listing.
+        Cpu = "cpu",
+        /// In a vertex shader, as the text's last section proposes.
+        VertexShader = "vertex-shader",
+    }
 }
-
-tinta_geometry::choices!(PaintMode);
-
-/// Where the light that the ramp is looked up by is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LightOn {
-    /// On the CPU at every vertex, as in the listing.
-    Cpu,
-    /// In a vertex shader, as the text's last section proposes.
-    VertexShader,
-}
-
-impl LightOn {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("cpu", Self::Cpu), ("vertex-shader", Self::VertexShader)];
-}
-
-tinta_geometry::choices!(LightOn);
 
 /// Widest line, pixels: as wide as the largest picture of most drivers.
 const WIDEST_LINE: f32 = 16_384.0;

@@ -3,32 +3,25 @@
 use crate::plan::{Attachment, Attachments, Drawn, Format, Program, SettingValue, Target, Texture};
 use crate::settings::Setting;
 
-/// How normals and depth are stored.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum MapEncoding {
-    /// Normals clamped to [0, 1], depth in the 8 bits of alpha: the listing's.
-    #[default]
-    Published,
-    /// Normals as 0.5 n + 0.5, depth in 8 bits.
-    Biased,
-    /// Both as they are, 16 bits each, in a floating-point target.
-    Float16,
-    /// The same with 32 bits.
-    Float,
-    /// Normals as 0.5 n + 0.5, depth from a copy of the depth buffer.
-    DepthTexture,
+tinta_geometry::choices! {
+    /// How normals and depth are stored.
+    #[derive(Default)]
+    pub enum MapEncoding {
+        /// Normals clamped to [0, 1], depth in the 8 bits of alpha: the listing's.
+        #[default]
+        Published = "paper",
+        /// Normals as 0.5 n + 0.5, depth in 8 bits.
+        Biased = "biased",
+        /// Both as they are, 16 bits each, in a floating-point target.
+        Float16 = "float16",
+        /// The same with 32 bits.
+        Float = "float",
+        /// Normals as 0.5 n + 0.5, depth from a copy of the depth buffer.
+        DepthTexture = "depth-texture",
+    }
 }
 
 impl MapEncoding {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 5] = [
-        ("paper", Self::Published),
-        ("biased", Self::Biased),
-        ("float16", Self::Float16),
-        ("float", Self::Float),
-        ("depth-texture", Self::DepthTexture),
-    ];
-
     /// What the setting does.
     pub(super) const HELP: &'static str = "Storage of normals and depth: paper, biased (0.5 n + 0.5), float16, float, \
          depth-texture (biased, depth from the depth buffer); mrt has paper only";
@@ -97,20 +90,19 @@ impl MapEncoding {
     }
 }
 
-/// How the map gets from the pass that draws it to the one that reads it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum MapTarget {
-    /// Drawn into the framebuffer and copied into a texture: the listing's.
-    #[default]
-    Copy,
-    /// Drawn into a texture by a framebuffer object; maps in floating point always are.
-    Texture,
+tinta_geometry::choices! {
+    /// How the map gets from the pass that draws it to the one that reads it.
+    #[derive(Default)]
+    pub enum MapTarget {
+        /// Drawn into the framebuffer and copied into a texture: the listing's.
+        #[default]
+        Copy = "copy",
+        /// Drawn into a texture by a framebuffer object; maps in floating point always are.
+        Texture = "texture",
+    }
 }
 
 impl MapTarget {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("copy", Self::Copy), ("texture", Self::Texture)];
-
     /// The setting of a style that has one.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let help = "Copy the map into its texture (copy) or draw it there with a framebuffer object (texture); \
@@ -160,5 +152,3 @@ const FLOAT_MAP: Attachments = Attachments {
     asked_by: SettingValue { setting: "map-encoding", value: "float" },
     ..FLOAT16_MAP
 };
-
-tinta_geometry::choices!(MapTarget, MapEncoding);

@@ -87,11 +87,12 @@ macro_rules! styles {
             $($(#[$about])* $style($settings),)*
         }
 
-        /// The styles' names.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        #[non_exhaustive]
-        pub enum StyleName {
-            $(#[doc = concat!("`", $name, "`")] $style,)*
+        tinta_geometry::choices! {
+            /// The styles' names.
+            #[non_exhaustive]
+            pub enum StyleName {
+                $(#[doc = concat!("`", $name, "`")] $style = $name,)*
+            }
         }
 
         /// Every style, in the order in which they are listed.
@@ -109,11 +110,6 @@ macro_rules! styles {
                     .collect()
             },
         }),*];
-
-        impl StyleName {
-            /// All of them, as the user writes them.
-            pub const ALL: [(&'static str, Self); [$($name),*].len()] = [$(($name, Self::$style)),*];
-        }
 
         impl Style {
             /// Which style it is.

@@ -4,25 +4,23 @@ use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Target, Text
 use crate::scene::Size;
 use crate::settings::Setting;
 
-/// How many times as wide and high as the picture it is drawn.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Supersample {
-    /// As large as the picture, as published.
-    #[default]
-    One,
-    /// 4 samples a pixel.
-    Two,
-    /// 9 samples a pixel.
-    Three,
-    /// 16 samples a pixel.
-    Four,
+tinta_geometry::choices! {
+    /// How many times as wide and high as the picture it is drawn.
+    #[derive(Default)]
+    pub enum Supersample {
+        /// As large as the picture, as published.
+        #[default]
+        One = "1",
+        /// 4 samples a pixel.
+        Two = "2",
+        /// 9 samples a pixel.
+        Three = "3",
+        /// 16 samples a pixel.
+        Four = "4",
+    }
 }
 
 impl Supersample {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 4] =
-        [("1", Self::One), ("2", Self::Two), ("3", Self::Three), ("4", Self::Four)];
-
     /// What the setting does.
     pub(super) const HELP: &'static str = "Draw 1 to 4 times as wide and high, then shrink";
 
@@ -75,8 +73,6 @@ impl Supersample {
         plan
     }
 }
-
-tinta_geometry::choices!(Supersample);
 
 /// How far apart the texels of a texture of this size are.
 pub(super) fn texture_unit(size: Size) -> Uniform {

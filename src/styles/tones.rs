@@ -21,21 +21,15 @@ pub struct Tones {
     pub lookup: ToneLookup,
 }
 
-/// How a tone is found from the light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ToneLookup {
-    /// By comparing with the thresholds, as in the listing.
-    Steps,
-    /// In a one-dimensional texture, as the article mentions.
-    Texture,
+tinta_geometry::choices! {
+    /// How a tone is found from the light.
+    pub enum ToneLookup {
+        /// By comparing with the thresholds, as in the listing.
+        Steps = "steps",
+        /// In a one-dimensional texture, as the article mentions.
+        Texture = "texture",
+    }
 }
-
-impl ToneLookup {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("steps", Self::Steps), ("texture", Self::Texture)];
-}
-
-tinta_geometry::choices!(ToneLookup);
 
 impl Tones {
     /// Its settings.

@@ -4,28 +4,20 @@
 //! (Valente 2007, section 5; errata V8). Both are here after their published definitions, so that it can be tried.
 
 use crate::random::Random;
-use serde::Serialize;
 
-/// Where a texture's random numbers come from.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Generator {
-    /// SplitMix64, other numbers for each texture of one seed. Ours.
-    #[default]
-    SplitMix,
-    /// `rand()` of Microsoft's C runtime after `srand(seed)`: 15 bits of a linear congruential generator of 32.
-    Msvc,
-    /// `rand()` of the GNU C library after `srand(seed)`: 31 bits, an additive feedback generator of 31 words (its TYPE_3).
-    Glibc,
+tinta_geometry::choices! {
+    /// Where a texture's random numbers come from.
+    #[derive(Default)]
+    pub enum Generator {
+        /// SplitMix64, other numbers for each texture of one seed. Ours.
+        #[default]
+        SplitMix = "splitmix",
+        /// `rand()` of Microsoft's C runtime after `srand(seed)`: 15 bits of a linear congruential generator of 32.
+        Msvc = "msvc",
+        /// `rand()` of the GNU C library after `srand(seed)`: 31 bits, an additive feedback generator of 31 words (its TYPE_3).
+        Glibc = "glibc",
+    }
 }
-
-impl Generator {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 3] =
-        [("splitmix", Self::SplitMix), ("msvc", Self::Msvc), ("glibc", Self::Glibc)];
-}
-
-tinta_geometry::choices!(Generator);
 
 /// Random numbers for one texture.
 pub(super) enum Numbers {

@@ -1,13 +1,17 @@
 //! How far silhouettes are from those of the surface that is meant, where their visibility breaks, and what they cost.
 //! docs/smooth.md has the commands and the numbers.
 
+#[path = "contours/flicker.rs"]
+mod flicker;
+
+use flicker::{Flicker, flicker};
 use glam::DVec3;
 use std::collections::HashSet;
 use std::sync::Arc;
 use std::time::Instant;
 use tinta_geometry::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use tinta_geometry::lines::closed_forms::{ClosedForm, Patch, distance};
-use tinta_geometry::lines::{Flicker, LineSettings, VisibilityChanges, flicker};
+use tinta_geometry::lines::{LineSettings, VisibilityChanges};
 use tinta_geometry::{CameraSettings, LoadOptions, Mesh, Result, Scene, SceneSettings, View, VisibleLines, load};
 
 const USAGE: &str = "cargo bench -p tinta-geometry --bench contours -- truth [SURFACE...] | breaks [MODEL...] | times MODEL... | flicker VIEWS [MODEL...]

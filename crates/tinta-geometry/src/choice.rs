@@ -1,6 +1,8 @@
 //! Choices: values that are one of a few names, and the name that somebody meant who wrote another.
 
 use crate::error::ParseError;
+/// What the macro `choices` needs of serde.
+pub use serde::{Serialize, Serializer};
 
 /// A value that is one of a few names: what stands in its table is read, written, listed in help and offered by shells.
 pub trait Choice: Copy + PartialEq + 'static {
@@ -91,13 +93,44 @@ fn edits(from: &[char], to: &[char]) -> usize {
     rows[from.len()][to.len()]
 }
 
-/// Makes choices of types with a table `ALL`, which are read by `parse` and displayed as their names.
+/// Makes an enum of values with a name each, as the user writes it: the type, its table `ALL` in the same order, and how a value is
+/// read by `parse`, displayed and serialised: as its name.
 ///
-/// A macro because a trait of another crate cannot be implemented for every [`Choice`] at once.
+/// ```
+/// tinta_geometry::choices! {
+///     /// What a shop has.
+///     #[derive(Default)]
+///     pub enum Fruit {
+///         /// Red or green.
+///         #[default]
+///         Apple = "apple",
+///         /// With a stone.
+///         StoneFruit = "stone-fruit",
+///     }
+/// }
+/// assert_eq!("stone-fruit".parse(), Ok(Fruit::StoneFruit));
+/// assert_eq!(Fruit::ALL[0], ("apple", Fruit::default()));
+/// ```
 #[macro_export]
 #[doc(hidden)]
 macro_rules! choices {
-    ($($choice:ty),+) => {$(
+    (
+        $(#[$about:meta])*
+        $access:vis enum $choice:ident {
+            $($(#[$what:meta])* $value:ident = $name:literal,)+
+        }
+    ) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        $access enum $choice {
+            $($(#[$what])* $value,)+
+        }
+
+        impl $choice {
+            /// All of them in order, as the user writes them.
+            $access const ALL: [(&'static str, Self); [$($name),+].len()] = [$(($name, Self::$value)),+];
+        }
+
         impl $crate::choice::Choice for $choice {
             const NAMED: &'static [(&'static str, Self)] = &Self::ALL;
         }
@@ -115,7 +148,13 @@ macro_rules! choices {
                 out.write_str($crate::choice::Choice::choice_name(*self))
             }
         }
-    )+};
+
+        impl $crate::choice::Serialize for $choice {
+            fn serialize<S: $crate::choice::Serializer>(&self, to: S) -> std::result::Result<S::Ok, S::Error> {
+                to.serialize_str($crate::choice::Choice::choice_name(*self))
+            }
+        }
+    };
 }
 
 #[cfg(test)]

@@ -19,7 +19,6 @@
 
 mod build;
 mod classes;
-mod cones;
 mod cracks;
 mod lasting;
 mod mesh_edges;
@@ -31,7 +30,6 @@ mod smooth;
 pub(crate) use lasting::lasting_creases;
 
 pub use classes::{Class, ClassCounts, ClassSet, Classes, CreaseAngle};
-pub use cones::NormalCones;
 pub use cracks::cracks;
 pub use mesh_edges::MeshEdges;
 pub use orientation::{Eye, Side, side_of_face};

@@ -39,10 +39,8 @@ mod drawing;
 mod face_image;
 mod faces;
 mod features;
-mod flicker;
 mod foremost;
 mod forms;
-mod heal;
 mod identity;
 mod image;
 mod intersections;
@@ -81,9 +79,7 @@ pub use chain::{LinePath, chain};
 pub use changes::{Inconsistency, InconsistencyKind, VisibilityChanges};
 pub use curves::{Step, fitted};
 pub use drawing::{DrawnLayer, GHOST_OPACITY, drawn_layers};
-pub use flicker::{Flicker, flicker};
 pub use forms::FormSettings;
-pub use heal::Healed;
 pub use identity::StrokeIds;
 pub use layers::{ClassColors, ClassWidths, Layer, OfLayers};
 pub use length::{Length, Millimetres, Units, line_width};
@@ -101,7 +97,7 @@ use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Scene, Size};
-use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
+use crate::settings::{HasSettings, Setting, Table, Value as _, within};
 use crate::threads::both;
 use contours::Contours;
 use faces::Faces;
@@ -133,9 +129,6 @@ pub struct LineSettings {
     /// Where silhouettes run: exact ones, the default, are what the faces show; smooth ones are what a curved surface that the faces stand
     /// for would show. The listing's rule is refused: it knows no exact lines.
     pub silhouette: SilhouetteRule,
-    /// Gaps of smooth silhouettes are joined up to this length, pixels, where nothing comes before them and the contour does not turn
-    /// away. Default 0, none; otherwise hidden parts are found, too.
-    pub heal_px: f64,
     /// Whether hidden parts are found too. Default yes; without them [`VisibleLines::segments`] has what is seen alone, and no time
     /// is spent on what lies behind.
     pub finds_hidden: bool,
@@ -163,7 +156,6 @@ impl Default for LineSettings {
             crease_angle: CreaseAngle::of_drawings(),
             lasting_creases: false,
             silhouette: SilhouetteRule::Exact,
-            heal_px: 0.0,
             finds_hidden: true,
             finds_outline: false,
             forms: FormSettings::default(),
@@ -184,20 +176,6 @@ impl LineSettings {
     /// As by default, with the creases of Dachsbacher's listing: what the ink of all styles is measured against.
     pub fn as_published() -> Self {
         Self { crease_angle: CreaseAngle::default(), ..Self::default() }
-    }
-
-    /// Refuses lengths of gaps that are none, and joining what has no such gaps.
-    fn check_heal(&self) -> Result<()> {
-        if !(self.heal_px >= 0.0 && self.heal_px <= 1e6) {
-            return Err(Error::value("heal", self.heal_px, "it is a number of pixels from 0 to 1000000"));
-        }
-        match self.heal_px > 0.0 && self.silhouette != SilhouetteRule::Smooth {
-            true => Err(Error::settings(
-                &["heal", "silhouette"],
-                "only smooth silhouettes have gaps that may be joined; write --silhouette smooth too",
-            )),
-            false => Ok(()),
-        }
     }
 
     /// Whether smooth contours are drawn.
@@ -221,15 +199,7 @@ impl LineSettings {
                 .offering(&["exact", "smooth"]),
         ];
         let forms = within(FormSettings::settings(), |lines: &mut Self| Some(&mut lines.forms));
-        let heal = Setting::field(
-            "heal",
-            "PX",
-            "Join gaps of smooth silhouettes of at most this many pixels, where no other part comes before them",
-            |lines: &mut Self| &mut lines.heal_px,
-        )
-        .ours("0 joins none: what is drawn is what was found")
-        .range(0.0, 20.0, 1);
-        edges.into_iter().chain(forms).chain(under("Style lines: with --silhouette smooth", vec![heal])).collect()
+        edges.into_iter().chain(forms).collect()
     }
 }
 
@@ -289,8 +259,6 @@ pub struct VisibleLines {
     pub covered_triangles: usize,
     /// Where along silhouettes what is seen begins and ends, if that was asked for.
     pub changes: Option<VisibilityChanges>,
-    /// Which gaps were joined, if that was asked for.
-    pub healed: Option<Healed>,
     /// How many lines are missing because the time was over before they were decided: none but after
     /// [`Progress::within_or_part`]. What is there is as in the whole.
     pub undecided: usize,
@@ -340,11 +308,9 @@ impl VisibleLines {
         }
         not_published(settings.silhouette)?;
         settings.forms.check()?;
-        settings.check_heal()?;
         let has_forms = !settings.classes.and(ClassSet::FORMS).is_empty();
         let with_hidden;
-        let looks_behind = settings.counts_changes || settings.heal_px > 0.0;
-        let settings = if looks_behind && !settings.finds_hidden {
+        let settings = if settings.counts_changes && !settings.finds_hidden {
             with_hidden = LineSettings { finds_hidden: true, ..settings.clone() };
             &with_hidden
         } else {
@@ -423,18 +389,15 @@ impl VisibleLines {
         let (mut segments, steps) = found.segments(progress);
         compared += steps;
         let undecided = progress.undecided()?;
-        let (mut changes, mut healed) = (None, None);
+        let mut changes = None;
         if let Some(contours) = &contours {
             let contour_lines = ContourLines { lines: &found, contours, parts: &parts };
             if settings.has_smooth_contours() {
                 edges.silhouette += contours.pieces.len();
-                let mut decided = contour_lines.decided(progress);
+                let decided = contour_lines.decided(progress);
                 // A part of smooth contours is none.
                 progress.go_on()?;
                 changes = settings.counts_changes.then(|| contour_lines.changes(&decided));
-                if settings.heal_px > 0.0 {
-                    healed = Some(contour_lines.heal(&mut decided, settings.heal_px));
-                }
                 segments.extend(contour_lines.segments(&decided));
             } else {
                 progress.go_on()?;
@@ -449,18 +412,7 @@ impl VisibleLines {
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };
         let covered_triangles = parts.iter().map(Part::covered).sum();
         let has_specks = false;
-        Ok(Self { size: scene.size, segments, edges, covered_triangles, changes, healed, undecided, has_specks, times })
-    }
-
-    /// What is said of gaps that were joined.
-    pub fn healed_note(&self) -> Option<String> {
-        let Healed { gaps, length_px } = self.healed?;
-        let what = if gaps == 1 {
-            "1 gap of smooth silhouettes was"
-        } else {
-            &format!("{gaps} gaps of smooth silhouettes were")
-        };
-        Some(format!("{what} joined, {length_px:.1} px together"))
+        Ok(Self { size: scene.size, segments, edges, covered_triangles, changes, undecided, has_specks, times })
     }
 
     /// What files say of lines of which some are missing, see [`VisibleLines::undecided`], or specks are left.

@@ -15,7 +15,6 @@
 //! # }
 //! ```
 
-mod assimp;
 pub mod defects;
 mod folder;
 mod format;
@@ -49,7 +48,6 @@ pub use format::is_model_name;
 pub use frame::ModelFrame;
 #[cfg(feature = "gltf")]
 pub use gltf::camera as gltf_camera;
-pub(crate) use hilbert::hilbert_code;
 pub use load::{
     LoadOptions, LoadStage, Loaded, Normals, UpAxis, load, load_watched, read_as, read_bytes, refuse_address,
 };

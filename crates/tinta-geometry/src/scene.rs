@@ -37,7 +37,6 @@ use crate::mesh::{Material, Mesh, VertexArrays, bounds};
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
 use crate::tolerances::SCENE_RADIUS;
 use glam::{DMat4, DVec3, Mat4, Vec3};
-use serde::Serialize;
 use std::sync::{Arc, LazyLock, OnceLock, Weak};
 
 /// A mesh at a place.
@@ -93,23 +92,17 @@ pub struct Scene {
     pub surface: Surface,
 }
 
-/// What surfaces look like before a style shades them.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Surface {
-    /// Each material has one colour.
-    #[default]
-    Plain,
-    /// With the textures and colours at vertices that the model brings; a material is white under its texture.
-    Textured,
+crate::choices! {
+    /// What surfaces look like before a style shades them.
+    #[derive(Default)]
+    pub enum Surface {
+        /// Each material has one colour.
+        #[default]
+        Plain = "plain",
+        /// With the textures and colours at vertices that the model brings; a material is white under its texture.
+        Textured = "textured",
+    }
 }
-
-impl Surface {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("plain", Self::Plain), ("textured", Self::Textured)];
-}
-
-crate::choices!(Surface);
 
 /// What the user asks of the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -343,11 +336,6 @@ impl Scene {
     /// for is kept.
     pub fn curvatures(&self, object: &Object, crease_angle: CreaseAngle, smoothing: f64) -> Arc<Curvatures> {
         object.curvatures.get(&object.mesh, self.edges(object).list(), crease_angle, smoothing)
-    }
-
-    /// Prepares every object's edges for an animation; see [`MeshEdges::prepare_for_many_views`].
-    pub fn prepare_for_many_views(&self) {
-        self.objects.iter().for_each(|object| self.edges(object).prepare_for_many_views());
     }
 
     /// Where an object is seen from, in its mesh's own coordinates; for the listing's rule always the camera's axis.

@@ -1,8 +1,8 @@
 //! Whose each value of a style is: printed in its text, deduced from it, or ours.
 //!
 //! Settings say it where they are declared ([`tinta::settings::Setting::provenance`]), fixed values in [`CONSTANTS`], the numbers
-//! in shaders in [`SHADERS`]. In: the name of a style, or none for all. Out: rows, a table for a terminal, and the page
-//! docs/provenance.md.
+//! in shaders in [`SHADERS`]. In: the name of a style, or none for all. Out: rows, a table for a terminal, and a page
+//! of all tables.
 //!
 //! ```
 //! use tinta::StyleName;
@@ -111,7 +111,7 @@ pub fn text(style: Option<StyleName>) -> String {
     out
 }
 
-/// The page docs/provenance.md, whole.
+/// All rows as a page of tables, then the numbers in shaders.
 pub fn page() -> String {
     let mut out = PAGE_OPENING.to_owned();
     for whose in [Whose::Printed, Whose::Deduced, Whose::Ours] {
@@ -146,12 +146,7 @@ const PAGE_OPENING: &str = "\
 # Whose value is it
 
 Every value that a style draws with: printed in its text, deduced from the text, or ours because the text is silent.
-[errata.md](errata.md) says what the choices cost. `tinta provenance` writes this page, so do not edit it:
-
-    tinta provenance three-pass            # one style, on the terminal
-    tinta provenance --markdown            # this page
-
-E is Evangelista et al. 2005, D is Dachsbacher, V is Valente 2007; numbers like E13 are rows of the errata.
+`tinta provenance three-pass` prints those of one style, `tinta provenance --markdown` this page. E is Evangelista et al. 2005, D is Dachsbacher, V is Valente 2007; numbers like E13 are rows of the errata.
 ";
 
 fn heading(whose: Whose) -> &'static str {

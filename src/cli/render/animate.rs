@@ -11,13 +11,10 @@ use tinta::plan::prune::Pruned;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
 use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Session};
-use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings, Style};
+use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings};
 
 /// How long a turn takes unless told otherwise, milliseconds; few views are not shown longer than 200 each.
 const TURN_MS: u32 = 2500;
-
-/// Views from which silhouettes are worth a hierarchy.
-pub(super) const WORTH_PREPARING: u32 = 30;
 
 /// Quake 2 shows ten frames a second.
 const MODEL_FRAME_MS: u16 = 100;
@@ -109,9 +106,6 @@ pub fn scenes(request: &Request, models: &ModelCache) -> Result<(Vec<Scene>, f64
     let ReadModels { meshes, ms: load_ms, .. } = request.models(models)?;
     let scene = Scene::new(meshes, settings)?;
     let Some(views) = request.animation.turntable else { return Ok((vec![scene], load_ms)) };
-    if views >= WORTH_PREPARING && matches!(request.style, Style::Inking(_)) {
-        scene.prepare_for_many_views();
-    }
     let cameras = scene.turntable(&settings.camera, views)?;
     Ok((cameras.into_iter().map(|camera| Scene { camera, ..scene.clone() }).collect(), load_ms))
 }

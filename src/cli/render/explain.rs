@@ -79,9 +79,6 @@ pub(super) fn lines(lines: &VisibleLines, counts: &LineCounts, load_ms: f64, wri
             text.push_str(&format!("  at {:.1},{:.1} px: {why}\n", place.px[0], place.px[1]));
         }
     }
-    if let Some(healed) = lines.healed_note() {
-        text.push_str(&format!("{healed}\n"));
-    }
     let times = [
         ("read", load_ms),
         ("edges, hierarchy", lines.times.topology_ms),

@@ -48,9 +48,6 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     let Drawn::Lines(drawn) = drawn else { return Ok(Verdict::Good) };
     let DrawnLines { scene, files, style, lines, load_ms } = *drawn;
     scene.crack_remarks().iter().for_each(|remark| say(&format!("tinta: {remark}")));
-    if let Some(healed) = lines.healed_note() {
-        say(&format!("tinta: {output}: {healed}"));
-    }
     if !lines.segments.iter().any(|segment| segment.is_visible) {
         say("tinta: no line of these classes is visible in this picture; see --classes, --eye and --target");
     }
@@ -92,7 +89,6 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     let made = Made::Lines(Box::new(LinesMade {
         edges: lines.edges,
         changes: lines.changes,
-        healed: lines.healed,
         undecided: lines.undecided,
         counts,
         times: lines.times,

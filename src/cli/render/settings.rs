@@ -91,8 +91,7 @@ fn settings() -> Vec<Setting<RunSettings>> {
         Setting::field(
             "submission",
             "HOW",
-            "Hand vertices to GL in buffers, or as programs of 2001 did, one by one (immediate) or in display lists (display-list); \
-             the picture is the same",
+            "Hand vertices to GL in buffers, or as programs of 2001 did, one by one (immediate); the picture is the same",
             |run: &mut RunSettings| &mut run.submission,
         ),
         frames,

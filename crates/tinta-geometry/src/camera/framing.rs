@@ -5,20 +5,19 @@
 use crate::tolerances::{FRAME_FILL, OUTLINE_FILL};
 use glam::{DVec2, DVec3};
 
-/// What is put into the picture's middle where neither eye nor target are given.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Framing {
-    /// The middle of the scene's box: turning the scene does not move it.
-    #[default]
-    Middle,
-    /// The middle of what is seen, which then fills the picture as far as the margin lets it.
-    Outline,
+crate::choices! {
+    /// What is put into the picture's middle where neither eye nor target are given.
+    #[derive(Default)]
+    pub enum Framing {
+        /// The middle of the scene's box: turning the scene does not move it.
+        #[default]
+        Middle = "middle",
+        /// The middle of what is seen, which then fills the picture as far as the margin lets it.
+        Outline = "outline",
+    }
 }
 
 impl Framing {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("middle", Self::Middle), ("outline", Self::Outline)];
-
     /// Share of the picture's half-width and half-height that is filled.
     pub(super) fn fill(self) -> f64 {
         match self {
@@ -27,8 +26,6 @@ impl Framing {
         }
     }
 }
-
-crate::choices!(Framing);
 
 /// The move, across the view, after which the points' picture in a parallel projection is centred.
 pub(super) fn middle_of_parallel(points: impl Iterator<Item = DVec3>) -> DVec2 {

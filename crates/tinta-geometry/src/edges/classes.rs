@@ -11,68 +11,49 @@ use crate::tolerances::{CREASE_DIGITS, PARALLEL_COSINE};
 use glam::DVec3;
 use serde::Serialize;
 
-/// Why an edge is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-#[repr(u8)]
-pub enum Class {
-    /// It has one face.
-    Boundary,
-    /// It has three faces or more; the text's listing overwrites one of them and never draws it (errata D2).
-    NonManifold,
-    /// One of its two faces is seen from the front, the other from the back.
-    Silhouette,
-    /// The normals of its two faces differ by more than the crease angle.
-    Crease,
-    /// The same where the surface is convex, for drawings that set both apart.
-    ConvexCrease,
-    /// The same where it is concave.
-    ConcaveCrease,
-    /// Its two faces have different materials: in the text an inner edge that counts as boundary (errata D10).
-    Material,
-    /// The texture coordinates at it differ between its two faces; likewise.
-    Texture,
-    /// The vertex normals at it differ between its two faces; likewise.
-    Normal,
-    /// No edge of the mesh: two faces pass through one another along it. Only the exact lines find it.
-    Intersection,
-    /// No edge either, nor are the three below, which the exact lines find from the curvature of the surface that is meant: a
-    /// suggestive contour, where a nearby eye would see a contour (DeCarlo et al. 2003).
-    Suggestive,
-    /// Where a convex surface is most curved along the direction in which it is most curved (Ohtake et al. 2004).
-    Ridge,
-    /// The same where it is concave.
-    Valley,
-    /// Where the surface seems most curved to the eye (Judd et al. 2007).
-    ApparentRidge,
+crate::choices! {
+    /// Why an edge is drawn. An edge of several classes belongs to the first of them here.
+    #[derive(PartialOrd, Ord)]
+    #[repr(u8)]
+    pub enum Class {
+        /// It has one face.
+        Boundary = "boundary",
+        /// It has three faces or more; the text's listing overwrites one of them and never draws it (errata D2).
+        NonManifold = "non-manifold",
+        /// One of its two faces is seen from the front, the other from the back.
+        Silhouette = "silhouette",
+        /// The normals of its two faces differ by more than the crease angle.
+        Crease = "crease",
+        /// The same where the surface is convex, for drawings that set both apart.
+        ConvexCrease = "convex-crease",
+        /// The same where it is concave.
+        ConcaveCrease = "concave-crease",
+        /// Its two faces have different materials: in the text an inner edge that counts as boundary (errata D10).
+        Material = "material",
+        /// The texture coordinates at it differ between its two faces; likewise.
+        Texture = "texture",
+        /// The vertex normals at it differ between its two faces; likewise.
+        Normal = "normal",
+        /// No edge of the mesh: two faces pass through one another along it. Only the exact lines find it.
+        Intersection = "intersection",
+        /// No edge either, nor are the three below, which the exact lines find from the curvature of the surface that is meant: a
+        /// suggestive contour, where a nearby eye would see a contour (DeCarlo et al. 2003).
+        Suggestive = "suggestive",
+        /// Where a convex surface is most curved along the direction in which it is most curved (Ohtake et al. 2004).
+        Ridge = "ridge",
+        /// The same where it is concave.
+        Valley = "valley",
+        /// Where the surface seems most curved to the eye (Judd et al. 2007).
+        ApparentRidge = "apparent-ridge",
+    }
 }
 
 impl Class {
-    /// All of them, as the user writes them, in the order in which an edge of several classes belongs to one.
-    pub const ALL: [(&'static str, Self); 14] = [
-        ("boundary", Self::Boundary),
-        ("non-manifold", Self::NonManifold),
-        ("silhouette", Self::Silhouette),
-        ("crease", Self::Crease),
-        ("convex-crease", Self::ConvexCrease),
-        ("concave-crease", Self::ConcaveCrease),
-        ("material", Self::Material),
-        ("texture", Self::Texture),
-        ("normal", Self::Normal),
-        ("intersection", Self::Intersection),
-        ("suggestive", Self::Suggestive),
-        ("ridge", Self::Ridge),
-        ("valley", Self::Valley),
-        ("apparent-ridge", Self::ApparentRidge),
-    ];
-
     /// As the user writes it.
     pub fn name(self) -> &'static str {
         self.choice_name()
     }
 }
-
-crate::choices!(Class);
 
 /// Some classes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -1,8 +1,6 @@
-//! A mesh's edges with what is kept between views: the list, its classes, the faces' planes, the hierarchy.
+//! A mesh's edges with what is kept between views: the list, its classes, the faces' planes.
 
-use super::{
-    Class, ClassSet, Classes, CreaseAngle, EdgeList, Eye, NormalCones, SilhouetteRule, Silhouettes, SmoothSurface,
-};
+use super::{Class, ClassSet, Classes, CreaseAngle, EdgeList, Eye, SilhouetteRule, Silhouettes, SmoothSurface};
 use crate::mesh::Mesh;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -12,7 +10,6 @@ pub struct MeshEdges {
     mesh: Arc<Mesh>,
     list: EdgeList,
     silhouettes: OnceLock<Silhouettes>,
-    cones: OnceLock<NormalCones>,
     /// For the settings last asked for.
     classes: Mutex<Option<(ClassSet, Arc<Classes>)>>,
     /// For the angle last asked for.
@@ -23,14 +20,7 @@ impl MeshEdges {
     /// Builds the list; everything else is made when first asked for.
     pub fn new(mesh: Arc<Mesh>) -> Self {
         let list = EdgeList::new(&mesh);
-        Self {
-            mesh,
-            list,
-            silhouettes: OnceLock::new(),
-            cones: OnceLock::new(),
-            classes: Mutex::new(None),
-            smooth: Mutex::new(None),
-        }
+        Self { mesh, list, silhouettes: OnceLock::new(), classes: Mutex::new(None), smooth: Mutex::new(None) }
     }
 
     /// The mesh.
@@ -85,17 +75,8 @@ impl MeshEdges {
 
     /// The silhouette edges for an eye in the mesh's own coordinates, ascending.
     pub fn silhouette(&self, eye: Eye, rule: SilhouetteRule) -> Vec<u32> {
-        let silhouettes = self.planes();
-        match self.cones.get() {
-            Some(cones) => cones.find(&self.mesh, &self.list, silhouettes, eye, rule),
-            None => silhouettes.find(&self.mesh, &self.list, eye, rule),
-        }
-    }
-
-    /// Builds the hierarchy, so that every silhouette from now on takes time by its own length: worth it for an animation
-    /// or a window, not for one picture.
-    pub fn prepare_for_many_views(&self) {
-        self.cones.get_or_init(|| NormalCones::new(&self.mesh, &self.list, self.planes()));
+        let silhouettes = self.silhouettes.get_or_init(|| Silhouettes::new(&self.mesh, &self.list));
+        silhouettes.find(&self.mesh, &self.list, eye, rule)
     }
 
     /// The edges to draw and the class each belongs to: of those it has in `wanted`, the first in the order of
@@ -133,9 +114,5 @@ impl MeshEdges {
         }
         lists.retain(|(_, edges)| !edges.is_empty());
         lists
-    }
-
-    fn planes(&self) -> &Silhouettes {
-        self.silhouettes.get_or_init(|| Silhouettes::new(&self.mesh, &self.list))
     }
 }

@@ -9,29 +9,24 @@ use crate::mesh::{Mesh, triangle_normal};
 use crate::settings::Setting;
 use crate::threads::{filled, in_parallel, ranges, threads_for};
 use glam::{DVec3, Vec3, Vec4};
-use serde::Serialize;
 
-/// How it is decided whether an edge is silhouette.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SilhouetteRule {
-    /// The listing's: the product of both normals' components along the camera's axis is at most 1e-8, for every edge the
-    /// same axis. In perspective that misses edges and invents others.
-    #[default]
-    #[serde(rename = "paper")]
-    Published,
-    /// One face's front is seen and the other's is not, by exact arithmetic.
-    Exact,
-    /// Where the curved surface that the faces stand for turns away: through the faces, and along edges only where they are sharp,
-    /// see [`crate::lines::smooth_silhouettes`]. Asked for edges alone it is [`SilhouetteRule::Exact`].
-    Smooth,
+crate::choices! {
+    /// How it is decided whether an edge is silhouette.
+    #[derive(Default)]
+    pub enum SilhouetteRule {
+        /// The listing's: the product of both normals' components along the camera's axis is at most 1e-8, for every edge the
+        /// same axis. In perspective that misses edges and invents others.
+        #[default]
+        Published = "paper",
+        /// One face's front is seen and the other's is not, by exact arithmetic.
+        Exact = "exact",
+        /// Where the curved surface that the faces stand for turns away: through the faces, and along edges only where they are sharp,
+        /// see [`crate::lines::smooth_silhouettes`]. Asked for edges alone it is [`SilhouetteRule::Exact`].
+        Smooth = "smooth",
+    }
 }
 
 impl SilhouetteRule {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 3] =
-        [("paper", Self::Published), ("exact", Self::Exact), ("smooth", Self::Smooth)];
-
     /// The setting of a style.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         Setting::field(
@@ -46,41 +41,36 @@ impl SilhouetteRule {
     }
 }
 
-crate::choices!(SilhouetteRule);
-
 /// The listing's bound on the product of two normals' components along the view.
 const PUBLISHED_BOUND: f32 = 0.000_000_01;
 
-/// Components beyond this on one side have a product above [`PUBLISHED_BOUND`] whatever the rounding.
-pub(super) const PUBLISHED_CLEAR: f32 = 1.001e-4;
-
 /// Bound on the f32 error of a face's distance from the eye, as a share of the numbers it is computed from: four products
 /// and three sums, and the roundings of plane and eye before.
-pub(super) const PLANE_ERROR: f32 = 8.0 * f32::EPSILON;
+const PLANE_ERROR: f32 = 8.0 * f32::EPSILON;
 
 /// A mesh's faces as planes, ready to be asked for silhouettes from many eyes.
 #[derive(Debug, Clone)]
 pub struct Silhouettes {
-    pub(super) frame: Frame,
+    frame: Frame,
     /// Each face's unit normal and, in the fourth place, minus its plane's distance from the origin, NaN where f32 cannot be
     /// trusted.
-    pub(super) planes: Vec<[f32; 4]>,
+    planes: Vec<[f32; 4]>,
     /// The edges whose faces are wound against each other, ascending.
     reversed: Vec<u32>,
 }
 
 /// The coordinates of the planes: the mesh's middle is the origin and its radius 1, so that f32 suffices.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Frame {
-    pub centre: DVec3,
-    pub radius: f64,
+struct Frame {
+    centre: DVec3,
+    radius: f64,
 }
 
 /// An eye in the planes' coordinates: position with 1, or direction with 0, and the error its products may have.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct LocalEye {
-    pub homogeneous: Vec4,
-    pub error: f32,
+struct LocalEye {
+    homogeneous: Vec4,
+    error: f32,
 }
 
 impl Frame {
@@ -91,11 +81,11 @@ impl Frame {
         Self { centre: low * 0.5 + high * 0.5, radius }
     }
 
-    pub(super) fn local(&self, point: DVec3) -> Vec3 {
+    fn local(&self, point: DVec3) -> Vec3 {
         ((point - self.centre) / self.radius).as_vec3()
     }
 
-    pub(super) fn eye(&self, eye: Eye) -> LocalEye {
+    fn eye(&self, eye: Eye) -> LocalEye {
         let homogeneous = match eye {
             Eye::Point(eye) => self.local(eye).extend(1.0),
             Eye::Direction(direction) => direction.normalize_or_zero().as_vec3().extend(0.0),
@@ -118,7 +108,7 @@ impl Silhouettes {
     }
 
     /// An eye for a rule: the listing's looks along one vector for every edge, for a point that from the mesh's middle.
-    pub(super) fn local_eye(&self, eye: Eye, rule: SilhouetteRule) -> LocalEye {
+    fn local_eye(&self, eye: Eye, rule: SilhouetteRule) -> LocalEye {
         let local = self.frame.eye(eye);
         match rule {
             SilhouetteRule::Exact | SilhouetteRule::Smooth => local,
@@ -181,14 +171,7 @@ impl Silhouettes {
 
     /// Adds those of the edges whose faces are wound against each other that are silhouette: by the exact rule when one face
     /// is turned round; by the listing's, which knows no such edges, as they are.
-    pub(super) fn add_reversed(
-        &self,
-        mesh: &Mesh,
-        edges: &EdgeList,
-        eye: Eye,
-        rule: SilhouetteRule,
-        found: &mut Vec<u32>,
-    ) {
+    fn add_reversed(&self, mesh: &Mesh, edges: &EdgeList, eye: Eye, rule: SilhouetteRule, found: &mut Vec<u32>) {
         let local = self.local_eye(eye, rule);
         let along_view = |face: u32| along_view(self.planes[face as usize], &local);
         let side = |face: u32| {
@@ -213,7 +196,7 @@ impl Silhouettes {
 
     /// Whether the eye sees a face's front, by exact arithmetic; `mesh` is the one the planes were made from.
     #[cold]
-    pub(super) fn is_front_exactly(&self, mesh: &Mesh, face: usize, eye: Eye) -> bool {
+    fn is_front_exactly(&self, mesh: &Mesh, face: usize, eye: Eye) -> bool {
         let corners = corners(mesh, &mesh.triangles[face]);
         corners.is_some_and(|corners| side_of_face(corners, eye) == Side::Front)
     }
@@ -221,7 +204,7 @@ impl Silhouettes {
 
 /// Whether the eye is clearly on the front of a plane, or clearly not; `None` where f32 cannot tell.
 #[inline(always)]
-pub(super) fn is_front([x, y, z, w]: [f32; 4], eye: &LocalEye) -> Option<bool> {
+fn is_front([x, y, z, w]: [f32; 4], eye: &LocalEye) -> Option<bool> {
     let [eye_x, eye_y, eye_z, eye_w] = eye.homogeneous.to_array();
     let distance = x * eye_x + y * eye_y + z * eye_z + w * eye_w;
     // A NaN is neither.
@@ -237,7 +220,7 @@ fn along_view([x, y, z, _]: [f32; 4], eye: &LocalEye) -> f32 {
 
 /// The listing's test, in its own precision, of two normals' components along the view.
 #[inline(always)]
-pub(super) fn is_published_silhouette(first: f32, second: f32) -> bool {
+fn is_published_silhouette(first: f32, second: f32) -> bool {
     first * second <= PUBLISHED_BOUND
 }
 

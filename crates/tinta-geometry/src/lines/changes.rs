@@ -82,7 +82,7 @@ pub(super) struct Cusps {
 
 impl Cusps {
     /// Whether one is within two edges of a place.
-    pub(super) fn are_near(&self, place: DVec3, longest: f64) -> bool {
+    fn are_near(&self, place: DVec3, longest: f64) -> bool {
         self.places.iter().any(|(cusp, reach)| cusp.distance(place) <= reach.max(REACH * longest))
     }
 }
@@ -187,13 +187,6 @@ impl ContourLines<'_> {
         if cusps.are_near(probe.view, longest) { Reason::Cusp } else { Reason::None(InconsistencyKind::Near) }
     }
 
-    /// Whether a face hides a point that is more than two edges away from it, or of another shell.
-    pub(super) fn is_hidden_from_afar(&self, probe: &Probe, part: u32, longest: f64) -> bool {
-        self.any_hider(probe, |place, distance| {
-            distance > REACH * longest || self.is_of_another_shell(probe, part, place)
-        })
-    }
-
     /// Whether a face, by its place, hangs together with a probe's line nowhere.
     fn is_of_another_shell(&self, probe: &Probe, part: u32, place: u32) -> bool {
         let surface = &self.contours.parts[part as usize].surface;
@@ -221,7 +214,7 @@ impl ContourLines<'_> {
     }
 
     /// The cusps with contours of some length on either side.
-    pub(super) fn cusps(&self) -> Cusps {
+    fn cusps(&self) -> Cusps {
         let pieces = &self.contours.pieces;
         let mut runs: Vec<usize> = (0..pieces.len()).collect();
         let root = |runs: &mut Vec<usize>, mut number: usize| {

@@ -304,7 +304,6 @@ mod tests {
             segments: vec![segment],
             edges: ClassCounts::default(),
             changes: None,
-            healed: None,
             covered_triangles: 0,
             undecided: 0,
             has_specks: false,

@@ -81,7 +81,6 @@ impl VisibleLines {
             segments: Vec::new(),
             edges: self.edges,
             changes: self.changes.clone(),
-            healed: self.healed,
             covered_triangles: self.covered_triangles,
             undecided: self.undecided,
             has_specks: self.has_specks,

@@ -113,7 +113,6 @@ mod tests {
             segments: vec![segment(20.0, true), segment(60.0, false)],
             edges: Default::default(),
             changes: None,
-            healed: None,
             covered_triangles: 0,
             undecided: 0,
             has_specks: false,

@@ -1,6 +1,6 @@
 //! Which format a model file is in: by its content first, by its name second.
 
-use super::{assimp, md2, obj, stl, three_ds};
+use super::{md2, obj, stl, three_ds};
 use std::path::Path;
 
 /// How GLB begins, glTF in one file.
@@ -15,11 +15,9 @@ pub(super) enum Format {
     Md2,
     ThreeDs,
     Gltf,
-    /// Read by libassimp; what people call it.
-    Assimp(&'static str),
 }
 
-/// What people call a format that is not read, by how the name ends: they hold curved surfaces, or belong to one program.
+/// What people call a format that is not read, by how the name ends.
 pub(super) fn unread(path: &str) -> Option<&'static str> {
     Some(match Path::new(path).extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "step" | "stp" => "STEP",
@@ -37,13 +35,25 @@ pub(super) fn unread(path: &str) -> Option<&'static str> {
         "ma" | "mb" => "Maya",
         "c4d" => "Cinema 4D",
         "usd" | "usda" | "usdc" | "usdz" => "USD",
+        "3mf" => "3MF",
+        "ase" => "ASE",
+        "blend" => "Blender",
+        "dae" => "Collada",
+        "dxf" => "DXF",
+        "fbx" => "FBX",
+        "lwo" => "LWO",
+        "md3" => "MD3",
+        "ms3d" => "MS3D",
+        "nff" => "NFF",
+        "off" => "OFF",
+        "x" => "X",
         _ => return None,
     })
 }
 
-/// Whether a file of this name is a model by how the name ends.
+/// Whether a file of this name is a model by how the name ends, of a format that is read or not.
 pub fn is_model_name(name: &str) -> bool {
-    Format::by_name(name).is_some()
+    Format::by_name(name).is_some() || unread(name).is_some()
 }
 
 impl Format {
@@ -58,7 +68,6 @@ impl Format {
             Self::Md2 => "MD2",
             Self::ThreeDs => "3DS",
             Self::Gltf => "glTF",
-            Self::Assimp(name) => name,
         }
     }
 
@@ -70,7 +79,7 @@ impl Format {
             "md2" => Some(Self::Md2),
             "3ds" => Some(Self::ThreeDs),
             "gltf" | "glb" => Some(Self::Gltf),
-            extension => assimp::format_of(extension).map(Self::Assimp),
+            _ => None,
         }
     }
 
@@ -120,7 +129,7 @@ mod tests {
         let mut binary = vec![0u8; 84 + 50];
         binary[80] = 1;
         assert_eq!(Format::by_content(&binary), Some(Format::Stl));
-        assert_eq!(Format::by_name("a.MS3D"), Some(Format::Assimp("MS3D")));
+        assert_eq!((Format::by_name("a.MS3D"), unread("a.MS3D")), (None, Some("MS3D")));
         assert_eq!(Format::by_content(b"IDP2\x08\0\0\0"), Some(Format::Md2));
         assert_eq!(Format::by_content(b"MM\x10\0\0\0\x02\0\x0a\0\0\0\x03\0\0\0"), Some(Format::ThreeDs));
         assert_eq!(Format::by_content(b"glTF\x02\0\0\0"), Some(Format::Gltf));

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// The place of a point with coordinates in [0, 1023] on Hilbert's space-filling curve (Skilling 2004), which, unlike
 /// Morton's, never jumps.
-pub(crate) fn hilbert_code(point: DVec3) -> u32 {
+pub(super) fn hilbert_code(point: DVec3) -> u32 {
     const BITS: u32 = 10;
     let mut axes = point.to_array().map(|coordinate| (coordinate as u32).min((1 << BITS) - 1));
     for bit in (1..BITS).rev() {

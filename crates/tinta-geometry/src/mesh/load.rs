@@ -4,7 +4,7 @@ use super::folder::Folder;
 use super::format::{self, Format};
 #[cfg(feature = "gltf")]
 use super::gltf;
-use super::{Defects, Mesh, ModelFrame, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, text, three_ds};
+use super::{Defects, Mesh, ModelFrame, lying, md2, obj, ply, skin, soup::Soup, stl, text, three_ds};
 use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
 use crate::files::{self, Failure};
@@ -139,67 +139,46 @@ impl Serialize for LoadOptions {
     }
 }
 
-/// Where a mesh's normals come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Normals {
-    /// From the file; computed smooth where the file has none.
-    File,
-    /// Computed: smooth up to the smoothing angle.
-    Smooth,
-    /// From the file; where it has none smooth, and split only along creases that reach through a share of the model: the single sharp
-    /// edges of scans and of models of few triangles are smoothed. Where a surface has a scan's noise, that is evened out.
-    Lasting,
-    /// Computed: each face its own.
-    Flat,
-    /// Computed by the listing of C. Dachsbacher's article: one normal a vertex, to which each triangle there adds its unit
-    /// normal; nothing is split at creases.
-    Dachsbacher,
+crate::choices! {
+    /// Where a mesh's normals come from.
+    #[derive(Hash)]
+    pub enum Normals {
+        /// From the file; computed smooth where the file has none.
+        File = "file",
+        /// Computed: smooth up to the smoothing angle.
+        Smooth = "smooth",
+        /// From the file; where it has none smooth, and split only along creases that reach through a share of the model: the single sharp
+        /// edges of scans and of models of few triangles are smoothed. Where a surface has a scan's noise, that is evened out.
+        Lasting = "lasting",
+        /// Computed: each face its own.
+        Flat = "flat",
+        /// Computed by the listing of C. Dachsbacher's article: one normal a vertex, to which each triangle there adds its unit
+        /// normal; nothing is split at creases.
+        Dachsbacher = "dachsbacher",
+    }
 }
 
-impl Normals {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 5] = [
-        ("file", Self::File),
-        ("smooth", Self::Smooth),
-        ("lasting", Self::Lasting),
-        ("flat", Self::Flat),
-        ("dachsbacher", Self::Dachsbacher),
-    ];
-}
-
-crate::choices!(Normals);
-
-/// The model's axis that shall point up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum UpAxis {
-    /// As the file's format has it: z up in STL and 3DS (where -y is the front) and in MD2 (where x is), y in the others.
-    Auto,
-    /// +x is up.
-    X,
-    /// +y is up, as here.
-    Y,
-    /// +z is up; -y is then the front.
-    Z,
-    /// -x is up.
-    MinusX,
-    /// -y is up.
-    MinusY,
-    /// -z is up.
-    MinusZ,
+crate::choices! {
+    /// The model's axis that shall point up.
+    pub enum UpAxis {
+        /// As the file's format has it: z up in STL and 3DS (where -y is the front) and in MD2 (where x is), y in the others.
+        Auto = "auto",
+        /// +x is up.
+        X = "x",
+        /// +y is up, as here.
+        Y = "y",
+        /// +z is up; -y is then the front.
+        Z = "z",
+        /// -x is up.
+        MinusX = "-x",
+        /// -y is up.
+        MinusY = "-y",
+        /// -z is up.
+        MinusZ = "-z",
+    }
 }
 
 impl UpAxis {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 7] = [
-        ("auto", Self::Auto),
-        ("x", Self::X),
-        ("y", Self::Y),
-        ("z", Self::Z),
-        ("-x", Self::MinusX),
-        ("-y", Self::MinusY),
-        ("-z", Self::MinusZ),
-    ];
-
     /// Rotates a vector so that this axis becomes +y; exact, components only change places and signs. For `Auto` the
     /// vector stays: it was turned as its format has it.
     pub fn to_y_up(self, v: DVec3) -> DVec3 {
@@ -213,8 +192,6 @@ impl UpAxis {
         }
     }
 }
-
-crate::choices!(UpAxis);
 
 /// What [`load`] read and what it noticed on the way, to be said once.
 #[derive(Debug)]
@@ -471,8 +448,7 @@ fn soup(
     }
     let bytes = &*text::decoded(bytes);
     let named = Format::by_name(path);
-    let found =
-        Format::by_content(bytes).filter(|found| !matches!(named, Some(Format::Assimp(_))) || found.is_unmistakable());
+    let found = Format::by_content(bytes).filter(|found| format::unread(path).is_none() || found.is_unmistakable());
     let format = found.or(named).ok_or_else(|| {
         let problem = match format::unread(path) {
             Some(format) => not_read(format),
@@ -510,7 +486,6 @@ fn soup(
                 "this build does not read glTF; build with the feature gltf, or save it as OBJ",
             ));
         }
-        Format::Assimp(format) => assimp::read(bytes, format, path, options, folder, remarks)?,
     };
     soup.check_memory(bytes.len(), path)?;
     Ok(soup)

@@ -1,7 +1,7 @@
 //! Wavefront OBJ, with MTL colours and textures.
 //!
 //! The file is cut between lines into pieces, which are read at the same time on all cores: first what each piece declares
-//! is counted, so that each then knows its faces' indices. tobj reads the tests' second opinion (`twin.rs`): for everybody's
+//! is counted, so that each then knows its faces' indices. tobj reads sound files as the tests' second opinion: for everybody's
 //! files it takes three times as long on one core, stops at the first index out of range, knows no line numbers and
 //! invents normals for corners that have none.
 
@@ -11,8 +11,6 @@ mod lines;
 mod materials;
 mod piece;
 mod quick;
-#[cfg(test)]
-mod twin;
 
 use super::folder::Folder;
 use super::soup::Soup;

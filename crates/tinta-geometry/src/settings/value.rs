@@ -46,31 +46,6 @@ trait Number: std::str::FromStr + ToString + Copy {
     const USAGE: &'static str;
 }
 
-impl Number for f32 {
-    const DECIMALS: usize = 2;
-    const USAGE: &'static str = "give a number";
-}
-
-impl Number for f64 {
-    const DECIMALS: usize = 2;
-    const USAGE: &'static str = "give a number";
-}
-
-impl Number for u8 {
-    const DECIMALS: usize = 0;
-    const USAGE: &'static str = "give a whole number from 0 to 255";
-}
-
-impl Number for u32 {
-    const DECIMALS: usize = 0;
-    const USAGE: &'static str = "give a whole number, 0 or more";
-}
-
-impl Number for u64 {
-    const DECIMALS: usize = 0;
-    const USAGE: &'static str = "give a whole number, 0 or more";
-}
-
 fn kind_of<N: Number>(count: usize) -> Kind {
     Kind::Numbers { count, range: [0.0, 1.0], decimals: N::DECIMALS }
 }
@@ -89,74 +64,38 @@ fn joined<N: Number>(numbers: &[N]) -> String {
     numbers.iter().map(N::to_string).collect::<Vec<_>>().join(",")
 }
 
-impl Value for f32 {
-    fn kind() -> Kind {
-        kind_of::<Self>(1)
-    }
+/// Makes values of types of numbers.
+///
+/// A macro because every [`Choice`] is a [`Value`] already: another type can be only by itself.
+macro_rules! numbers {
+    ($($number:ty: $decimals:literal, $usage:literal;)+) => {$(
+        impl Number for $number {
+            const DECIMALS: usize = $decimals;
+            const USAGE: &'static str = $usage;
+        }
 
-    fn text(&self) -> String {
-        self.to_string()
-    }
+        impl Value for $number {
+            fn kind() -> Kind {
+                kind_of::<Self>(1)
+            }
 
-    fn parse(text: &str) -> Result<Self, Problem> {
-        number(text)
-    }
+            fn text(&self) -> String {
+                self.to_string()
+            }
+
+            fn parse(text: &str) -> Result<Self, Problem> {
+                number(text)
+            }
+        }
+    )+};
 }
 
-impl Value for f64 {
-    fn kind() -> Kind {
-        kind_of::<Self>(1)
-    }
-
-    fn text(&self) -> String {
-        self.to_string()
-    }
-
-    fn parse(text: &str) -> Result<Self, Problem> {
-        number(text)
-    }
-}
-
-impl Value for u8 {
-    fn kind() -> Kind {
-        kind_of::<Self>(1)
-    }
-
-    fn text(&self) -> String {
-        self.to_string()
-    }
-
-    fn parse(text: &str) -> Result<Self, Problem> {
-        number(text)
-    }
-}
-
-impl Value for u32 {
-    fn kind() -> Kind {
-        kind_of::<Self>(1)
-    }
-
-    fn text(&self) -> String {
-        self.to_string()
-    }
-
-    fn parse(text: &str) -> Result<Self, Problem> {
-        number(text)
-    }
-}
-
-impl Value for u64 {
-    fn kind() -> Kind {
-        kind_of::<Self>(1)
-    }
-
-    fn text(&self) -> String {
-        self.to_string()
-    }
-
-    fn parse(text: &str) -> Result<Self, Problem> {
-        number(text)
-    }
+numbers! {
+    f32: 2, "give a number";
+    f64: 2, "give a number";
+    u8: 0, "give a whole number from 0 to 255";
+    u32: 0, "give a whole number, 0 or more";
+    u64: 0, "give a whole number, 0 or more";
 }
 
 impl<const COUNT: usize> Value for [f32; COUNT] {

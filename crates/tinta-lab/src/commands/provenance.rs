@@ -20,7 +20,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "STYLE")]
     style: Option<StyleName>,
 
-    /// Write the page docs/provenance.md [default: off]
+    /// Write all styles as one page of tables, with the numbers in shaders [default: off]
     #[arg(long, conflicts_with = "style")]
     markdown: bool,
 }

@@ -1,7 +1,7 @@
 //! The three texts' claims: every sentence that says something which can be measured, beside what is measured here.
 //!
 //! A claim is plain data: where it stands, what it says, which rule decides, what shows it. The rule is a function of measured
-//! numbers; nobody writes a verdict down. [`measure_claims`] measures, `page` shows, [`markdown`] writes docs/claims.md.
+//! numbers; nobody writes a verdict down. [`measure_claims`] measures, `page` shows, [`markdown`] writes claims.md.
 
 mod dachsbacher;
 mod evangelista;

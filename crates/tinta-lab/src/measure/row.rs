@@ -42,23 +42,18 @@ impl Row {
     }
 }
 
-/// What lines are compared with.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Against {
-    /// The exact visible lines of the mesh.
-    #[default]
-    Lines,
-    /// The visible contour of the smooth surface in closed form that the mesh stands for.
-    Smooth,
+tinta_geometry::choices! {
+    /// What lines are compared with.
+    #[derive(Default, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Against {
+        /// The exact visible lines of the mesh.
+        #[default]
+        Lines = "lines",
+        /// The visible contour of the smooth surface in closed form that the mesh stands for.
+        Smooth = "smooth",
+    }
 }
-
-impl Against {
-    /// Both, as the user writes them.
-    pub const ALL: [(&'static str, Self); 2] = [("lines", Self::Lines), ("smooth", Self::Smooth)];
-}
-
-tinta_geometry::choices!(Against);
 
 /// The error of a picture's ink against the visible lines.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

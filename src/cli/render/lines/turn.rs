@@ -3,7 +3,6 @@
 use super::super::super::signals::Stop;
 use super::super::super::{Verdict, print_json, say};
 use super::super::Rendering;
-use super::super::animate::WORTH_PREPARING;
 use super::{Format, comment, is_stopped, progress, watched, write};
 use serde_json::json;
 use std::path::Path;
@@ -44,9 +43,6 @@ pub(super) fn run(
     }
     let ReadModels { meshes, ms: load_ms, .. } = request.models(&session.models)?;
     let scene = Scene::new(meshes, &request.scene)?;
-    if views >= WORTH_PREPARING {
-        scene.prepare_for_many_views();
-    }
     let drawn = style.drawing.clone();
     let mut ids = StrokeIds::new(&scene, &style.wanted());
     let (mut bytes, mut frame_ms) = (0, Vec::new());

@@ -88,7 +88,6 @@ fn creases(of: &[[f64; 2]]) -> VisibleLines {
         segments: of.iter().map(crease).collect(),
         edges: ClassCounts::default(),
         changes: None,
-        healed: None,
         covered_triangles: 0,
         undecided: 0,
         has_specks: false,

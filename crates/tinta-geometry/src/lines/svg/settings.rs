@@ -191,24 +191,19 @@ impl SvgSettings {
     }
 }
 
-/// What becomes of hidden lines.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Hidden {
-    /// They are left out.
-    #[default]
-    None,
-    /// They are dashed.
-    Dashed,
-    /// They are faint; for a pen, which cannot be, thin lines in layers of their own.
-    Ghost,
+crate::choices! {
+    /// What becomes of hidden lines.
+    #[derive(Default)]
+    pub enum Hidden {
+        /// They are left out.
+        #[default]
+        None = "none",
+        /// They are dashed.
+        Dashed = "dashed",
+        /// They are faint; for a pen, which cannot be, thin lines in layers of their own.
+        Ghost = "ghost",
+    }
 }
-
-impl Hidden {
-    /// All of them, as the user writes them.
-    pub const ALL: [(&'static str, Self); 3] = [("none", Self::None), ("dashed", Self::Dashed), ("ghost", Self::Ghost)];
-}
-
-crate::choices!(Hidden);
 
 /// Widest and thinnest line, pixels or millimetres; the widest as in the style inking, the thinnest still written as more than 0.
 const WIDTHS: std::ops::RangeInclusive<f64> = 1e-3..=16_384.0;

@@ -43,18 +43,16 @@ impl Default for HowMeasured {
     }
 }
 
-/// Built-in models that are measured together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::commands) enum Suite {
-    Papers,
-    Solids,
-    All,
+tinta_geometry::choices! {
+    /// Built-in models that are measured together.
+    pub(in crate::commands) enum Suite {
+        Papers = "papers",
+        Solids = "solids",
+        All = "all",
+    }
 }
 
 impl Suite {
-    /// All of them, as the user writes them.
-    const ALL: [(&'static str, Self); 3] = [("papers", Self::Papers), ("solids", Self::Solids), ("all", Self::All)];
-
     /// Their names.
     pub(super) fn models(self) -> &'static [&'static str] {
         const ALL: [&str; 4] = ["builtin:bust", "builtin:ant", "builtin:gear", "builtin:open-box"];
@@ -65,8 +63,6 @@ impl Suite {
         }
     }
 }
-
-tinta_geometry::choices!(Suite);
 
 /// All of them.
 pub(in crate::commands) struct OfHow;
@@ -166,12 +162,11 @@ const QUICK: [&str; 10] = [
 ];
 
 /// What is measured besides when there is time.
-const FULL: [&str; 34] = [
+const FULL: [&str; 33] = [
     "--style inking --silhouette exact --polygon-offset 0,0",
     "--style inking --silhouette exact --classes boundary,non-manifold,silhouette,crease,material",
     "--style inking --light vertex-shader",
     "--style inking --submission immediate",
-    "--style inking --submission display-list",
     "--style charcoal --improve all",
     "--style three-pass --map-encoding biased",
     "--style three-pass --map-encoding float16",

@@ -1,4 +1,4 @@
-//! docs/claims.md: the claims with the numbers of one run.
+//! The file claims.md: the claims with the numbers of one run.
 
 use super::{Claim, ClaimRecord, tally};
 use crate::figures::Text;
@@ -23,7 +23,7 @@ pub(crate) fn place(text: Text, section: &str, line: u32) -> String {
 }
 
 impl Claim {
-    /// What of its row in docs/claims.md no measurement changes: place, sentence, rule, command.
+    /// What of its row in claims.md no measurement changes: place, sentence, rule, command.
     pub fn cells(&self) -> [String; 4] {
         [
             place(self.text, self.section, self.line),
@@ -92,9 +92,8 @@ decides between confirmed and refuted; nobody wrote a verdict down. A verdict is
 other hardware, and what they measured they measured there.
 
 E stands for Evangelista et al. 2005, V for Valente 2007, D for Dachsbacher; the number is the line of the transcript that this
-project was made from, and the section is the text's own. The words are ours. `tinta figures` measures them all and shows them on its
-page with pictures. This document is what it writes as `claims.md`:
+project was made from, and the section is the text's own. The words are ours. `tinta figures` measures them all, writes
+this file and shows them on its page with pictures:
 
     tinta figures -o figures --only evangelista-claims,valente-claims,dachsbacher-claims
-    cp figures/claims.md docs/claims.md
 ";
