@@ -212,7 +212,7 @@ impl LineSettings {
             CreaseAngle::setting(|lines: &mut Self| &mut lines.crease_angle),
             Setting::flag(
                 "lasting-creases",
-                "Draw creases only where they are long or closed, or where a flat face ends: the folds of scans are left out",
+                "Leave out the folds of scans: draw only creases that are long, closed, or at the end of a flat face",
                 |lines: &Self| lines.lasting_creases,
                 |lines, is_on| lines.lasting_creases = is_on,
             ),
@@ -224,7 +224,7 @@ impl LineSettings {
         let heal = Setting::field(
             "heal",
             "PX",
-            "Join gaps of smooth silhouettes of at most this many pixels, where no other part comes before them",
+            "Close gaps in smooth silhouettes of at most this many pixels, unless another part covers them",
             |lines: &mut Self| &mut lines.heal_px,
         )
         .ours("0 joins none: what is drawn is what was found")
