@@ -93,7 +93,7 @@ pub struct AnimationSettings {
     pub turntable: Option<u32>,
     /// Frames whose names begin so, all for an empty text. Default none: one picture.
     pub animate: Option<String>,
-    /// How long each is shown, milliseconds. Default 100 for a model's frame; a turn takes 2500, at most 200 each.
+    /// How long each is shown, milliseconds. Default 100 for an animated model; for a turn 2500 shared by all pictures, at most 200 each.
     pub frame_delay_ms: Option<u32>,
 }
 
@@ -206,12 +206,12 @@ fn of_animation() -> Vec<Setting<Request>> {
             "frame-delay",
             "MS",
             "auto",
-            "Time that each picture is shown, in milliseconds",
+            "Time for which each picture is shown, in milliseconds",
             |request: &mut Request| &mut request.animation.frame_delay_ms,
         )
         .whole(20..=60_000)
         .range(1.0, 1000.0, 0)
-        .said("100 for a model's frame; a turn takes 2500, at most 200 each"),
+        .said("100 for an animated model; for a turn 2500 shared by all pictures, at most 200 each"),
     ]
 }
 
@@ -225,7 +225,7 @@ fn of_pruning() -> Vec<Setting<Request>> {
     .said("off, work that cannot change the picture is skipped");
     static HELP: LazyLock<String> = LazyLock::new(|| {
         let rules = names_of::<Rule>().join(", ");
-        format!("Do not skip these, each explained in docs/pruning.md: {rules}")
+        format!("Work not to skip (docs/pruning.md explains each): {rules}")
     });
     let keep = Setting::of(
         "keep",

@@ -342,12 +342,12 @@ impl Serialize for Style {
 /// What the settings are listed under, in this order.
 const HEADINGS: [&str; 8] = [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, SUGGESTIVE, CHARCOAL];
 const ALL_STYLES: &str = "All styles";
-const CARTOON: &str = "Styles three-pass, two-pass and mrt (the defaults are the paper's)";
-const INKING: &str = "Style inking: lines from the model's edges (the defaults are the text's)";
+const CARTOON: &str = "Styles three-pass, two-pass and mrt (published values are the paper's)";
+const INKING: &str = "Style inking: lines from the model's edges (published values are the text's)";
 const IMAGE_SPACE: &str = "Styles three-pass, two-pass, mrt and ink";
-const INK: &str = "Style ink (tones as three-pass, --crease-angle as inking)";
-const SUGGESTIVE: &str = "Style suggestive (tones as three-pass)";
-const CHARCOAL: &str = "Styles charcoal and sand (the defaults are the text's where it gives them)";
+const INK: &str = "Style ink (also the tone options of three-pass, --crease-angle of inking)";
+const SUGGESTIVE: &str = "Style suggestive (also the tone options of three-pass)";
+const CHARCOAL: &str = "Styles charcoal and sand (defaults are the text's where it gives them)";
 
 /// The settings of all styles, each declared beside its struct; those of a heading begin with the styles that have lines.
 pub(crate) fn settings() -> Vec<Setting<Style>> {
@@ -372,7 +372,8 @@ fn no_borders<T: Clone + 'static>(get: fn(&T) -> bool, set: fn(&mut T, bool)) ->
 
 /// The setting whether faces turned away are left out.
 fn cull<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
-    let help = "Cull faces that point away: none, back; faster, and nearly the same picture for closed models";
+    let help = "Faces to leave out: none, or back (those that point away): faster, and nearly the same picture of \
+        closed models";
     Setting::either("cull", "FACES", ["none", "back"], help, field)
         .deduced("E, D and V leave face culling off, as GL has it by default")
 }

@@ -19,14 +19,14 @@ pub(super) const COMMAND: Command = Command {
     })
 };
 
-/// Say what looks there are, or draw a model in each
+/// List the looks, or draw a model in each
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Model file or built-in model [default: builtin:bust]
     #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
     model: String,
 
-    /// Folder for a picture in each look and index.html, which shows them side by side; created if missing [default: none, the looks are listed]
+    /// Folder for one picture in each look and index.html, which shows them side by side; created if missing [default: none, list the looks]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 
@@ -67,7 +67,7 @@ fn list() -> String {
     for look in LOOKS {
         let _ = writeln!(text, "{:<10} {}", look.name, look.about);
     }
-    text + "\ntinta looks MODEL -o looks draws them; tinta render MODEL -o picture.png --look NAME draws one\n"
+    text + "\nDraw a model in every look:  tinta looks MODEL -o looks\nDraw it in one look:         tinta render MODEL -o picture.png --look NAME\n"
 }
 
 /// The file of a look: vectors where it draws lines.

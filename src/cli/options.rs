@@ -170,7 +170,7 @@ impl Selection for OfSubject {
 #[derive(Debug, clap::Args, Default)]
 #[command(next_help_heading = camera::HEADING)]
 pub struct CameraFile {
-    /// Read the camera from this file: the JSON that --json prints, a picture that tinta drew, a glTF or GLB model, or the 16 numbers of the matrix from world to clip space, row by row; single options override it [default: none]
+    /// Read the camera from this file: the JSON that --json prints, a picture that tinta drew, a glTF or GLB model, or the 16 numbers of the matrix from world to clip space, row by row; other camera options override it [default: none]
     #[arg(id = "camera", long, hide_short_help = true, value_name = "FILE")]
     pub camera: Option<PathBuf>,
 }
@@ -179,7 +179,7 @@ pub struct CameraFile {
 #[derive(Debug, clap::Args, Default)]
 #[command(next_help_heading = "Presets")]
 pub struct PresetFile {
-    /// Read options from this TOML file, under their long names, or a paper's constants: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand; the command line overrides it [default: none]
+    /// Read options from this TOML file, or a paper's constants: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand; the command line overrides it [default: none]
     #[arg(long, value_name = "FILE")]
     pub preset: Option<String>,
 }
@@ -188,8 +188,8 @@ pub struct PresetFile {
 #[derive(clap::Args, Default)]
 pub(super) struct NamedLook {
     #[arg(long, value_name = "LOOK", value_parser = Look::of_name, help = format!(
-        "What the picture looks like: {}; a preset and every option override it [default: {}, unless a style or preset is given, \
-         or lines are drawn]",
+        "Appearance of the picture: {}; a preset and every other option override it [default: {}; published with \
+         --style or --preset, and into .svg, .pdf and .json]",
         Look::list(), LOOKS[0].name
     ))]
     pub look: Option<Look>,

@@ -308,9 +308,10 @@ fn after_help() -> String {
     let names: Vec<String> =
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
     format!(
-        "Built-in models:\n{}\n\nThe look print is drawn unless --style, --look or --preset is given (see tinta looks). Where it has a default of its \
-         own, that comes first above; the one after \"published\" is that of a style that is named.\n\nAs published, borders are black and one or two pixels wide at any size, and edges are \
-         not smoothed.\n\nIf facets show as thin lines, blame the file's normals and try --normals smooth.",
+        "Built-in models:\n{}\n\nTwo defaults: in [default: A; published: B], A is the value of the look print, which tinta draws \
+         unless --look, --style or --preset is given. B is the value in every other look, style or preset that does not \
+         set the option. `tinta looks` describes the looks.\n\nPublished borders are black and one or two pixels wide at any \
+         size, and edges are not smoothed.\n\nIf facets show as thin lines, the file's normals are wrong: try --normals smooth.",
         names.join("\n")
     )
 }

@@ -102,8 +102,8 @@ impl Border {
             "border-width",
             "WIDTH",
             "paper",
-            "Width of the borders in pixels, 1 to 64, as a share of the picture's height such as 0.35%, or paper: as the filter \
-             draws them, about 2; ink has 2",
+            "Width of the borders: 1 to 64 pixels, a share of the picture's height such as 0.35%, or paper (about 2 \
+             pixels, as the filter draws them; 2 in style ink)",
             |border: &mut Self| &mut border.width,
         )
         .printed("E, appendix 1: the filter reads the next pixels")

@@ -141,14 +141,16 @@ impl Ink {
                 "inner-width",
                 "WIDTH",
                 "border",
-                "Width of the lines that do not border on the background, in pixels or percent; border: as wide as those that do",
+                "Width of the lines inside the outline: in pixels, in percent of the picture's height, or border \
+                 (the outline's width)",
                 |ink: &mut Self| &mut ink.inner_width,
             )
             .ours("all lines are as wide"),
             Setting::field(
                 "crease-by",
                 "WHAT",
-                "What has a crease: planes (of triangles, every fold of a scan too) or normals (where they are split: --smooth-angle)",
+                "Where creases are: planes (between any two triangles at an angle, so at every fold of a scan) or \
+                 normals (only where they are split, see --smooth-angle)",
                 |ink: &mut Self| &mut ink.crease_by,
             )
             .ours("what was measured (ink.md)"),
@@ -156,11 +158,11 @@ impl Ink {
                 "remove-specks",
                 ON_OFF,
                 "auto",
-                "Leave out ink that touches no other and is at most twice as long as a line is wide, on or off",
+                "Leave out isolated specks of ink, up to two line widths long, on or off",
                 |ink: &mut Self| &mut ink.removes_specks,
             )
             .ours("the quality decides")
-            .said("off; --quality best on"),
+            .said("off; on with --quality best"),
             Setting::field(
                 "quality",
                 "QUALITY",
@@ -172,15 +174,16 @@ impl Ink {
                 "tone-light",
                 "X,Y,Z",
                 "listing",
-                "Direction towards a light that is far away, in eye space, so that a flat face has one tone; listing: near, as the \
-                 three passes have it",
+                "Direction towards a distant light, in eye space, which gives a flat face one tone; or listing (the \
+                 near light of three-pass)",
                 |ink: &mut Self| &mut ink.tone_light,
             )
             .ours("the three passes' light"),
             Setting::field(
                 "least-gap",
                 "PIXELS",
-                "Smallest step between two surfaces that makes a line, in pixel widths; more draws fewer lines",
+                "Smallest step in depth between two surfaces that makes a line, in pixel widths; more draws fewer \
+                 lines",
                 |ink: &mut Self| &mut ink.least_gap_px,
             )
             .ours("the best of those measured (ink.md)")

@@ -127,7 +127,7 @@ impl Inking {
             Setting::field(
                 "back-edges",
                 ON_OFF,
-                "Draw edges whose faces both point away, on or off; on closed models hardly any is visible",
+                "Draw edges whose faces both point away, on or off; closed models hide nearly all of them",
                 |inking: &mut Self| &mut inking.back_edges,
             )
             .printed("D, Inking: the listing asks of no edge where its faces look"),
@@ -142,7 +142,8 @@ impl Inking {
                 "ink-depth",
                 "HOW",
                 ["test", "write"],
-                "Let lines write depth as in the text (write; smoothed lines get gaps) or only test it (test)",
+                "Depth of the lines: write it, as in the text (write; smoothed lines get gaps), or only test it \
+                 (test)",
                 |inking: &mut Self| &mut inking.writes_depth,
             )
             .deduced("D, Inking: the listing leaves the depth mask as it is"),
@@ -160,8 +161,8 @@ impl Inking {
             Setting::field(
                 "paint",
                 "HOW",
-                "Paint faces in the background's colour (none), their own (flat), or by light: each pixel's tone from the \
-                 ramp (ramp), a tone a face (flat-shaded), tones mixed between vertices (gouraud)",
+                "Paint of the faces: none (the background's colour), flat (their own colour), or by light: ramp (a \
+                 tone for each pixel), flat-shaded (a tone for each face), gouraud (tones mixed between vertices)",
                 |inking: &mut Self| &mut inking.paint,
             ).printed("D, Painting: a texture looked up by the light"),
             Setting::field(
@@ -174,8 +175,8 @@ impl Inking {
             Setting::field(
                 "ramp-row",
                 "ROW",
-                "Gradient of the ramp: material (the nearest to its colour), object (each object the next), 0 to 3, or own (each \
-                 colour a gradient made of it)",
+                "Gradient of the ramp: material (the one nearest to the material's colour), object (the next one for \
+                 each object), 0 to 3, or own (made from each colour)",
                 |inking: &mut Self| &mut inking.ramp_row,
             ).ours("D leaves it to who writes the program: texOffset"),
             Setting::field(

@@ -61,7 +61,8 @@ impl Suggestive {
             Setting::field(
                 "valley-radius",
                 "PIXELS",
-                "How far around a pixel a valley is looked for, 1 to 16; more draws wider lines",
+                "Radius of the neighbourhood in which a pixel can be a valley, in pixels, 1 to 16; more draws wider \
+                 lines",
                 |style: &mut Self| &mut style.radius_px,
             )
             .ours("looked at on public models: lines of two to three pixels")
@@ -69,7 +70,7 @@ impl Suggestive {
             Setting::field(
                 "valley-share",
                 "SHARE",
-                "Largest share of the pixels around it that may be darker in a valley; more draws wider lines",
+                "Largest share of darker pixels around a valley, 0 to 1; more draws wider lines",
                 |style: &mut Self| &mut style.darker_share,
             )
             .ours("a thin line of darker pixels across the disc is less")
@@ -77,7 +78,7 @@ impl Suggestive {
             Setting::field(
                 "valley-depth",
                 "COSINE",
-                "How much brighter one of the pixels around it must be; more leaves out shallow valleys",
+                "Least difference between a valley and the brightest pixel around it; more leaves out shallow valleys",
                 |style: &mut Self| &mut style.least_depth,
             )
             .ours("looked at on public models")

@@ -38,7 +38,7 @@ impl Tones {
             "tone-thresholds",
             "D,S",
             Kind::Numbers { count: 2, range: [0.0, 1.0], decimals: 3 },
-            "Diffuse and specular light at which the second and third tone begin",
+            "Diffuse and specular light at which the second and third tone begin; more makes these tones smaller",
             |tones: &Self| [tones.diffuse_threshold, tones.specular_threshold].text(),
             |tones, text| {
                 [tones.diffuse_threshold, tones.specular_threshold] = <[f32; 2]>::parse(text)?;
@@ -56,9 +56,12 @@ impl Tones {
             .printed("E, appendix 1 has three; section 3.2 names one and two")
             .range(1.0, 3.0, 0),
             thresholds,
-            Setting::field("tone-levels", "A,B,C", "Factors for the colour in each tone", |tones: &mut Self| {
-                &mut tones.levels
-            })
+            Setting::field(
+                "tone-levels",
+                "A,B,C",
+                "Brightness of each tone: factors for the colour",
+                |tones: &mut Self| &mut tones.levels,
+            )
             .printed("E, appendix 1: 0.65f, 0.95f, 1.0f")
             .range(0.0, 1.0, 3),
             Setting::field(

@@ -227,8 +227,8 @@ impl CameraSettings {
             "view",
             "VIEW",
             View::kind(),
-            "View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees; if the model shows its back: \
-             120,15 210,15 -60,15 180,0",
+            "View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees; if you see the \
+             model's back, try 120,15 or 210,15 or -60,15 or 180,0",
             // An eye stands where it stands, wherever the view would have put it.
             |camera: &Self| if camera.eye.is_some() { View::DEFAULT.text() } else { camera.view.text() },
             |camera, text| {
@@ -252,8 +252,8 @@ impl CameraSettings {
             Setting::field(
                 "framing",
                 "WHAT",
-                "In the picture's middle: the middle of the model's box, which stays there in every view (middle), or of what is \
-                 seen, which then fills the picture (outline)",
+                "Fit of the model in the picture: middle (centre its bounding box, the same point in every view) or outline \
+                 (centre its outline, which then fills the picture)",
                 |camera: &mut Self| &mut camera.framing,
             )
             .common(),
@@ -268,11 +268,12 @@ impl CameraSettings {
                 "eye",
                 "X,Y,Z",
                 "fitted",
-                "Position of the eye, in model units, y up as drawn: after --up-axis",
+                "Position of the eye, in model units; y is up, after --up-axis",
                 |camera: &mut Self| &mut camera.eye,
             )
-            .said("along --view, where the whole scene is visible"),
-            Setting::open_field("target", "X,Y,Z", "centre", "Point that the camera looks at, as --eye", |camera: &mut Self| {
+            .said("in direction --view, far enough to show the whole scene"),
+            Setting::open_field("target", "X,Y,Z", "centre", "Point that the camera looks at, in the coordinates of \
+                --eye", |camera: &mut Self| {
                 &mut camera.target
             })
             .said("the scene's centre"),

@@ -190,7 +190,7 @@ impl LineSettings {
             CreaseAngle::setting(|lines: &mut Self| &mut lines.crease_angle),
             Setting::flag(
                 "lasting-creases",
-                "Draw creases only where they are long or closed, or where a flat face ends: the folds of scans are left out",
+                "Leave out the folds of scans: draw only creases that are long, closed, or at the end of a flat face",
                 |lines: &Self| lines.lasting_creases,
                 |lines, is_on| lines.lasting_creases = is_on,
             ),

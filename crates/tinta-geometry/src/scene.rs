@@ -190,13 +190,13 @@ impl SceneSettings {
             Setting::field(
                 "bare-color",
                 "COLOR",
-                "Colour of surfaces to which the model gives none",
+                "Colour of surfaces that have none in the model",
                 |scene: &mut Self| &mut scene.bare_color,
             ),
             Setting::field(
                 "surface",
                 "SURFACE",
-                "Surfaces in one colour a material (plain), or with the model's own textures and colours at vertices under every shading (textured)",
+                "Colour of surfaces: plain (one per material) or textured (the model's textures and vertex colours)",
                 |scene: &mut Self| &mut scene.surface,
             ),
             Setting::field(

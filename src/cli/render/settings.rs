@@ -76,7 +76,7 @@ fn settings() -> Vec<Setting<RunSettings>> {
         "within",
         "SECONDS",
         Kind::Numbers { count: 1, range: [0.1, 60.0], decimals: 1 },
-        "End after this time with a sentence and no file, where exact lines are not found by then",
+        "Stop after this time if the exact lines are not complete, with an error and no file",
         |run: &RunSettings| run.within.map_or(OFF.to_owned(), |seconds| seconds.to_string()),
         |run, text| {
             let seconds = text.parse().ok().filter(|seconds: &f64| *seconds > 0.0 && seconds.is_finite());
@@ -91,7 +91,7 @@ fn settings() -> Vec<Setting<RunSettings>> {
         Setting::field(
             "submission",
             "HOW",
-            "Hand vertices to GL in buffers, or as programs of 2001 did, one by one (immediate); the picture is the same",
+            "Way of vertices to GL: in buffers, or one by one as programs of 2001 did (immediate); the picture is the same",
             |run: &mut RunSettings| &mut run.submission,
         ),
         frames,
@@ -103,14 +103,15 @@ fn settings() -> Vec<Setting<RunSettings>> {
         ),
         Setting::flag(
             "explain",
-            "Print the plan, its passes and steps, with times; of exact lines their classes and where smooth silhouettes break",
+            "Print the plan, its passes and steps, with times; for style lines their classes and the breaks in \
+             smooth silhouettes",
             |run: &RunSettings| run.explain,
             |run, is_on| run.explain = is_on,
         ),
         within.open(OFF).said("no limit"),
         Setting::flag(
             "partial",
-            "With --within, write the lines that are certain by then, into a file that says that it is a part",
+            "With --within, write the lines found in that time; the file says that it is incomplete",
             |run: &RunSettings| run.partial,
             |run, is_on| run.partial = is_on,
         ),
@@ -124,8 +125,8 @@ fn settings() -> Vec<Setting<RunSettings>> {
     ];
     let verify = Setting::flag(
         "verify",
-        "Skip all that can be skipped, draw in full, too, and compare byte for byte; if a pixel differs, exit with 1 and write \
-         OUTPUT-difference.png",
+        "Draw twice, with everything skipped and with nothing skipped, and compare; if a pixel differs, exit with 1 \
+         and write OUTPUT-difference.png",
         |run: &RunSettings| run.verify,
         |run, is_on| run.verify = is_on,
     );
@@ -138,7 +139,7 @@ fn settings() -> Vec<Setting<RunSettings>> {
     );
     let no_recipe = Setting::flag(
         "no-recipe",
-        "Leave out the recipe, from which `tinta again` redraws a .png or .svg, and the file names in it",
+        "Leave out the recipe, with the file names in it; without it `tinta again` cannot redraw the .png or .svg",
         |run: &RunSettings| run.no_recipe,
         |run, is_on| run.no_recipe = is_on,
     );

@@ -50,8 +50,7 @@ impl Charcoal {
             Setting::field(
                 "density",
                 "PERCENT",
-                "Percentage of black pixels in the grain's texture before they are moved (the text: a density of 60, \
-                 without a unit); more is darker",
+                "Percentage of black pixels in the grain's texture, before --cet-exponent moves them; more is darker",
                 |charcoal: &mut Self| &mut charcoal.density_percent,
             )
             .deduced("V, figures 2 and 3: density 60, without a unit; read as percent (V10)")
@@ -68,7 +67,7 @@ impl Charcoal {
             Setting::field(
                 "cet-blur",
                 "PIXELS",
-                "Standard deviation of the blur that follows, in pixels; more makes the grain softer",
+                "Standard deviation of the blur of the grain's texture, in pixels; more makes the grain softer",
                 |charcoal: &mut Self| &mut charcoal.cet_blur_px,
             )
             .ours("V, section 3.1 blurs by a Gaussian of a width it does not print (V7)")

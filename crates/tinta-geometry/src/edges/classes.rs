@@ -142,7 +142,7 @@ impl ClassSet {
                 Ok(())
             },
         )
-        .said("boundary,silhouette,crease; style lines also non-manifold, material and intersection")
+        .said("boundary,silhouette,crease; style lines: also non-manifold, material and intersection")
         .printed("D, Inking: boundary, crease and silhouette are what the listing asks for")
     }
 }
@@ -201,7 +201,7 @@ impl CreaseAngle {
         let help = "Smallest angle between two faces that makes their edge a crease, in degrees; style lines too";
         Setting::field("crease-angle", "DEGREES", help, field)
             .printed("D, Inking: dot < 0.4f, 66 degrees")
-            .said("66.4, a cosine of 0.4; ink and style lines 30")
+            .said("66.4, a cosine of 0.4; ink and style lines: 30")
     }
 
     /// The angle of drawings that no text published, 30 degrees: at 66.4 a hexagonal prism has no edges and a chamfer is none.

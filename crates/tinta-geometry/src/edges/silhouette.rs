@@ -32,8 +32,8 @@ impl SilhouetteRule {
         Setting::field(
             "silhouette",
             "RULE",
-            "Find silhouettes with one view vector for all edges (paper), exactly (exact), or where the curved surface that the \
-             faces stand for turns away (smooth)",
+            "Rule for silhouettes: paper (one view vector for all edges), exact (one for each edge) or smooth (of \
+             the curved surface that the facets approximate)",
             field,
         )
         .printed("D, Inking: one view vector for all edges")

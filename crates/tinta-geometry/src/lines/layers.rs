@@ -245,7 +245,7 @@ impl ClassColors {
     /// The setting of the colours.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let help = "Colours of the lines by class: CLASS=COLOR, separated by commas, or figure-6 (outer red, inner \
-                    blue); style lines too, which also knows outline, hidden and hidden-CLASS";
+            blue); in style lines also outline, hidden and hidden-CLASS";
         Setting::field("class-colors", "COLORS", help, field)
             .printed("D, Inking: glColor3ub( 0, 0, 0 )")
             .labelled("class colours")

@@ -164,7 +164,8 @@ impl Value for Millimetres {
 pub(super) const LINE_WIDTH: (&str, &str, &str) = (
     "line-width",
     "PIXELS",
-    "Width of the lines in pixels, above 0 to 16384; style lines too, there also millimetres on paper, shares of the height, and both: 0.35mm, 0.3%, 0.3%/0.35mm",
+    "Width of the lines in pixels, up to 16384; in style lines also millimetres on paper (0.35mm), a share of the \
+     height (0.3%), or a share on the screen and millimetres on paper (0.3%/0.35mm)",
 );
 
 /// The default's words.

@@ -39,6 +39,17 @@ impl Defects {
         let Self { repeated_corners, covered_triangles, .. } = *self;
         *self == Self { repeated_corners, covered_triangles, ..Self::default() }
     }
+
+    /// What the defects do to the picture, and whether the reader must act.
+    pub(crate) fn consequence(&self) -> &'static str {
+        if self.long_polygons + self.non_finite_vertices + self.out_of_range_faces > 0 {
+            "parts of the model are missing; export it again"
+        } else if self.unusable_normals + self.unusable_texture_coordinates > 0 {
+            "shading or textures may be wrong there; export the model again"
+        } else {
+            "this does not change the picture"
+        }
+    }
 }
 
 impl<'a> std::iter::Sum<&'a Self> for Defects {

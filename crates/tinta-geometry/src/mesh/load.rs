@@ -89,13 +89,16 @@ impl LoadOptions {
             Setting::field(
                 "normals",
                 "WHERE",
-                "Normals: file (computed where it has none), smooth, lasting (as file, else without the noise of scans, split along long creases only), flat, dachsbacher (his text's: one a vertex, never split)",
+                "Normals: file (the file's; if it has none, as smooth), smooth (computed, see --smooth-angle), \
+                 lasting (the file's; if it has none, computed without the noise of scans, with sharp edges only at \
+                 long creases), flat (one for each face), dachsbacher (one for each vertex, as in his text)",
                 |load: &mut Self| &mut load.normals,
             ),
             Setting::field(
                 "smooth-angle",
                 "DEGREES",
-                "Largest angle between two faces that computed normals smooth, in degrees",
+                "Largest angle between two faces that computed normals round off, in degrees; more rounds off \
+                 sharper edges",
                 |load: &mut Self| &mut load.smooth_angle_degrees,
             )
             .range(0.0, 180.0, 1),
@@ -116,11 +119,11 @@ impl LoadOptions {
             .said("the picture that the model names"),
             Setting::flag(
                 "allow-external",
-                "Read material files, data and pictures outside the model's folder, too",
+                "Also read material files, data and pictures outside the model's folder",
                 |load: &Self| load.allow_external,
                 |load, is_on| load.allow_external = is_on,
             )
-            .said("off, each is reported and skipped"),
+            .said("off, they are reported and skipped"),
             Setting::field(
                 "model-frame",
                 "N|NAME",
@@ -380,13 +383,13 @@ fn made(
     let mesh = soup.into_mesh_watched(path, options, watch)?;
     if let Some(up) = other_up.filter(|up| lying::seems_to_lie(&mesh, *up)) {
         remarks.push(format!(
-            "{path}: this may lie on its side, as the only end it can stand on is the lowest {up}; if so, --up-axis {up} turns it upright"
+            "{path}: the model may lie on its side, because its only flat end is at its lowest {up}; if it does, add --up-axis {up}"
         ));
     }
     // Missing materials have had a remark of their own from the reader, which knows their names.
     let others = Defects { missing_materials: 0, ..mesh.defects.clone() };
     if others != Defects::default() {
-        remarks.push(format!("{path}: {others}"));
+        remarks.push(format!("{path}: {others}; {}", others.consequence()));
     }
     Ok(Loaded { mesh, frames, files, remarks, stages: Vec::new() })
 }

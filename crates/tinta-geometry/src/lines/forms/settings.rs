@@ -69,7 +69,8 @@ impl FormSettings {
             Setting::field(
                 "surface-crease-angle",
                 "DEGREES",
-                "Smallest angle between two faces at which the smooth surface is broken, in degrees; more smooths sharper edges over",
+                "Smallest angle between two faces that stays sharp in the smooth surface, in degrees; more smooths \
+                 over sharper edges",
                 |forms: &mut Self| &mut forms.crease_angle,
             )
             .ours("Dachsbacher's crease angle: the faces of coarse round shapes meet at less")

@@ -117,8 +117,8 @@ impl SvgSettings {
             "page",
             "PAPER",
             Paper::kind(),
-            "Sheet that the drawing fills but for --margin: A3, A4, A5, letter or WIDTHxHEIGHTmm; it lies as the drawing \
-             does, or as said: A4-landscape, A4-portrait",
+            "Sheet of paper, which the drawing fills up to --margin: A3, A4, A5, letter or WIDTHxHEIGHTmm; it takes \
+             the orientation of --size, or a fixed one: A4-landscape, A4-portrait",
             |svg: &Self| if let PageSize::Paper(paper) = svg.page_size { paper.text() } else { UNSET.to_owned() },
             |svg, text| {
                 svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::Paper(Paper::parse(text)?) };
@@ -135,8 +135,8 @@ impl SvgSettings {
             Setting::field(
                 "hidden",
                 "HOW",
-                "Hidden lines, in layers below the visible ones, half as wide: none, dashed (grey), ghost (faint; with \
-                 --pen whole)",
+                "Hidden lines: none, dashed (grey) or ghost (faint; unbroken and in full colour with --pen); half as \
+                 wide as the visible ones, in layers below them",
                 |svg: &mut Self| &mut svg.hidden,
             ),
             Setting::field(
@@ -146,27 +146,27 @@ impl SvgSettings {
                  line widths (2x); also outline (at the background), hidden, hidden-CLASS",
                 |svg: &mut Self| &mut svg.class_widths,
             )
-            .said("that of all lines, half of it for hidden ones"),
+            .said("--line-width, half of it for hidden lines"),
             Setting::open_field(
                 "min-length",
                 "LENGTH",
                 AUTO,
-                "Leave out strokes and branches that end free and are shorter than this, in pixels of --size or millimetres on \
+                "Leave out lines with a free end that are shorter than this, in pixels of --size or millimetres on \
                  paper (1mm); 0 keeps all",
                 |svg: &mut Self| &mut svg.min_length,
             )
             .range(0.0, 20.0, 1)
-            .said("the stroke's own width, of creases 8 widths; into .json 0"),
+            .said("the line's width, 8 widths for creases; 0 into .json"),
             Setting::open_field(
                 "fit-curves",
                 "PX",
                 UNSET,
-                "Write lines as cubic Bézier curves, which may be so far from them in pixels of --size; corners and straight lines \
-                 stay",
+                "Turn bent lines into cubic Bézier curves, at most this far from them in pixels of --size; more \
+                 writes fewer curves",
                 |svg: &mut Self| &mut svg.fit_px,
             )
             .range(*FIT_PX.start(), *FIT_PX.end(), 2)
-            .said("none, lines are straight from point to point"),
+            .said("none, only straight segments"),
             width.open(UNSET).said("none, sizes are in pixels"),
             dpi.open(UNSET).said("none, sizes are in pixels"),
             paper.open(UNSET).said("none, sizes are in pixels"),
@@ -179,14 +179,16 @@ impl SvgSettings {
             ),
             Setting::flag(
                 "pen",
-                "Draw for a plotter: lines ordered for short moves with the pen up, dashes as separate lines, no background; the \
-                 outline is a layer for a second pen where --class-widths or a look says how wide it is",
+                "Draw for a plotter: order lines for short moves with the pen up, write dashes as separate lines, \
+                 leave out the background; an outline with a width of its own (--class-widths, --look technical) is \
+                 a layer for a second pen",
                 |svg: &Self| svg.is_for_pen,
                 |svg, is_on| svg.is_for_pen = is_on,
             ),
         ];
-        let heading = "Style lines: exact visible lines, into FILE.svg, FILE.pdf or FILE.json; also --classes, \
-                       --class-colors, --line-width, --crease-angle";
+        let heading = "Style lines: exact visible lines, as vectors into FILE.svg, FILE.pdf or FILE.json, as pixels \
+            into FILE.png with --look technical or --style lines; also --classes, --class-colors, --line-width, \
+            --crease-angle";
         under(heading, settings).collect()
     }
 }
