@@ -95,8 +95,8 @@ fn settings() -> Vec<Setting<RunSettings>> {
         Setting::field(
             "submission",
             "HOW",
-            "Way of vertices to GL: buffers, or as programs of 2001 did: immediate (one by one) or display-list; the \
-             picture is the same",
+            "How vertices reach GL: buffers, or as in programs of 2001: immediate (one by one) or display-list; the picture \
+             is the same",
             |run: &mut RunSettings| &mut run.submission,
         ),
         frames,
