@@ -26,8 +26,6 @@ mod looks;
 mod man;
 #[cfg(feature = "measuring")]
 mod measure;
-#[cfg(all(target_os = "linux", target_env = "gnu"))]
-mod memory;
 mod messages;
 mod mistakes;
 mod models;
@@ -133,8 +131,6 @@ pub(crate) enum Verdict {
 /// Parses the command line, does what it says, prints the error and chooses the exit code.
 pub fn main() -> ExitCode {
     outlive_the_limit_on_files();
-    #[cfg(all(target_os = "linux", target_env = "gnu"))]
-    memory::keep_freed_blocks();
     match run() {
         Ok(Verdict::Good) => ExitCode::SUCCESS,
         Ok(Verdict::Different) => ExitCode::FAILURE,

@@ -86,8 +86,8 @@
 //! ```
 //!
 //! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`], but for
-//! what calls libassimp (cargo feature `assimp`), a look at standard output before `main` and a setting of the allocator (cargo
-//! feature `cli`). Everything else is tested without a context, a window or a clock.
+//! what calls libassimp (cargo feature `assimp`) and a look at standard output before `main` (cargo feature `cli`). Everything
+//! else is tested without a context, a window or a clock.
 //!
 //! # Cargo features
 //!
