@@ -18,8 +18,6 @@ mod info;
 pub mod inputs;
 mod looks;
 mod man;
-#[cfg(all(target_os = "linux", target_env = "gnu"))]
-mod memory;
 pub mod messages;
 mod mistakes;
 pub mod models;
@@ -73,8 +71,6 @@ pub enum Verdict {
 /// Carries out the command line of the process, prints the error and chooses the exit code.
 pub fn main(program: &Program) -> ExitCode {
     outlive_the_limit_on_files();
-    #[cfg(all(target_os = "linux", target_env = "gnu"))]
-    memory::keep_freed_blocks();
     match run(program) {
         Ok(Verdict::Good) => ExitCode::SUCCESS,
         Ok(Verdict::Different) => ExitCode::FAILURE,

@@ -151,8 +151,8 @@ fn settings() -> Vec<Setting<Request>> {
     let show = Setting::field(
         "show",
         "PICTURE",
-        "Picture to show: final, borders, tones; three-pass, two-pass and mrt also normals, depth, map, ink also map; charcoal and \
-         sand final, diffuse, cem, cet, paper",
+        "Picture to show: final, borders, tones; of three-pass, two-pass and mrt also normals, depth, map; of ink also map; of \
+         charcoal and sand only final, diffuse, cem, cet, paper",
         |request: &mut Request| &mut request.show,
     );
     let scene = || within(SceneSettings::settings(), |request: &mut Request| Some(&mut request.scene));

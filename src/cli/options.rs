@@ -188,8 +188,8 @@ pub struct PresetFile {
 #[derive(clap::Args, Default)]
 pub(super) struct NamedLook {
     #[arg(long, value_name = "LOOK", value_parser = Look::of_name, help = format!(
-        "Appearance of the picture: {}; a preset and every other option override it [default: {}; published with \
-         --style or --preset, and into .svg, .pdf and .json]",
+        "Appearance of the picture: {}; a preset and every other option override it [default: {}; published \
+         if a style or preset is given, and into .svg, .pdf and .json]",
         Look::list(), LOOKS[0].name
     ))]
     pub look: Option<Look>,

@@ -32,7 +32,7 @@ pub const LOOKS: [Look; 4] = [
         about: "charcoal on paper with tooth, strokes of a hand and faint outlines",
         text: include_str!("../../presets/looks/charcoal.toml"),
     },
-    Look { name: "published", about: "every style as its text has it; three-pass where none is named", text: "" },
+    Look { name: "published", about: "each style as its text prints it; three-pass without --style", text: "" },
 ];
 
 impl Look {

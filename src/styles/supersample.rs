@@ -22,13 +22,13 @@ tinta_geometry::choices! {
 
 impl Supersample {
     /// What the setting does.
-    pub(super) const HELP: &'static str = "Draw 1 to 4 times as wide and high, then shrink; more makes edges smoother";
+    pub(super) const HELP: &'static str = "Smooth edges: draw 1 to 4 times larger and shrink";
 
     /// The setting of a style that always has a factor.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         Setting::field("supersample", "N", Self::HELP, field)
             .ours("no text draws larger than its picture")
-            .said("1; 2 with ink --quality best")
+            .said("1; ink --quality best: 2")
             .common()
     }
 

@@ -187,12 +187,9 @@ impl SceneSettings {
             })
             .said("the model's own")
             .common(),
-            Setting::field(
-                "bare-color",
-                "COLOR",
-                "Colour of surfaces that have none in the model",
-                |scene: &mut Self| &mut scene.bare_color,
-            ),
+            Setting::field("bare-color", "COLOR", "Colour of surfaces without one of their own", |scene: &mut Self| {
+                &mut scene.bare_color
+            }),
             Setting::field(
                 "surface",
                 "SURFACE",

@@ -91,7 +91,7 @@ fn settings() -> Vec<Setting<RunSettings>> {
         Setting::field(
             "submission",
             "HOW",
-            "Way of vertices to GL: in buffers, or one by one as programs of 2001 did (immediate); the picture is the same",
+            "How vertices reach GL: buffers, or one by one as in programs of 2001 (immediate); the picture is the same",
             |run: &mut RunSettings| &mut run.submission,
         ),
         frames,

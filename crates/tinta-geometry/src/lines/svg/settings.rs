@@ -146,7 +146,7 @@ impl SvgSettings {
                  line widths (2x); also outline (at the background), hidden, hidden-CLASS",
                 |svg: &mut Self| &mut svg.class_widths,
             )
-            .said("--line-width, half of it for hidden lines"),
+            .said("the width of all lines, half of it for hidden ones"),
             Setting::open_field(
                 "min-length",
                 "LENGTH",
