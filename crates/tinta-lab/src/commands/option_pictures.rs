@@ -215,6 +215,8 @@ fn different_share(expected: &Picture, actual: &Picture, limit: u8) -> f64 {
 
 #[test]
 fn the_pictures_of_the_options_are_what_their_commands_draw() {
+    // Their commands name files from the top folder.
+    std::env::set_current_dir(root()).unwrap();
     // One option's name, or 1 for all.
     let update = std::env::var("TINTA_UPDATE_PICTURES").ok();
     let mut sections = sections(&page());
