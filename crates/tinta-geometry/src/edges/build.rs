@@ -5,7 +5,8 @@
 //! a place of its own in memory for every edge; a vertex's half-edges lie together here.
 
 use super::{EdgeList, Incidence};
-use crate::threads::in_parallel;
+use crate::mesh::Mesh;
+use crate::threads::{in_parallel, threads_for};
 
 /// One side of a triangle as found: its higher position, and its face times two plus 1 if it runs from high to low. An array
 /// and no struct, so that fresh memory need not be cleared by hand.
@@ -25,7 +26,27 @@ const SEARCHED: usize = 12;
 
 const NO_EDGE: u32 = u32::MAX;
 
-pub(super) fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) -> EdgeList {
+impl EdgeList {
+    /// Builds the list in time linear in the faces, on as many threads as the machine has and the mesh is worth.
+    pub fn new(mesh: &Mesh) -> Self {
+        Self::with_threads(mesh, threads_for(mesh.triangles.len()))
+    }
+
+    /// As [`EdgeList::new`] with a number of threads, at least 1; the result is the same for all of them.
+    ///
+    /// Faces that name a position twice or one that does not exist have no edges; [`EdgeList::degenerate_faces`] counts
+    /// them.
+    pub fn with_threads(mesh: &Mesh, threads: usize) -> Self {
+        edge_list(&mesh.triangles, mesh.positions.len() as u32, threads.max(1))
+    }
+
+    /// The list of triangles that belong to no [`Mesh`], over this many positions, as [`EdgeList::with_threads`] makes it.
+    pub(crate) fn of_triangles(triangles: &[[u32; 3]], positions: u32, threads: usize) -> Self {
+        edge_list(triangles, positions, threads.max(1))
+    }
+}
+
+fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) -> EdgeList {
     let is_degenerate = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a || *a.max(b).max(c) >= positions;
     // Half-edges are counted in 32 bits: a mesh of more has 30 GB of edges, and what is beyond has none here.
     let (triangles, beyond) = triangles.split_at(triangles.len().min(u32::MAX as usize / 3));

@@ -5,7 +5,6 @@
 //! several triangles ends at it, as all of a part's edges do.
 
 use super::EdgeList;
-use super::classes::corners;
 use crate::mesh::{Mesh, triangle_normal};
 use glam::DVec3;
 
@@ -74,7 +73,7 @@ pub(crate) fn lasting_creases(mesh: &Mesh, edges: &EdgeList, is_crease: impl Fn(
 
 /// Of each face whether another lies in its plane beside it.
 fn flat_faces(mesh: &Mesh, edges: &EdgeList) -> Vec<bool> {
-    let normal = |face: u32| corners(mesh, &mesh.triangles[face as usize]).and_then(triangle_normal);
+    let normal = |face: u32| mesh.corners(&mesh.triangles[face as usize]).and_then(triangle_normal);
     let normals: Vec<DVec3> =
         (0..mesh.triangles.len() as u32).map(|face| normal(face).unwrap_or(DVec3::ZERO)).collect();
     let mut is_flat = vec![false; mesh.triangles.len()];

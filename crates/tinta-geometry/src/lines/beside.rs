@@ -1,10 +1,10 @@
 //! Which other lines lie on one in the picture: mostly none, so that they are looked for once and not piece by piece. Of lines on one
 //! another the nearest is seen, and of equally near ones one stands for all.
 
-use super::features::Feature;
+use super::feature::Feature;
 use super::image::Image;
+use super::line_index::{LineIndex, PARTS_OF_PICTURE};
 use super::ranges::{above_zero, united};
-use super::visibility::{Lines, PARTS_OF_PICTURE};
 use crate::tolerances::CONTACT;
 use glam::DVec2;
 use std::cell::OnceCell;
@@ -37,19 +37,19 @@ impl Beside {
         Self { asked: None, found: OnceCell::new() }
     }
 
-    fn found(&self, lines: &Lines) -> &Found {
+    fn found(&self, lines: &LineIndex) -> &Found {
         self.found.get_or_init(|| match &self.asked {
             Some((index, image, inside)) => lines.lying_on(*index, image, *inside),
             None => Found::Few(Vec::new()),
         })
     }
 
-    pub(super) fn are_none(&self, lines: &Lines) -> bool {
+    pub(super) fn are_none(&self, lines: &LineIndex) -> bool {
         matches!(self.found(lines), Found::Few(lines) if lines.is_empty())
     }
 }
 
-impl Lines<'_> {
+impl LineIndex<'_> {
     /// The wanted lines that lie on one in what of it is between two places.
     fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2]) -> Found {
         let touch_px = image.touch_px(self.space);

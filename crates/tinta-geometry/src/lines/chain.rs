@@ -34,7 +34,7 @@ pub struct LinePath {
 impl LinePath {
     /// The layer it is drawn in.
     pub(super) fn layer(&self) -> Layer {
-        layer(self.class, self.is_visible, self.is_outline)
+        Layer::of(self.class, self.is_visible, self.is_outline)
     }
 
     /// The path along the other direction.
@@ -51,15 +51,6 @@ impl LinePath {
     pub(super) fn rotate(&mut self, first: usize) {
         self.points_px.rotate_left(first);
         self.segments.rotate_left(first);
-    }
-}
-
-/// The layer of a line.
-pub(super) fn layer(class: Class, is_visible: bool, is_outline: bool) -> Layer {
-    match (is_visible, is_outline) {
-        (true, true) => Layer::Outline,
-        (true, false) => Layer::Visible(class),
-        (false, _) => Layer::Hidden(class),
     }
 }
 

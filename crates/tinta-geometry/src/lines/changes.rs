@@ -12,9 +12,10 @@
 //! An edge is as long as the longest side of the faces there. Ends at sharp edges, open rims and the picture's border are no changes.
 
 use super::LineSegment;
+use super::contours::Link;
 use super::faces::{Own, Probe};
 use super::summits::{ContourLines, Decided, Stretch};
-use super::turns::{Link, REACH};
+use super::turns::REACH;
 use crate::edges::Class;
 use glam::{DVec2, DVec3};
 use serde::Serialize;

@@ -23,10 +23,14 @@
 //! # }
 //! ```
 
+mod curve;
 mod patch;
 mod superquadric;
 
 pub use patch::Patch;
+
+use curve::{Curve, HALVINGS};
+use patch::quad;
 
 use super::VisibleLines;
 use super::space::Space;
@@ -85,14 +89,8 @@ impl ContourDistance {
 /// Places along a contour that are looked at before the ends of what is seen are found by bisection.
 const STEPS: usize = 16_384;
 
-/// Halvings of a step: beyond them f64 has no places left.
-const HALVINGS: usize = 48;
-
 /// Distance between the points of lines that are held against each other, pixels.
 const STEP_PX: f64 = 0.25;
-
-/// A closed curve on the surface, with a parameter from 0 to 1.
-type Curve = Box<dyn Fn(f64) -> DVec3>;
 
 impl ClosedForm {
     /// An ellipsoid with these half axes.
@@ -327,11 +325,6 @@ fn cube_sphere(triangles: usize, jitter: f64, random: &mut Random) -> (Vec<DVec3
         }
     }
     (positions, faces)
-}
-
-/// Two triangles.
-fn quad([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
-    [[a, b, c], [a, c, d]]
 }
 
 /// Numbers from -1 to 1 (xorshift).

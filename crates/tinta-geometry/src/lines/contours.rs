@@ -10,9 +10,8 @@
 //! At a sharp edge both its faces have normals of their own. It is silhouette along those parts where one side is front and the
 //! other is not; where a smooth contour ends on it, such a part begins. Between flat faces that is the rule of polygons.
 
-use super::features::Part;
+use super::part::Part;
 use super::space::Space;
-use super::turns::{Link, links, settle};
 use crate::edges::{CreaseAngle, EdgeList, Eye, Incidence, Shell, SilhouetteRule, SmoothSurface};
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::scene::Scene;
@@ -63,6 +62,13 @@ pub(super) struct Piece {
     pub on_edge: Option<u32>,
 }
 
+/// Two pieces that meet, and which end of each; on an edge, or at a cusp inside a face.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Link {
+    pub part: u32,
+    pub ends: [(usize, usize); 2],
+}
+
 /// Where a cut through a face leaves it.
 pub(super) struct Exit {
     pub point: DVec3,
@@ -85,7 +91,7 @@ pub(super) enum OnEdge {
 const CHUNK: usize = 8192;
 
 impl Contours {
-    /// Finds them; `positions` are those of all parts in the eye's space; the near plane may cut faces open.
+    /// Finds the pieces, each with what its own face says; `positions` are those of all parts in the eye's space; the near plane may cut faces open.
     pub(super) fn new(
         scene: &Scene,
         space: &Space,
@@ -126,8 +132,6 @@ impl Contours {
             first_position += part.mesh.positions.len() as u32;
             all.parts.push(part);
         }
-        all.links = links(&all.parts, &all.pieces);
-        settle(&all.parts, &mut all.pieces, positions, &mut all.links);
         all
     }
 

@@ -4,12 +4,12 @@
 use super::beside::Beside;
 use super::faces::Own;
 use super::image::Image;
-use super::visibility::Lines;
+use super::line_index::LineIndex;
 use crate::bvh::LeftOut;
 use crate::tolerances::CONTACT;
 use glam::DVec3;
 
-impl Lines<'_> {
+impl LineIndex<'_> {
     /// Adds the places along a part of a line where what is seen of it may change; whether there are too many to look at all.
     pub(super) fn add_cuts(
         &self,

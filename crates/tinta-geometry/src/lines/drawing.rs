@@ -3,11 +3,11 @@
 //! In: lines, the paths they were chained to, settings. Out: a [`Drawing`]; SVG and PDF write the same one.
 
 use super::chain::{LinePath, chain};
+use super::drawing_settings::{Hidden, SvgSettings};
 use super::layers::Layer;
 use super::page::Page;
 use super::pen::{dashes, in_pen_order};
 use super::simplify::simplified;
-use super::svg::{Hidden, SvgSettings};
 use super::{LineSegment, VisibleLines};
 use crate::error::Result;
 use crate::scene::{Color, Size};

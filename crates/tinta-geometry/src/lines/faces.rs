@@ -5,7 +5,7 @@ use super::space::Space;
 use crate::bvh::{Box3, BoxTree, NO_FAMILY};
 use crate::mesh::Mesh;
 use crate::scene::Object;
-use crate::threads::{cores, filled, in_chunks};
+use crate::threads::{cores, filled, in_chunks, threads_for_items};
 use crate::tolerances::{ACROSS, CONTACT, WELD};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
@@ -92,9 +92,9 @@ impl Faces {
             let (low, high) = mesh.bounds();
             welds.push((positions.len() as u32, WELD * (high - low).length()));
             let view = |index: usize| space.view(mesh.positions[index] + object.offset);
-            positions.extend(filled(mesh.positions.len(), worth(mesh.positions.len()), DVec3::ZERO, view));
+            positions.extend(filled(mesh.positions.len(), threads_for_items(mesh.positions.len()), DVec3::ZERO, view));
         }
-        let projected = filled(positions.len(), worth(positions.len()), (DVec2::ZERO, 0.0), |index| {
+        let projected = filled(positions.len(), threads_for_items(positions.len()), (DVec2::ZERO, 0.0), |index| {
             let view: DVec3 = positions[index];
             // What is not in front of the near plane is cut off there first.
             if -view.z >= space.near { space.project(view) } else { (DVec2::NAN, f64::NAN) }
@@ -138,7 +138,9 @@ impl Faces {
         let planes = Vec::new();
         let mut faces =
             Self { positions, triangles, cut_by_near, edge_on, edge_on_for_sure, tree, hubs, planes, numbers, welds };
-        faces.planes = planes::planes(space, &faces, first_number);
+        let limits = (space.size.max_element() / 512.0, faces.smallest_weld());
+        faces.planes =
+            planes::planes(faces.tree.boxes(), |place| faces.corners(place), &faces.numbers, limits, first_number);
         if !faces.planes.is_empty() {
             let of_places: Vec<u32> = faces.numbers.iter().map(|number| faces.plane(*number)).collect();
             faces.tree.set_planes(&of_places);
@@ -350,10 +352,4 @@ pub(super) fn near_crossing(space: &Space, a: DVec3, b: DVec3) -> Option<DVec3> 
     let mut point = a + (b - a) * (above / (above - below));
     point.z = -space.near;
     Some(point)
-}
-
-/// Threads for so many simple things.
-pub(super) fn worth(count: usize) -> usize {
-    const WORTH_A_THREAD: usize = 20_000;
-    cores().min(count / WORTH_A_THREAD).max(1)
 }

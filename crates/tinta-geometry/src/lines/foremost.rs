@@ -7,10 +7,10 @@
 use super::face_image::FaceImage;
 use super::faces::Faces;
 use super::image::Image;
+use super::occluder_probe::{Line, Sought, Stretch};
 use super::progress::Progress;
 use super::pyramid::layers;
 use super::ranges::{gaps, united};
-use super::search::{Line, Sought, Stretch};
 use super::space::Space;
 use crate::bvh::NO_FAMILY;
 use crate::threads::{cores, in_chunks};
@@ -234,7 +234,7 @@ mod tests {
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
         let foremost = Foremost::new(&space, &faces, &Progress::default()).unwrap();
-        let parts = super::super::parts(&scene);
+        let parts = super::super::part::parts(&scene);
         let all = intersections(&space, &faces, &parts, (None, None), &Progress::default()).lines;
         let (mut hidden, mut points) = (0, 0);
         for line in &all {

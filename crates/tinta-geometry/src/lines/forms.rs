@@ -26,7 +26,8 @@ pub use settings::FormSettings;
 
 use super::LineSettings;
 use super::faces::{Faces, Own};
-use super::features::{Edges, Feature, Part};
+use super::feature::Feature;
+use super::part::{Edges, Part};
 use super::space::Space;
 use crate::bvh::NO_FAMILY;
 use crate::curvature::{Curvature, Curvatures};

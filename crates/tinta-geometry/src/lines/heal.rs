@@ -6,8 +6,8 @@
 //! or it turns away, the gap is right. What `changes` counts is counted before.
 
 use super::changes::Cusps;
+use super::contours::Link;
 use super::summits::{ContourLines, Decided};
-use super::turns::Link;
 use serde::Serialize;
 
 /// What was joined.

@@ -16,8 +16,9 @@
 //! no old stroke is a new one; no number is given twice.
 
 use super::chain::{LinePath, chain_curves};
-use super::features::{Part, asked};
-use super::{LineSegment, LineSettings, VisibleLines, parts};
+use super::features::asked;
+use super::part::{Part, parts};
+use super::{LineSegment, LineSettings, VisibleLines};
 use crate::edges::{Class, ClassSet};
 use crate::scene::Scene;
 use glam::{DVec3, IVec3};

@@ -5,15 +5,15 @@
 //! there the *surfaces* decide: they intersect if their half-planes around that edge alternate. No rule depends on how a
 //! face is wound.
 
-use super::faces::{Faces, Own, worth};
-use super::features::Part;
+use super::faces::{Faces, Own};
 use super::foremost::Foremost;
+use super::occluder_probe::Line;
+use super::part::Part;
 use super::progress::{Phase, Progress};
 use super::pyramid::Pyramid;
-use super::search::Line;
 use super::space::Space;
 use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY, Wanted, counting_steps, steps};
-use crate::threads::{cores, filled, in_chunks, spread_chunks};
+use crate::threads::{cores, filled, in_chunks, spread_chunks, threads_for_items};
 use crate::tolerances::CONTACT;
 use glam::{DVec2, DVec3};
 use std::collections::{HashMap, HashSet};
@@ -56,7 +56,8 @@ impl Intersections {
     /// little behind another face, and without it what is seen before it would be one piece with what is not.
     pub(super) fn leave_out_hidden(&mut self, space: &Space, pyramid: &Pyramid) {
         let is_open = |line: &Intersection| !is_hidden(space, pyramid, line.ends);
-        let are_open = filled(self.lines.len(), worth(self.lines.len()), false, |line| is_open(&self.lines[line]));
+        let are_open =
+            filled(self.lines.len(), threads_for_items(self.lines.len()), false, |line| is_open(&self.lines[line]));
         let mut are_open = are_open.into_iter();
         self.lines.retain(|_| are_open.next() == Some(true));
     }
@@ -205,7 +206,7 @@ fn around_hubs(
             Box3::new(low - margin, high + margin)
         })
     };
-    let sides = filled(faces.hubs.len(), worth(faces.hubs.len()), None, side_box);
+    let sides = filled(faces.hubs.len(), threads_for_items(faces.hubs.len()), None, side_box);
     let boxes = faces.tree.boxes();
     let add_of = |place: usize, kept: &mut Kept| {
         let Some(side) = sides[place].filter(|_| !progress.is_over()) else { return };

@@ -4,7 +4,7 @@
 //! edges that cover another from end to end: they are that edge, cut on one side. Then every vertex of an open rim that lies on
 //! another rim: surfaces side by side are one. Cracks wider than `--weld` stay openings.
 
-use super::mend::with_faces;
+use super::face_subset::with_faces;
 use crate::bvh::{Box3, BoxTree};
 use crate::edges::{EdgeList, Incidence};
 use crate::mesh::Mesh;

@@ -25,6 +25,15 @@ pub enum Layer {
 }
 
 impl Layer {
+    /// The layer of a line.
+    pub(super) fn of(class: Class, is_visible: bool, is_outline: bool) -> Self {
+        match (is_visible, is_outline) {
+            (true, true) => Self::Outline,
+            (true, false) => Self::Visible(class),
+            (false, _) => Self::Hidden(class),
+        }
+    }
+
     /// All of them from the lowest to the highest: hidden ones below, and the first class above the others, for an edge of
     /// several belongs to the first.
     pub fn upwards() -> impl Iterator<Item = Self> {

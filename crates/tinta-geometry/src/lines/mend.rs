@@ -9,9 +9,10 @@
 //! Cracks wider than `--weld` stay openings.
 
 use super::covered::covered_faces;
+use super::face_subset::keep_faces;
 use super::junctions::{Split, chains, split_at_junctions};
 use crate::edges::EdgeList;
-use crate::mesh::{Mesh, NONE};
+use crate::mesh::Mesh;
 use crate::threads::{in_chunks, threads_for};
 use crate::tolerances::WELD;
 use std::borrow::Cow;
@@ -94,29 +95,3 @@ fn faces_without_height(mesh: &Mesh, edges: &EdgeList) -> HashSet<u32> {
 
 /// Faces a thread looks at at once.
 const FACES_A_THREAD: usize = 8192;
-
-/// The mesh with some of its faces.
-fn keep_faces(mesh: &Mesh, keep: impl Fn(u32) -> bool) -> Mesh {
-    let kept: Vec<usize> = (0..mesh.triangles.len()).filter(|face| keep(*face as u32)).collect();
-    with_faces(mesh, kept.iter().map(|face| (*face, mesh.triangles[*face])).collect())
-}
-
-/// The mesh with these faces, each with the number of the one whose normals, texture and material it has; corners that one
-/// does not have get none.
-pub(super) fn with_faces(mesh: &Mesh, faces: Vec<(usize, [u32; 3])>) -> Mesh {
-    let of_corners = |list: &[[u32; 3]]| -> Vec<[u32; 3]> {
-        let of_face = |(face, corners): &(usize, [u32; 3])| {
-            let values = list.get(*face)?;
-            let place = |corner: &u32| mesh.triangles[*face].iter().position(|old| old == corner);
-            Some(corners.map(|corner| place(&corner).map_or(NONE, |place| values[place])))
-        };
-        faces.iter().filter_map(of_face).collect()
-    };
-    Mesh {
-        triangle_normals: of_corners(&mesh.triangle_normals),
-        triangle_texture_coordinates: of_corners(&mesh.triangle_texture_coordinates),
-        triangle_materials: faces.iter().filter_map(|(face, _)| mesh.triangle_materials.get(*face).copied()).collect(),
-        triangles: faces.into_iter().map(|(_, corners)| corners).collect(),
-        ..mesh.clone()
-    }
-}

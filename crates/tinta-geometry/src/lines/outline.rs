@@ -12,10 +12,12 @@ pub(super) use runs::readable;
 use super::beside::Beside;
 use super::faces::{Faces, Own, Probe};
 use super::image::Image;
+use super::line_index::LineIndex;
+use super::occluder_probe::Sought;
 use super::ranges::hold;
-use super::search::{LastHider, Sought};
+use super::search::LastHider;
 use super::space::Space;
-use super::visibility::{Lines, Piece};
+use super::visibility::Piece;
 use crate::bvh::Box3;
 use crate::tolerances::BESIDE;
 use glam::DVec2;
@@ -52,7 +54,7 @@ impl Piece {
     }
 }
 
-impl Lines<'_> {
+impl LineIndex<'_> {
     /// The parts of a visible piece, told apart by where there is background beside them.
     pub(super) fn with_outline(&self, index: usize, image: &Image, piece: Piece) -> Vec<Piece> {
         let aside = (image.b - image.a).perp().normalize() * self.beside_px();

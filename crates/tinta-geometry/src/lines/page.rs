@@ -259,7 +259,7 @@ impl Page {
 
     /// Width and height as SVG writes them.
     pub(super) fn lengths(&self) -> [String; 2] {
-        self.lengths.to_array().map(|length| super::svg::decimal(length, PAGE_DECIMALS) + self.unit)
+        self.lengths.to_array().map(|length| super::text::decimal(length, PAGE_DECIMALS) + self.unit)
     }
 
     /// Points in a pixel.

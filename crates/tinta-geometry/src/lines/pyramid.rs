@@ -6,10 +6,10 @@
 //! behind one another most are done in a few steps. It decides nothing that is not clear: what it does not hide is looked at by
 //! the exact rules.
 
-use super::faces::{Faces, worth};
+use super::faces::Faces;
 use super::space::Space;
 use crate::bvh::Box3;
-use crate::threads::{cores, filled, in_chunks};
+use crate::threads::{cores, filled, in_chunks, threads_for_items};
 use crate::tolerances::{CONTACT, TOUCH};
 use glam::DVec2;
 
@@ -331,7 +331,7 @@ impl Pyramid {
     /// For each face whether anything of it may be seen.
     pub(super) fn seen(&self, space: &Space, faces: &Faces) -> Vec<bool> {
         let boxes = faces.tree.boxes();
-        filled(boxes.len(), worth(boxes.len()), false, |place| {
+        filled(boxes.len(), threads_for_items(boxes.len()), false, |place| {
             let [low, high] = boxes[place].corners();
             if !self.hides(low.truncate(), high.truncate(), low.z) {
                 let is_small = (high - low).truncate().max_element() <= 2.0 * self.cell_px;

@@ -7,8 +7,8 @@
 use super::VisibleLines;
 use super::chain::{LinePath, chain};
 use super::drawing::{Drawing, DrawnLayer, GHOST_OPACITY};
+use super::drawing_settings::SvgSettings;
 use super::pen::dashes;
-use super::svg::SvgSettings;
 use crate::error::{Error, Result};
 use crate::scene::{Background, Color, Size};
 use glam::DVec2;

@@ -8,7 +8,7 @@
 //! where it is.
 
 use super::contours::{Contours, OnEdge, PartSurface, Piece};
-use super::features::{Edges, Part};
+use super::part::{Edges, Part};
 use super::space::Space;
 use super::summits::MOST_FACES;
 use crate::edges::{CreaseAngle, SilhouetteRule};
@@ -51,7 +51,7 @@ pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<Smoot
     }
     let is_before = |position: &DVec3| -position.z < space.near;
     let is_cut_by_near = positions.iter().any(is_before) && !positions.iter().all(is_before);
-    let contours = Contours::new(scene, &space, &positions, is_cut_by_near, &parts, crease_angle);
+    let contours = Contours::with_cusps(scene, &space, &positions, is_cut_by_near, &parts, crease_angle);
     let mut found = Vec::with_capacity(parts.len());
     for (part, surface) in parts.iter().zip(&contours.parts) {
         let edges = part.edges.get();

@@ -6,10 +6,10 @@
 use super::VisibleLines;
 use super::chain::{LinePath, chain};
 use super::drawing::{Drawing, DrawnLayer, GHOST_OPACITY};
+use super::drawing_settings::SvgSettings;
 use super::layers::Layer;
 use super::length::Units;
 use super::pen::dashes;
-use super::svg::SvgSettings;
 use crate::error::Result;
 use crate::scene::Color;
 use glam::DVec2;

@@ -19,10 +19,10 @@
 use super::LineSegment;
 use super::contours::{Contours, Piece, between};
 use super::faces::{Own, Probe};
-use super::features::Part;
 use super::image::Image;
+use super::line_index::LineIndex;
+use super::part::Part;
 use super::progress::{Phase, Progress};
-use super::visibility::Lines;
 use crate::bvh::{Box3, NO_FAMILY, steps};
 use crate::edges::Class;
 use crate::mesh::NONE;
@@ -56,7 +56,7 @@ const CHUNK: usize = 32;
 
 /// What smooth contours are decided with.
 pub(super) struct ContourLines<'a> {
-    pub lines: &'a Lines<'a>,
+    pub lines: &'a LineIndex<'a>,
     pub contours: &'a Contours,
     pub parts: &'a [Part<'a>],
 }

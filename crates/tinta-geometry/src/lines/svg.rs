@@ -4,27 +4,18 @@
 //! pixels with three decimals, y down, in the order of the pieces. The layers are groups that Inkscape shows as such, hidden
 //! ones below visible ones.
 
-mod settings;
-mod text;
-
-#[cfg(feature = "pdf")]
-pub(super) use settings::mixed;
-pub use settings::{Hidden, SvgSettings};
-pub(super) use text::decimal;
-#[cfg(feature = "pdf")]
-pub(super) use text::{written_point, written_points};
-
 use super::VisibleLines;
 use super::chain::{LinePath, chain};
 use super::curves::fitted;
 use super::drawing::{Drawing, DrawnLayer, GHOST_OPACITY};
+use super::drawing_settings::SvgSettings;
 use super::page::PAGE_DECIMALS;
+use super::text::{curve_data, decimal, hexadecimal, number, path_data};
 use crate::error::Result;
 use crate::markup::escaped;
 use crate::markup::recipe_element;
 use crate::scene::Background;
 use std::fmt::Write;
-use text::{curve_data, hexadecimal, number, path_data};
 
 /// The lines as an SVG file, without spurs and specks.
 ///

@@ -5,22 +5,35 @@
 //! place inside a piece, which is cut in two there. Linear n . v has slopes that are right only on average: where the contour runs along the
 //! view, single faces say now this, now that. What lasts for less than two edges is no cusp.
 
-use super::contours::{PartSurface, Piece, between};
-use crate::edges::Shell;
+use super::contours::{Contours, Link, PartSurface, Piece, between};
+use super::part::Part;
+use super::space::Space;
+use crate::edges::{CreaseAngle, Shell};
+use crate::scene::Scene;
 use glam::DVec3;
 
 /// How far a piece is looked around for what its contour does, edges.
 pub(super) const REACH: f64 = 2.0;
 
-/// Two pieces that meet, and which end of each; on an edge, or at a cusp inside a face.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Link {
-    pub part: u32,
-    pub ends: [(usize, usize); 2],
+impl Contours {
+    /// Finds contours and their cusps; see [`Contours::new`].
+    pub(super) fn with_cusps(
+        scene: &Scene,
+        space: &Space,
+        positions: &[DVec3],
+        is_cut_by_near: bool,
+        parts: &[Part<'_>],
+        crease_angle: CreaseAngle,
+    ) -> Self {
+        let mut all = Self::new(scene, space, positions, is_cut_by_near, parts, crease_angle);
+        all.links = links(&all.parts, &all.pieces);
+        settle(&all.parts, &mut all.pieces, positions, &mut all.links);
+        all
+    }
 }
 
 /// The places where two pieces hang together: on edges that are not sharp.
-pub(super) fn links(parts: &[PartSurface], pieces: &[Piece]) -> Vec<Link> {
+fn links(parts: &[PartSurface], pieces: &[Piece]) -> Vec<Link> {
     let mut ends: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(pieces.len() * 2);
     for (number, piece) in pieces.iter().enumerate() {
         let is_sharp = &parts[piece.part as usize].surface.is_sharp;
@@ -36,7 +49,7 @@ pub(super) fn links(parts: &[PartSurface], pieces: &[Piece]) -> Vec<Link> {
 }
 
 /// Lets each piece bend as its contour around it does, and cuts those in two within which that changes.
-pub(super) fn settle(parts: &[PartSurface], pieces: &mut Vec<Piece>, positions: &[DVec3], links: &mut Vec<Link>) {
+fn settle(parts: &[PartSurface], pieces: &mut Vec<Piece>, positions: &[DVec3], links: &mut Vec<Link>) {
     let mut neighbours = vec![[None; 2]; pieces.len()];
     for Link { ends: [first, second], .. } in links.iter() {
         neighbours[first.0][first.1] = Some(*second);

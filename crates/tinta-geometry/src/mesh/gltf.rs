@@ -62,7 +62,7 @@ fn contents(
     let Materials { list, coordinates, unread_pictures } = Materials::of(&root, &buffers, path)?;
     let mut soup =
         Soup { materials: list, files: buffers.files.clone(), bytes_beside: buffers.bytes_beside, ..Soup::default() };
-    let outlines = nodes.outlines(&root, &accessors, &coordinates)?;
+    let outlines = parts::outlines(&nodes, &root, &accessors, &coordinates)?;
     if outlines.is_empty() {
         return Err(match root.meshes.len() {
             0 => "it holds no meshes; is it the right file?".to_owned(),

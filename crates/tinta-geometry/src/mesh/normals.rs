@@ -12,6 +12,7 @@
 mod calm;
 mod curved;
 mod even;
+mod incidence;
 mod lasting;
 mod noise;
 mod patches;
@@ -21,8 +22,9 @@ use crate::threads::{in_parallel, threads_for};
 use crate::tolerances::CANCELLED_NORMALS;
 use calm::calm;
 use glam::{DVec3, Vec3};
+pub(super) use incidence::Incidence;
+use incidence::angle_at;
 use lasting::Lasting;
-use std::ops::Range;
 
 /// Where normals are split.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,7 +109,7 @@ pub(super) fn fill_missing(
     });
     let first = normals.len() as u32;
     normals.reserve_exact(found.iter().map(|found| found.normals.len()).sum());
-    let mut corners = incidence.corners.iter();
+    let mut corners = incidence.all_corners().iter();
     for mut found in found {
         let before = normals.len() as u32;
         normals.append(&mut found.normals);
@@ -155,52 +157,9 @@ fn weighted_normal(positions: &[DVec3], triangles: &[[u32; 3]], corner: u32) -> 
     to_next.cross(to_previous) / (to_next.length_squared() * to_previous.length_squared())
 }
 
-/// A face's angle at one of its corners, radians.
-fn angle_at(positions: &[DVec3], triangles: &[[u32; 3]], corner: u32) -> f64 {
-    let triangle = triangles[corner as usize / 3];
-    let [at, next, previous] = [0, 1, 2].map(|step| positions[triangle[(corner as usize % 3 + step) % 3] as usize]);
-    let (to_next, to_previous) = (next - at, previous - at);
-    to_next.cross(to_previous).length().atan2(to_next.dot(to_previous))
-}
-
 /// The direction of a sum of normals, if it has one.
 fn smooth(sum: DVec3) -> Option<DVec3> {
     (sum / sum.abs().max_element()).try_normalize()
-}
-
-/// For every position the triangle corners that meet there, as `3 * triangle + corner`.
-pub(super) struct Incidence {
-    starts: Vec<u32>,
-    corners: Vec<u32>,
-}
-
-impl Incidence {
-    pub(super) fn new(position_count: usize, triangles: &[[u32; 3]]) -> Self {
-        let mut starts = vec![0u32; position_count + 1];
-        for index in triangles.as_flattened() {
-            starts[*index as usize + 1] += 1;
-        }
-        for vertex in 0..position_count {
-            starts[vertex + 1] += starts[vertex];
-        }
-        let mut next = starts.clone();
-        let mut corners = vec![0u32; triangles.len() * 3];
-        for (corner, index) in triangles.as_flattened().iter().enumerate() {
-            let slot = &mut next[*index as usize];
-            corners[*slot as usize] = corner as u32;
-            *slot += 1;
-        }
-        Self { starts, corners }
-    }
-
-    /// The corners at some vertices, one after the other.
-    fn corners_of(&self, vertices: &Range<usize>) -> &[u32] {
-        &self.corners[self.starts[vertices.start] as usize..self.starts[vertices.end] as usize]
-    }
-
-    pub(super) fn corners(&self, vertex: usize) -> &[u32] {
-        &self.corners[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
-    }
 }
 
 /// The faces around one vertex; kept between vertices for its memory.

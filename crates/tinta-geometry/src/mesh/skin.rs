@@ -141,21 +141,6 @@ pub(super) fn remark(path: &str, sentences: Vec<String>, others: &str, remarks: 
     }
 }
 
-/// Refuses a skin that is not there.
-pub(super) fn check(skin: &Path) -> Result<()> {
-    if skin.is_file() {
-        return Ok(());
-    }
-    let problem = if skin.is_dir() {
-        "this is a directory; name a picture in it"
-    } else if skin.exists() {
-        "this is not a regular file; name a picture"
-    } else {
-        "there is no such file; check the name after --skin"
-    };
-    Err(Error::picture(skin, problem))
-}
-
 /// Makes a picture the texture of every material; faces without one get one.
 pub(super) fn put_on(soup: &mut Soup, skin: &Path, path: &str) -> Result<()> {
     if soup.corners.iter().all(|corner| corner.texture == NONE) {
@@ -253,12 +238,5 @@ mod tests {
         soup.corners.iter_mut().for_each(|corner| corner.texture = NONE);
         let message = put_on(&mut soup, Path::new("a.png"), "a.obj").unwrap_err().to_string();
         assert!(message.starts_with("skin a.png: a.obj has no texture coordinates"), "{message}");
-    }
-
-    #[test]
-    fn a_skin_that_is_not_there_is_refused_by_name() {
-        let message = |path: &str| check(Path::new(path)).unwrap_err().to_string();
-        assert!(message("no-such.pcx").starts_with("no-such.pcx: there is no such file"));
-        assert!(message("/").contains("directory"));
     }
 }

@@ -4,7 +4,6 @@
 //! a point of the contour the height over the patch is a polynomial of sixth degree with a double root at the point; what is left
 //! has degree four, and its roots before the square's rim are what hides. They are found between those of its derivative.
 
-use super::quad;
 use crate::edges::Eye;
 use glam::{DVec2, DVec3};
 
@@ -196,6 +195,11 @@ fn roots(polynomial: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
     places.push(to);
     let changed = places.windows(2).filter(|ends| (value(ends[0]) > 0.0) != (value(ends[1]) > 0.0));
     changed.map(|ends| change(|place| value(place) > 0.0, [ends[0], ends[1]])).collect()
+}
+
+/// Two triangles.
+pub(super) fn quad([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+    [[a, b, c], [a, c, d]]
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A superquadric: where the sum of the coordinates, each over its half axis and to an even power, is 1. It is convex, so that its contour goes
 //! once around and hides nothing of itself.
 
-use super::{Curve, HALVINGS};
+use super::curve::{Curve, HALVINGS};
 use crate::edges::Eye;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};

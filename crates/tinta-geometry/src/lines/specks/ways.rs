@@ -4,8 +4,9 @@
 //! A stroke leads from each place on it to the next on either side. What lies on a stroke, and which strokes go through a place, is found when
 //! it is first asked for and kept. So each way costs what is on it and beside it, however much else lies in the picture.
 
-use super::{Branch, JOINED_PX, Stroke, Strokes};
+use super::strokes::{Branch, Stroke, Strokes};
 use crate::bvh::add_steps;
+use crate::tolerances::JOINED_PX;
 use glam::DVec2;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -3,7 +3,7 @@
 //! Only vertices within a curved surface take part (`curved.rs`), away from creases that last and open rims: flat faces, cylinders and cones of machine parts
 //! keep theirs exactly. One round reaches as far as one edge, so that relief wider than a facet stays. Neighbours count less the more they differ.
 
-use super::Incidence;
+use super::incidence::Incidence;
 use super::lasting::Lasting;
 use crate::mesh::NONE;
 use crate::threads::{filled, threads_for};

@@ -5,10 +5,11 @@
 //! noise (`even.rs`), and for each triangle the area of the flat face it is part of. By it a face counts more than the chamfer beside
 //! it, which so bends from face to face and leaves them flat.
 
-use super::Incidence;
-use super::curved::curved;
+use super::curved::{Edge, curved};
 use super::even::{Evened, Faces, even};
+use super::incidence::Incidence;
 use super::patches::{Neighbours, gathered};
+use crate::disjoint_sets::DisjointSets;
 use crate::threads::{filled, in_parallel, threads_for};
 use glam::DVec3;
 
@@ -96,12 +97,12 @@ impl Lasting {
         // Evening out also sharpens rounded rims, in zigzags: a crease is one before and after it.
         let is_sharp = |edge: &&Edge| [&face_normals, given].iter().all(|of| cosine(of, edge) < cos_smooth);
         let sharp: Vec<&Edge> = edges().filter(is_sharp).collect();
-        let mut chains = Sets::new(positions.len());
+        let mut chains = DisjointSets::new(positions.len());
         sharp.iter().for_each(|edge| chains.join(edge.ends));
         let mut boxes = vec![Span::NONE; positions.len()];
         let mut least = vec![LEAST_REACH_IN_NOISE; positions.len()];
         for edge in &sharp {
-            let chain = chains.root(edge.ends[0]);
+            let chain = chains.root(edge.ends[0]) as usize;
             edge.ends.iter().for_each(|end| boxes[chain].take(positions[*end as usize]));
             if edge.faces.iter().any(|face| !is_noisy[*face as usize]) {
                 least[chain] = LEAST_REACH;
@@ -109,41 +110,11 @@ impl Lasting {
         }
         let mut vertices = vec![false; positions.len()];
         for end in sharp.iter().flat_map(|edge| edge.ends) {
-            let chain = chains.root(end);
+            let chain = chains.root(end) as usize;
             vertices[end as usize] = boxes[chain].diagonal() >= least[chain] * whole.diagonal();
         }
         let is_curved = curved(&faces, edges, incidence, whole.diagonal(), cos_smooth);
         Self { vertices, areas, is_curved, face_normals }
-    }
-}
-
-/// An edge of two faces.
-pub(super) struct Edge {
-    pub ends: [u32; 2],
-    pub faces: [u32; 2],
-}
-
-/// Numbers joined into sets.
-pub(super) struct Sets {
-    parents: Vec<u32>,
-}
-
-impl Sets {
-    pub(super) fn new(count: usize) -> Self {
-        Self { parents: (0..count as u32).collect() }
-    }
-
-    pub(super) fn root(&mut self, mut number: u32) -> usize {
-        while self.parents[number as usize] != number {
-            self.parents[number as usize] = self.parents[self.parents[number as usize] as usize];
-            number = self.parents[number as usize];
-        }
-        number as usize
-    }
-
-    pub(super) fn join(&mut self, [a, b]: [u32; 2]) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parents[a.max(b)] = a.min(b) as u32;
     }
 }
 

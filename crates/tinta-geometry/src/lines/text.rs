@@ -8,7 +8,7 @@ use glam::DVec2;
 const DECIMALS: u32 = 3;
 
 /// A number with at most `decimals` decimals, without zeros at the end, never `-0`.
-pub(in crate::lines) fn decimal(value: f64, decimals: u32) -> String {
+pub(super) fn decimal(value: f64, decimals: u32) -> String {
     let scale = 10_i64.pow(decimals);
     // Up to a picture's largest size and its decimals this is exact in f64.
     let scaled = (value * scale as f64).round() as i64;
@@ -24,7 +24,7 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// The points of a polyline as they are written; points that are written alike are written once unless `keep_all`.
-pub(in crate::lines) fn written_points(points_px: &[DVec2], is_closed: bool, keep_all: bool) -> Vec<[String; 2]> {
+pub(super) fn written_points(points_px: &[DVec2], is_closed: bool, keep_all: bool) -> Vec<[String; 2]> {
     let mut written: Vec<[String; 2]> = Vec::with_capacity(points_px.len());
     for (index, point) in points_px.iter().enumerate() {
         let text = point.to_array().map(number);
@@ -56,7 +56,7 @@ pub(super) fn path_data(points_px: &[DVec2], is_closed: bool, keep_all: bool) ->
 }
 
 /// A point as it is written.
-pub(in crate::lines) fn written_point(point_px: DVec2) -> [String; 2] {
+pub(super) fn written_point(point_px: DVec2) -> [String; 2] {
     point_px.to_array().map(number)
 }
 

@@ -268,7 +268,7 @@ impl SvgSettings {
     }
 
     /// Whether a layer is drawn.
-    pub(in crate::lines) fn draws(&self, is_visible: bool) -> bool {
+    pub(super) fn draws(&self, is_visible: bool) -> bool {
         is_visible || self.hidden != Hidden::None
     }
 
@@ -281,7 +281,7 @@ impl SvgSettings {
     }
 
     /// A layer's width, pixels: what is said of it, or for hidden lines half of what their class has.
-    pub(in crate::lines) fn width_px(&self, layer: Layer, units: Units) -> f64 {
+    pub(super) fn width_px(&self, layer: Layer, units: Units) -> f64 {
         let px = |length: Length| length.px(units).unwrap_or(0.0);
         match (self.class_widths.0.of(layer), layer) {
             (Some(Length::Times(times)), _) => times * px(self.width()),
@@ -292,13 +292,13 @@ impl SvgSettings {
     }
 
     /// Whether something is said of how wide a layer is.
-    pub(in crate::lines) fn says_width(&self, layer: Layer) -> bool {
+    pub(super) fn says_width(&self, layer: Layer) -> bool {
         self.line_width.is_some() || self.class_widths.0.of(layer).is_some()
     }
 
     /// A layer's colour: what is said of it; dashes are half as strong as their class. A pen has one ink for both, and ghosts
     /// are faint anyway.
-    pub(in crate::lines) fn color(&self, layer: Layer) -> Color {
+    pub(super) fn color(&self, layer: Layer) -> Color {
         match (self.class_colors.0.of(layer), layer) {
             (Some(color), _) => color,
             (None, Layer::Hidden(class)) => {
@@ -311,7 +311,7 @@ impl SvgSettings {
     }
 
     /// What is behind the lines; white where nothing is.
-    pub(in crate::lines) fn paper_color(&self) -> Color {
+    pub(super) fn paper_color(&self) -> Color {
         match self.background {
             Background::Color(color) if !self.is_for_pen => color,
             _ => WHITE,
@@ -321,7 +321,7 @@ impl SvgSettings {
     /// Below which length a stroke of a layer may be left out, pixels. A pen is as wide as any other line. Creases that belong to
     /// an edge of a part end at others; what ends free are folds of a scan. So do silhouettes within the outline, where it is told
     /// apart: what ends free are the facets of a curved surface that turn away one by one.
-    pub(in crate::lines) fn min_length_px(&self, layer: Layer, units: Units) -> f64 {
+    pub(super) fn min_length_px(&self, layer: Layer, units: Units) -> f64 {
         let width = self.width_px(layer, units);
         let length = self.min_length.and_then(|length| length.px(units)).unwrap_or(width);
         let may_be_a_fold = match layer {
@@ -334,7 +334,7 @@ impl SvgSettings {
 }
 
 /// A colour on its way from the paper's: 0 is the paper's.
-pub(in crate::lines) fn mixed(color: Color, paper: Color, strength: f32) -> Color {
+pub(super) fn mixed(color: Color, paper: Color, strength: f32) -> Color {
     let [Color(color), Color(paper)] = [color, paper];
     Color(std::array::from_fn(|channel| paper[channel] + (color[channel] - paper[channel]) * strength))
 }
