@@ -26,6 +26,7 @@ mod cartoon;
 mod charcoal;
 mod dietrich;
 mod gradients;
+mod headings;
 mod ignored;
 mod ink;
 mod inking;
@@ -38,6 +39,7 @@ mod phong;
 mod ramp;
 mod row;
 mod shading;
+mod show;
 mod suggestive;
 mod supersample;
 mod textured;
@@ -61,6 +63,7 @@ pub use mrt::Mrt;
 pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
 pub use row::{Mark, Origin, Outline, StyleInfo};
+pub use show::Show;
 pub use suggestive::Suggestive;
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
@@ -70,6 +73,7 @@ use crate::error::{Error, ParseError, Result};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::settings::{HasSettings, OptionValue, Options, Setting, Table, within};
+use headings::{ALL_STYLES, CARTOON, CHARCOAL, HEADINGS, IMAGE_SPACE, INK, INKING, SUGGESTIVE, cull, no_borders};
 use row::Draw;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -202,34 +206,6 @@ const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
 /// Pictures of the drawings in charcoal and sand.
 const CHARCOAL_SHOWS: &[Show] = &[Show::Final, Show::Diffuse, Show::Cem, Show::Cet, Show::Paper];
 
-/// Which of a style's pictures is wanted.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum Show {
-    /// The finished picture.
-    #[default]
-    Final,
-    /// The normal map: red, green, blue of the map (figure 9, left).
-    Normals,
-    /// The depth map: alpha of the map as grey, near is dark (figure 9, right).
-    Depth,
-    /// The map itself, four channels.
-    Map,
-    /// The borders alone (figure 12).
-    Borders,
-    /// The tones alone (figure 5).
-    Tones,
-    /// The light of a charcoal drawing (Valente 2007, figure 4, left).
-    Diffuse,
-    /// The contrast-enhanced model (figure 4, right).
-    Cem,
-    /// The contrast-enhanced texture where the model reads it.
-    Cet,
-    /// The paper alone.
-    Paper,
-}
-
 impl Style {
     /// The style of this name with the published settings.
     #[must_use]
@@ -338,16 +314,6 @@ impl Serialize for Style {
     }
 }
 
-/// What the settings are listed under, in this order.
-const HEADINGS: [&str; 8] = [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, SUGGESTIVE, CHARCOAL];
-const ALL_STYLES: &str = "All styles";
-const CARTOON: &str = "Styles three-pass, two-pass and mrt (the defaults are the paper's)";
-const INKING: &str = "Style inking: lines from the model's edges (the defaults are the text's)";
-const IMAGE_SPACE: &str = "Styles three-pass, two-pass, mrt and ink";
-const INK: &str = "Style ink (tones as three-pass, --crease-angle as inking)";
-const SUGGESTIVE: &str = "Style suggestive (tones as three-pass)";
-const CHARCOAL: &str = "Styles charcoal and sand (the defaults are the text's where it gives them)";
-
 /// The settings of all styles, each declared beside its struct; those of a heading begin with the styles that have lines.
 pub(crate) fn settings() -> Vec<Setting<Style>> {
     let mut settings: Vec<Setting<Style>> =
@@ -360,20 +326,6 @@ pub(crate) fn settings() -> Vec<Setting<Style>> {
 /// Why a style of exact lines has no plan.
 fn no_passes(style: &str) -> Error {
     Error::value("style", style, "it draws exact lines and has no passes; choose another style")
-}
-
-/// The setting whether lines are left out.
-fn no_borders<T: Clone + 'static>(get: fn(&T) -> bool, set: fn(&mut T, bool)) -> Setting<T> {
-    Setting::flag("no-borders", "Leave out the lines: draw tones or paint alone", get, set)
-        .deduced("E and D draw their figures with lines, and some without")
-        .labelled("no lines")
-}
-
-/// The setting whether faces turned away are left out.
-fn cull<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
-    let help = "Cull faces that point away: none, back; faster, and nearly the same picture for closed models";
-    Setting::either("cull", "FACES", ["none", "back"], help, field)
-        .deduced("E, D and V leave face culling off, as GL has it by default")
 }
 
 impl StyleName {

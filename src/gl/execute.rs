@@ -1,11 +1,10 @@
 //! Executes plans step by step; every draw sets all the state it needs.
 
 use super::Gl;
+use super::buffers::{EdgeIndices, FaceIndices, MeshBuffers, OfVertices};
 use super::display_lists::{self, DisplayLists};
-use super::edges::EdgeIndices;
 use super::fixed_function;
 use super::legacy;
-use super::meshes::{FaceIndices, MeshBuffers, OfVertices};
 use super::objects::{Buffer, Program, Shader, TimerQuery};
 use super::sources;
 use super::targets::{Targets, clear_each};

@@ -15,6 +15,7 @@ pub use improvements::Improvements;
 pub use pictures::{CharcoalPictures, TextureSource};
 
 use self::layout::Layout;
+use self::pictures::TextureSettings;
 use super::textured::textured;
 use super::{Show, Supersample};
 use crate::error::{Error, Result};
@@ -24,7 +25,7 @@ use crate::plan::{
     Depth, Draw, Facts, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
 };
 use crate::scene::{Background, Scene, Size};
-use crate::textures::Generator;
+use crate::textures::{ContrastTexture, Generator, NoiseTexture};
 use std::sync::Arc;
 
 /// Settings of `charcoal` and `sand`; the defaults are the text's where it gives them, ours elsewhere (errata V7).
@@ -132,6 +133,24 @@ fn measurable(light: [f32; 3]) -> [f32; 3] {
 }
 
 impl Charcoal {
+    /// What its textures follow from.
+    pub(crate) fn texture_settings(&self) -> TextureSettings {
+        let (size, seed, random) = (self.texture_size, self.seed, self.random);
+        TextureSettings {
+            contrast: ContrastTexture {
+                size,
+                seed,
+                random,
+                density_percent: self.density_percent,
+                exponent: self.cet_exponent,
+                blur_px: self.cet_blur_px,
+            },
+            noise: NoiseTexture { size, seed, random },
+            sources: [&self.noise_texture, &self.cet, &self.paper].map(TextureSource::clone),
+            has_tooth: self.improve.tooth,
+        }
+    }
+
     /// The settings of one of the text's recipes.
     pub fn recipe(recipe: CharcoalRecipe) -> Self {
         let base = Self::default();
@@ -191,7 +210,7 @@ impl Charcoal {
 
     fn plan(&self, scene: &Scene, show: Show, is_sand: bool) -> Result<Plan> {
         self.check(show, is_sand)?;
-        let made = self.pictures.of(self)?;
+        let made = self.pictures.of(self.texture_settings())?;
         let cet = match self.cet_filter {
             CetFilter::Linear => Sampling::LinearRepeated,
             CetFilter::Mipmap => Sampling::MipmapRepeated,
