@@ -24,106 +24,62 @@
 //! # }
 //! ```
 
-mod beside;
-mod bundles;
-mod cast;
-mod chain;
-mod changes;
-pub mod closed_forms;
-mod contours;
-mod covered;
-mod crossings;
-mod curves;
-mod doubled;
 mod drawing;
-mod drawing_settings;
-mod face_image;
-mod faces;
-mod face_subset;
-mod feature;
-mod features;
 mod flicker;
-mod foremost;
-mod forms;
 mod heal;
 mod identity;
-mod image;
-mod intersections;
-mod junctions;
-mod layers;
-mod length;
-mod line_index;
-mod mend;
-mod occluder_probe;
-mod occluders;
-mod outline;
-mod page;
-mod part;
-#[cfg(feature = "pdf")]
-mod pdf;
-mod pen;
-mod planes;
+mod input;
 mod progress;
-mod pyramid;
-mod ranges;
-mod raster;
-mod search;
 mod segment;
 mod settings;
-mod silhouettes;
-mod simplify;
+mod smooth;
 #[cfg(test)]
 mod smooth_tests;
-mod space;
-mod specks;
 #[cfg(test)]
 mod stiff_tests;
-mod strokes;
-mod summits;
-mod svg;
-mod text;
-mod turns;
-mod visibility;
+mod visible;
 mod visible_lines;
+mod write;
 
-pub use cast::{Hit, first_hits};
-pub use chain::{LinePath, chain};
-pub use changes::{Inconsistency, InconsistencyKind, VisibilityChanges};
-pub use curves::{Step, fitted};
-pub use drawing::{DrawnLayer, GHOST_OPACITY, drawn_layers};
-pub use drawing_settings::{Hidden, SvgSettings};
+pub use drawing::chain::{LinePath, chain};
+pub use drawing::curves::{Step, fitted};
+pub use drawing::drawn_layers::{DrawnLayer, GHOST_OPACITY, drawn_layers};
+pub use drawing::layers::{ClassColors, ClassWidths, Layer, OfLayers};
+pub use drawing::length::{Length, Millimetres, Units, line_width};
+pub use drawing::page::{PageSize, Paper, Sheet, Turn};
+pub use drawing::settings::{Hidden, SvgSettings};
 pub use flicker::{Flicker, flicker};
-pub use forms::FormSettings;
 pub use heal::Healed;
 pub use identity::StrokeIds;
-pub use layers::{ClassColors, ClassWidths, Layer, OfLayers};
-pub use length::{Length, Millimetres, Units, line_width};
-pub use page::{PageSize, Paper, Sheet, Turn};
-#[cfg(feature = "pdf")]
-pub use pdf::{pdf, pdf_of_paths};
 pub use progress::{Phase, Progress};
-pub use raster::{Raster, raster, raster_of_paths};
 pub use segment::LineSegment;
 pub use settings::LineSettings;
-pub use silhouettes::{SmoothSilhouette, smooth_silhouettes};
-pub use strokes::{Polyline, Strokes, strokes, strokes_of_paths};
-pub use svg::{svg, svg_of_paths};
+pub use smooth::closed_forms;
+pub use smooth::forms::FormSettings;
+pub use smooth::silhouettes::{SmoothSilhouette, smooth_silhouettes};
+pub use smooth::visibility_events::{Inconsistency, InconsistencyKind, VisibilityChanges};
+pub use visible::cast::{Hit, first_hits};
 pub use visible_lines::{LineTimes, VisibleLines};
+#[cfg(feature = "pdf")]
+pub use write::pdf::{pdf, pdf_of_paths};
+pub use write::raster::{Raster, raster, raster_of_paths};
+pub use write::strokes::{Polyline, Strokes, strokes, strokes_of_paths};
+pub use write::svg::{svg, svg_of_paths};
 
 use crate::clock::{Instant, milliseconds_since};
 use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::threads::both;
-use contours::Contours;
-use faces::Faces;
-use foremost::Foremost;
-use line_index::LineIndex;
-use part::{Edges, Part};
-use pyramid::Pyramid;
+use input::part::{Edges, Part};
 use settings::not_published;
-use space::Space;
-use summits::ContourLines;
+use smooth::contour_visibility::ContourLines;
+use smooth::contours::Contours;
+use visible::faces::Faces;
+use visible::line_index::LineIndex;
+use visible::nearest_faces::Foremost;
+use visible::pyramid::Pyramid;
+use visible::space::Space;
 
 /// From how many intersections on the cells that hide some are made smaller.
 const MANY_INTERSECTIONS: usize = 10_000;
@@ -170,11 +126,11 @@ impl VisibleLines {
         // The hierarchy is built on one thread, the edges on another.
         let (parts, faces) = both(
             || {
-                let parts = part::parts(scene);
+                let parts = input::part::parts(scene);
                 for part in &parts {
-                    part.edges.get().classes(settings.crease_angle, features::asked(settings));
+                    part.edges.get().classes(settings.crease_angle, input::features::asked(settings));
                     if has_forms && matches!(part.edges, Edges::OfScene(_)) {
-                        forms::curvatures(scene, part, settings);
+                        smooth::forms::curvatures(scene, part, settings);
                     }
                 }
                 parts
@@ -197,7 +153,8 @@ impl VisibleLines {
             Contours::with_cusps(scene, &space, &faces.positions, is_cut, &parts, settings.crease_angle)
         });
         let drawn_contours = contours.as_ref().filter(|_| settings.has_smooth_contours());
-        let (mut lines, mut edges) = features::edge_features(scene, &space, &faces, &parts, drawn_contours, settings);
+        let (mut lines, mut edges) =
+            input::features::edge_features(scene, &space, &faces, &parts, drawn_contours, settings);
         let silhouette_ms = milliseconds_since(clock);
         progress.go_on()?;
 
@@ -206,7 +163,8 @@ impl VisibleLines {
         let foremost = Foremost::new(&space, &faces, progress);
         let hides = pyramid.as_ref().filter(|_| !settings.finds_hidden);
         let nearest = foremost.as_ref().filter(|_| !settings.finds_hidden);
-        let mut intersections = intersections::intersections(&space, &faces, &parts, (hides, nearest), progress);
+        let mut intersections =
+            visible::intersections::intersections(&space, &faces, &parts, (hides, nearest), progress);
         progress.go_on()?;
         if hides.is_some() && intersections.lines.len() > MANY_INTERSECTIONS {
             pyramid = Pyramid::fine(&space, &faces);
@@ -217,12 +175,12 @@ impl VisibleLines {
         let mut compared = intersections.compared;
         if settings.classes.contains(Class::Intersection) {
             edges.intersection = intersections.lines.len();
-            lines.extend(features::intersection_features(&faces, &parts, &intersections.lines));
+            lines.extend(input::features::intersection_features(&faces, &parts, &intersections.lines));
         }
         if has_forms {
-            lines.extend(forms::form_features(scene, &space, &faces, &parts, settings, &mut edges));
+            lines.extend(smooth::forms::form_features(scene, &space, &faces, &parts, settings, &mut edges));
         }
-        lines.extend(features::near_plane_features(&space, &faces));
+        lines.extend(input::features::near_plane_features(&space, &faces));
         let found = LineIndex::new(
             &space,
             &faces,
@@ -257,7 +215,7 @@ impl VisibleLines {
         }
         // What lies on what is known of a whole only.
         if undecided == 0 {
-            segments = doubled::marked(segments, &space, progress)?;
+            segments = visible::doubled::marked(segments, &space, progress)?;
         }
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };

@@ -12,10 +12,10 @@
 //! away behind their own faces are not explained either: the measure is one for curved models.
 
 use super::VisibleLines;
-use super::cast::meet;
-use super::faces::Faces;
-use super::space::Space;
 use crate::bvh::Box3;
+use crate::lines::visible::cast::meet;
+use crate::lines::visible::faces::Faces;
+use crate::lines::visible::space::Space;
 use crate::mesh::Mesh;
 use crate::scene::Scene;
 use glam::{DVec2, DVec3};
@@ -165,7 +165,7 @@ mod tests {
     use crate::camera::CameraSettings;
     use crate::edges::{Class, ClassSet, SilhouetteRule};
     use crate::lines::LineSettings;
-    use crate::lines::closed_forms::ClosedForm;
+    use crate::lines::smooth::closed_forms::ClosedForm;
     use crate::mesh::LoadOptions;
     use crate::scene::SceneSettings;
     use std::sync::Arc;

@@ -5,9 +5,9 @@
 //! that is more than two edges away from it or of another shell, and no cusp is within two edges: where something comes before the contour,
 //! or it turns away, the gap is right. What `changes` counts is counted before.
 
-use super::changes::Cusps;
-use super::contours::Link;
-use super::summits::{ContourLines, Decided};
+use crate::lines::smooth::contour_visibility::{ContourLines, Decided};
+use crate::lines::smooth::contours::Link;
+use crate::lines::smooth::visibility_events::Cusps;
 use serde::Serialize;
 
 /// What was joined.
@@ -108,7 +108,7 @@ impl ContourLines<'_> {
 #[cfg(test)]
 mod tests {
     use crate::edges::{Class, SilhouetteRule};
-    use crate::lines::closed_forms::ClosedForm;
+    use crate::lines::smooth::closed_forms::ClosedForm;
     use crate::lines::smooth_tests::{camera, found, of_triangles, smooth};
     use crate::lines::{LineSettings, VisibleLines};
     use crate::mesh::Mesh;

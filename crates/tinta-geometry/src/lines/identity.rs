@@ -15,11 +15,11 @@
 //! its number. Less than a quarter ([`LEAST_SHARE`]) of the shorter of both in common is no reason to be the same. What finds
 //! no old stroke is a new one; no number is given twice.
 
-use super::chain::{LinePath, chain_curves};
-use super::features::asked;
-use super::part::{Part, parts};
 use super::{LineSegment, LineSettings, VisibleLines};
 use crate::edges::{Class, ClassSet};
+use crate::lines::drawing::chain::{LinePath, chain_curves};
+use crate::lines::input::features::asked;
+use crate::lines::input::part::{Part, parts};
 use crate::scene::Scene;
 use glam::{DVec3, IVec3};
 use std::cmp::Reverse;

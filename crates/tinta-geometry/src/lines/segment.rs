@@ -1,7 +1,7 @@
 //! A piece of a line.
 
-use super::layers::Layer;
 use crate::edges::Class;
+use crate::lines::drawing::layers::Layer;
 use glam::{DVec2, DVec3};
 
 /// A piece of a line of one class that is seen or hidden as a whole.

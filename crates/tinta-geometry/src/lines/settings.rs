@@ -1,8 +1,8 @@
 //! The settings of lines: which classes are wanted, by which rules.
 
-use super::forms::FormSettings;
 use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
+use crate::lines::smooth::forms::FormSettings;
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
 use std::sync::LazyLock;
 

@@ -1,10 +1,10 @@
 //! The lines of a scene, as they were found.
 
-use super::changes::VisibilityChanges;
 use super::heal::Healed;
 use super::segment::LineSegment;
 use crate::edges::ClassCounts;
 use crate::error::{Error, Result};
+use crate::lines::smooth::visibility_events::VisibilityChanges;
 use crate::scene::Size;
 use serde::Serialize;
 
