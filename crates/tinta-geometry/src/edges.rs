@@ -22,14 +22,14 @@ mod classes;
 mod cones;
 mod cracks;
 mod edge_list;
-mod lasting;
+mod persistent_creases;
 mod mesh_edges;
 mod orientation;
 mod outside;
 mod silhouette;
 mod smooth;
 
-pub(crate) use lasting::lasting_creases;
+pub(crate) use persistent_creases::persistent_creases;
 
 pub use classes::{Class, ClassCounts, ClassSet, Classes, CreaseAngle};
 pub use cones::NormalCones;

@@ -71,13 +71,13 @@ use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::threads::both;
-use input::part::{Edges, Part};
+use input::object_edges::{Edges, ObjectEdges};
 use settings::not_published;
 use smooth::contour_visibility::ContourLines;
 use smooth::contours::Contours;
 use visible::faces::Faces;
 use visible::line_index::LineIndex;
-use visible::nearest_faces::Foremost;
+use visible::nearest_faces::NearestFaces;
 use visible::pyramid::Pyramid;
 use visible::space::Space;
 
@@ -122,11 +122,11 @@ impl VisibleLines {
         };
         let clock = Instant::now();
         let space = Space::of(scene);
-        let unmended: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
+        let unrepaired: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
         // The hierarchy is built on one thread, the edges on another.
         let (parts, faces) = both(
             || {
-                let parts = input::part::parts(scene);
+                let parts = input::object_edges::object_edges(scene);
                 for part in &parts {
                     part.edges.get().classes(settings.crease_angle, input::features::asked(settings));
                     if has_forms && matches!(part.edges, Edges::OfScene(_)) {
@@ -135,10 +135,10 @@ impl VisibleLines {
                 }
                 parts
             },
-            || Faces::new(&space, &unmended),
+            || Faces::new(&space, &unrepaired),
         );
-        let is_mended = parts.iter().any(|part| matches!(part.edges, Edges::Mended(_)));
-        let faces = if is_mended {
+        let is_repaired = parts.iter().any(|part| matches!(part.edges, Edges::Repaired(_)));
+        let faces = if is_repaired {
             let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.shape().clone())).collect();
             Faces::new(&space, &meshes)
         } else {
@@ -160,9 +160,9 @@ impl VisibleLines {
 
         let clock = Instant::now();
         let mut pyramid = Pyramid::new(&space, &faces);
-        let foremost = Foremost::new(&space, &faces, progress);
+        let nearest_faces = NearestFaces::new(&space, &faces, progress);
         let hides = pyramid.as_ref().filter(|_| !settings.finds_hidden);
-        let nearest = foremost.as_ref().filter(|_| !settings.finds_hidden);
+        let nearest = nearest_faces.as_ref().filter(|_| !settings.finds_hidden);
         let mut intersections =
             visible::intersections::intersections(&space, &faces, &parts, (hides, nearest), progress);
         progress.go_on()?;
@@ -186,7 +186,7 @@ impl VisibleLines {
             &faces,
             &lines,
             &intersections.piercings,
-            (pyramid.as_ref(), foremost.as_ref()),
+            (pyramid.as_ref(), nearest_faces.as_ref()),
             settings,
             progress,
         )?;
@@ -219,7 +219,7 @@ impl VisibleLines {
         }
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };
-        let covered_triangles = parts.iter().map(Part::covered).sum();
+        let covered_triangles = parts.iter().map(ObjectEdges::covered).sum();
         let has_specks = false;
         Ok(Self { size: scene.size, segments, edges, covered_triangles, changes, healed, undecided, has_specks, times })
     }

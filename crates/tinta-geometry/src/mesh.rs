@@ -25,7 +25,7 @@ mod frame;
 mod gltf;
 mod hilbert;
 pub mod load;
-mod lying;
+mod up_axis_guess;
 mod md2;
 mod normals;
 mod obj;

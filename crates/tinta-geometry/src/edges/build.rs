@@ -14,7 +14,7 @@ type HalfEdge = [u32; 2];
 
 /// The edges of a range of lower positions.
 #[derive(Default)]
-struct Part {
+struct EdgeRange {
     positions: Vec<[u32; 2]>,
     faces: Vec<[u32; 2]>,
     incidence: Vec<Incidence>,
@@ -57,8 +57,8 @@ fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) -> EdgeList
     .sum::<usize>();
     // Each thread sorts the half-edges of its share of the faces, then matches those of its share of the positions.
     let sorted = in_parallel(triangles.len(), threads, |faces| match degenerate_faces {
-        0 => Sorted::new(triangles, faces, positions as usize, |_| false),
-        _ => Sorted::new(triangles, faces, positions as usize, is_degenerate),
+        0 => SortedHalfEdges::new(triangles, faces, positions as usize, |_| false),
+        _ => SortedHalfEdges::new(triangles, faces, positions as usize, is_degenerate),
     });
     let shares = shares(&sorted, positions, threads);
     let parts = in_parallel(shares.len(), shares.len(), |share| part(&sorted, &shares[share.start]));
@@ -66,7 +66,7 @@ fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) -> EdgeList
 }
 
 /// Ranges of positions with about the same number of half-edges each, one a thread.
-fn shares(sorted: &[Sorted], positions: u32, threads: usize) -> Vec<std::ops::Range<u32>> {
+fn shares(sorted: &[SortedHalfEdges], positions: u32, threads: usize) -> Vec<std::ops::Range<u32>> {
     let before = |position: u32| match position {
         0 => 0,
         position => sorted.iter().map(|sorted| sorted.ends[position as usize - 1] as usize).sum::<usize>(),
@@ -86,7 +86,7 @@ fn shares(sorted: &[Sorted], positions: u32, threads: usize) -> Vec<std::ops::Ra
         .collect()
 }
 
-fn join(parts: Vec<Part>, degenerate_faces: usize) -> EdgeList {
+fn join(parts: Vec<EdgeRange>, degenerate_faces: usize) -> EdgeList {
     let mut parts = parts.into_iter();
     let mut all = parts.next().unwrap_or_default();
     for part in parts {
@@ -96,7 +96,7 @@ fn join(parts: Vec<Part>, degenerate_faces: usize) -> EdgeList {
         all.incidence.extend_from_slice(&part.incidence);
         all.non_manifold.extend(part.non_manifold.into_iter().map(|(edge, faces)| (edge + first, faces)));
     }
-    let Part { positions, faces, incidence, non_manifold } = all;
+    let EdgeRange { positions, faces, incidence, non_manifold } = all;
     EdgeList { positions, faces, incidence, non_manifold, degenerate_faces }
 }
 
@@ -108,13 +108,13 @@ fn sides(&[a, b, c]: &[u32; 3]) -> [(u32, u32, u32); 3] {
 }
 
 /// The half-edges of some faces, sorted by their lower position and, within one, in the faces' order.
-struct Sorted {
+struct SortedHalfEdges {
     /// Where each position's half-edges end; they begin where those of the one before end.
     ends: Vec<u32>,
     half_edges: Vec<HalfEdge>,
 }
 
-impl Sorted {
+impl SortedHalfEdges {
     fn new(
         triangles: &[[u32; 3]],
         faces: std::ops::Range<usize>,
@@ -145,9 +145,9 @@ impl Sorted {
 }
 
 /// The edges whose lower positions are in a range.
-fn part(sorted: &[Sorted], low: &std::ops::Range<u32>) -> Part {
-    let mut part = Part::default();
-    let begin_of = |sorted: &Sorted| match low.start {
+fn part(sorted: &[SortedHalfEdges], low: &std::ops::Range<u32>) -> EdgeRange {
+    let mut part = EdgeRange::default();
+    let begin_of = |sorted: &SortedHalfEdges| match low.start {
         0 => 0,
         start => sorted.ends[start as usize - 1] as usize,
     };
@@ -195,7 +195,7 @@ impl Table {
     }
 }
 
-impl Part {
+impl EdgeRange {
     /// Adds half-edges of one position, whose edges begin at `first`.
     #[inline(always)]
     fn match_half_edges(&mut self, low: u32, first: usize, half_edges: &[HalfEdge], table: &mut Table) {

@@ -10,7 +10,7 @@ use crate::mesh::Mesh;
 use glam::DVec3;
 
 /// A closed shell.
-struct Closed {
+struct ClosedShell {
     /// Its faces, turned round where the second says so.
     faces: Vec<(u32, bool)>,
     bounds: [DVec3; 2],
@@ -34,7 +34,7 @@ pub(super) fn fronts_outside(mesh: &Mesh, edges: &EdgeList) -> Vec<bool> {
 }
 
 /// The shells that are closed and have one orientation when some of their faces are turned.
-fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<Closed> {
+fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<ClosedShell> {
     let count = mesh.triangles.len();
     // Each face twice, as it is and turned round: what hangs together has one orientation.
     let as_it_is = |face: u32| face;
@@ -62,7 +62,7 @@ fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<Closed> {
     }
     let (low, high) = mesh.bounds();
     let centre = low * 0.5 + high * 0.5;
-    let mut shells: Vec<Option<Closed>> = (0..count * 2).map(|_| None).collect();
+    let mut shells: Vec<Option<ClosedShell>> = (0..count * 2).map(|_| None).collect();
     for face in 0..count as u32 {
         let roots = [as_it_is(face), turned(face)].map(|node| groups.root(node));
         if roots.into_iter().any(|root| is_open[root as usize]) {
@@ -74,7 +74,7 @@ fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<Closed> {
         let [a, b, c] = corners.map(|corner| corner - centre);
         let volume = a.dot(b.cross(c)) * if is_turned { -1.0 } else { 1.0 };
         let [low, high] = [a.min(b).min(c) + centre, a.max(b).max(c) + centre];
-        let new = || Closed { faces: Vec::new(), bounds: [low, high], volume: 0.0 };
+        let new = || ClosedShell { faces: Vec::new(), bounds: [low, high], volume: 0.0 };
         let shell = shells[roots[0].min(roots[1]) as usize].get_or_insert_with(new);
         shell.faces.push((face, is_turned));
         shell.bounds = [shell.bounds[0].min(low), shell.bounds[1].max(high)];
@@ -83,7 +83,7 @@ fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<Closed> {
     shells.into_iter().flatten().collect()
 }
 
-impl Closed {
+impl ClosedShell {
     /// Whether another shell lies within this one: whether a ray from one of its corners leaves this one an odd number of times.
     fn encloses(&self, mesh: &Mesh, other: &Self) -> bool {
         /// Along no axis and in no plane that models have.

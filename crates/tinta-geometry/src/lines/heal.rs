@@ -1,11 +1,11 @@
 //! Joins short gaps of smooth contours that nothing explains.
 //!
-//! In: the contours' pieces, told apart. Out: the same with gaps made visible, and how many these were. A gap is a run of hidden stretches along
+//! In: the contours' pieces, told apart. Out: the same with gaps made visible, and how many these were. A gap is a run of hidden intervals along
 //! one contour between two that are seen. It is joined if it is no longer than asked for, and if along all of it no face hides the line
 //! that is more than two edges away from it or of another shell, and no cusp is within two edges: where something comes before the contour,
 //! or it turns away, the gap is right. What `changes` counts is counted before.
 
-use crate::lines::smooth::contour_visibility::{ContourLines, Decided};
+use crate::lines::smooth::contour_visibility::{ContourIntervals, ContourLines};
 use crate::lines::smooth::contours::Link;
 use crate::lines::smooth::visibility_events::Cusps;
 use serde::Serialize;
@@ -24,7 +24,7 @@ type Place = (usize, usize);
 
 impl ContourLines<'_> {
     /// Joins the gaps up to a length, pixels.
-    pub(super) fn heal(&self, decided: &mut [Decided], longest_px: f64) -> Healed {
+    pub(super) fn heal(&self, decided: &mut [ContourIntervals], longest_px: f64) -> Healed {
         let cusps = self.cusps();
         let mut by_piece: Vec<Option<usize>> = vec![None; self.contours.pieces.len()];
         for (index, decided) in decided.iter().enumerate() {
@@ -38,38 +38,38 @@ impl ContourLines<'_> {
             }
         }
         // The next stretch along the contour and the way on from there; none where the contour ends, has a cusp or leaves the picture.
-        let next = |decided: &[Decided], (piece, stretch): Place, forwards: bool| -> Option<(Place, bool)> {
+        let next = |decided: &[ContourIntervals], (piece, interval): Place, forwards: bool| -> Option<(Place, bool)> {
             let of_piece = &decided[piece];
-            let last = of_piece.stretches.len() - 1;
-            match (forwards, stretch) {
-                (true, stretch) if stretch < last => return Some(((piece, stretch + 1), true)),
-                (false, 1..) => return Some(((piece, stretch - 1), false)),
+            let last = of_piece.intervals.len() - 1;
+            match (forwards, interval) {
+                (true, interval) if interval < last => return Some(((piece, interval + 1), true)),
+                (false, 1..) => return Some(((piece, interval - 1), false)),
                 _ => {}
             }
             let is_whole =
-                if forwards { of_piece.stretches[last].to == 1.0 } else { of_piece.stretches[0].from == 0.0 };
+                if forwards { of_piece.intervals[last].to == 1.0 } else { of_piece.intervals[0].from == 0.0 };
             let (other, end) = neighbours[of_piece.piece][usize::from(forwards)].filter(|_| is_whole)?;
             let index = by_piece[other]?;
-            let stretches = &decided[index].stretches;
+            let intervals = &decided[index].intervals;
             match end {
-                0 if stretches[0].from == 0.0 => Some(((index, 0), true)),
-                1 if stretches[stretches.len() - 1].to == 1.0 => Some(((index, stretches.len() - 1), false)),
+                0 if intervals[0].from == 0.0 => Some(((index, 0), true)),
+                1 if intervals[intervals.len() - 1].to == 1.0 => Some(((index, intervals.len() - 1), false)),
                 _ => None,
             }
         };
         let mut healed = Healed::default();
         for piece in 0..decided.len() {
-            for stretch in 0..decided[piece].stretches.len() {
+            for interval in 0..decided[piece].intervals.len() {
                 for forwards in [true, false] {
-                    if !decided[piece].stretches[stretch].is_visible {
+                    if !decided[piece].intervals[interval].is_visible {
                         continue;
                     }
                     let (mut gap, mut length_px) = (Vec::new(), 0.0);
-                    let mut at = next(decided, (piece, stretch), forwards);
+                    let mut at = next(decided, (piece, interval), forwards);
                     let is_closed = loop {
                         let Some((place, way)) = at else { break false };
                         let of_piece = &decided[place.0];
-                        let hidden = of_piece.stretches[place.1];
+                        let hidden = of_piece.intervals[place.1];
                         if hidden.is_visible {
                             break true;
                         }
@@ -84,7 +84,7 @@ impl ContourLines<'_> {
                         at = next(decided, place, way);
                     };
                     if is_closed && !gap.is_empty() {
-                        gap.iter().for_each(|(piece, stretch)| decided[*piece].stretches[*stretch].is_visible = true);
+                        gap.iter().for_each(|(piece, interval)| decided[*piece].intervals[*interval].is_visible = true);
                         healed.gaps += 1;
                         healed.length_px += length_px;
                     }
@@ -95,8 +95,8 @@ impl ContourLines<'_> {
     }
 
     /// Whether a hidden stretch is hidden for no reason that a smooth surface has.
-    fn is_unexplained(&self, decided: &Decided, stretch: usize, cusps: &Cusps) -> bool {
-        let hidden = decided.stretches[stretch];
+    fn is_unexplained(&self, decided: &ContourIntervals, interval: usize, cusps: &Cusps) -> bool {
+        let hidden = decided.intervals[interval];
         let piece = &self.contours.pieces[decided.piece];
         let probe = self.probe(piece, &decided.image, (hidden.from + hidden.to) * 0.5);
         let longest = self.contours.parts[piece.part as usize].longest_side(&self.lines.faces.positions, piece.face);

@@ -5,5 +5,5 @@ pub(super) mod face_subset;
 pub(super) mod feature;
 pub(super) mod features;
 pub(super) mod mesh_repair;
-pub(super) mod part;
+pub(super) mod object_edges;
 pub(super) mod split_t_junctions;

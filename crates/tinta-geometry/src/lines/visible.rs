@@ -8,6 +8,7 @@ pub(super) mod face_image;
 pub(super) mod faces;
 pub(super) mod image;
 pub(super) mod intersections;
+pub(super) mod interval;
 pub(super) mod line_index;
 pub(super) mod nearest_faces;
 pub(super) mod occluder_probe;

@@ -5,7 +5,7 @@ use super::format::{self, Format};
 #[cfg(feature = "gltf")]
 use super::gltf;
 use super::options::check;
-use super::{Defects, Mesh, assimp, lying, md2, obj, ply, skin, soup::Soup, stl, text, three_ds};
+use super::{Defects, Mesh, assimp, md2, obj, ply, skin, soup::Soup, stl, text, three_ds, up_axis_guess};
 use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
 use crate::files::{self, Failure};
@@ -177,7 +177,7 @@ fn made(
     let files = std::mem::take(&mut soup.files);
     let other_up = soup.other_up.filter(|_| options.up_axis == UpAxis::Auto);
     let mesh = soup.into_mesh_watched(path, options, watch)?;
-    if let Some(up) = other_up.filter(|up| lying::seems_to_lie(&mesh, *up)) {
+    if let Some(up) = other_up.filter(|up| up_axis_guess::seems_to_lie(&mesh, *up)) {
         remarks.push(format!(
             "{path}: this may lie on its side, as the only end it can stand on is the lowest {up}; if so, --up-axis {up} turns it upright"
         ));

@@ -6,14 +6,14 @@
 //! corner's index. A group is what can be reached around the vertex over shared edges whose faces differ by no more
 //! than the angle. Faces weigh in with the sine of their angle at the vertex over the lengths of the sides there (Max 1999:
 //! exact on a sphere), which needs no arc cosine and, on a square, does not depend on how it is cut. Where only creases that last
-//! are to be split (`lasting.rs`), all other vertices are smooth throughout, flat faces weigh in with their areas, and where a surface
+//! are to be split (`persistent_creases.rs`), all other vertices are smooth throughout, flat faces weigh in with their areas, and where a surface
 //! is curved normals come nearer to their neighbours' (`calm.rs`).
 
 mod calm;
 mod curved;
-mod even;
+mod denoise_normals;
 mod incidence;
-mod lasting;
+mod persistent_creases;
 mod noise;
 mod patches;
 
@@ -24,7 +24,7 @@ use calm::calm;
 use glam::{DVec3, Vec3};
 pub(super) use incidence::Incidence;
 use incidence::angle_at;
-use lasting::Lasting;
+use persistent_creases::PersistentCreases;
 
 /// Where normals are split.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,7 +51,8 @@ pub(super) fn fill_missing(
         return;
     }
     let incidence = Incidence::new(positions.len(), triangles);
-    let lasting = cos_beside.map(|_| Lasting::find(positions, triangles, face_normals, &incidence, cos_smooth));
+    let lasting =
+        cos_beside.map(|_| PersistentCreases::find(positions, triangles, face_normals, &incidence, cos_smooth));
     let face_normals = lasting.as_ref().map_or(face_normals, |lasting| &lasting.face_normals);
     let is_smooth = |vertex: usize| lasting.as_ref().is_some_and(|lasting| !lasting.vertices[vertex]);
     let weighted = |corner: u32| match &lasting {
@@ -67,7 +68,7 @@ pub(super) fn fill_missing(
     let found = in_parallel(positions.len(), threads_for(triangles.len()), |vertices| {
         let corners = incidence.corners_of(&vertices);
         let mut found =
-            Found { normals: Vec::with_capacity(vertices.len()), indices: Vec::with_capacity(corners.len()) };
+            CornerNormals { normals: Vec::with_capacity(vertices.len()), indices: Vec::with_capacity(corners.len()) };
         let mut fan = Fan::default();
         for vertex in vertices {
             let corners = incidence.corners(vertex);
@@ -143,7 +144,7 @@ pub(super) fn one_a_position(position_count: usize, triangles: &[[u32; 3]], face
 }
 
 /// The normals of some vertices' corners.
-struct Found {
+struct CornerNormals {
     normals: Vec<Vec3>,
     /// For each corner in the incidence's order its normal here, or [`NONE`] where it has one already.
     indices: Vec<u32>,
@@ -248,7 +249,7 @@ impl Fan {
         corners: &[u32],
         weighted: impl Fn(u32) -> DVec3,
         is_missing: impl Fn(u32) -> bool,
-        found: &mut Found,
+        found: &mut CornerNormals,
     ) {
         self.sum(corners, weighted);
         self.indices.clear();

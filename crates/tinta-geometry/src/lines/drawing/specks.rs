@@ -13,7 +13,7 @@
 //! Nothing is left out because something else was: a long line never goes bit by bit.
 
 mod strokes;
-mod ways;
+mod shortest_path;
 
 use crate::bvh::steps;
 use crate::error::{Error, Result};
@@ -24,8 +24,8 @@ use crate::lines::progress::{Phase, Progress};
 use crate::lines::visible::outline::readable;
 use crate::threads::{cores, in_chunks};
 use glam::DVec2;
+use shortest_path::ShortestPaths;
 use strokes::{Branch, Stroke, Strokes};
-use ways::Ways;
 
 impl VisibleLines {
     /// The lines without spurs and specks as a drawing's settings ask: what is shorter than [`SvgSettings::min_length`]. Where settings say
@@ -124,7 +124,7 @@ impl Strokes<'_> {
         });
         progress.go_on_drawing()?;
         let mut is_needed = vec![false; self.strokes.len()];
-        let mut ways = Ways::new(self);
+        let mut paths = ShortestPaths::new(self);
         progress.begin(Phase::TooShort, sides.len());
         let mut before = steps();
         for (branch, places) in sides.into_iter().zip(places_touched.into_iter().flatten()) {
@@ -137,7 +137,7 @@ impl Strokes<'_> {
             }
             let Some([from, to]) = places else { continue };
             let may_use = |stroke: usize| !is_gone[stroke] && !branch.strokes.contains(&stroke);
-            if let Some(route) = ways.shortest(self, branch, [from, to], may_use) {
+            if let Some(route) = paths.shortest(self, branch, [from, to], may_use) {
                 route.into_iter().for_each(|stroke| is_needed[stroke] = true);
                 branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
             }
@@ -152,9 +152,9 @@ impl Strokes<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::lines::progress::Progress;
     use crate::lines::{LineSettings, VisibleLines};
-    use super::*;
     use crate::mesh::Mesh;
     use crate::scene::{Scene, SceneSettings};
     use std::time::Duration;

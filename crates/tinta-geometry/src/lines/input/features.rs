@@ -1,12 +1,12 @@
 //! The lines of a scene before their visibility is known: edges by class, places where surfaces end, intersections.
 
-use crate::bvh::NO_FAMILY;
+use crate::bvh::NO_GROUP;
 use crate::edges::{
-    Class, ClassCounts, ClassSet, Classes, EdgeList, Incidence, MeshEdges, SilhouetteRule, lasting_creases,
+    Class, ClassCounts, ClassSet, Classes, EdgeList, Incidence, MeshEdges, SilhouetteRule, persistent_creases,
 };
 use crate::lines::LineSettings;
 use crate::lines::input::feature::Feature;
-use crate::lines::input::part::Part;
+use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::smooth::contours::{Contours, OnEdge, between};
 use crate::lines::visible::faces::{Faces, Own, near_crossing};
 use crate::lines::visible::intersections::Intersection;
@@ -25,7 +25,7 @@ const CREASES: [Class; 3] = [Class::Crease, Class::ConvexCrease, Class::ConcaveC
 /// Of each edge of a mesh whether it is a crease that lasts, where only such are drawn.
 fn lasting(edges: &MeshEdges, classes: &Classes, settings: &LineSettings) -> Option<Vec<bool>> {
     let is_crease = |edge: u32| !classes.of_edges[edge as usize].and(ClassSet::of(&CREASES)).is_empty();
-    settings.lasting_creases.then(|| lasting_creases(edges.mesh(), edges.list(), is_crease))
+    settings.lasting_creases.then(|| persistent_creases(edges.mesh(), edges.list(), is_crease))
 }
 
 /// The classes of a mesh's edges that have to be known for some settings.
@@ -40,7 +40,7 @@ pub(in crate::lines) fn edge_features(
     scene: &Scene,
     space: &Space,
     faces: &Faces,
-    parts: &[Part<'_>],
+    parts: &[ObjectEdges<'_>],
     contours: Option<&Contours>,
     settings: &LineSettings,
 ) -> (Vec<Feature>, ClassCounts) {
@@ -135,20 +135,20 @@ fn parts_by_class(of_edge: ClassSet, on_edge: OnEdge, wanted: ClassSet) -> Vec<(
 
 /// The planes of the first two faces at an edge.
 fn planes_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> [u32; 2] {
-    let plane = |index: usize| at_edge.get(index).map_or(NO_FAMILY, |face| faces.plane(number_of(*face)));
+    let plane = |index: usize| at_edge.get(index).map_or(NO_GROUP, |face| faces.plane(number_of(*face)));
     [plane(0), plane(1)]
 }
 
 /// The plane in which all faces at an edge lie, if they lie in one of many faces.
 fn plane_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> u32 {
     let planes = at_edge.iter().map(|face| faces.plane(number_of(*face)));
-    planes.reduce(|first, second| if first == second { first } else { NO_FAMILY }).unwrap_or(NO_FAMILY)
+    planes.reduce(|first, second| if first == second { first } else { NO_GROUP }).unwrap_or(NO_GROUP)
 }
 
 /// The lines where faces intersect, as features.
 pub(in crate::lines) fn intersection_features(
     faces: &Faces,
-    parts: &[Part<'_>],
+    parts: &[ObjectEdges<'_>],
     intersections: &[Intersection],
 ) -> Vec<Feature> {
     let starts: Vec<u32> = parts
@@ -166,7 +166,7 @@ pub(in crate::lines) fn intersection_features(
             ends: intersection.ends,
             weld: faces.weld(faces.triangles[intersection.faces[0] as usize][0]),
             planes: intersection.faces.map(|face| faces.plane(faces.numbers[face as usize])),
-            plane: NO_FAMILY,
+            plane: NO_GROUP,
             edge: None,
             angle_degrees: first.zip(second).map(|(first, second)| degrees_between(first, second)),
         }
@@ -186,8 +186,8 @@ pub(in crate::lines) fn near_plane_features(space: &Space, faces: &Faces) -> Vec
             own: Own::Faces([*face; 2]),
             ends: [points.next()?, points.next()?],
             weld: 0.0,
-            planes: [NO_FAMILY; 2],
-            plane: NO_FAMILY,
+            planes: [NO_GROUP; 2],
+            plane: NO_GROUP,
             edge: None,
             angle_degrees: None,
         })

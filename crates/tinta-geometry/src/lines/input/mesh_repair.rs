@@ -19,8 +19,8 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
-/// What was mended of a mesh.
-pub(in crate::lines) struct Mended {
+/// What was repaired of a mesh.
+pub(in crate::lines) struct RepairedMesh {
     /// The faces that hide: without repeated ones.
     pub shape: Arc<Mesh>,
     /// The mesh that edges are found on: faces with vertices on their sides are split there.
@@ -33,35 +33,35 @@ pub(in crate::lines) struct Mended {
     pub covered: usize,
 }
 
-/// The mended mesh, if there was anything to mend.
-pub(in crate::lines) fn repaired(mesh: &Arc<Mesh>, edges: &EdgeList) -> Option<Mended> {
+/// The repaired mesh, if there was anything to repair.
+pub(in crate::lines) fn repaired(mesh: &Arc<Mesh>, edges: &EdgeList) -> Option<RepairedMesh> {
     let lines = faces_without_height(mesh, edges);
-    let mut shape = Repaired { mesh: mesh.clone(), edges: Cow::Borrowed(edges) };
+    let mut shape = WorkingMesh { mesh: mesh.clone(), edges: Cow::Borrowed(edges) };
     shape.leave_out(&lines);
     let covered = covered_faces(&shape.mesh, &shape.edges, &chains(&shape.mesh, &shape.edges));
     shape.leave_out(&covered);
     let split = split_at_junctions(&shape.mesh, &shape.edges);
-    let is_mended = !lines.is_empty() || !covered.is_empty() || split.is_some();
+    let is_repaired = !lines.is_empty() || !covered.is_empty() || split.is_some();
     let shape = shape.mesh;
     let covered = covered.len();
-    is_mended.then(|| match split {
+    is_repaired.then(|| match split {
         Some(Split { mesh, whole_faces, on_edges }) => {
-            Mended { shape, split: Arc::new(mesh), whole_faces, on_edges, covered }
+            RepairedMesh { shape, split: Arc::new(mesh), whole_faces, on_edges, covered }
         }
         None => {
             let whole_faces = (0..shape.triangles.len() as u32).collect();
-            Mended { split: shape.clone(), shape, whole_faces, on_edges: BTreeMap::new(), covered }
+            RepairedMesh { split: shape.clone(), shape, whole_faces, on_edges: BTreeMap::new(), covered }
         }
     })
 }
 
 /// A mesh with some of its faces left out, and its edges.
-struct Repaired<'a> {
+struct WorkingMesh<'a> {
     mesh: Arc<Mesh>,
     edges: Cow<'a, EdgeList>,
 }
 
-impl Repaired<'_> {
+impl WorkingMesh<'_> {
     fn leave_out(&mut self, faces: &HashSet<u32>) {
         if !faces.is_empty() {
             self.mesh = Arc::new(keep_faces(&self.mesh, |face| !faces.contains(&face)));

@@ -30,7 +30,7 @@ pub(in crate::lines) fn chains(mesh: &Mesh, edges: &EdgeList) -> Vec<Chain> {
     let rims = (0..edges.len()).filter(|edge| edges.incidence()[*edge] == Incidence::Boundary);
     rims.for_each(|rim| edges.positions()[rim].iter().for_each(|end| is_asked[*end as usize] = true));
     loop {
-        let leaving = Leaving::new(mesh, edges, |position| is_asked[position as usize]);
+        let leaving = HalfEdges::new(mesh, edges, |position| is_asked[position as usize]);
         let pairs = leaving.along_one_another();
         let ends = pairs.iter().flatten().flat_map(|edge| edges.positions()[*edge as usize]);
         let new: Vec<u32> = ends.filter(|end| !is_asked[*end as usize]).collect();
@@ -42,14 +42,14 @@ pub(in crate::lines) fn chains(mesh: &Mesh, edges: &EdgeList) -> Vec<Chain> {
 }
 
 /// Edges as they leave some positions, those of one position by their directions.
-struct Leaving<'a> {
+struct HalfEdges<'a> {
     edges: &'a EdgeList,
-    ways: Vec<Way>,
+    half_edges: Vec<HalfEdge>,
 }
 
 /// An edge as it leaves one of its ends.
 #[derive(Clone, Copy)]
-struct Way {
+struct HalfEdge {
     from: u32,
     to: u32,
     edge: u32,
@@ -59,27 +59,35 @@ struct Way {
     skewed: f64,
 }
 
-impl Way {
+impl HalfEdge {
     fn is_along(&self, other: &Self) -> bool {
         self.direction.dot(other.direction) > 0.0 && self.direction.cross(other.direction).length() <= SAME_DIRECTION
     }
 }
 
-impl<'a> Leaving<'a> {
+impl<'a> HalfEdges<'a> {
     fn new(mesh: &Mesh, edges: &'a EdgeList, is_asked: impl Fn(u32) -> bool) -> Self {
         let skew = DVec3::new(0.453_5, 0.711_7, 0.536_3);
-        let mut ways = Vec::new();
+        let mut half_edges = Vec::new();
         for (edge, [low, high]) in (0..).zip(edges.positions()) {
             for (from, to) in [(*low, *high), (*high, *low)].into_iter().filter(|(from, _)| is_asked(*from)) {
                 let along = mesh.positions[to as usize] - mesh.positions[from as usize];
                 let direction = along.normalize_or_zero();
-                ways.push(Way { from, to, edge, direction, length: along.length(), skewed: direction.dot(skew) });
+                half_edges.push(HalfEdge {
+                    from,
+                    to,
+                    edge,
+                    direction,
+                    length: along.length(),
+                    skewed: direction.dot(skew),
+                });
             }
         }
-        let order =
-            |a: &Way, b: &Way| a.from.cmp(&b.from).then(a.skewed.total_cmp(&b.skewed)).then(a.edge.cmp(&b.edge));
-        ways.sort_unstable_by(order);
-        Self { edges, ways }
+        let order = |a: &HalfEdge, b: &HalfEdge| {
+            a.from.cmp(&b.from).then(a.skewed.total_cmp(&b.skewed)).then(a.edge.cmp(&b.edge))
+        };
+        half_edges.sort_unstable_by(order);
+        Self { edges, half_edges }
     }
 
     fn is_rim(&self, edge: u32) -> bool {
@@ -89,16 +97,18 @@ impl<'a> Leaving<'a> {
     /// Pairs of edges, one of which at least is a rim, that leave a position in one direction.
     fn along_one_another(&self) -> Vec<[u32; 2]> {
         let mut pairs = Vec::new();
-        for (index, way) in self.ways.iter().enumerate() {
-            let near = self.ways[index + 1..]
+        for (index, half_edge) in self.half_edges.iter().enumerate() {
+            let near = self.half_edges[index + 1..]
                 .iter()
-                .take_while(|other| other.from == way.from && other.skewed - way.skewed <= SAME_DIRECTION)
-                .filter(|other| (self.is_rim(way.edge) || self.is_rim(other.edge)) && way.is_along(other));
-            pairs.extend(
-                near.map(
-                    |other| if way.length > other.length { [way.edge, other.edge] } else { [other.edge, way.edge] },
-                ),
-            );
+                .take_while(|other| other.from == half_edge.from && other.skewed - half_edge.skewed <= SAME_DIRECTION)
+                .filter(|other| (self.is_rim(half_edge.edge) || self.is_rim(other.edge)) && half_edge.is_along(other));
+            pairs.extend(near.map(|other| {
+                if half_edge.length > other.length {
+                    [half_edge.edge, other.edge]
+                } else {
+                    [other.edge, half_edge.edge]
+                }
+            }));
         }
         pairs
     }
@@ -108,16 +118,16 @@ impl<'a> Leaving<'a> {
         let from = self.edges.positions()[long as usize];
         let common = from.into_iter().find(|end| self.edges.positions()[short as usize].contains(end))?;
         let leaving = |position: u32| {
-            let start = self.ways.partition_point(|way| way.from < position);
-            self.ways[start..].iter().take_while(move |way| way.from == position)
+            let start = self.half_edges.partition_point(|half_edge| half_edge.from < position);
+            self.half_edges[start..].iter().take_while(move |half_edge| half_edge.from == position)
         };
-        let of = |edge: u32| leaving(common).find(|way| way.edge == edge);
-        let (long_way, mut last) = (of(long)?, of(short)?);
+        let of = |edge: u32| leaving(common).find(|half_edge| half_edge.edge == edge);
+        let (long_edge, mut last) = (of(long)?, of(short)?);
         let (mut chain, mut covered) = (vec![short], last.length);
-        while last.to != long_way.to {
-            let left = long_way.length - covered;
+        while last.to != long_edge.to {
+            let left = long_edge.length - covered;
             last = leaving(last.to)
-                .filter(|way| way.is_along(long_way) && way.length <= left * (1.0 + SAME_DIRECTION))
+                .filter(|half_edge| half_edge.is_along(long_edge) && half_edge.length <= left * (1.0 + SAME_DIRECTION))
                 .min_by(|a, b| a.length.total_cmp(&b.length))?;
             covered += last.length;
             chain.push(last.edge);
@@ -190,18 +200,18 @@ impl Split {
         let mut of_both = on_edges.clone();
         for (edge, vertices) in first.on_edges {
             let ends = [[edge[0]].as_slice(), &vertices, &[edge[1]]].concat();
-            let mut way = Vec::new();
+            let mut along = Vec::new();
             for pair in ends.windows(2) {
                 let between =
                     on_edges.get(&[pair[0].min(pair[1]), pair[0].max(pair[1])]).map_or(&[][..], Vec::as_slice);
                 match pair[0] < pair[1] {
-                    true => way.extend(between),
-                    false => way.extend(between.iter().rev()),
+                    true => along.extend(between),
+                    false => along.extend(between.iter().rev()),
                 }
-                way.push(pair[1]);
+                along.push(pair[1]);
             }
-            way.pop();
-            of_both.insert(edge, way);
+            along.pop();
+            of_both.insert(edge, along);
         }
         Self { mesh, whole_faces, on_edges: of_both }
     }
@@ -248,8 +258,8 @@ fn split(corners: [u32; 3], on_sides: &HashMap<[u32; 2], &[u32]>, add: &mut impl
 }
 
 /// A triangle around an apex for each two neighbours on a way.
-fn fan(apex: u32, way: &[u32], add: &mut impl FnMut([u32; 3])) {
-    way.windows(2).for_each(|pair| add([apex, pair[0], pair[1]]));
+fn fan(apex: u32, along: &[u32], add: &mut impl FnMut([u32; 3])) {
+    along.windows(2).for_each(|pair| add([apex, pair[0], pair[1]]));
 }
 
 /// Length of the parts in which rims are looked for, the mesh's radii.

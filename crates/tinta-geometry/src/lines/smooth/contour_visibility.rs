@@ -16,36 +16,28 @@
 //! A piece is cut where its image crosses those of nearer edges at which a surface ends or turns away, and where it passes
 //! through a face; between, its middle decides.
 
-use crate::bvh::{Box3, NO_FAMILY, steps};
+use crate::bvh::{Box3, NO_GROUP, steps};
 use crate::edges::Class;
 use crate::lines::LineSegment;
-use crate::lines::input::part::Part;
+use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::progress::{Phase, Progress};
-use crate::lines::smooth::contours::{Contours, Piece, between};
+use crate::lines::smooth::contours::{ContourPiece, Contours, between};
 use crate::lines::visible::faces::{Own, Probe};
 use crate::lines::visible::image::Image;
+use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::mesh::NONE;
 use crate::threads::{cores, spread_chunks};
 use crate::tolerances::CONTACT;
 use glam::{DVec2, DVec3};
 
-/// A part of a piece that is seen or hidden as a whole, by its places on the piece's image.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::lines) struct Stretch {
-    pub from: f64,
-    pub to: f64,
-    pub is_visible: bool,
-    pub background: [bool; 2],
-}
-
 /// A piece of contour in the picture.
 #[derive(Debug, Clone)]
-pub(in crate::lines) struct Decided {
+pub(in crate::lines) struct ContourIntervals {
     /// Its place among the contours' pieces.
     pub piece: usize,
     pub image: Image,
-    pub stretches: Vec<Stretch>,
+    pub intervals: Vec<Interval>,
 }
 
 /// Most faces that the search for a summit passes in one direction: far more than lie between a contour and a silhouette.
@@ -58,12 +50,12 @@ const CHUNK: usize = 32;
 pub(in crate::lines) struct ContourLines<'a> {
     pub lines: &'a LineIndex<'a>,
     pub contours: &'a Contours,
-    pub parts: &'a [Part<'a>],
+    pub parts: &'a [ObjectEdges<'a>],
 }
 
 impl ContourLines<'_> {
     /// Every piece inside the picture, told apart, in the contours' order.
-    pub(in crate::lines) fn decided(&self, progress: &Progress) -> Vec<Decided> {
+    pub(in crate::lines) fn decided(&self, progress: &Progress) -> Vec<ContourIntervals> {
         progress.begin(Phase::Contours, self.contours.pieces.len());
         let chunks = spread_chunks(self.contours.pieces.len(), CHUNK, cores(), |range| {
             if progress.is_over() {
@@ -78,18 +70,18 @@ impl ContourLines<'_> {
     }
 
     /// The pieces as they are drawn.
-    pub(in crate::lines) fn segments(&self, decided: &[Decided]) -> Vec<LineSegment> {
+    pub(in crate::lines) fn segments(&self, decided: &[ContourIntervals]) -> Vec<LineSegment> {
         let mut segments = Vec::new();
-        for Decided { piece, image, stretches } in decided {
-            let drawn = stretches.iter().filter(|stretch| stretch.is_visible || self.lines.finds_hidden);
-            segments.extend(drawn.map(|stretch| LineSegment {
+        for ContourIntervals { piece, image, intervals } in decided {
+            let drawn = intervals.iter().filter(|interval| interval.is_visible || self.lines.finds_hidden);
+            segments.extend(drawn.map(|interval| LineSegment {
                 class: Class::Silhouette,
-                is_visible: stretch.is_visible,
-                is_outline: stretch.background != [false; 2],
-                background: stretch.background,
+                is_visible: interval.is_visible,
+                is_outline: interval.background != [false; 2],
+                background: interval.background,
                 is_covered: false,
-                ends_px: [image.at(stretch.from), image.at(stretch.to)],
-                ends_world: image.ends_world(self.lines.space, [stretch.from, stretch.to]),
+                ends_px: [image.at(interval.from), image.at(interval.to)],
+                ends_world: image.ends_world(self.lines.space, [interval.from, interval.to]),
                 edge: self.edge_in_file(&self.contours.pieces[*piece]),
                 angle_degrees: None,
                 object: self.contours.pieces[*piece].part,
@@ -99,37 +91,37 @@ impl ContourLines<'_> {
     }
 
     /// The edge on which a piece lies, by its vertices in the file.
-    fn edge_in_file(&self, piece: &Piece) -> Option<[u32; 2]> {
+    fn edge_in_file(&self, piece: &ContourPiece) -> Option<[u32; 2]> {
         let edges = self.parts[piece.part as usize].edges.get();
         let ends = edges.list().positions()[piece.on_edge? as usize];
         Some(ends.map(|position| edges.mesh().file_vertices[position as usize]))
     }
 
-    fn decide(&self, number: usize) -> Option<Decided> {
+    fn decide(&self, number: usize) -> Option<ContourIntervals> {
         let (lines, piece) = (self.lines, &self.contours.pieces[number]);
         let image = Image::of(lines.space, piece.ends)?;
         let inside = image.inside(lines.space.size, 0.0)?;
         if image.a == image.b || inside[0] == inside[1] {
             return None;
         }
-        let whole = |stretches| Some(Decided { piece: number, image, stretches });
+        let whole = |intervals| Some(ContourIntervals { piece: number, image, intervals });
         let [from, to] = inside;
         if self.contours.is_inside(piece) {
-            return whole(vec![Stretch { from, to, is_visible: false, background: [false; 2] }]);
+            return whole(vec![Interval { from, to, is_visible: false, background: [false; 2] }]);
         }
         let places = lines.places(&image, inside, self.cuts(piece, &image, inside));
-        let mut stretches: Vec<Stretch> = Vec::new();
+        let mut intervals: Vec<Interval> = Vec::new();
         for place in places.windows(2) {
             let probe = self.probe(piece, &image, (place[0] + place[1]) * 0.5);
             let is_visible = self.is_seen(&probe);
             let background =
                 if lines.finds_outline && is_visible { self.background(&image, &probe) } else { [false; 2] };
-            match stretches.last_mut() {
+            match intervals.last_mut() {
                 Some(last) if last.is_visible == is_visible && last.background == background => last.to = place[1],
-                _ => stretches.push(Stretch { from: place[0], to: place[1], is_visible, background }),
+                _ => intervals.push(Interval { from: place[0], to: place[1], is_visible, background }),
             }
         }
-        whole(stretches)
+        whole(intervals)
     }
 
     /// On which sides of a piece there is background beyond its summit: on its right and on its left.
@@ -146,7 +138,7 @@ impl ContourLines<'_> {
     }
 
     /// Where what is seen of a piece may change.
-    fn cuts(&self, piece: &Piece, image: &Image, inside: [f64; 2]) -> Vec<f64> {
+    fn cuts(&self, piece: &ContourPiece, image: &Image, inside: [f64; 2]) -> Vec<f64> {
         let lines = self.lines;
         let touch_px = image.touch_px(lines.space);
         let keys = inside.map(|place| image.key(place));
@@ -164,7 +156,7 @@ impl ContourLines<'_> {
             }
             false
         });
-        lines.any_occluder(&image.part_box(inside, touch_px, keys), [NO_FAMILY; 2], |face| {
+        lines.any_occluder(&image.part_box(inside, touch_px, keys), [NO_GROUP; 2], |face| {
             let point = lines.piercing(piece.ends, face);
             cuts.extend(point.map(|point| image.place_of(lines.space.project(point).0)));
             false
@@ -175,11 +167,11 @@ impl ContourLines<'_> {
     /// Whether no face hides a point.
     pub(in crate::lines) fn is_seen(&self, probe: &Probe) -> bool {
         let lines = self.lines;
-        lines.faces.leave_open(lines.space, probe, |column, visit| lines.any_occluder(column, [NO_FAMILY; 2], visit))
+        lines.faces.leave_open(lines.space, probe, |column, visit| lines.any_occluder(column, [NO_GROUP; 2], visit))
     }
 
     /// The summit of a place of a piece, as the faces are asked about it.
-    pub(in crate::lines) fn probe(&self, piece: &Piece, image: &Image, place: f64) -> Probe {
+    pub(in crate::lines) fn probe(&self, piece: &ContourPiece, image: &Image, place: f64) -> Probe {
         let lines = self.lines;
         let start = lines.space.point(image.at(place), image.key(place));
         let normal = between(piece.normals[0], piece.normals[1], place);
@@ -204,7 +196,7 @@ impl ContourLines<'_> {
     }
 
     /// The summit and the edge it lies on.
-    fn summit(&self, piece: &Piece, start: DVec3, normal: DVec3, outwards: DVec2) -> (DVec3, u32) {
+    fn summit(&self, piece: &ContourPiece, start: DVec3, normal: DVec3, outwards: DVec2) -> (DVec3, u32) {
         let space = self.lines.space;
         let plane = space.to_eye(start).cross(normal);
         let start_px = space.project(start).0;
@@ -262,7 +254,7 @@ impl ContourLines<'_> {
         let tie_px = space.tie_px(-probe.view.z);
         let column = Box3::new((probe.px - tie_px).extend(f64::NEG_INFINITY), (probe.px + tie_px).extend(probe.key));
         let tie = tie_px / space.px_per_unit(-probe.view.z);
-        self.lines.any_occluder(&column, [NO_FAMILY; 2], |face| {
+        self.lines.any_occluder(&column, [NO_GROUP; 2], |face| {
             if faces.hides(space, face, probe, tie) == [false; 2] {
                 return false;
             }

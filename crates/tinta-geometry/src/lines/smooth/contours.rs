@@ -11,7 +11,7 @@
 //! other is not; where a smooth contour ends on it, such a part begins. Between flat faces that is the rule of polygons.
 
 use crate::edges::{CreaseAngle, EdgeList, Eye, Incidence, Shell, SilhouetteRule, SmoothSurface};
-use crate::lines::input::part::Part;
+use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::visible::space::Space;
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::scene::Scene;
@@ -22,15 +22,15 @@ use std::sync::Arc;
 
 /// The smooth contours of a scene, before their visibility is known.
 pub(in crate::lines) struct Contours {
-    pub parts: Vec<PartSurface>,
+    pub parts: Vec<ObjectSurface>,
     /// By object, then face; then those on edges; then what is cut off from others at cusps.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<ContourPiece>,
     /// Where they hang together.
     pub links: Vec<Link>,
 }
 
 /// A part's smooth surface as an eye sees it.
-pub(in crate::lines) struct PartSurface {
+pub(in crate::lines) struct ObjectSurface {
     pub surface: Arc<SmoothSurface>,
     pub mesh: Arc<Mesh>,
     /// Of each normal n . v, in units of v; 0 where that is rounding.
@@ -45,7 +45,7 @@ pub(in crate::lines) struct PartSurface {
 
 /// A straight piece of a contour, inside one face or on a sharp edge.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::lines) struct Piece {
+pub(in crate::lines) struct ContourPiece {
     /// The part and its face, of those that the edges are of.
     pub part: u32,
     pub face: u32,
@@ -97,7 +97,7 @@ impl Contours {
         space: &Space,
         positions: &[DVec3],
         is_cut_by_near: bool,
-        parts: &[Part<'_>],
+        parts: &[ObjectEdges<'_>],
         crease_angle: CreaseAngle,
     ) -> Self {
         let mut all = Self { parts: Vec::with_capacity(parts.len()), pieces: Vec::new(), links: Vec::new() };
@@ -113,7 +113,8 @@ impl Contours {
             let (low, high) = mesh.bounds();
             let is_within = |eye: DVec3| eye.cmpge(low).all() && eye.cmple(high).all();
             let sees_inside = is_cut_by_near || matches!(eye, Eye::Point(eye) if is_within(eye));
-            let mut part = PartSurface { surface, mesh, towards, first_position, sees_inside, edge_parts: Vec::new() };
+            let mut part =
+                ObjectSurface { surface, mesh, towards, first_position, sees_inside, edge_parts: Vec::new() };
             let chunks = in_chunks(part.mesh.triangles.len(), CHUNK, cores(), |range| {
                 range.filter_map(|face| part.piece(space, positions, number as u32, face as u32)).collect::<Vec<_>>()
             });
@@ -136,7 +137,7 @@ impl Contours {
     }
 
     /// Whether a piece's shell encloses something and it bends towards its inside: it cannot be seen from outside.
-    pub(in crate::lines) fn is_inside(&self, piece: &Piece) -> bool {
+    pub(in crate::lines) fn is_inside(&self, piece: &ContourPiece) -> bool {
         self.parts[piece.part as usize].encloses(piece.face, piece.bends_away)
     }
 }
@@ -170,7 +171,7 @@ pub(in crate::lines) fn between(from: DVec3, to: DVec3, share: f64) -> DVec3 {
     }
 }
 
-impl PartSurface {
+impl ObjectSurface {
     /// n . v at a face's corners.
     pub(in crate::lines) fn of_face(&self, face: u32) -> [f64; 3] {
         self.surface.corner_normals[face as usize].map(|normal| self.towards[normal as usize])
@@ -188,7 +189,7 @@ impl PartSurface {
     }
 
     /// The piece of contour inside a face, if there is one.
-    fn piece(&self, space: &Space, positions: &[DVec3], part: u32, face: u32) -> Option<Piece> {
+    fn piece(&self, space: &Space, positions: &[DVec3], part: u32, face: u32) -> Option<ContourPiece> {
         let values = self.of_face(face);
         let fronts = values.map(is_front);
         if fronts == [true; 3] || fronts == [false; 3] || self.surface.sides[face as usize] == [NONE; 3] {
@@ -213,7 +214,7 @@ impl PartSurface {
         // The direction in which n . v grows fastest, times the normal's square.
         let growth = across.cross(normal) * (values[1] - values[0]) + normal.cross(along) * (values[2] - values[0]);
         let bend = growth.dot(space.to_eye((first.1 + second.1) * 0.5)) / normal.length();
-        Some(Piece {
+        Some(ContourPiece {
             part,
             face,
             edges: [first.0, second.0],
@@ -234,7 +235,7 @@ impl PartSurface {
         part: u32,
         edge: u32,
         shares: Vec<[f64; 2]>,
-    ) -> Vec<Piece> {
+    ) -> Vec<ContourPiece> {
         let &[first, second] = list.faces(edge) else { return Vec::new() };
         let ends = list.positions()[edge as usize];
         let [low, high] = ends.map(|position| positions[(position + self.first_position) as usize]);
@@ -243,7 +244,7 @@ impl PartSurface {
             between(low, high, share)
         };
         let bends_away = self.is_convex(positions, [first, second]);
-        let piece = |[from, to]: [f64; 2]| Piece {
+        let piece = |[from, to]: [f64; 2]| ContourPiece {
             part,
             face: first,
             edges: [edge; 2],

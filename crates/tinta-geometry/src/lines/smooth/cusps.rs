@@ -6,8 +6,8 @@
 //! view, single faces say now this, now that. What lasts for less than two edges is no cusp.
 
 use crate::edges::{CreaseAngle, Shell};
-use crate::lines::input::part::Part;
-use crate::lines::smooth::contours::{Contours, Link, PartSurface, Piece, between};
+use crate::lines::input::object_edges::ObjectEdges;
+use crate::lines::smooth::contours::{ContourPiece, Contours, Link, ObjectSurface, between};
 use crate::lines::visible::space::Space;
 use crate::scene::Scene;
 use glam::DVec3;
@@ -22,7 +22,7 @@ impl Contours {
         space: &Space,
         positions: &[DVec3],
         is_cut_by_near: bool,
-        parts: &[Part<'_>],
+        parts: &[ObjectEdges<'_>],
         crease_angle: CreaseAngle,
     ) -> Self {
         let mut all = Self::new(scene, space, positions, is_cut_by_near, parts, crease_angle);
@@ -33,7 +33,7 @@ impl Contours {
 }
 
 /// The places where two pieces hang together: on edges that are not sharp.
-fn links(parts: &[PartSurface], pieces: &[Piece]) -> Vec<Link> {
+fn links(parts: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
     let mut ends: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(pieces.len() * 2);
     for (number, piece) in pieces.iter().enumerate() {
         let is_sharp = &parts[piece.part as usize].surface.is_sharp;
@@ -49,7 +49,7 @@ fn links(parts: &[PartSurface], pieces: &[Piece]) -> Vec<Link> {
 }
 
 /// Lets each piece bend as its contour around it does, and cuts those in two within which that changes.
-fn settle(parts: &[PartSurface], pieces: &mut Vec<Piece>, positions: &[DVec3], links: &mut Vec<Link>) {
+fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[DVec3], links: &mut Vec<Link>) {
     let mut neighbours = vec![[None; 2]; pieces.len()];
     for Link { ends: [first, second], .. } in links.iter() {
         neighbours[first.0][first.1] = Some(*second);

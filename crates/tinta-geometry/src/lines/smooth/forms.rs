@@ -24,12 +24,12 @@ mod visible_tests;
 
 pub use settings::FormSettings;
 
-use crate::bvh::NO_FAMILY;
+use crate::bvh::NO_GROUP;
 use crate::curvature::{Curvature, Curvatures};
 use crate::edges::{Class, ClassCounts, ClassSet, Eye, SilhouetteRule};
 use crate::lines::LineSettings;
 use crate::lines::input::feature::Feature;
-use crate::lines::input::part::{Edges, Part};
+use crate::lines::input::object_edges::{Edges, ObjectEdges};
 use crate::lines::visible::faces::{Faces, Own};
 use crate::lines::visible::space::Space;
 use crate::mesh::{Mesh, NONE};
@@ -40,11 +40,11 @@ use std::sync::Arc;
 use trace::{Corners, Crest, crests, zero_set};
 
 /// The curvature of a part.
-pub(in crate::lines) fn curvatures(scene: &Scene, part: &Part<'_>, settings: &LineSettings) -> Arc<Curvatures> {
+pub(in crate::lines) fn curvatures(scene: &Scene, part: &ObjectEdges<'_>, settings: &LineSettings) -> Arc<Curvatures> {
     let &FormSettings { crease_angle, smoothing, .. } = &settings.forms;
     match &part.edges {
         Edges::OfScene(_) => scene.curvatures(part.object, crease_angle, smoothing),
-        Edges::Mended(_) => {
+        Edges::Repaired(_) => {
             let edges = part.edges.get();
             Arc::new(Curvatures::new(edges.mesh(), edges.list(), crease_angle, smoothing))
         }
@@ -56,7 +56,7 @@ pub(in crate::lines) fn form_features(
     scene: &Scene,
     space: &Space,
     faces: &Faces,
-    parts: &[Part<'_>],
+    parts: &[ObjectEdges<'_>],
     settings: &LineSettings,
     counts: &mut ClassCounts,
 ) -> Vec<Feature> {
@@ -92,7 +92,7 @@ pub(in crate::lines) fn form_features(
                 ends,
                 weld: faces.weld(first_position),
                 planes: [faces.plane(faces.numbers[place as usize]); 2],
-                plane: NO_FAMILY,
+                plane: NO_GROUP,
                 edge: None,
                 angle_degrees: None,
             });

@@ -8,9 +8,9 @@
 //! where it is.
 
 use crate::edges::{CreaseAngle, SilhouetteRule};
-use crate::lines::input::part::{Edges, Part};
+use crate::lines::input::object_edges::{Edges, ObjectEdges};
 use crate::lines::smooth::contour_visibility::MOST_FACES;
-use crate::lines::smooth::contours::{Contours, OnEdge, PartSurface, Piece};
+use crate::lines::smooth::contours::{ContourPiece, Contours, ObjectSurface, OnEdge};
 use crate::lines::visible::space::Space;
 use crate::mesh::NONE;
 use crate::scene::Scene;
@@ -41,8 +41,8 @@ impl SmoothSilhouette {
 /// The smooth silhouette of each object of a scene, sharp at creases of this angle; what a closed shell hides of its own is left out.
 pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<SmoothSilhouette> {
     let space = Space::of(scene);
-    let parts: Vec<Part<'_>> =
-        scene.objects.iter().map(|object| Part { object, edges: Edges::OfScene(scene.edges(object)) }).collect();
+    let parts: Vec<ObjectEdges<'_>> =
+        scene.objects.iter().map(|object| ObjectEdges { object, edges: Edges::OfScene(scene.edges(object)) }).collect();
     let mut positions = Vec::with_capacity(scene.objects.iter().map(|object| object.mesh.positions.len()).sum());
     for object in &scene.objects {
         let own = &object.mesh.positions;
@@ -65,7 +65,7 @@ pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<Smoot
     }
     // Pieces that meet are followed from the same face, so that they still do.
     let mut moved: HashMap<(u32, [u64; 3]), DVec3> = HashMap::new();
-    let is_seen = |piece: &&Piece| !contours.is_inside(piece);
+    let is_seen = |piece: &&ContourPiece| !contours.is_inside(piece);
     for piece in contours.pieces.iter().filter(is_seen) {
         let number = piece.part as usize;
         let (part, surface) = (&parts[number], &contours.parts[number]);
@@ -84,9 +84,9 @@ pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<Smoot
 fn before_own_faces(
     space: &Space,
     positions: &[DVec3],
-    part: &Part<'_>,
-    surface: &PartSurface,
-    piece: &Piece,
+    part: &ObjectEdges<'_>,
+    surface: &ObjectSurface,
+    piece: &ContourPiece,
     end: usize,
 ) -> DVec3 {
     let (start, normal) = (piece.ends[end], piece.normals[end]);

@@ -13,10 +13,11 @@
 
 use crate::edges::Class;
 use crate::lines::LineSegment;
-use crate::lines::smooth::contour_visibility::{ContourLines, Decided, Stretch};
+use crate::lines::smooth::contour_visibility::{ContourIntervals, ContourLines};
 use crate::lines::smooth::contours::Link;
 use crate::lines::smooth::cusps::REACH;
 use crate::lines::visible::faces::{Own, Probe};
+use crate::lines::visible::interval::Interval;
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -90,13 +91,13 @@ impl Cusps {
 
 impl ContourLines<'_> {
     /// The changes along smooth contours.
-    pub(in crate::lines) fn changes(&self, decided: &[Decided]) -> VisibilityChanges {
+    pub(in crate::lines) fn changes(&self, decided: &[ContourIntervals]) -> VisibilityChanges {
         let cusps = self.cusps();
         let mut changes = VisibilityChanges::default();
-        let mut by_piece: Vec<Option<&Decided>> = vec![None; self.contours.pieces.len()];
+        let mut by_piece: Vec<Option<&ContourIntervals>> = vec![None; self.contours.pieces.len()];
         for decided in decided {
             by_piece[decided.piece] = Some(decided);
-            for pair in decided.stretches.windows(2).filter(|pair| pair[0].is_visible != pair[1].is_visible) {
+            for pair in decided.intervals.windows(2).filter(|pair| pair[0].is_visible != pair[1].is_visible) {
                 let hidden = if pair[0].is_visible { pair[1] } else { pair[0] };
                 changes.count(self.reason(decided, hidden, &cusps), decided.image.at(pair[0].to));
             }
@@ -163,7 +164,7 @@ impl ContourLines<'_> {
     }
 
     /// Why a stretch of a piece is hidden.
-    fn reason(&self, decided: &Decided, hidden: Stretch, cusps: &Cusps) -> Reason {
+    fn reason(&self, decided: &ContourIntervals, hidden: Interval, cusps: &Cusps) -> Reason {
         let piece = &self.contours.pieces[decided.piece];
         let probe = self.probe(piece, &decided.image, (hidden.from + hidden.to) * 0.5);
         self.reason_of(
@@ -259,12 +260,12 @@ impl ContourLines<'_> {
 }
 
 /// The stretch at an end of a piece, if that end is in the picture.
-fn at_end(decided: &Decided, end: usize) -> Option<(&Decided, Stretch)> {
-    let stretch = match end {
-        0 => decided.stretches.first().filter(|stretch| stretch.from == 0.0),
-        _ => decided.stretches.last().filter(|stretch| stretch.to == 1.0),
+fn at_end(decided: &ContourIntervals, end: usize) -> Option<(&ContourIntervals, Interval)> {
+    let interval = match end {
+        0 => decided.intervals.first().filter(|interval| interval.from == 0.0),
+        _ => decided.intervals.last().filter(|interval| interval.to == 1.0),
     };
-    Some((decided, *stretch?))
+    Some((decided, *interval?))
 }
 
 fn bits(px: DVec2) -> [u64; 2] {

@@ -1,11 +1,11 @@
 //! Where what is seen of a line may change: at crossings with nearer rims, where it passes through faces, and where lines on one
 //! another begin, end or change places.
 
-use crate::bvh::LeftOut;
+use crate::bvh::Exclusion;
 use crate::lines::visible::faces::Own;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::LineIndex;
-use crate::lines::visible::overlapping_lines::Beside;
+use crate::lines::visible::overlapping_lines::OverlappingLines;
 use crate::tolerances::CONTACT;
 use glam::DVec3;
 
@@ -15,7 +15,7 @@ impl LineIndex<'_> {
         &self,
         index: usize,
         image: &Image,
-        beside: &Beside,
+        overlapping: &OverlappingLines,
         part: [f64; 2],
         most: usize,
         cuts: &mut Vec<f64>,
@@ -27,8 +27,8 @@ impl LineIndex<'_> {
         let nearer = [f64::NEG_INFINITY, farthest + farthest.abs() * (2.0 * CONTACT)];
         let start = cuts.len();
         // Lines from one position cross nowhere else.
-        let left_out = LeftOut { planes: feature.planes, hubs: feature.own.corners(self.faces) };
-        let are_too_many = self.rims.any_but(&image.part_box(part, touch_px, nearer), left_out, |other_index| {
+        let excluded = Exclusion { planes: feature.planes, high_valence: feature.own.corners(self.faces) };
+        let are_too_many = self.rims.any_but(&image.part_box(part, touch_px, nearer), excluded, |other_index| {
             if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
                 let touch_px = touch_px.max(other.touch_px(self.space));
                 let occludes = !feature.own.meets(self.features[other_index].own);
@@ -36,12 +36,12 @@ impl LineIndex<'_> {
             }
             cuts.len() - start > most
         });
-        if are_too_many || (!self.finds_hidden && self.add_beside(index, image, beside, part, most, cuts)) {
+        if are_too_many || (!self.finds_hidden && self.add_overlaps(index, image, overlapping, part, most, cuts)) {
             return true;
         }
         let Own::Faces(own) = feature.own else { return false };
         // Faces with the corner in which it begins it meets nowhere else.
-        self.any_but(&image.part_box(part, touch_px, keys), left_out, |face| {
+        self.any_but(&image.part_box(part, touch_px, keys), excluded, |face| {
             if own.contains(&face) {
                 return false;
             }

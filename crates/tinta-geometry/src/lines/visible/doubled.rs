@@ -47,7 +47,7 @@ pub(in crate::lines) fn marked(
         }
         parts.tree(progress)
     };
-    let lines = Drawn { segments: &segments, images: &images, trees: [tree(true), tree(false)] };
+    let lines = DrawnLines { segments: &segments, images: &images, trees: [tree(true), tree(false)] };
     let covered = in_chunks(segments.len(), CHUNK, cores(), |range| {
         let covered = |number: usize| match segments[number].is_visible || progress.go_on_drawing().is_err() {
             true => Vec::new(),
@@ -71,13 +71,13 @@ fn image_of(space: &Space, segment: &LineSegment) -> Image {
 }
 
 /// Pieces with the trees of visible and of hidden ones.
-struct Drawn<'a> {
+struct DrawnLines<'a> {
     segments: &'a [LineSegment],
     images: &'a [Image],
     trees: [LineTree; 2],
 }
 
-impl Drawn<'_> {
+impl DrawnLines<'_> {
     /// From where to where lines lie on a hidden one that are drawn in its place, ascending.
     fn covered(&self, number: usize) -> Vec<[f64; 2]> {
         let image = &self.images[number];

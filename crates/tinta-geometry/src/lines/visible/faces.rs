@@ -1,6 +1,6 @@
 //! All faces of a scene in the eye's space, and which of them hide a point.
 
-use crate::bvh::{Box3, BoxTree, NO_FAMILY};
+use crate::bvh::{Box3, BoxTree, NO_GROUP};
 use crate::lines::visible::planes;
 use crate::lines::visible::space::Space;
 use crate::mesh::Mesh;
@@ -29,10 +29,10 @@ pub(in crate::lines) struct Faces {
     pub edge_on_for_sure: Vec<u32>,
     /// By their boxes of pixels and keys.
     pub tree: BoxTree,
-    /// For each place the position that it shares with very many faces, or [`NO_FAMILY`]; empty where there is none. The boxes
+    /// For each place the position that it shares with very many faces, or [`NO_GROUP`]; empty where there is none. The boxes
     /// of all these overlap, so that the tree leaves their pairs to whoever knows better.
-    pub hubs: Vec<u32>,
-    /// For each number the plane that it shares with many faces, or [`NO_FAMILY`]; empty where there is none.
+    pub high_valence: Vec<u32>,
+    /// For each number the plane that it shares with many faces, or [`NO_GROUP`]; empty where there is none.
     pub planes: Vec<u32>,
     /// Each object's first position and the distance below which its positions count as one, file units.
     welds: Vec<(u32, f64)>,
@@ -81,10 +81,10 @@ impl Own {
 }
 
 /// Faces around one position from which on they are compared by their outer sides only: below, comparing all costs less.
-const HUB: u32 = 256;
+const HIGH_VALENCE: u32 = 256;
 
 impl Faces {
-    /// Puts the objects' faces together; the meshes may be mended ones.
+    /// Puts the objects' faces together; the meshes may be repaired ones.
     pub(in crate::lines) fn new(space: &Space, parts: &[(&Object, Arc<Mesh>)]) -> Self {
         let mut positions = Vec::with_capacity(parts.iter().map(|(_, mesh)| mesh.positions.len()).sum());
         let mut welds = Vec::with_capacity(parts.len());
@@ -99,11 +99,11 @@ impl Faces {
             // What is not in front of the near plane is cut off there first.
             if -view.z >= space.near { space.project(view) } else { (DVec2::NAN, f64::NAN) }
         });
-        let mut sorted = Sorted::default();
+        let mut sorted = SortedFaces::default();
         let mut first_number = 0;
         for ((_, mesh), (first_position, _)) in parts.iter().zip(&welds) {
             let chunks = in_chunks(mesh.triangles.len(), CHUNK, cores(), |range| {
-                let mut sorted = Sorted::default();
+                let mut sorted = SortedFaces::default();
                 for face in range {
                     let corners = mesh.triangles[face].map(|corner| corner + first_position);
                     let points = corners.map(|corner| positions[corner as usize]);
@@ -130,14 +130,24 @@ impl Faces {
         let is_cut = |place: &u32| sorted.cut_by_near.binary_search(&numbers[*place as usize]).is_ok();
         let cut_by_near =
             if sorted.cut_by_near.is_empty() { Vec::new() } else { (0..numbers.len() as u32).filter(is_cut).collect() };
-        let hubs = hubs(&triangles, positions.len(), &cut_by_near);
-        if !hubs.is_empty() {
-            tree.set_hubs(&hubs);
+        let high_valence = high_valence(&triangles, positions.len(), &cut_by_near);
+        if !high_valence.is_empty() {
+            tree.set_high_valence(&high_valence);
         }
-        let Sorted { edge_on, edge_on_for_sure, .. } = sorted;
+        let SortedFaces { edge_on, edge_on_for_sure, .. } = sorted;
         let planes = Vec::new();
-        let mut faces =
-            Self { positions, triangles, cut_by_near, edge_on, edge_on_for_sure, tree, hubs, planes, numbers, welds };
+        let mut faces = Self {
+            positions,
+            triangles,
+            cut_by_near,
+            edge_on,
+            edge_on_for_sure,
+            tree,
+            high_valence,
+            planes,
+            numbers,
+            welds,
+        };
         let limits = (space.size.max_element() / 512.0, faces.smallest_weld());
         faces.planes =
             planes::planes(faces.tree.boxes(), |place| faces.corners(place), &faces.numbers, limits, first_number);
@@ -148,9 +158,9 @@ impl Faces {
         faces
     }
 
-    /// The plane that the face with this number shares with many, or [`NO_FAMILY`].
+    /// The plane that the face with this number shares with many, or [`NO_GROUP`].
     pub(in crate::lines) fn plane(&self, number: u32) -> u32 {
-        self.planes.get(number as usize).copied().unwrap_or(NO_FAMILY)
+        self.planes.get(number as usize).copied().unwrap_or(NO_GROUP)
     }
 
     /// The smallest distance below which positions of an object count as one, file units.
@@ -261,7 +271,7 @@ const CHUNK: usize = 8192;
 
 /// Faces sorted by what matters of them.
 #[derive(Default, Clone)]
-struct Sorted {
+struct SortedFaces {
     /// Those inside the picture and between the planes, with their numbers.
     boxes: Vec<Box3>,
     numbers: Vec<u32>,
@@ -270,7 +280,7 @@ struct Sorted {
     edge_on_for_sure: Vec<u32>,
 }
 
-impl Sorted {
+impl SortedFaces {
     fn append(&mut self, other: Self) {
         self.boxes.extend(other.boxes);
         self.numbers.extend(other.numbers);
@@ -326,21 +336,21 @@ impl Sorted {
     }
 }
 
-/// For each face the position of it that is the corner of most faces, if these are more than [`HUB`]; nothing if there is no
+/// For each face the position of it that is the corner of most faces, if these are more than [`HIGH_VALENCE`]; nothing if there is no
 /// such position. Faces that the near plane cuts have no image of their own sides and are left out.
-fn hubs(triangles: &[[u32; 3]], positions: usize, cut_by_near: &[u32]) -> Vec<u32> {
+fn high_valence(triangles: &[[u32; 3]], positions: usize, cut_by_near: &[u32]) -> Vec<u32> {
     let mut counts = vec![0u32; positions];
     triangles.as_flattened().iter().for_each(|position| counts[*position as usize] += 1);
-    if counts.iter().all(|count| *count <= HUB) {
+    if counts.iter().all(|count| *count <= HIGH_VALENCE) {
         return Vec::new();
     }
-    let hub = |triangle: &[u32; 3]| {
+    let vertex = |triangle: &[u32; 3]| {
         let most = triangle.iter().copied().max_by_key(|position| counts[*position as usize]);
-        most.filter(|position| counts[*position as usize] > HUB).unwrap_or(NO_FAMILY)
+        most.filter(|position| counts[*position as usize] > HIGH_VALENCE).unwrap_or(NO_GROUP)
     };
-    let mut hubs: Vec<u32> = triangles.iter().map(hub).collect();
-    cut_by_near.iter().for_each(|place| hubs[*place as usize] = NO_FAMILY);
-    hubs
+    let mut high_valence: Vec<u32> = triangles.iter().map(vertex).collect();
+    cut_by_near.iter().for_each(|place| high_valence[*place as usize] = NO_GROUP);
+    high_valence
 }
 
 /// Where the line between two points passes the near plane, if it does.

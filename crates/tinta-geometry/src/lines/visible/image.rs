@@ -1,6 +1,6 @@
 //! Lines as they lie in the picture, and trees of them.
 
-use crate::bvh::{Box3, BoxTree, LeftOut, NO_FAMILY};
+use crate::bvh::{Box3, BoxTree, Exclusion, NO_GROUP};
 use crate::lines::progress::Progress;
 use crate::lines::visible::space::Space;
 use crate::tolerances::TOUCH;
@@ -167,7 +167,7 @@ pub(in crate::lines) struct LineParts {
     boxes: Vec<Box3>,
     numbers: Vec<u32>,
     planes: Vec<u32>,
-    hubs: Vec<u32>,
+    high_valence: Vec<u32>,
 }
 
 /// The same, to be asked what overlaps.
@@ -187,7 +187,7 @@ impl LineParts {
         self.boxes.extend(other.boxes);
         self.numbers.extend(other.numbers);
         self.planes.extend(other.planes);
-        self.hubs.extend(other.hubs);
+        self.high_valence.extend(other.high_valence);
     }
 
     /// Adds a part of a line.
@@ -196,11 +196,11 @@ impl LineParts {
         self.numbers.push(line as u32);
     }
 
-    /// Adds a part of a line that ends in a hub, all of whose faces lie in a plane.
-    pub(in crate::lines) fn add_of_families(&mut self, around: Box3, line: usize, plane: u32, hub: u32) {
+    /// Adds a part of a line that ends in a high-valence vertex, all of whose faces lie in a plane.
+    pub(in crate::lines) fn add_of_groups(&mut self, around: Box3, line: usize, plane: u32, vertex: u32) {
         self.add(around, line);
         self.planes.push(plane);
-        self.hubs.push(hub);
+        self.high_valence.push(vertex);
     }
 
     /// Their tree; one of nothing where the work is over before.
@@ -209,15 +209,15 @@ impl LineParts {
         if order.len() < self.boxes.len() {
             return LineTree { tree, numbers: Vec::new() };
         }
-        let in_order = |families: &[u32]| {
-            let has_some = families.iter().any(|family| *family != NO_FAMILY);
-            has_some.then(|| order.iter().map(|index| families[*index as usize]).collect::<Vec<u32>>())
+        let in_order = |groups: &[u32]| {
+            let has_some = groups.iter().any(|group| *group != NO_GROUP);
+            has_some.then(|| order.iter().map(|index| groups[*index as usize]).collect::<Vec<u32>>())
         };
         if let Some(planes) = in_order(&self.planes) {
             tree.set_planes(&planes);
         }
-        if let Some(hubs) = in_order(&self.hubs) {
-            tree.set_hubs(&hubs);
+        if let Some(high_valence) = in_order(&self.high_valence) {
+            tree.set_high_valence(&high_valence);
         }
         LineTree { tree, numbers: order.iter().map(|index| self.numbers[*index as usize]).collect() }
     }
@@ -229,13 +229,13 @@ impl LineTree {
         self.tree.any(query, |place| visit(self.numbers[place as usize] as usize))
     }
 
-    /// The same without lines of some families, as far as whole leaves of them are.
+    /// The same without lines of some groups, as far as whole leaves of them are.
     pub(in crate::lines) fn any_but(
         &self,
         query: &Box3,
-        left_out: LeftOut,
+        excluded: Exclusion,
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
-        self.tree.any_but(query, left_out, |place| visit(self.numbers[place as usize] as usize))
+        self.tree.any_but(query, excluded, |place| visit(self.numbers[place as usize] as usize))
     }
 }

@@ -5,12 +5,12 @@
 //! there the *surfaces* decide: they intersect if their half-planes around that edge alternate. No rule depends on how a
 //! face is wound.
 
-use crate::bvh::{Box3, LARGEST_LEAF, NO_FAMILY, Wanted, counting_steps, steps};
-use crate::lines::input::part::Part;
+use crate::bvh::{Box3, LARGEST_LEAF, NO_GROUP, NodeSelection, counting_steps, steps};
+use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::visible::faces::{Faces, Own};
-use crate::lines::visible::nearest_faces::Foremost;
-use crate::lines::visible::occluder_probe::Line;
+use crate::lines::visible::nearest_faces::NearestFaces;
+use crate::lines::visible::occluder_probe::ProbedLine;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
 use crate::threads::{cores, filled, in_chunks, spread_chunks, threads_for_items};
@@ -68,24 +68,24 @@ impl Intersections {
 pub(in crate::lines) fn intersections(
     space: &Space,
     faces: &Faces,
-    parts: &[Part],
-    (pyramid, foremost): (Option<&Pyramid>, Option<&Foremost>),
+    parts: &[ObjectEdges],
+    (pyramid, nearest_faces): (Option<&Pyramid>, Option<&NearestFaces>),
     progress: &Progress,
 ) -> Intersections {
     let seen = pyramid.map(|pyramid| pyramid.seen(space, faces));
     let is_seen = |place: u32| seen.as_ref().is_none_or(|seen| seen[place as usize]);
-    let wanted = seen.as_ref().map_or_else(Wanted::default, |seen| faces.tree.wanted(seen));
+    let wanted = seen.as_ref().map_or_else(NodeSelection::default, |seen| faces.tree.wanted(seen));
     let is_open = |ends: [DVec3; 2]| !pyramid.is_some_and(|pyramid| is_hidden(space, pyramid, ends));
-    const GROUPS: usize = 64;
+    const BATCHES: usize = 64;
     const PAIRS_A_GLANCE: u32 = 1024;
-    progress.begin(Phase::Intersections, faces.tree.group_count());
-    let meeting = Meeting { space, faces, foremost };
-    let in_groups = |groups: std::ops::Range<usize>| {
-        let (count, before) = (groups.len(), steps());
-        let (mut kept, mut pairs) = (Kept::default(), 0u32);
+    progress.begin(Phase::Intersections, faces.tree.batch_count());
+    let meeting = Meeting { space, faces, nearest_faces };
+    let in_batches = |batches: std::ops::Range<usize>| {
+        let (count, before) = (batches.len(), steps());
+        let (mut kept, mut pairs) = (Findings::default(), 0u32);
         // Pairs come leaf by leaf, and the places in a leaf follow one another.
-        let mut plates: [Option<Plate>; LARGEST_LEAF as usize] = Default::default();
-        faces.tree.wanted_pairs(groups, &wanted, |first, second| {
+        let mut face_planes: [Option<FacePlane>; LARGEST_LEAF as usize] = Default::default();
+        faces.tree.selected_pairs(batches, &wanted, |first, second| {
             pairs = pairs.wrapping_add(1);
             if pairs % PAIRS_A_GLANCE == 0 && progress.is_over() {
                 return true;
@@ -93,11 +93,11 @@ pub(in crate::lines) fn intersections(
             if !is_seen(first) || !is_seen(second) {
                 return false;
             }
-            let plate = &mut plates[(first % LARGEST_LEAF) as usize];
-            if plate.as_ref().is_none_or(|plate| plate.place != first) {
-                *plate = Some(Plate::new(space, faces, first));
+            let face_plane = &mut face_planes[(first % LARGEST_LEAF) as usize];
+            if face_plane.as_ref().is_none_or(|face_plane| face_plane.place != first) {
+                *face_plane = Some(FacePlane::new(space, faces, first));
             }
-            let found = plate.as_ref().and_then(|first| first.meet(space, faces, second));
+            let found = face_plane.as_ref().and_then(|first| first.meet(space, faces, second));
             found.filter(|found| is_open(found.ends)).into_iter().for_each(|found| kept.add(&meeting, found));
             false
         });
@@ -105,13 +105,13 @@ pub(in crate::lines) fn intersections(
         kept
     };
     let mut chunks =
-        spread_chunks(faces.tree.group_count(), GROUPS, cores(), |groups| counting_steps(|| in_groups(groups)));
-    chunks.extend(around_hubs(&meeting, is_seen, is_open, progress));
+        spread_chunks(faces.tree.batch_count(), BATCHES, cores(), |batches| counting_steps(|| in_batches(batches)));
+    chunks.extend(around_high_valence(&meeting, is_seen, is_open, progress));
     let compared = chunks.iter().map(|(_, steps)| steps).sum();
     if progress.is_over() {
         return Intersections { compared, ..Intersections::default() };
     }
-    let mut all = Kept::default();
+    let mut all = Findings::default();
     chunks.into_iter().for_each(|(some, _)| all.append(some));
     all.lines.sort_unstable_by_key(|found| found.faces.map(|face| faces.numbers[face as usize]));
     let split = SplitEdges::new(parts);
@@ -129,26 +129,26 @@ pub(in crate::lines) fn intersections(
 struct Meeting<'a> {
     space: &'a Space,
     faces: &'a Faces,
-    foremost: Option<&'a Foremost>,
+    nearest_faces: Option<&'a NearestFaces>,
 }
 
 /// What is kept of what was found.
 #[derive(Default)]
-struct Kept {
+struct Findings {
     /// Those that the nearest faces do not hide.
-    lines: Vec<Found>,
+    lines: Vec<FaceCrossing>,
     piercings: Vec<Piercing>,
 }
 
-impl Kept {
-    fn add(&mut self, &Meeting { space, faces, foremost }: &Meeting, found: Found) {
+impl Findings {
+    fn add(&mut self, &Meeting { space, faces, nearest_faces }: &Meeting, found: FaceCrossing) {
         self.piercings.extend(found.piercings.into_iter().flatten());
-        let line = || Line {
+        let line = || ProbedLine {
             own: Own::Faces(found.faces),
             ends: found.ends,
             weld: faces.weld(faces.triangles[found.faces[0] as usize][0]),
         };
-        if found.is_line && !foremost.is_some_and(|foremost| foremost.hide(space, faces, line())) {
+        if found.is_line && !nearest_faces.is_some_and(|nearest_faces| nearest_faces.hide(space, faces, line())) {
             self.lines.push(found);
         }
     }
@@ -173,29 +173,29 @@ fn without_repeated(space: &Space, faces: &Faces, mut lines: Vec<Intersection>) 
     lines
 }
 
-/// What faces around one hub that may be seen have in common but for it: from the hub on, until a side opposite to it passes
+/// What faces around one high-valence vertex that may be seen have in common but for it: from the high-valence vertex on, until a side opposite to it passes
 /// through a face. With how many boxes were looked at.
-fn around_hubs(
+fn around_high_valence(
     meeting: &Meeting,
     is_seen: impl Fn(u32) -> bool + Sync,
     is_open: impl Fn([DVec3; 2]) -> bool + Sync,
     progress: &Progress,
-) -> Vec<(Kept, u64)> {
+) -> Vec<(Findings, u64)> {
     const AT_ONCE: usize = 64;
     let &Meeting { space, faces, .. } = meeting;
-    if faces.hubs.is_empty() {
+    if faces.high_valence.is_empty() {
         return Vec::new();
     }
-    let spines = spines(faces);
+    let shared_edges = shared_edges(faces);
     let is_asked = |place: u32| {
-        let hub = faces.hubs[place as usize];
-        hub != NO_FAMILY && !spines.contains(&hub) && is_seen(place)
+        let vertex = faces.high_valence[place as usize];
+        vertex != NO_GROUP && !shared_edges.contains(&vertex) && is_seen(place)
     };
-    // Around the side opposite to the hub, of those that are asked.
+    // Around the side opposite to the high-valence vertex, of those that are asked.
     let side_box = |place: usize| {
         is_asked(place as u32).then(|| {
-            let hub = faces.hubs[place];
-            let opposite = faces.triangles[place].into_iter().filter(|position| *position != hub);
+            let vertex = faces.high_valence[place];
+            let opposite = faces.triangles[place].into_iter().filter(|position| *position != vertex);
             let images = opposite.map(|position| {
                 let (px, key) = space.project(faces.positions[position as usize]);
                 px.extend(key)
@@ -206,45 +206,47 @@ fn around_hubs(
             Box3::new(low - margin, high + margin)
         })
     };
-    let sides = filled(faces.hubs.len(), threads_for_items(faces.hubs.len()), None, side_box);
+    let sides = filled(faces.high_valence.len(), threads_for_items(faces.high_valence.len()), None, side_box);
     let boxes = faces.tree.boxes();
-    let add_of = |place: usize, kept: &mut Kept| {
+    let add_of = |place: usize, kept: &mut Findings| {
         let Some(side) = sides[place].filter(|_| !progress.is_over()) else { return };
-        let plate = Plate::new(space, faces, place as u32);
+        let face_plane = FacePlane::new(space, faces, place as u32);
         faces.tree.any(&side, |other| {
             let other_place = other as usize;
-            let is_of_hub = other_place != place && faces.hubs[other_place] == faces.hubs[place];
+            let is_of_same_vertex =
+                other_place != place && faces.high_valence[other_place] == faces.high_valence[place];
             // Where each side is near the other face, the pair comes from the first.
             let comes_once =
                 place < other_place || !sides[other_place].is_some_and(|side| side.overlaps(&boxes[place]));
-            if is_of_hub && comes_once && sides[other_place].is_some() {
-                let found = plate.meet(space, faces, other).filter(|found| is_open(found.ends));
+            if is_of_same_vertex && comes_once && sides[other_place].is_some() {
+                let found = face_plane.meet(space, faces, other).filter(|found| is_open(found.ends));
                 found.into_iter().for_each(|found| kept.add(meeting, found));
             }
             false
         });
     };
-    in_chunks(faces.hubs.len(), AT_ONCE, cores(), |range| {
+    in_chunks(faces.high_valence.len(), AT_ONCE, cores(), |range| {
         counting_steps(|| {
-            let mut kept = Kept::default();
+            let mut kept = Findings::default();
             range.for_each(|place| add_of(place, &mut kept));
             kept
         })
     })
 }
 
-/// Hubs whose faces all have a second corner in common: an edge, and nothing else.
-fn spines(faces: &Faces) -> HashSet<u32> {
+/// High-valence vertices whose faces all have a second corner in common: an edge, and nothing else.
+fn shared_edges(faces: &Faces) -> HashSet<u32> {
     let mut common: HashMap<u32, Vec<u32>> = HashMap::new();
-    for (hub, corners) in faces.hubs.iter().zip(&faces.triangles).filter(|(hub, _)| **hub != NO_FAMILY) {
-        common.entry(*hub).or_insert_with(|| corners.to_vec()).retain(|corner| corners.contains(corner));
+    for (vertex, corners) in faces.high_valence.iter().zip(&faces.triangles).filter(|(vertex, _)| **vertex != NO_GROUP)
+    {
+        common.entry(*vertex).or_insert_with(|| corners.to_vec()).retain(|corner| corners.contains(corner));
     }
-    common.into_iter().filter(|(_, corners)| corners.len() > 1).map(|(hub, _)| hub).collect()
+    common.into_iter().filter(|(_, corners)| corners.len() > 1).map(|(vertex, _)| vertex).collect()
 }
 
 /// What two faces have in common.
 #[derive(Debug, Clone, Copy)]
-struct Found {
+struct FaceCrossing {
     /// The one with the lower number first.
     faces: [u32; 2],
     ends: [DVec3; 2],
@@ -257,15 +259,16 @@ struct Found {
 
 /// How edges were split at T-junctions.
 struct SplitEdges<'a> {
-    parts: &'a [Part<'a>],
+    parts: &'a [ObjectEdges<'a>],
     /// Each part's first position.
     starts: Vec<u32>,
 }
 
 impl<'a> SplitEdges<'a> {
-    fn new(parts: &'a [Part<'a>]) -> Self {
-        let next_start =
-            |next: &mut u32, part: &Part| Some(std::mem::replace(next, *next + part.shape().positions.len() as u32));
+    fn new(parts: &'a [ObjectEdges<'a>]) -> Self {
+        let next_start = |next: &mut u32, part: &ObjectEdges| {
+            Some(std::mem::replace(next, *next + part.shape().positions.len() as u32))
+        };
         Self { parts, starts: parts.iter().scan(0, next_start).collect() }
     }
 
@@ -280,7 +283,7 @@ impl<'a> SplitEdges<'a> {
     /// The places where edges pass through faces, for the piece of the edge that has it, and for its neighbours: it may be where they
     /// meet. What lies beyond a piece's end does not cut it.
     fn piercings(&self, faces: &Faces, found: Vec<Piercing>) -> Vec<Piercing> {
-        if !self.parts.iter().any(Part::has_split_edges) {
+        if !self.parts.iter().any(ObjectEdges::has_split_edges) {
             return found;
         }
         let of_pieces = |piercing: Piercing| {
@@ -306,7 +309,7 @@ fn piece_at(faces: &Faces, way: &[u32], point: DVec3) -> usize {
     way[1..way.len() - 1].partition_point(|at| (faces.positions[*at as usize] - point).dot(along) <= 0.0)
 }
 
-/// The faces at each edge that lies in another face's plane: how the surface goes on there, T-junctions mended.
+/// The faces at each edge that lies in another face's plane: how the surface goes on there, T-junctions split.
 struct HalfPlanes {
     /// The positions along each edge at which it was split, with its own.
     ways: HashMap<[u32; 2], Vec<u32>>,
@@ -315,7 +318,7 @@ struct HalfPlanes {
 }
 
 impl HalfPlanes {
-    fn at_touched_edges(split: &SplitEdges, lines: &[Found]) -> Self {
+    fn at_touched_edges(split: &SplitEdges, lines: &[FaceCrossing]) -> Self {
         let touched: HashSet<[u32; 2]> = lines.iter().flat_map(|found| found.touching.into_iter().flatten()).collect();
         let ways: HashMap<[u32; 2], Vec<u32>> = touched.into_iter().map(|edge| (edge, split.way(edge))).collect();
         let mut thirds: HashMap<[u32; 2], Vec<u32>> =
@@ -345,7 +348,7 @@ impl HalfPlanes {
 
     /// Whether the two surfaces pass through one another along a line: going round it, half-planes of one and of the other follow
     /// one another twice. Half-planes of both that lie on one another count for neither.
-    fn pass_through(&self, space: &Space, faces: &Faces, found: &Found) -> bool {
+    fn pass_through(&self, space: &Space, faces: &Faces, found: &FaceCrossing) -> bool {
         if found.touching == [None; 2] {
             return true;
         }
@@ -375,8 +378,8 @@ impl HalfPlanes {
             }
         };
         let [first, second] = [half_planes(0), half_planes(1)];
-        let plates = found.faces.map(|place| Plate::new(space, faces, place));
-        let contact = plates[0].contact(space, &plates[1]);
+        let face_planes = found.faces.map(|place| FacePlane::new(space, faces, place));
+        let contact = face_planes[0].contact(space, &face_planes[1]);
         let lie_on_one_another = |a: DVec2, b: DVec2| {
             let (short, long) = if a.length() <= b.length() { (a, b) } else { (b, a) };
             short.dot(long) > 0.0 && short.perp_dot(long).abs() <= contact * long.length()
@@ -394,7 +397,7 @@ impl HalfPlanes {
 }
 
 /// A face with its plane.
-struct Plate {
+struct FacePlane {
     place: u32,
     numbers: [u32; 3],
     corners: [DVec3; 3],
@@ -432,7 +435,7 @@ struct Crossing {
     piercing: Piercing,
 }
 
-impl Plate {
+impl FacePlane {
     fn new(space: &Space, faces: &Faces, place: u32) -> Self {
         let numbers = faces.triangles[place as usize];
         let corners = faces.corners(place);
@@ -445,7 +448,7 @@ impl Plate {
     }
 
     /// What this face and another have in common, if each has corners on both sides of the other's plane.
-    fn meet(&self, space: &Space, faces: &Faces, other: u32) -> Option<Found> {
+    fn meet(&self, space: &Space, faces: &Faces, other: u32) -> Option<FaceCrossing> {
         let numbers = faces.triangles[other as usize];
         let mut shared = None;
         let mut shared_count = 0;
@@ -468,7 +471,7 @@ impl Plate {
         let other = Self::new(space, faces, other);
         let contact = self.contact(space, &other);
         // A face no higher than what counts as touching is a line and has no plane, but may still pass through a face.
-        let is_needle = |plate: &Self| plate.normal_length <= contact * plate.longest;
+        let is_needle = |face_plane: &Self| face_plane.normal_length <= contact * face_plane.longest;
         match (is_needle(self), is_needle(&other)) {
             (true, true) => return None,
             (true, false) => return self.needle_through(faces, &other, contact),
@@ -484,20 +487,20 @@ impl Plate {
         {
             return None;
         }
-        let (plates, sides) = match faces.in_order(self.place, other.place) {
+        let (face_planes, sides) = match faces.in_order(self.place, other.place) {
             true => ([self, &other], [first, second]),
             false => ([&other, self], [second, first]),
         };
         let touching = [0, 1].map(|face| {
-            let [a, b] = sides[face].edge?.map(|corner| plates[face].numbers[corner]);
+            let [a, b] = sides[face].edge?.map(|corner| face_planes[face].numbers[corner]);
             Some([a.min(b), a.max(b)])
         });
         Pair {
             faces,
-            places: plates.map(|plate| plate.place),
+            places: face_planes.map(|face_plane| face_plane.place),
             distances: sides.map(|sides| sides.distances),
-            direction: plates[0].normal.cross(plates[1].normal),
-            shared: if plates[0].place == self.place { shared } else { shared.map(|[i, j]| [j, i]) },
+            direction: face_planes[0].normal.cross(face_planes[1].normal),
+            shared: if face_planes[0].place == self.place { shared } else { shared.map(|[i, j]| [j, i]) },
             shortest: contact,
             touching,
         }
@@ -505,7 +508,7 @@ impl Plate {
     }
 
     /// Where the sides of this face, too thin to have a plane, pass through another.
-    fn needle_through(&self, faces: &Faces, other: &Self, contact: f64) -> Option<Found> {
+    fn needle_through(&self, faces: &Faces, other: &Self, contact: f64) -> Option<FaceCrossing> {
         let distances = Sides::of(other.raw_distances(self.corners), None, contact * other.normal_length)?.distances;
         let (places, kept) = match faces.in_order(self.place, other.place) {
             true => ([self.place, other.place], [distances, [0.0; 3]]),
@@ -527,7 +530,7 @@ impl Plate {
             .filter(|piercing| other.contains(piercing.point));
         let piercings = [piercings.next(), piercings.next()];
         let point = piercings[0]?.point;
-        Some(Found { faces: places, ends: [point; 2], is_line: false, piercings, touching: [None; 2] })
+        Some(FaceCrossing { faces: places, ends: [point; 2], is_line: false, piercings, touching: [None; 2] })
     }
 
     /// Whether a point of the plane lies in the face, or so near its rim that a cut too many is all that comes of it.
@@ -586,7 +589,7 @@ fn lie_on_one_line([a, b]: [DVec3; 2], other: [DVec3; 2], distance: f64) -> bool
 
 impl Pair<'_> {
     /// The line both have in common, if their parts of it overlap.
-    fn common(&self) -> Option<Found> {
+    fn common(&self) -> Option<FaceCrossing> {
         let mut overlap = true;
         let (low, high) = match self.shared {
             None => {
@@ -617,7 +620,13 @@ impl Pair<'_> {
         };
         let piercings = [low, high].map(|piercing| (piercing.edge[0] != u32::MAX).then_some(piercing));
         let is_line = overlap && low.point.distance(high.point) > self.shortest;
-        Some(Found { faces: self.places, ends: [low.point, high.point], is_line, piercings, touching: self.touching })
+        Some(FaceCrossing {
+            faces: self.places,
+            ends: [low.point, high.point],
+            is_line,
+            piercings,
+            touching: self.touching,
+        })
     }
 
     /// Where a face's rim passes the other's plane: the lower place along the common line first.

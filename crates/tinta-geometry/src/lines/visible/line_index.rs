@@ -1,6 +1,6 @@
 //! All lines with their images, and the trees in which whatever hides or crosses one is found.
 
-use crate::bvh::{Box3, LeftOut, NO_FAMILY};
+use crate::bvh::{Box3, Exclusion, NO_GROUP};
 use crate::error::Result;
 use crate::lines::input::feature::Feature;
 use crate::lines::progress::Progress;
@@ -9,7 +9,7 @@ use crate::lines::visible::bundles::Bundles;
 use crate::lines::visible::faces::{Faces, Own, Probe};
 use crate::lines::visible::image::{Image, LineParts, LineTree};
 use crate::lines::visible::intersections::Piercing;
-use crate::lines::visible::nearest_faces::Foremost;
+use crate::lines::visible::nearest_faces::NearestFaces;
 use crate::lines::visible::occluders::Occluders;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
@@ -36,9 +36,9 @@ pub(in crate::lines) struct LineIndex<'a> {
     /// What hides others; `None` where the faces as they are do.
     occluders: Option<Occluders>,
     /// Which faces are nearest; `None` where little lies in front of one another.
-    pub(in crate::lines) foremost: Option<&'a Foremost>,
+    pub(in crate::lines) nearest_faces: Option<&'a NearestFaces>,
     /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
-    pub(in crate::lines) beside: LineTree,
+    pub(in crate::lines) overlapping: LineTree,
     /// Many lines that lie on one another.
     pub(in crate::lines) bundles: Bundles,
     pub(in crate::lines) shortest_px: f64,
@@ -65,19 +65,19 @@ impl<'a> LineIndex<'a> {
         faces: &'a Faces,
         features: &'a [Feature],
         piercings: &[Piercing],
-        (pyramid, foremost): (Option<&'a Pyramid>, Option<&'a Foremost>),
+        (pyramid, nearest_faces): (Option<&'a Pyramid>, Option<&'a NearestFaces>),
         settings: &LineSettings,
         progress: &Progress,
     ) -> Result<Self> {
         let &LineSettings { finds_outline, finds_hidden, .. } = settings;
         let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
         let side = space.size.max_element();
-        let hubs = hubs(features);
-        let occluders = Occluders::new(space, faces, pyramid, foremost.is_some());
+        let high_valence = high_valence(features);
+        let occluders = Occluders::new(space, faces, pyramid, nearest_faces.is_some());
         // Where much lies behind one another a box is asked for by many.
-        let rim_px = side / PARTS_OF_PICTURE / if foremost.is_some() { 4.0 } else { 1.0 };
+        let rim_px = side / PARTS_OF_PICTURE / if nearest_faces.is_some() { 4.0 } else { 1.0 };
         let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
-            let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
+            let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
             for index in range {
                 if index % LINES_A_GLANCE == 0 && progress.is_over() {
                     break;
@@ -95,24 +95,24 @@ impl<'a> LineIndex<'a> {
                     let is_beside = feature.class.is_some() && (finds_hidden || !*is_hidden);
                     for part in image.parts(part, rim_px).filter(|_| is_rim) {
                         let around = image.part_box(part, margin, part.map(|place| image.key(place)));
-                        rims.add_of_families(around, index, feature.plane, hub_of(&hubs, feature.own));
+                        rims.add_of_groups(around, index, feature.plane, vertex_of(&high_valence, feature.own));
                     }
                     if is_beside {
                         for directions in image.directions(image.touch_px(space)) {
-                            beside.add(image.part_box(part, margin, directions), index);
+                            overlapping.add(image.part_box(part, margin, directions), index);
                         }
                     }
                 }
             }
-            (rims, beside)
+            (rims, overlapping)
         });
-        let (mut rims, mut beside) = (LineParts::default(), LineParts::default());
-        for (some_rims, some_beside) in parts {
+        let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
+        for (some_rims, some_overlapping) in parts {
             rims.append(some_rims);
-            beside.append(some_beside);
+            overlapping.append(some_overlapping);
         }
         progress.go_on()?;
-        memory::check_lines((rims.len() + beside.len()) * BYTES_A_PART, memory::free())?;
+        memory::check_lines((rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
         let is_wanted = |index: usize| features[index].class.is_some();
         let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * TOUCH * side);
         let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
@@ -128,8 +128,8 @@ impl<'a> LineIndex<'a> {
             rims: rims.tree(progress),
             pyramid,
             occluders,
-            foremost,
-            beside: beside.tree(progress),
+            nearest_faces,
+            overlapping: overlapping.tree(progress),
             bundles,
             shortest_px: SHORTEST_LINE * side,
             finds_outline,
@@ -156,13 +156,13 @@ impl<'a> LineIndex<'a> {
         planes: [u32; 2],
         visit: impl FnMut(u32) -> bool,
     ) -> bool {
-        self.any_but(query, LeftOut::planes(planes), visit)
+        self.any_but(query, Exclusion::planes(planes), visit)
     }
 
-    pub(in crate::lines) fn any_but(&self, query: &Box3, left_out: LeftOut, visit: impl FnMut(u32) -> bool) -> bool {
+    pub(in crate::lines) fn any_but(&self, query: &Box3, excluded: Exclusion, visit: impl FnMut(u32) -> bool) -> bool {
         match &self.occluders {
-            Some(occluders) => occluders.any_but(query, left_out, visit),
-            None => self.faces.tree.any_but(query, left_out, visit),
+            Some(occluders) => occluders.any_but(query, excluded, visit),
+            None => self.faces.tree.any_but(query, excluded, visit),
         }
     }
 
@@ -186,23 +186,23 @@ impl<'a> LineIndex<'a> {
 }
 
 /// Rims that end in one position from which on they are told apart from others: below, comparing all costs less.
-const HUB: u32 = 64;
+const HIGH_VALENCE: u32 = 64;
 
-/// How many rims end in each position, as far as these are more than [`HUB`].
-fn hubs(features: &[Feature]) -> HashMap<u32, u32> {
+/// How many rims end in each position, as far as these are more than [`HIGH_VALENCE`].
+fn high_valence(features: &[Feature]) -> HashMap<u32, u32> {
     let mut counts: HashMap<u32, u32> = HashMap::new();
     for feature in features.iter().filter(|feature| feature.occludes) {
         if let Own::Edge(ends) = feature.own {
             ends.into_iter().for_each(|end| *counts.entry(end).or_default() += 1);
         }
     }
-    counts.retain(|_, count| *count > HUB);
+    counts.retain(|_, count| *count > HIGH_VALENCE);
     counts
 }
 
-/// The hub in which an edge ends, if it does in one; of two that with more rims.
-fn hub_of(hubs: &HashMap<u32, u32>, own: Own) -> u32 {
-    let Own::Edge(ends) = own else { return NO_FAMILY };
-    let known = ends.into_iter().filter_map(|end| Some((*hubs.get(&end)?, end)));
-    known.max().map_or(NO_FAMILY, |(_, end)| end)
+/// The high-valence vertex in which an edge ends, if it does in one; of two that with more rims.
+fn vertex_of(high_valence: &HashMap<u32, u32>, own: Own) -> u32 {
+    let Own::Edge(ends) = own else { return NO_GROUP };
+    let known = ends.into_iter().filter_map(|end| Some((*high_valence.get(&end)?, end)));
+    known.max().map_or(NO_GROUP, |(_, end)| end)
 }

@@ -4,12 +4,12 @@
 //! at once, where a hierarchy of boxes gives one after the other. It decides nothing: whether the face hides something is asked by the
 //! rule that is sure.
 
-use crate::bvh::NO_FAMILY;
+use crate::bvh::NO_GROUP;
 use crate::lines::progress::Progress;
 use crate::lines::visible::face_image::FaceImage;
 use crate::lines::visible::faces::Faces;
 use crate::lines::visible::image::Image;
-use crate::lines::visible::occluder_probe::{Line, Sought, Stretch};
+use crate::lines::visible::occluder_probe::{OccluderProbe, ProbedLine, SearchDepth};
 use crate::lines::visible::pyramid::layers;
 use crate::lines::visible::ranges::{gaps, united};
 use crate::lines::visible::space::Space;
@@ -30,16 +30,16 @@ const ROWS_AT_ONCE: usize = 32;
 const FACES_A_GLANCE: u32 = 1024;
 
 /// The nearest faces, and the images of all.
-pub(in crate::lines) struct Foremost {
+pub(in crate::lines) struct NearestFaces {
     /// By their places; of none where these are too many to keep.
     images: Vec<FaceImage>,
     sample_px: f64,
     columns: usize,
-    /// Row by row; [`NO_FAMILY`] where there is none.
+    /// Row by row; [`NO_GROUP`] where there is none.
     nearest: Vec<u32>,
 }
 
-impl Foremost {
+impl NearestFaces {
     /// Faces that are asked about one part of a line, and about a line that is left out as a whole or not at all.
     pub(in crate::lines) const ASKED: usize = 16;
     const ASKED_OF_WHOLE: usize = 4;
@@ -52,14 +52,14 @@ impl Foremost {
         let images = FaceImage::of_all(space, faces);
         let sample_px = space.size.max_element() / SAMPLES;
         let [columns, rows] = (space.size / sample_px).ceil().to_array().map(|count| count as usize);
-        let foremost = Self { images, sample_px, columns, nearest: Vec::new() };
-        let bands = in_chunks(rows, ROWS_AT_ONCE, cores(), |rows| foremost.band(space, faces, rows, progress));
-        Some(Self { nearest: bands.concat(), ..foremost })
+        let nearest_faces = Self { images, sample_px, columns, nearest: Vec::new() };
+        let bands = in_chunks(rows, ROWS_AT_ONCE, cores(), |rows| nearest_faces.band(space, faces, rows, progress));
+        Some(Self { nearest: bands.concat(), ..nearest_faces })
     }
 
     /// Some rows of samples.
     fn band(&self, space: &Space, faces: &Faces, rows: std::ops::Range<usize>, progress: &Progress) -> Vec<u32> {
-        let mut nearest = vec![(f64::INFINITY, NO_FAMILY); rows.len() * self.columns];
+        let mut nearest = vec![(f64::INFINITY, NO_GROUP); rows.len() * self.columns];
         let [top_px, bottom_px] = [rows.start, rows.end].map(|row| row as f64 * self.sample_px);
         let is_cut = |face: u32| !faces.cut_by_near.is_empty() && faces.cut_by_near.binary_search(&face).is_ok();
         for (face, around) in (0..).zip(faces.tree.boxes()) {
@@ -103,7 +103,7 @@ impl Foremost {
     fn at(&self, px: DVec2) -> Option<u32> {
         let [column, row] = (px / self.sample_px).max(DVec2::ZERO).to_array().map(|at| at as usize);
         let face = *self.nearest.get(row * self.columns + column.min(self.columns - 1))?;
-        (face != NO_FAMILY).then_some(face)
+        (face != NO_GROUP).then_some(face)
     }
 
     /// What of a part of a line the nearest faces hide for sure, ascending: asked in the middle of the longest gap that is left, as long as
@@ -113,7 +113,7 @@ impl Foremost {
         space: &Space,
         faces: &Faces,
         part: [f64; 2],
-        stretch: impl Fn([f64; 2]) -> Stretch,
+        probe: impl Fn([f64; 2]) -> OccluderProbe,
         most: usize,
     ) -> Vec<[f64; 2]> {
         let mut hidden: Vec<[f64; 2]> = Vec::new();
@@ -124,8 +124,8 @@ impl Foremost {
                 break;
             };
             let gap = open.swap_remove(longest);
-            let asked = stretch(gap);
-            let (mut best, mut known) = (None, [NO_FAMILY; 3]);
+            let asked = probe(gap);
+            let (mut best, mut known) = (None, [NO_GROUP; 3]);
             for (number, share) in [0.5, 1.0, 0.0].into_iter().enumerate() {
                 let Some(face) = self.at(asked.px[0].lerp(asked.px[1], share)).filter(|face| !known.contains(face))
                 else {
@@ -149,11 +149,11 @@ impl Foremost {
     }
 
     /// Whether the nearest faces hide all of an intersection.
-    pub(in crate::lines) fn hide(&self, space: &Space, faces: &Faces, line: Line) -> bool {
+    pub(in crate::lines) fn hide(&self, space: &Space, faces: &Faces, line: ProbedLine) -> bool {
         const WHOLE: [f64; 2] = [0.0, 1.0];
         let Some(image) = Image::of(space, line.ends) else { return false };
-        let stretch = |part: [f64; 2]| Stretch::new(space, faces, line, &image, part, Sought::Nearer);
-        self.hidden(space, faces, WHOLE, stretch, Self::ASKED_OF_WHOLE) == [WHOLE]
+        let probe = |part: [f64; 2]| OccluderProbe::new(space, faces, line, &image, part, SearchDepth::Nearer);
+        self.hidden(space, faces, WHOLE, probe, Self::ASKED_OF_WHOLE) == [WHOLE]
     }
 }
 
@@ -217,12 +217,12 @@ mod tests {
         let scene = soup();
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
-        let foremost = Foremost::new(&space, &faces, &Progress::default()).unwrap();
-        assert_eq!((foremost.sample_px, foremost.columns), (1.0, 512), "samples are the pixels' middles");
+        let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default()).unwrap();
+        assert_eq!((nearest_faces.sample_px, nearest_faces.columns), (1.0, 512), "samples are the pixels' middles");
         let hits = first_hits(&scene);
-        assert_eq!(hits.len(), foremost.nearest.len());
+        assert_eq!(hits.len(), nearest_faces.nearest.len());
         let by_samples =
-            foremost.nearest.iter().map(|face| (*face != NO_FAMILY).then(|| faces.numbers[*face as usize]));
+            nearest_faces.nearest.iter().map(|face| (*face != NO_GROUP).then(|| faces.numbers[*face as usize]));
         let differing = hits.iter().zip(by_samples).filter(|(hit, face)| hit.map(|hit| hit.face) != *face).count();
         assert_eq!(differing, 0);
         assert!(hits.iter().flatten().count() > 50_000, "hardly anything is covered");
@@ -233,13 +233,13 @@ mod tests {
         let scene = soup();
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
-        let foremost = Foremost::new(&space, &faces, &Progress::default()).unwrap();
-        let parts = crate::lines::input::part::parts(&scene);
+        let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default()).unwrap();
+        let parts = crate::lines::input::object_edges::object_edges(&scene);
         let all = intersections(&space, &faces, &parts, (None, None), &Progress::default()).lines;
         let (mut hidden, mut points) = (0, 0);
         for line in &all {
             let own = Own::Faces(line.faces);
-            if !foremost.hide(&space, &faces, Line { own, ends: line.ends, weld: 1e-7 }) {
+            if !nearest_faces.hide(&space, &faces, ProbedLine { own, ends: line.ends, weld: 1e-7 }) {
                 continue;
             }
             hidden += 1;

@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 
 /// What a search looks for.
 #[derive(Clone, Copy, PartialEq)]
-pub(in crate::lines) enum Sought {
+pub(in crate::lines) enum SearchDepth {
     /// What is nearer to the eye.
     Nearer,
     /// What is there at any depth.
@@ -21,7 +21,7 @@ pub(in crate::lines) enum Sought {
 
 /// A line of which it is asked what hides it.
 #[derive(Clone, Copy)]
-pub(in crate::lines) struct Line {
+pub(in crate::lines) struct ProbedLine {
     pub own: Own,
     /// In the eye's space.
     pub ends: [DVec3; 2],
@@ -30,7 +30,7 @@ pub(in crate::lines) struct Line {
 }
 
 /// A part of such a line.
-pub(in crate::lines) struct Stretch {
+pub(in crate::lines) struct OccluderProbe {
     part: [f64; 2],
     pub px: [DVec2; 2],
     /// In the eye's space.
@@ -63,17 +63,17 @@ impl Own {
     }
 }
 
-impl Stretch {
+impl OccluderProbe {
     /// The part between two places of the line's image.
     pub(in crate::lines) fn new(
         space: &Space,
         faces: &Faces,
-        line: Line,
+        line: ProbedLine,
         image: &Image,
         part: [f64; 2],
-        sought: Sought,
+        search_depth: SearchDepth,
     ) -> Self {
-        let Line { own, ends, weld } = line;
+        let ProbedLine { own, ends, weld } = line;
         let (corners, length_px) = (own.corners(faces), image.length());
         let is_at = |end: usize, px: DVec2| space.project(ends[end]).0 == px;
         let is_at_end = [part[0] == 0.0 && is_at(0, image.a), part[1] == 1.0 && is_at(1, image.b)];
@@ -90,7 +90,7 @@ impl Stretch {
             weld,
             touch_px: image.touch_px(space),
             noise_px: image.noise_px,
-            is_nearer_sought: sought == Sought::Nearer,
+            is_nearer_sought: search_depth == SearchDepth::Nearer,
         }
     }
 
@@ -113,32 +113,32 @@ impl Faces {
         space: &Space,
         face: u32,
         image: &FaceImage,
-        stretch: &Stretch,
+        probe: &OccluderProbe,
     ) -> [Option<[f64; 2]>; 2] {
         const NOTHING: [Option<[f64; 2]>; 2] = [None; 2];
         let is_cut = !self.cut_by_near.is_empty() && self.cut_by_near.binary_search(&face).is_ok();
         // How far inside of each side both ends are; most faces in the box of a part lie beside it.
-        let [from, to] = stretch.px;
+        let [from, to] = probe.px;
         let of_side = |side: usize| [image.inside(side, from), image.inside(side, to)];
         let inside = [of_side(0), of_side(1), of_side(2)];
-        let outside = -2.0 * stretch.touch_px - image.rounding_px;
-        let is_side = |side: usize| image.lengths_px[side] > 2.0 * stretch.touch_px;
+        let outside = -2.0 * probe.touch_px - image.rounding_px;
+        let is_side = |side: usize| image.lengths_px[side] > 2.0 * probe.touch_px;
         if !is_cut && (0..3).any(|side| is_side(side) && inside[side][0].max(inside[side][1]) < outside) {
             return NOTHING;
         }
-        if matches!(stretch.own, Own::Faces(own) if own.contains(&face)) {
+        if matches!(probe.own, Own::Faces(own) if own.contains(&face)) {
             return NOTHING;
         }
         let numbers = self.triangles[face as usize];
-        let is_own_end = |number: u32| stretch.own_ends.contains(&number);
+        let is_own_end = |number: u32| probe.own_ends.contains(&number);
         let is_own = [is_own_end(numbers[0]), is_own_end(numbers[1]), is_own_end(numbers[2])];
         if is_own.iter().filter(|is_own| **is_own).count() == 2 {
             return NOTHING;
         }
         if is_cut {
-            return [None, Some(stretch.part)];
+            return [None, Some(probe.part)];
         }
-        let [mut sure, mut may] = [Some(stretch.part); 2];
+        let [mut sure, mut may] = [Some(probe.part); 2];
         for side in 0..3 {
             if !is_side(side) {
                 // No direction to speak of.
@@ -146,43 +146,43 @@ impl Faces {
                 continue;
             }
             // A side that begins where the line ends runs beside it as near as one likes.
-            let is_beside = stretch.is_nearer_sought && (is_own[side] || is_own[(side + 1) % 3]);
-            let margin = if is_beside { 8.0 * stretch.noise_px } else { 2.0 * stretch.touch_px } + image.rounding_px;
+            let is_beside = probe.is_nearer_sought && (is_own[side] || is_own[(side + 1) % 3]);
+            let margin = if is_beside { 8.0 * probe.noise_px } else { 2.0 * probe.touch_px } + image.rounding_px;
             let [start, end] = inside[side];
-            sure = clipped(sure, stretch.part, [start - margin, end - margin]);
-            may = clipped(may, stretch.part, [start - outside, end - outside]);
+            sure = clipped(sure, probe.part, [start - margin, end - margin]);
+            may = clipped(may, probe.part, [start - outside, end - outside]);
             if may.is_none() {
                 return NOTHING;
             }
         }
-        if !stretch.is_nearer_sought {
+        if !probe.is_nearer_sought {
             return [sure, may];
         }
         let [a, b, c] = self.corners(face);
         let normal = (b - a).cross(c - a);
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
-        let touching = CONTACT * longest.min(stretch.line_length) + self.weld(numbers[0]).min(stretch.weld);
+        let touching = CONTACT * longest.min(probe.line_length) + self.weld(numbers[0]).min(probe.weld);
         // As in the exact rule, the less the nearer to a corner that both have.
         let corner = (0..3).find(|corner| is_own[*corner]).map(|corner| [a, b, c][corner]);
-        let contacts = stretch.view.map(|view| {
-            let share = corner.map_or(1.0, |corner| (view.distance(corner) / stretch.line_length).min(1.0));
+        let contacts = probe.view.map(|view| {
+            let share = corner.map_or(1.0, |corner| (view.distance(corner) / probe.line_length).min(1.0));
             (touching * share + 4.0 * space.noise) * normal.length()
         });
         let away = -normal.dot(space.to_eye(a)).signum();
-        let behind = stretch.view.map(|view| normal.dot(view - a) * away);
+        let behind = probe.view.map(|view| normal.dot(view - a) * away);
         // Places along the line as places along its image.
-        let depths = stretch.view.map(|view| if space.is_perspective() { -view.z } else { 1.0 });
+        let depths = probe.view.map(|view| if space.is_perspective() { -view.z } else { 1.0 });
         let place = |share: f64| {
             if share == 1.0 {
-                return stretch.part[1];
+                return probe.part[1];
             }
             let far = share * depths[1];
-            stretch.part[0] + (stretch.part[1] - stretch.part[0]) * (far / ((1.0 - share) * depths[0] + far))
+            probe.part[0] + (probe.part[1] - probe.part[0]) * (far / ((1.0 - share) * depths[0] + far))
         };
         let clip = |range: Option<[f64; 2]>, times: f64| {
             let behind = [0, 1].map(|end| behind[end] - times * contacts[end]);
             common(range?, above_zero([0.0, 1.0], behind)?.map(place))
         };
-        [clip(sure, 2.0).map(|sure| stretch.up_to_ends(sure, numbers)), clip(may, 0.5)]
+        [clip(sure, 2.0).map(|sure| probe.up_to_ends(sure, numbers)), clip(may, 0.5)]
     }
 }

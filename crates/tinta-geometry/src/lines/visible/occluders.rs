@@ -7,7 +7,7 @@
 //! And what hides others where many faces are seen edge-on: all but those. They have no image that could hide anything, and the lines in
 //! them lie on one another, where the nearest is asked for.
 
-use crate::bvh::{Box3, BoxTree, LeftOut};
+use crate::bvh::{Box3, BoxTree, Exclusion};
 use crate::lines::visible::faces::Faces;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
@@ -93,8 +93,10 @@ impl Occluders {
             let planes: Vec<u32> = places.iter().map(|place| faces.plane(faces.numbers[*place as usize])).collect();
             tree.set_planes(&planes);
         }
-        if !faces.hubs.is_empty() {
-            tree.set_hubs(&places.iter().map(|place| faces.hubs[*place as usize]).collect::<Vec<u32>>());
+        if !faces.high_valence.is_empty() {
+            tree.set_high_valence(
+                &places.iter().map(|place| faces.high_valence[*place as usize]).collect::<Vec<u32>>(),
+            );
         }
         Some(Self { tree, places })
     }
@@ -103,9 +105,9 @@ impl Occluders {
     pub(in crate::lines) fn any_but(
         &self,
         query: &Box3,
-        left_out: LeftOut,
+        excluded: Exclusion,
         mut visit: impl FnMut(u32) -> bool,
     ) -> bool {
-        self.tree.any_but(query, left_out, |part| visit(self.places[part as usize]))
+        self.tree.any_but(query, excluded, |part| visit(self.places[part as usize]))
     }
 }

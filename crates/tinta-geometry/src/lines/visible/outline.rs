@@ -1,6 +1,6 @@
 //! Which visible lines are outline: nothing but background lies beside them in the picture.
 //!
-//! Beside is [`BESIDE`] away, on either side: a parallel of the line is laid there, cut wherever the image of a place at which a surface
+//! OverlappingLines is [`BESIDE`] away, on either side: a parallel of the line is laid there, cut wherever the image of a place at which a surface
 //! ends or turns away crosses it, however far away that is, and each part is decided in its middle by all faces there, whatever
 //! their depth. So lines that lie on one another, up to a small share of that distance, are outline together, whichever of them is the nearest;
 //! a face seen nearly edge-on is no surface between a line and the background; and a slit narrower than that is none.
@@ -12,13 +12,13 @@ pub(in crate::lines) use runs::readable;
 use crate::bvh::Box3;
 use crate::lines::visible::faces::{Faces, Own, Probe};
 use crate::lines::visible::image::Image;
+use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
-use crate::lines::visible::occluder_probe::Sought;
-use crate::lines::visible::overlapping_lines::Beside;
+use crate::lines::visible::occluder_probe::SearchDepth;
+use crate::lines::visible::overlapping_lines::OverlappingLines;
 use crate::lines::visible::ranges::hold;
-use crate::lines::visible::search::LastHider;
+use crate::lines::visible::search::OccluderCache;
 use crate::lines::visible::space::Space;
-use crate::lines::visible::visibility::Piece;
 use crate::tolerances::BESIDE;
 use glam::DVec2;
 
@@ -30,9 +30,9 @@ const ANY_KEY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 const SHORTEST_PART: f64 = 5.0;
 
 /// Adds a part to the longer one of those beside it.
-fn absorb(parts: &mut Vec<Piece>, part: usize) {
-    let Piece { from, to, .. } = parts.remove(part);
-    let length = |part: Option<&Piece>| part.map_or(0.0, Piece::length);
+fn absorb(parts: &mut Vec<Interval>, part: usize) {
+    let Interval { from, to, .. } = parts.remove(part);
+    let length = |part: Option<&Interval>| part.map_or(0.0, Interval::length);
     let (before, after) = (part.checked_sub(1), part);
     let is_after = length(parts.get(after)) > length(before.and_then(|before| parts.get(before)));
     match before.filter(|_| !is_after) {
@@ -48,7 +48,7 @@ fn absorb(parts: &mut Vec<Piece>, part: usize) {
     });
 }
 
-impl Piece {
+impl Interval {
     fn length(&self) -> f64 {
         self.to - self.from
     }
@@ -56,17 +56,17 @@ impl Piece {
 
 impl LineIndex<'_> {
     /// The parts of a visible piece, told apart by where there is background beside them.
-    pub(in crate::lines) fn with_outline(&self, index: usize, image: &Image, piece: Piece) -> Vec<Piece> {
+    pub(in crate::lines) fn with_outline(&self, index: usize, image: &Image, piece: Interval) -> Vec<Interval> {
         let aside = (image.b - image.a).perp().normalize() * self.beside_px();
         let background = [aside, -aside].map(|aside| self.background(index, image, [piece.from, piece.to], aside));
         let cuts = background.iter().flatten().flatten().copied().collect();
-        let mut parts: Vec<Piece> = Vec::new();
+        let mut parts: Vec<Interval> = Vec::new();
         for place in self.places(image, [piece.from, piece.to], cuts).windows(2) {
             let middle = (place[0] + place[1]) * 0.5;
             let background = [0, 1].map(|side| hold(&background[side], middle));
             match parts.last_mut() {
                 Some(last) if last.background == background => last.to = place[1],
-                _ => parts.push(Piece { from: place[0], to: place[1], background, ..piece }),
+                _ => parts.push(Interval { from: place[0], to: place[1], background, ..piece }),
             }
         }
         let least = SHORTEST_PART * self.beside_px() / image.length();
@@ -95,8 +95,8 @@ impl LineIndex<'_> {
                 count > most
             })
         };
-        let looked = self.look(index, image, range, Vec::new(), Sought::Any, &LastHider::default());
-        let mut cuts = self.search(index, image, looked, Sought::Any, &Beside::none(), add);
+        let open_parts = self.look(index, image, range, Vec::new(), SearchDepth::Any, &OccluderCache::default());
+        let mut cuts = self.search(index, image, open_parts, SearchDepth::Any, &OverlappingLines::none(), add);
         let mut background: Vec<[f64; 2]> = Vec::new();
         for place in self.places(image, range, std::mem::take(&mut cuts.places)).windows(2) {
             let middle = (place[0] + place[1]) * 0.5;

@@ -10,14 +10,14 @@ use glam::DVec2;
 use std::cell::OnceCell;
 
 /// The lines that lie on one somewhere, looked for when somebody asks: of most hidden lines nobody does.
-pub(in crate::lines) struct Beside {
+pub(in crate::lines) struct OverlappingLines {
     /// The line with its image, and between which of its places they matter; `None` where nobody's do.
     asked: Option<(usize, Image, [f64; 2])>,
-    found: OnceCell<Found>,
+    found: OnceCell<Overlaps>,
 }
 
 /// What was found.
-enum Found {
+enum Overlaps {
     /// These.
     Few(Vec<usize>),
     /// So many that they are looked for where they matter.
@@ -27,7 +27,7 @@ enum Found {
 /// From how many on there are many.
 const MANY: usize = 12;
 
-impl Beside {
+impl OverlappingLines {
     pub(in crate::lines) fn new(index: usize, image: &Image, inside: [f64; 2]) -> Self {
         Self { asked: Some((index, *image, inside)), found: OnceCell::new() }
     }
@@ -37,21 +37,21 @@ impl Beside {
         Self { asked: None, found: OnceCell::new() }
     }
 
-    fn found(&self, lines: &LineIndex) -> &Found {
+    fn found(&self, lines: &LineIndex) -> &Overlaps {
         self.found.get_or_init(|| match &self.asked {
             Some((index, image, inside)) => lines.lying_on(*index, image, *inside),
-            None => Found::Few(Vec::new()),
+            None => Overlaps::Few(Vec::new()),
         })
     }
 
     pub(in crate::lines) fn are_none(&self, lines: &LineIndex) -> bool {
-        matches!(self.found(lines), Found::Few(lines) if lines.is_empty())
+        matches!(self.found(lines), Overlaps::Few(lines) if lines.is_empty())
     }
 }
 
 impl LineIndex<'_> {
     /// The wanted lines that lie on one in what of it is between two places.
-    fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2]) -> Found {
+    fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2]) -> Overlaps {
         let touch_px = image.touch_px(self.space);
         let mut found: Vec<usize> = Vec::new();
         for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
@@ -64,18 +64,24 @@ impl LineIndex<'_> {
                 found.len() >= MANY
             });
             if are_many {
-                return Found::Many;
+                return Overlaps::Many;
             }
         }
-        Found::Few(found)
+        Overlaps::Few(found)
     }
 
     /// Calls `visit` with each line that may lie on a part of one, perhaps several times, until it returns true; returns whether
     /// it did.
-    fn any_beside(&self, image: &Image, beside: &Beside, part: [f64; 2], mut visit: impl FnMut(usize) -> bool) -> bool {
-        match beside.found(self) {
-            Found::Few(lines) => lines.iter().any(|line| visit(*line)),
-            Found::Many => self.any_of_its_direction(image, part, visit),
+    fn any_overlapping(
+        &self,
+        image: &Image,
+        overlapping: &OverlappingLines,
+        part: [f64; 2],
+        mut visit: impl FnMut(usize) -> bool,
+    ) -> bool {
+        match overlapping.found(self) {
+            Overlaps::Few(lines) => lines.iter().any(|line| visit(*line)),
+            Overlaps::Many => self.any_of_its_direction(image, part, visit),
         }
     }
 
@@ -83,7 +89,7 @@ impl LineIndex<'_> {
     fn any_of_its_direction(&self, image: &Image, part: [f64; 2], mut visit: impl FnMut(usize) -> bool) -> bool {
         let touch_px = image.touch_px(self.space);
         let mut directions = image.directions(touch_px);
-        directions.any(|directions| self.beside.any(&image.part_box(part, touch_px, directions), &mut visit))
+        directions.any(|directions| self.overlapping.any(&image.part_box(part, touch_px, directions), &mut visit))
     }
 
     /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
@@ -92,14 +98,14 @@ impl LineIndex<'_> {
         &self,
         index: usize,
         image: &Image,
-        beside: &Beside,
+        overlapping: &OverlappingLines,
         px: DVec2,
         depth: f64,
     ) -> Option<bool> {
         let touch_px = image.touch_px(self.space);
         let (place, own_key) = (image.place_of(px), image.key(image.place_of(px)));
         let mut others: Vec<(f64, usize)> = Vec::new();
-        let is_behind = self.any_beside(image, beside, [place; 2], |other_index| {
+        let is_behind = self.any_overlapping(image, overlapping, [place; 2], |other_index| {
             let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
             let lies_on_it = image
                 .overlap(&other, touch_px.max(other.touch_px(self.space)))
@@ -147,18 +153,18 @@ impl LineIndex<'_> {
 
     /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many. Where only
     /// what is seen counts, not of those that are farther away for sure.
-    pub(in crate::lines) fn add_beside(
+    pub(in crate::lines) fn add_overlaps(
         &self,
         index: usize,
         image: &Image,
-        beside: &Beside,
+        overlapping: &OverlappingLines,
         part: [f64; 2],
         most: usize,
         cuts: &mut Vec<f64>,
     ) -> bool {
         let touch_px = image.touch_px(self.space);
         let mut count = 0;
-        self.any_beside(image, beside, part, |other_index| {
+        self.any_overlapping(image, overlapping, part, |other_index| {
             let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
             if let Some(other) =
                 self.images[other_index].filter(|other| other_index != index && !changes_nothing(other))
@@ -173,26 +179,32 @@ impl LineIndex<'_> {
     /// What of a line between two places is hidden for sure by those that are nearest among many lines on which it lies; ascending.
     pub(in crate::lines) fn behind_nearest(&self, index: usize, image: &Image, inside: [f64; 2]) -> Vec<[f64; 2]> {
         let nearest = self.bundles.nearest_along(index, image);
-        united(nearest.filter_map(|other| self.behind_line(index, image, other, inside)).collect())
+        united(nearest.filter_map(|other| self.behind_overlapping_line(index, image, other, inside)).collect())
     }
 
     /// Adds what of a part lies in the picture on another line that is nearer for sure.
-    pub(in crate::lines) fn behind_lines(
+    pub(in crate::lines) fn behind_overlapping_lines(
         &self,
         index: usize,
         image: &Image,
-        beside: &Beside,
+        overlapping: &OverlappingLines,
         part: [f64; 2],
         hidden: &mut Vec<[f64; 2]>,
     ) {
-        self.any_beside(image, beside, part, |other| {
-            hidden.extend(self.behind_line(index, image, other, part));
+        self.any_overlapping(image, overlapping, part, |other| {
+            hidden.extend(self.behind_overlapping_line(index, image, other, part));
             false
         });
     }
 
     /// What of a part lies in the picture on a certain other line that is nearer for sure.
-    fn behind_line(&self, index: usize, image: &Image, other_index: usize, part: [f64; 2]) -> Option<[f64; 2]> {
+    fn behind_overlapping_line(
+        &self,
+        index: usize,
+        image: &Image,
+        other_index: usize,
+        part: [f64; 2],
+    ) -> Option<[f64; 2]> {
         let other = self.images[other_index].filter(|_| other_index != index)?;
         let range = image.overlap(&other, image.touch_px(self.space).max(other.touch_px(self.space)))?;
         let range = [range[0].max(part[0]), range[1].min(part[1])];

@@ -1,7 +1,7 @@
 //! Faces of one plane as groups: what lies in a plane hides nothing in it and passes through nothing in it, however much of it
 //! there is, and nobody needs to look at each pair.
 
-use crate::bvh::{Box3, NO_FAMILY};
+use crate::bvh::{Box3, NO_GROUP};
 use crate::threads::{filled, threads_for_items};
 use glam::DVec3;
 use std::collections::HashMap;
@@ -9,7 +9,7 @@ use std::collections::HashMap;
 /// Faces of one plane from which on they are a group.
 const LEAST: u32 = 16;
 
-/// For each number of a face its plane, or [`NO_FAMILY`] where few others lie in it; nothing if there is no such plane.
+/// For each number of a face its plane, or [`NO_GROUP`] where few others lie in it; nothing if there is no such plane.
 ///
 /// In: for each place a face's box, corners and number; the pixels below which faces are left out; the smallest distance below
 /// which positions count as one, file units; and how many numbers there are.
@@ -57,7 +57,7 @@ pub(in crate::lines) fn planes(
         let number = counts.len() as u32;
         counts.entry(*key).or_insert((number, 0)).1 += 1;
     }
-    let mut planes = vec![NO_FAMILY; count];
+    let mut planes = vec![NO_GROUP; count];
     for (place, key) in large.iter().zip(keys) {
         let group = key.and_then(|key| counts.get(&key)).filter(|(_, count)| *count >= LEAST);
         if let Some((number, _)) = group {

@@ -22,7 +22,7 @@ const FEW: usize = 10_000;
 const FEW_LAYERS: f64 = 4.0;
 
 /// Faces that a thread looks at at once.
-const PLATES_AT_ONCE: usize = 4096;
+const PROJECTED_AT_ONCE: usize = 4096;
 
 /// How often boxes of pixels and keys cover the picture.
 pub(in crate::lines) fn layers<'a>(space: &Space, boxes: impl Iterator<Item = &'a Box3>) -> f64 {
@@ -43,7 +43,7 @@ pub(in crate::lines) struct Pyramid {
 }
 
 /// A face as it lies in the picture.
-struct Plate {
+struct ProjectedFace {
     low: DVec2,
     high: DVec2,
     /// Of each side the direction inwards and where it is 0, pixels.
@@ -59,7 +59,7 @@ struct Plate {
     area_px: f64,
 }
 
-impl Plate {
+impl ProjectedFace {
     /// `None` of what cannot hide anything for sure.
     fn new(space: &Space, faces: &Faces, place: u32) -> Option<Self> {
         if faces.cut_by_near.binary_search(&place).is_ok() {
@@ -87,7 +87,7 @@ impl Plate {
             let inwards = (to - from).perp().normalize_or_zero() * area.signum();
             (inwards, inwards.dot(from))
         });
-        let plate = Self {
+        let projected = Self {
             low: pa.min(pb).min(pc),
             high: pa.max(pb).max(pc),
             sides,
@@ -98,7 +98,7 @@ impl Plate {
             margin,
             area_px: area.abs() * 0.5,
         };
-        (growth.is_finite() && beyond.is_finite() && reach.is_finite()).then_some(plate)
+        (growth.is_finite() && beyond.is_finite() && reach.is_finite()).then_some(projected)
     }
 
     /// Whether it is large enough to cover a cell; of what reaches out of the picture a part of a cell is enough. No triangle holds a square of
@@ -153,21 +153,22 @@ impl Pyramid {
         if large.len() < FEW && layers < FEW_LAYERS {
             return None;
         }
-        let plates = in_chunks(large.len(), PLATES_AT_ONCE, cores(), |range| {
-            let plate = |index: usize| {
-                Plate::new(space, faces, large[index]).filter(|plate| plate.may_cover(cell_px, space.size))
+        let projected_faces = in_chunks(large.len(), PROJECTED_AT_ONCE, cores(), |range| {
+            let projected = |index: usize| {
+                ProjectedFace::new(space, faces, large[index])
+                    .filter(|projected| projected.may_cover(cell_px, space.size))
             };
-            range.filter_map(plate).collect::<Vec<Plate>>()
+            range.filter_map(projected).collect::<Vec<ProjectedFace>>()
         });
-        let mut plates: Vec<Plate> = plates.into_iter().flatten().collect();
-        if plates.is_empty() {
+        let mut projected_faces: Vec<ProjectedFace> = projected_faces.into_iter().flatten().collect();
+        if projected_faces.is_empty() {
             return None;
         }
-        plates.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
+        projected_faces.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
         let levels = (0..=top).map(|level| vec![f64::INFINITY; 1 << (2 * (top - level))]).collect();
         let mut pyramid = Self { levels, cell_px, size: space.size };
         pyramid.leave_out_what_lies_beside_the_picture();
-        plates.iter().for_each(|plate| pyramid.add_where_it_lies(plate));
+        projected_faces.iter().for_each(|projected| pyramid.add_where_it_lies(projected));
         pyramid.settle();
         let is_of_use = pyramid.levels[0].iter().any(|key| key.is_finite());
         is_of_use.then_some(pyramid)
@@ -203,12 +204,12 @@ impl Pyramid {
     }
 
     /// Lets a face hide what it covers: of the smallest cell that it lies in as a whole, and so of those around that.
-    fn add_where_it_lies(&mut self, plate: &Plate) {
+    fn add_where_it_lies(&mut self, projected: &ProjectedFace) {
         let corner = |px: DVec2| {
             let [column, row] = (px.clamp(DVec2::ZERO, self.size) / self.cell_px).to_array();
             [column, row].map(|at| (at as usize).min((1 << self.top()) - 1))
         };
-        let [low, high] = [corner(plate.low - plate.margin), corner(plate.high + plate.margin)];
+        let [low, high] = [corner(projected.low - projected.margin), corner(projected.high + projected.margin)];
         let differing = (low[0] ^ high[0]) | (low[1] ^ high[1]);
         let start = (usize::BITS - differing.leading_zeros()) as usize;
         let cell = |level: usize| (low[0] >> level, low[1] >> level);
@@ -221,7 +222,7 @@ impl Pyramid {
             own[level] = own[level + 1].min(self.levels[level][around(self, level)]);
         }
         let (column, row) = cell(start);
-        self.add(plate, start, column, row, own[start + 1]);
+        self.add(projected, start, column, row, own[start + 1]);
         for (level, own) in own.into_iter().enumerate().take(self.top() + 1).skip(start + 1) {
             let (column, row) = cell(level);
             let children = [(0, 0), (1, 0), (0, 1), (1, 1)]
@@ -236,7 +237,7 @@ impl Pyramid {
     }
 
     /// Lets a face hide what it covers of a cell; returns the cell's key.
-    fn add(&mut self, plate: &Plate, level: usize, column: usize, row: usize, above: f64) -> f64 {
+    fn add(&mut self, projected: &ProjectedFace, level: usize, column: usize, row: usize, above: f64) -> f64 {
         let (middle, half) = self.rectangle(level, column, row);
         // A cell beside the picture.
         if half.min_element() <= 0.0 {
@@ -244,20 +245,20 @@ impl Pyramid {
         }
         let index = self.index(level, column, row);
         let own = self.levels[level][index].min(above);
-        if !plate.overlaps(middle, half) {
+        if !projected.overlaps(middle, half) {
             return own;
         }
-        let [nearest, farthest] = plate.keys(middle, half);
+        let [nearest, farthest] = projected.keys(middle, half);
         if nearest >= own {
             return own;
         }
         let mut key = own;
-        if plate.covers(middle, half) {
-            key = key.min(farthest + plate.beyond);
+        if projected.covers(middle, half) {
+            key = key.min(farthest + projected.beyond);
         } else if level > 0 {
             let mut of_children = f64::NEG_INFINITY;
             for (right, down) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-                of_children = of_children.max(self.add(plate, level - 1, column * 2 + right, row * 2 + down, own));
+                of_children = of_children.max(self.add(projected, level - 1, column * 2 + right, row * 2 + down, own));
             }
             key = key.min(of_children);
         }
@@ -335,24 +336,24 @@ impl Pyramid {
             let [low, high] = boxes[place].corners();
             if !self.hides(low.truncate(), high.truncate(), low.z) {
                 let is_small = (high - low).truncate().max_element() <= 2.0 * self.cell_px;
-                let plate = || Plate::new(space, faces, place as u32);
-                return is_small || plate().is_none_or(|plate| self.sees(&plate, self.top(), 0, 0));
+                let projected = || ProjectedFace::new(space, faces, place as u32);
+                return is_small || projected().is_none_or(|projected| self.sees(&projected, self.top(), 0, 0));
             }
             false
         })
     }
 
-    fn sees(&self, plate: &Plate, level: usize, column: usize, row: usize) -> bool {
+    fn sees(&self, projected: &ProjectedFace, level: usize, column: usize, row: usize) -> bool {
         let (middle, half) = self.rectangle(level, column, row);
-        if half.min_element() <= 0.0 || !plate.overlaps(middle, half) {
+        if half.min_element() <= 0.0 || !projected.overlaps(middle, half) {
             return false;
         }
-        if plate.keys(middle, half)[0] > self.levels[level][self.index(level, column, row)] {
+        if projected.keys(middle, half)[0] > self.levels[level][self.index(level, column, row)] {
             return false;
         }
         let children = [(0, 0), (1, 0), (0, 1), (1, 1)];
         level == 0
-            || children.iter().any(|(right, down)| self.sees(plate, level - 1, column * 2 + right, row * 2 + down))
+            || children.iter().any(|(right, down)| self.sees(projected, level - 1, column * 2 + right, row * 2 + down))
     }
 }
 
@@ -388,14 +389,14 @@ mod tests {
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
         let found = Pyramid::new(&space, &faces).unwrap();
-        let mut plates: Vec<Plate> =
-            (0..faces.triangles.len() as u32).filter_map(|place| Plate::new(&space, &faces, place)).collect();
-        plates.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
+        let mut projected_faces: Vec<ProjectedFace> =
+            (0..faces.triangles.len() as u32).filter_map(|place| ProjectedFace::new(&space, &faces, place)).collect();
+        projected_faces.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
         let levels = (0..=COARSE).map(|level| vec![f64::INFINITY; 1 << (2 * (COARSE - level))]).collect();
         let mut from_top = Pyramid { levels, cell_px: found.cell_px, size: found.size };
         from_top.leave_out_what_lies_beside_the_picture();
-        plates.iter().for_each(|plate| {
-            from_top.add(plate, COARSE, 0, 0, f64::INFINITY);
+        projected_faces.iter().for_each(|projected| {
+            from_top.add(projected, COARSE, 0, 0, f64::INFINITY);
         });
         from_top.settle();
         let hidden = found.levels[0].iter().filter(|key| key.is_finite()).count();

@@ -12,9 +12,9 @@ use crate::lines::input::feature::Feature;
 use crate::lines::visible::face_image::FaceImage;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
-use crate::lines::visible::nearest_faces::Foremost;
-use crate::lines::visible::occluder_probe::{Line, Sought, Stretch};
-use crate::lines::visible::overlapping_lines::Beside;
+use crate::lines::visible::nearest_faces::NearestFaces;
+use crate::lines::visible::occluder_probe::{OccluderProbe, ProbedLine, SearchDepth};
+use crate::lines::visible::overlapping_lines::OverlappingLines;
 use crate::lines::visible::ranges::{gaps, hold, united};
 use crate::tolerances::NEAR_CORNER;
 use std::cell::Cell;
@@ -51,11 +51,11 @@ const ASKED: usize = 48;
 
 /// The face that hid a line last: often it hides the next one too.
 #[derive(Default)]
-pub(in crate::lines) struct LastHider(Cell<Option<u32>>);
+pub(in crate::lines) struct OccluderCache(Cell<Option<u32>>);
 
 /// The parts of a line that are to be searched, and those of which a look shows that they are hidden.
 #[derive(Default)]
-pub(in crate::lines) struct Looked {
+pub(in crate::lines) struct OpenParts {
     pub open: Vec<[f64; 2]>,
     hidden: Vec<[f64; 2]>,
 }
@@ -68,35 +68,35 @@ impl LineIndex<'_> {
         image: &Image,
         inside: [f64; 2],
         hidden: Vec<[f64; 2]>,
-        sought: Sought,
-        last: &LastHider,
-    ) -> Looked {
+        search_depth: SearchDepth,
+        last: &OccluderCache,
+    ) -> OpenParts {
         let longest = self.space.size.max_element() / PARTS_OF_PICTURE;
         let is_long = |gap: &[f64; 2]| *gap == inside || (gap[1] - gap[0]) * image.length() > self.shortest_px;
         let gaps_before = gaps(inside, &hidden);
-        let mut looked = Looked { open: Vec::new(), hidden };
+        let mut open_parts = OpenParts { open: Vec::new(), hidden };
         for gap in gaps_before.into_iter().filter(is_long) {
-            if self.pyramid_hides(image, gap, sought) {
-                looked.hidden.push(gap);
+            if self.pyramid_hides(image, gap, search_depth) {
+                open_parts.hidden.push(gap);
                 continue;
             }
             let parts: Vec<[f64; 2]> = image.parts(gap, longest).collect();
             let is_whole = parts.len() == 1;
             for part in parts {
-                if !is_whole && self.pyramid_hides(image, part, sought) {
-                    looked.hidden.push(part);
+                if !is_whole && self.pyramid_hides(image, part, search_depth) {
+                    open_parts.hidden.push(part);
                     continue;
                 }
-                let hidden = self.hidden_by_foremost(index, image, part, sought);
-                if hidden != [part] && self.one_hides(index, image, part, sought, last) {
-                    looked.hidden.push(part);
+                let hidden = self.hidden_by_nearest_faces(index, image, part, search_depth);
+                if hidden != [part] && self.one_hides(index, image, part, search_depth, last) {
+                    open_parts.hidden.push(part);
                     continue;
                 }
-                looked.open.extend(gaps(part, &hidden).into_iter().filter(is_long));
-                looked.hidden.extend(hidden);
+                open_parts.open.extend(gaps(part, &hidden).into_iter().filter(is_long));
+                open_parts.hidden.extend(hidden);
             }
         }
-        looked
+        open_parts
     }
 
     /// The cuts of the open parts of a line; `add` adds those of one, or returns true where there are more than a given number.
@@ -104,19 +104,19 @@ impl LineIndex<'_> {
         &self,
         index: usize,
         image: &Image,
-        looked: Looked,
-        sought: Sought,
-        beside: &Beside,
+        open_parts: OpenParts,
+        search_depth: SearchDepth,
+        overlapping: &OverlappingLines,
         mut add: impl FnMut([f64; 2], usize, &mut Vec<f64>) -> bool,
     ) -> Cuts {
-        let mut found = Cuts { hidden: looked.hidden, ..Cuts::default() };
-        for part in looked.open {
+        let mut found = Cuts { hidden: open_parts.hidden, ..Cuts::default() };
+        for part in open_parts.open {
             let before = found.places.len();
             if !add(part, MOST, &mut found.places) {
                 continue;
             }
             found.places.truncate(before);
-            self.sweep(index, image, part, sought, beside, &mut found);
+            self.sweep(index, image, part, search_depth, overlapping, &mut found);
             for gap in gaps(part, &found.hidden) {
                 if (gap[1] - gap[0]) * image.length() > self.shortest_px {
                     add(gap, usize::MAX, &mut found.places);
@@ -128,24 +128,31 @@ impl LineIndex<'_> {
         found
     }
 
-    fn pyramid_hides(&self, image: &Image, part: [f64; 2], sought: Sought) -> bool {
+    fn pyramid_hides(&self, image: &Image, part: [f64; 2], search_depth: SearchDepth) -> bool {
         let Some(pyramid) = self.pyramid else { return false };
         let [first, second] = part.map(|place| image.at(place));
         let (low, high) = (first.min(second), first.max(second));
-        match sought {
-            Sought::Nearer => pyramid.hides(low, high, image.key(part[0]).min(image.key(part[1]))),
-            Sought::Any => pyramid.covers(low, high),
+        match search_depth {
+            SearchDepth::Nearer => pyramid.hides(low, high, image.key(part[0]).min(image.key(part[1]))),
+            SearchDepth::Any => pyramid.covers(low, high),
         }
     }
 
     /// Whether one face of those before the middle of a part hides all of it for sure. Asked where there are many.
-    fn one_hides(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought, last: &LastHider) -> bool {
-        if self.foremost.is_none() || sought == Sought::Any {
+    fn one_hides(
+        &self,
+        index: usize,
+        image: &Image,
+        part: [f64; 2],
+        search_depth: SearchDepth,
+        last: &OccluderCache,
+    ) -> bool {
+        if self.nearest_faces.is_none() || search_depth == SearchDepth::Any {
             return false;
         }
         let feature = &self.features[index];
-        let stretch = self.stretch(index, image, part, sought);
-        let hides = |face: u32| self.hidden_ranges(face, &stretch)[0] == Some(part);
+        let probe = self.occluder_probe(index, image, part, search_depth);
+        let hides = |face: u32| self.hidden_ranges(face, &probe)[0] == Some(part);
         if last.0.get().is_some_and(hides) {
             return true;
         }
@@ -165,33 +172,47 @@ impl LineIndex<'_> {
     }
 
     /// What of a part the nearest faces hide for sure. Asked where there are many.
-    fn hidden_by_foremost(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought) -> Vec<[f64; 2]> {
-        let Some(foremost) = self.foremost else { return Vec::new() };
-        let stretch = |part: [f64; 2]| self.stretch(index, image, part, sought);
-        foremost.hidden(self.space, self.faces, part, stretch, Foremost::ASKED)
+    fn hidden_by_nearest_faces(
+        &self,
+        index: usize,
+        image: &Image,
+        part: [f64; 2],
+        search_depth: SearchDepth,
+    ) -> Vec<[f64; 2]> {
+        let Some(nearest_faces) = self.nearest_faces else { return Vec::new() };
+        let probe = |part: [f64; 2]| self.occluder_probe(index, image, part, search_depth);
+        nearest_faces.hidden(self.space, self.faces, part, probe, NearestFaces::ASKED)
     }
 
-    fn stretch(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought) -> Stretch {
+    fn occluder_probe(&self, index: usize, image: &Image, part: [f64; 2], search_depth: SearchDepth) -> OccluderProbe {
         let &Feature { own, ends, weld, .. } = &self.features[index];
-        Stretch::new(self.space, self.faces, Line { own, ends, weld }, image, part, sought)
+        OccluderProbe::new(self.space, self.faces, ProbedLine { own, ends, weld }, image, part, search_depth)
     }
 
     /// Finds what of a part faces hide for sure, and what they may hide.
-    fn sweep(&self, index: usize, image: &Image, part: [f64; 2], sought: Sought, beside: &Beside, found: &mut Cuts) {
+    fn sweep(
+        &self,
+        index: usize,
+        image: &Image,
+        part: [f64; 2],
+        search_depth: SearchDepth,
+        overlapping: &OverlappingLines,
+        found: &mut Cuts,
+    ) {
         let feature = &self.features[index];
         let length = image.length();
         // What the pyramid hides of it, in pieces of about its cells.
         let mut hidden: Vec<[f64; 2]> = Vec::new();
         if self.pyramid.is_some() {
             let pieces = image.parts(part, self.space.size.max_element() / (PARTS_OF_PICTURE * 8.0));
-            hidden.extend(pieces.filter(|piece| self.pyramid_hides(image, *piece, sought)));
+            hidden.extend(pieces.filter(|piece| self.pyramid_hides(image, *piece, search_depth)));
         }
         let touch_px = image.touch_px(self.space);
-        let farthest = |part: [f64; 2]| match sought {
-            Sought::Nearer => image.key(part[0]).max(image.key(part[1])),
-            Sought::Any => f64::INFINITY,
+        let farthest = |part: [f64; 2]| match search_depth {
+            SearchDepth::Nearer => image.key(part[0]).max(image.key(part[1])),
+            SearchDepth::Any => f64::INFINITY,
         };
-        let stretch = |part: [f64; 2]| self.stretch(index, image, part, sought);
+        let probe = |part: [f64; 2]| self.occluder_probe(index, image, part, search_depth);
         // Often one face or two hide nearly all.
         for _ in 0..PROBES {
             let open = gaps(part, &hidden);
@@ -199,11 +220,11 @@ impl LineIndex<'_> {
             let middle = (gap[0] + gap[1]) * 0.5;
             let px = image.at(middle);
             let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(farthest([middle; 2])));
-            let stretch = stretch(gap);
+            let probe = probe(gap);
             let (mut asked, mut best) = (0, [middle; 2]);
             self.any_occluder(&column, feature.planes, |face| {
                 asked += 1;
-                let sure = self.hidden_ranges(face, &stretch)[0];
+                let sure = self.hidden_ranges(face, &probe)[0];
                 if let Some(sure) = sure.filter(|sure| sure[1] - sure[0] > best[1] - best[0]) {
                     best = sure;
                 }
@@ -222,10 +243,10 @@ impl LineIndex<'_> {
                 maybe.push(gap);
                 continue;
             }
-            let stretch = stretch(gap);
+            let probe = probe(gap);
             let farthest = farthest(gap);
             self.any_occluder(&image.part_box(gap, touch_px, [f64::NEG_INFINITY, farthest]), feature.planes, |face| {
-                let [sure, may] = self.hidden_ranges(face, &stretch);
+                let [sure, may] = self.hidden_ranges(face, &probe);
                 hidden.extend(sure);
                 maybe.extend(may);
                 false
@@ -235,7 +256,7 @@ impl LineIndex<'_> {
         if !self.finds_hidden {
             let open = gaps(part, &hidden);
             for gap in open.into_iter().filter(|gap| (gap[1] - gap[0]) * length > self.shortest_px) {
-                self.behind_lines(index, image, beside, gap, &mut hidden);
+                self.behind_overlapping_lines(index, image, overlapping, gap, &mut hidden);
             }
         }
         found.hidden.extend(united(hidden));
@@ -246,12 +267,12 @@ impl LineIndex<'_> {
 
 impl LineIndex<'_> {
     /// What of a part of a line a face hides for sure, on both sides, and what it may hide.
-    fn hidden_ranges(&self, face: u32, stretch: &Stretch) -> [Option<[f64; 2]>; 2] {
-        match self.foremost {
-            Some(foremost) => {
-                self.faces.hidden_ranges(self.space, face, &foremost.image(self.space, self.faces, face), stretch)
+    fn hidden_ranges(&self, face: u32, probe: &OccluderProbe) -> [Option<[f64; 2]>; 2] {
+        match self.nearest_faces {
+            Some(nearest_faces) => {
+                self.faces.hidden_ranges(self.space, face, &nearest_faces.image(self.space, self.faces, face), probe)
             }
-            None => self.faces.hidden_ranges(self.space, face, &FaceImage::of(self.space, self.faces, face), stretch),
+            None => self.faces.hidden_ranges(self.space, face, &FaceImage::of(self.space, self.faces, face), probe),
         }
     }
 }

@@ -7,22 +7,13 @@ use crate::bvh::{counting_steps, steps};
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::segment::LineSegment;
 use crate::lines::visible::image::Image;
+use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
-use crate::lines::visible::occluder_probe::Sought;
-use crate::lines::visible::overlapping_lines::Beside;
-use crate::lines::visible::search::{Cuts, LastHider};
+use crate::lines::visible::occluder_probe::SearchDepth;
+use crate::lines::visible::overlapping_lines::OverlappingLines;
+use crate::lines::visible::search::{Cuts, OccluderCache};
 use crate::threads::{cores, spread_chunks};
 use std::cell::LazyCell;
-
-/// A part of a line that is seen or hidden as a whole, by its places on the image.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::lines) struct Piece {
-    pub from: f64,
-    pub to: f64,
-    pub is_visible: bool,
-    /// On which sides there is nothing but background, on the right and on the left as it runs.
-    pub background: [bool; 2],
-}
 
 /// Pieces of one line between two looks at the time.
 const PIECES_A_GLANCE: usize = 64;
@@ -36,7 +27,7 @@ impl LineIndex<'_> {
         // Not one after the other: what is left then takes as long as what is done, and a part is one of the whole picture.
         let parts = spread_chunks(self.features.len(), LINES, cores(), |range| {
             counting_steps(|| {
-                let (mut segments, last) = (Vec::new(), LastHider::default());
+                let (mut segments, last) = (Vec::new(), OccluderCache::default());
                 for index in range {
                     if progress.is_over() {
                         break;
@@ -60,7 +51,7 @@ impl LineIndex<'_> {
     fn add_segments(
         &self,
         index: usize,
-        last: &LastHider,
+        last: &OccluderCache,
         progress: &Progress,
         segments: &mut Vec<LineSegment>,
     ) -> Option<()> {
@@ -71,23 +62,23 @@ impl LineIndex<'_> {
             return Some(());
         }
         let behind = self.behind_nearest(index, &image, inside);
-        let looked = self.look(index, &image, inside, behind, Sought::Nearer, last);
-        if !self.finds_hidden && looked.open.is_empty() {
+        let open_parts = self.look(index, &image, inside, behind, SearchDepth::Nearer, last);
+        if !self.finds_hidden && open_parts.open.is_empty() {
             return Some(());
         }
-        let beside = Beside::new(index, &image, inside);
-        let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, &beside, part, most, cuts);
-        let mut cuts = self.search(index, &image, looked, Sought::Nearer, &beside, add);
+        let overlapping = OverlappingLines::new(index, &image, inside);
+        let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, &overlapping, part, most, cuts);
+        let mut cuts = self.search(index, &image, open_parts, SearchDepth::Nearer, &overlapping, add);
         self.add_piercings(index, &image, &mut cuts.places);
         if self.finds_hidden {
             // The box of one that is upright or level holds no other.
             let is_thin = (image.b - image.a).abs().min_element() < 1.0;
             let longest = if is_thin { f64::INFINITY } else { self.space.size.max_element() / PARTS_OF_PICTURE };
             for part in image.parts(inside, longest) {
-                self.add_beside(index, &image, &beside, part, usize::MAX, &mut cuts.places);
+                self.add_overlaps(index, &image, &overlapping, part, usize::MAX, &mut cuts.places);
             }
         }
-        let mut pieces: Vec<Piece> = Vec::new();
+        let mut pieces: Vec<Interval> = Vec::new();
         let places = self.places(&image, inside, std::mem::take(&mut cuts.places));
         for (number, place) in places.windows(2).enumerate() {
             if number % PIECES_A_GLANCE == PIECES_A_GLANCE - 1 && progress.is_over() {
@@ -99,14 +90,14 @@ impl LineIndex<'_> {
             if is_hidden && !self.finds_hidden {
                 continue;
             }
-            let Some(is_visible) = self.state(index, &image, &beside, place, is_hidden, &cuts) else { continue };
+            let Some(is_visible) = self.state(index, &image, &overlapping, place, is_hidden, &cuts) else { continue };
             match pieces.last_mut() {
                 Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
-                _ => pieces.push(Piece { from, to, is_visible, background: [false; 2] }),
+                _ => pieces.push(Interval { from, to, is_visible, background: [false; 2] }),
             }
         }
         pieces.retain(|piece| piece.is_visible || self.finds_hidden);
-        let mut add = |piece: Piece| {
+        let mut add = |piece: Interval| {
             segments.push(LineSegment {
                 class,
                 is_visible: piece.is_visible,
@@ -135,13 +126,14 @@ impl LineIndex<'_> {
         &self,
         index: usize,
         image: &Image,
-        beside: &Beside,
+        overlapping: &OverlappingLines,
         place: f64,
         is_hidden: bool,
         cuts: &Cuts,
     ) -> Option<bool> {
         let probe = LazyCell::new(|| self.probe(index, image, place));
-        let is_nearest = beside.are_none(self) || self.is_nearest(index, image, beside, probe.px, -probe.view.z)?;
+        let is_nearest =
+            overlapping.are_none(self) || self.is_nearest(index, image, overlapping, probe.px, -probe.view.z)?;
         let leave_open = || {
             let planes = self.features[index].planes;
             self.faces.leave_open(self.space, &probe, |column, visit| self.any_occluder(column, planes, visit))

@@ -17,7 +17,7 @@ use std::collections::hash_map::Entry;
 pub(super) struct Outline<'a> {
     mesh: &'a Mesh,
     sets: Vec<Set<'a>>,
-    pieces: Vec<Piece<'a>>,
+    pieces: Vec<PrimitivePart<'a>>,
     /// How many primitives are points or lines.
     pub others: usize,
 }
@@ -31,7 +31,7 @@ struct Set<'a> {
 }
 
 /// A primitive's triangles over the vertices of a set.
-struct Piece<'a> {
+struct PrimitivePart<'a> {
     primitive: &'a Primitive,
     mode: Mode,
     set: usize,
@@ -85,7 +85,7 @@ impl<'a> Outline<'a> {
                 None => outline.sets[set].count,
             };
             let material = material.map_or(NONE, |material| material as u32);
-            outline.pieces.push(Piece { primitive, mode, set, corners, material });
+            outline.pieces.push(PrimitivePart { primitive, mode, set, corners, material });
         }
         Ok(outline)
     }

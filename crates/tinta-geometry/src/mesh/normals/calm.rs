@@ -4,7 +4,7 @@
 //! keep theirs exactly. One round reaches as far as one edge, so that relief wider than a facet stays. Neighbours count less the more they differ.
 
 use super::incidence::Incidence;
-use super::lasting::Lasting;
+use super::persistent_creases::PersistentCreases;
 use crate::mesh::NONE;
 use crate::threads::{filled, threads_for};
 use glam::{DVec3, Vec3};
@@ -16,7 +16,7 @@ const SHARE: f64 = 0.5;
 pub(super) fn calm(
     triangles: &[[u32; 3]],
     incidence: &Incidence,
-    lasting: &Lasting,
+    lasting: &PersistentCreases,
     cos_smooth: f64,
     first: u32,
     normals: &mut [Vec3],

@@ -5,7 +5,7 @@
 //! curvature); around a vertex of a plane, a cylinder or a cone they do. A patch is curved where the larger part of its area lies at such
 //! vertices, in facets from which the surface that they stand for bulges by less than the outline of `print` is wide.
 
-use super::even::Faces;
+use super::denoise_normals::Faces;
 use super::incidence::{Incidence, angle_at};
 use crate::disjoint_sets::DisjointSets;
 use crate::threads::{filled, threads_for};
@@ -18,7 +18,7 @@ const BENDS: f64 = 0.01;
 /// The most that a surface bulges from a facet, in shares of the diagonal of the model's box.
 const BULGE: f64 = 0.003;
 
-/// The mean area of facets that are too small to be seen, in squares of that diagonal: the patches of `even.rs` are as large.
+/// The mean area of facets that are too small to be seen, in squares of that diagonal: the patches of `denoise_normals.rs` are as large.
 const UNSEEN: f64 = 9e-6;
 
 /// An edge of two faces.

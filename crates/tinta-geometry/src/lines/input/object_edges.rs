@@ -1,7 +1,7 @@
-//! The objects of a scene with their edges: those of the mesh as it is, or as it was mended.
+//! The objects of a scene with their edges: those of the mesh as it is, or as it was repaired.
 
 use crate::edges::{Eye, Incidence, MeshEdges, Side, SilhouetteRule, side_of_face};
-use crate::lines::input::mesh_repair::{self, Mended};
+use crate::lines::input::mesh_repair::{self, RepairedMesh};
 use crate::mesh::Mesh;
 use crate::scene::{Object, Scene};
 use crate::tolerances::CONTACT;
@@ -9,19 +9,19 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 /// An object with its edges.
-pub(in crate::lines) struct Part<'a> {
+pub(in crate::lines) struct ObjectEdges<'a> {
     pub object: &'a Object,
     pub edges: Edges<'a>,
 }
 
-/// The edges of the scene's own mesh, or of a mended one.
+/// The edges of the scene's own mesh, or of a repaired one.
 pub(in crate::lines) enum Edges<'a> {
     OfScene(&'a MeshEdges),
-    Mended(Arc<MendedEdges>),
+    Repaired(Arc<RepairedEdges>),
 }
 
-/// The edges of a mended mesh with the faces that hide.
-pub(in crate::lines) struct MendedEdges {
+/// The edges of a repaired mesh with the faces that hide.
+pub(in crate::lines) struct RepairedEdges {
     edges: MeshEdges,
     shape: Arc<Mesh>,
     whole_faces: Vec<u32>,
@@ -31,9 +31,9 @@ pub(in crate::lines) struct MendedEdges {
     covered: usize,
 }
 
-impl MendedEdges {
-    pub(in crate::lines) fn new(mended: Mended) -> Self {
-        let Mended { shape, split, whole_faces, on_edges, covered } = mended;
+impl RepairedEdges {
+    pub(in crate::lines) fn new(repaired: RepairedMesh) -> Self {
+        let RepairedMesh { shape, split, whole_faces, on_edges, covered } = repaired;
         let edges = MeshEdges::new(split);
         let is_split = |face: &u32| {
             let whole = whole_faces[*face as usize];
@@ -63,17 +63,17 @@ impl Edges<'_> {
     pub(in crate::lines) fn get(&self) -> &MeshEdges {
         match self {
             Self::OfScene(edges) => edges,
-            Self::Mended(mended) => &mended.edges,
+            Self::Repaired(repaired) => &repaired.edges,
         }
     }
 }
 
-impl Part<'_> {
+impl ObjectEdges<'_> {
     /// The faces that hide.
     pub(in crate::lines) fn shape(&self) -> &Arc<Mesh> {
         match &self.edges {
             Edges::OfScene(edges) => edges.mesh(),
-            Edges::Mended(mended) => &mended.shape,
+            Edges::Repaired(repaired) => &repaired.shape,
         }
     }
 
@@ -81,30 +81,30 @@ impl Part<'_> {
     pub(in crate::lines) fn whole_face(&self, face: u32) -> u32 {
         match &self.edges {
             Edges::OfScene(_) => face,
-            Edges::Mended(mended) => mended.whole_faces[face as usize],
+            Edges::Repaired(repaired) => repaired.whole_faces[face as usize],
         }
     }
 
     /// Whether faces were split at vertices on their edges.
     pub(in crate::lines) fn has_split_edges(&self) -> bool {
-        matches!(&self.edges, Edges::Mended(mended) if !mended.on_edges.is_empty())
+        matches!(&self.edges, Edges::Repaired(repaired) if !repaired.on_edges.is_empty())
     }
 
     /// The vertices on an edge of the shape where its faces were split, in their order along it; the edge's lower position first.
     pub(in crate::lines) fn on_edge(&self, edge: [u32; 2]) -> &[u32] {
         match &self.edges {
             Edges::OfScene(_) => &[],
-            Edges::Mended(mended) => mended.on_edges.get(&edge).map_or(&[], Vec::as_slice),
+            Edges::Repaired(repaired) => repaired.on_edges.get(&edge).map_or(&[], Vec::as_slice),
         }
     }
 
     /// The exact silhouette edges for an eye, ascending.
     pub(in crate::lines) fn silhouette(&self, eye: Eye) -> Vec<u32> {
         let mut silhouette = self.edges.get().silhouette(eye, SilhouetteRule::Exact);
-        if let Edges::Mended(mended) = &self.edges {
-            let at_split_faces = &mended.at_split_faces;
+        if let Edges::Repaired(repaired) = &self.edges {
+            let at_split_faces = &repaired.at_split_faces;
             silhouette.retain(|edge| at_split_faces.binary_search(edge).is_err());
-            silhouette.extend(at_split_faces.iter().filter(|edge| mended.is_silhouette(**edge, eye)));
+            silhouette.extend(at_split_faces.iter().filter(|edge| repaired.is_silhouette(**edge, eye)));
             silhouette.sort_unstable();
         }
         silhouette
@@ -114,7 +114,7 @@ impl Part<'_> {
     pub(in crate::lines) fn covered(&self) -> usize {
         match &self.edges {
             Edges::OfScene(_) => 0,
-            Edges::Mended(mended) => mended.covered,
+            Edges::Repaired(repaired) => repaired.covered,
         }
     }
 
@@ -146,18 +146,19 @@ impl Part<'_> {
     }
 }
 
-/// The scene's objects with their edges, mended where that is needed; objects of one mesh share them.
-pub(in crate::lines) fn parts(scene: &Scene) -> Vec<Part<'_>> {
-    let mut known: HashMap<*const Mesh, Option<Arc<MendedEdges>>> = HashMap::new();
+/// The scene's objects with their edges, repaired where that is needed; objects of one mesh share them.
+pub(in crate::lines) fn object_edges(scene: &Scene) -> Vec<ObjectEdges<'_>> {
+    let mut known: HashMap<*const Mesh, Option<Arc<RepairedEdges>>> = HashMap::new();
     let mut parts = Vec::with_capacity(scene.objects.len());
     for object in &scene.objects {
         let (mesh, edges) = (&object.mesh, scene.edges(object));
-        let repair = || mesh_repair::repaired(mesh, edges.list()).map(|mended| Arc::new(MendedEdges::new(mended)));
+        let repair =
+            || mesh_repair::repaired(mesh, edges.list()).map(|repaired| Arc::new(RepairedEdges::new(repaired)));
         let edges = match known.entry(Arc::as_ptr(mesh)).or_insert_with(repair) {
             None => Edges::OfScene(edges),
-            Some(edges) => Edges::Mended(edges.clone()),
+            Some(edges) => Edges::Repaired(edges.clone()),
         };
-        parts.push(Part { object, edges });
+        parts.push(ObjectEdges { object, edges });
     }
     parts
 }

@@ -60,13 +60,13 @@ impl Faces<'_> {
 }
 
 /// The triangles' unit normals evened out, and whether each is where there is noise.
-pub(super) struct Evened {
+pub(super) struct DenoisedNormals {
     pub normals: Vec<DVec3>,
     pub is_noisy: Vec<bool>,
 }
 
 /// Evens out normals; `diagonal` is that of the model's box, in its own unit.
-pub(super) fn even(faces: &Faces<'_>, diagonal: f64, cos_smooth: f64) -> Evened {
+pub(super) fn denoised(faces: &Faces<'_>, diagonal: f64, cos_smooth: f64) -> DenoisedNormals {
     let unit = (REACH * diagonal).powi(2);
     let patches = patches(faces, unit, cos_smooth);
     let count = patches.areas.len();
@@ -87,7 +87,7 @@ pub(super) fn even(faces: &Faces<'_>, diagonal: f64, cos_smooth: f64) -> Evened 
     };
     let limits: Vec<Limit> = (0..count).map(limit).collect();
     if !limits.iter().any(|limit| limit.is_noisy()) {
-        return Evened { normals: faces.normals.to_vec(), is_noisy: vec![false; faces.normals.len()] };
+        return DenoisedNormals { normals: faces.normals.to_vec(), is_noisy: vec![false; faces.normals.len()] };
     }
     mix(&patches, &limits, &mut places, unit);
     let threads = threads_for(faces.normals.len());
@@ -106,7 +106,7 @@ pub(super) fn even(faces: &Faces<'_>, diagonal: f64, cos_smooth: f64) -> Evened 
         });
         (near(&own).max(f64::EPSILON) * own.normal + beside.sum::<DVec3>()).normalize_or(own.normal)
     });
-    Evened { normals, is_noisy: patches.of.iter().map(|patch| limits[*patch as usize].is_noisy()).collect() }
+    DenoisedNormals { normals, is_noisy: patches.of.iter().map(|patch| limits[*patch as usize].is_noisy()).collect() }
 }
 
 /// Which normals are mixed with one.
@@ -180,5 +180,5 @@ fn mix(patches: &Patches, limits: &[Limit], places: &mut [Place], unit: f64) {
 }
 
 #[cfg(test)]
-#[path = "even_tests.rs"]
+#[path = "denoise_normals_tests.rs"]
 mod tests;

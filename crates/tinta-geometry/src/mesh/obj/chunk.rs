@@ -82,7 +82,7 @@ pub(super) struct Problem {
 
 /// What a piece holds, in its order.
 #[derive(Debug, Default)]
-pub(super) struct Piece {
+pub(super) struct Chunk {
     pub positions: Vec<DVec3>,
     pub normals: Vec<Vec3>,
     pub texture_coordinates: Vec<Vec2>,
@@ -108,7 +108,7 @@ pub(super) struct Piece {
     pub points_and_lines: usize,
 }
 
-impl Piece {
+impl Chunk {
     /// Reads a piece's text; `before` and `here` are what the file holds before it and in it.
     pub(super) fn read(text: &str, before: Counts, here: Counts) -> Result<Self, Problem> {
         let mut piece = Self {

@@ -1,4 +1,4 @@
-//! Ways along strokes from one place to another near it, for [slivers' sides](super): the shortest first, by A*, over the
+//! Paths along strokes from one place to another near it, for [slivers' sides](super): the shortest first, by A*, over the
 //! places where strokes touch.
 //!
 //! A stroke leads from each place on it to the next on either side. What lies on a stroke, and which strokes go through a place, is found when
@@ -22,7 +22,7 @@ const TO: usize = usize::MAX;
 type Along = (f64, usize);
 
 /// What is known of places; nothing of those that nobody has asked about.
-pub(super) struct Ways {
+pub(super) struct ShortestPaths {
     meetings: MeetingGrid,
     /// On each stroke the meetings in their order along it.
     on_strokes: Vec<Option<Box<[Along]>>>,
@@ -79,7 +79,7 @@ impl PartialOrd for Open {
     }
 }
 
-impl Ways {
+impl ShortestPaths {
     pub(super) fn new(strokes: &Strokes<'_>) -> Self {
         Self {
             meetings: MeetingGrid::new(strokes),

@@ -67,7 +67,7 @@ impl Model {
         self.triangles[face].iter().map(|vertex| self.positions[*vertex as usize]).sum::<DVec3>() / 3.0
     }
 
-    fn even(&self, cos_smooth: f64) -> Evened {
+    fn denoised(&self, cos_smooth: f64) -> DenoisedNormals {
         let area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length() / 2.0;
         let areas: Vec<f64> =
             self.triangles.iter().map(|t| area(t.map(|vertex| self.positions[vertex as usize]))).collect();
@@ -89,7 +89,7 @@ impl Model {
             neighbours: &neighbours,
         };
         let [low, high] = [DVec3::min, DVec3::max].map(|of| self.positions.iter().copied().reduce(of).unwrap());
-        even(&faces, (high - low).length(), cos_smooth)
+        denoised(&faces, (high - low).length(), cos_smooth)
     }
 }
 
@@ -111,7 +111,7 @@ fn mean_angle(model: &Model, normals: &[DVec3], ideal: impl Fn(DVec3) -> Option<
 #[test]
 fn noise_of_a_fine_mesh_goes() {
     let sheet = Model::sheet(200, |x, y| 0.0008 * random(x, y));
-    let Evened { normals, is_noisy } = sheet.even(COS_34);
+    let DenoisedNormals { normals, is_noisy } = sheet.denoised(COS_34);
     let [before, after] = [&sheet.normals, &normals].map(|of| mean_angle(&sheet, of, |_| Some(DVec3::Y)));
     assert!(before > 5.0 && after < before / 6.0, "{before} became {after}");
     assert!(is_noisy.iter().all(|is| *is));
@@ -124,7 +124,7 @@ fn relief_above_the_noise_stays() {
     let slope = 20f64.to_radians().tan();
     let relief = |x: f64| slope * (x.clamp(0.46, 0.54) - 0.46);
     let sheet = Model::sheet(200, |x, y| relief(x) + 0.0002 * random(x, y));
-    let Evened { normals, .. } = sheet.even(COS_34);
+    let DenoisedNormals { normals, .. } = sheet.denoised(COS_34);
     let ideal = DVec3::new(-slope, 1.0, 0.0).normalize();
     let on_slope = |place: DVec3| ((place.x - 0.5).abs() < 0.025).then_some(ideal);
     let beside = |place: DVec3| ((place.x - 0.5).abs() > 0.055).then_some(DVec3::Y);
@@ -136,7 +136,7 @@ fn relief_above_the_noise_stays() {
 #[test]
 fn where_there_is_no_noise_normals_stay_as_they_are() {
     let is_kept = |model: Model| {
-        let Evened { normals, is_noisy } = model.even(COS_34);
+        let DenoisedNormals { normals, is_noisy } = model.denoised(COS_34);
         normals == model.normals && !is_noisy.contains(&true)
     };
     let relief = |x: f64, y: f64| 0.012 * (x * 25.0).sin() * (y * 20.0).cos();
@@ -155,7 +155,7 @@ fn where_there_is_no_noise_normals_stay_as_they_are() {
 fn edges_of_relief_are_no_noise() {
     // Ridges of 18 degrees on a flat ground, on which faces are few; how far they lean from what they were.
     let ridges = Model::sheet(400, |x, y| 0.008 * (x * 40.0).sin().max(0.0) * (2.0 + (y * 30.0).cos()) / 3.0);
-    let Evened { normals, .. } = ridges.even(COS_34);
+    let DenoisedNormals { normals, .. } = ridges.denoised(COS_34);
     let leaning = normals.iter().zip(&ridges.normals).map(|(evened, own)| evened.angle_between(*own).to_degrees());
     let mean = leaning.sum::<f64>() / normals.len() as f64;
     assert!(mean < 0.1, "{mean}");
@@ -172,14 +172,14 @@ fn what_is_cut_finely_for_its_detail_is_no_scan() {
         DVec3::new(x, height(x, y) - 0.2 * (x * x + y * y), y)
     };
     let sheet = Model::of_cells(200, place);
-    assert_eq!(sheet.even(COS_34).normals, sheet.normals);
+    assert_eq!(sheet.denoised(COS_34).normals, sheet.normals);
 }
 
 #[test]
 fn a_surface_is_evened_out_alike_however_finely_its_faces_are_cut() {
     let coarse = Model::sheet(150, |x, y| 0.001 * random(x, y) + 0.1 * x * x);
     let fine = coarse.cut();
-    let [normals, fine_normals] = [&coarse, &fine].map(|model| model.even(COS_34).normals);
+    let [normals, fine_normals] = [&coarse, &fine].map(|model| model.denoised(COS_34).normals);
     assert!(mean_angle(&coarse, &coarse.normals, |place| Some(DVec3::new(-0.2 * place.x, 1.0, 0.0))) > 5.0);
     let angles = fine_normals.iter().enumerate().map(|(face, normal)| normal.angle_between(normals[face / 4]));
     let mean = angles.sum::<f64>().to_degrees() / fine_normals.len() as f64;
@@ -193,7 +193,7 @@ fn an_edge_sharper_than_the_angle_stays() {
         let rough = 0.0008 * random(x, y);
         if y < 0.5 { DVec3::new(x, rough, y) } else { DVec3::new(x, y - 0.5, 0.5 + rough) }
     });
-    let Evened { normals, .. } = sheet.even(COS_34);
+    let DenoisedNormals { normals, .. } = sheet.denoised(COS_34);
     let ideal = |place: DVec3| match (place.y, place.z) {
         (up, _) if up > 0.01 => Some(DVec3::NEG_Z),
         (_, along) if along < 0.49 => Some(DVec3::Y),
@@ -208,7 +208,7 @@ fn no_faces_and_alien_angles_are_no_error() {
     assert!(Model::new(Vec::new(), Vec::new()).positions.is_empty());
     let sheet = Model::sheet(100, |x, y| 0.002 * random(x, y));
     for cosine in [-1.0, 0.0, 1.0, 2.0] {
-        let Evened { normals, .. } = sheet.even(cosine);
+        let DenoisedNormals { normals, .. } = sheet.denoised(cosine);
         assert!(normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-6), "{cosine}");
     }
 }
@@ -245,14 +245,14 @@ fn models_that_were_made_by_hand_keep_all_their_normals() {
     ];
     for file in FILES {
         let Some(model) = public(file) else { continue };
-        assert!(model.even(COS_34).normals == model.normals, "{file}");
+        assert!(model.denoised(COS_34).normals == model.normals, "{file}");
     }
 }
 
 #[test]
 fn a_scan_is_calm_and_keeps_its_relief() {
     let Some(bunny) = public("stanford-bunny.obj") else { return };
-    let Evened { normals, .. } = bunny.even(COS_34);
+    let DenoisedNormals { normals, .. } = bunny.denoised(COS_34);
     let between = |of: &[DVec3]| {
         let angles = bunny.pairs.iter().map(|pair| pair.map(|face| of[face as usize])).map(|[a, b]| a.angle_between(b));
         angles.sum::<f64>().to_degrees() / bunny.pairs.len() as f64

@@ -2,11 +2,11 @@
 //! and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks.
 //!
 //! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, the faces' normals without a scan's
-//! noise (`even.rs`), and for each triangle the area of the flat face it is part of. By it a face counts more than the chamfer beside
+//! noise (`denoise_normals.rs`), and for each triangle the area of the flat face it is part of. By it a face counts more than the chamfer beside
 //! it, which so bends from face to face and leaves them flat.
 
 use super::curved::{Edge, curved};
-use super::even::{Evened, Faces, even};
+use super::denoise_normals::{DenoisedNormals, Faces, denoised};
 use super::incidence::Incidence;
 use super::patches::{Neighbours, gathered};
 use crate::disjoint_sets::DisjointSets;
@@ -24,7 +24,7 @@ const LEAST_REACH_IN_NOISE: f64 = 0.15;
 const FLAT: f64 = 0.99996;
 
 /// Where normals may be split, and how much faces weigh in.
-pub(super) struct Lasting {
+pub(super) struct PersistentCreases {
     /// For each vertex whether it lies on a crease that lasts.
     pub vertices: Vec<bool>,
     /// For each triangle the area of its flat face, in units of the model's own.
@@ -35,7 +35,7 @@ pub(super) struct Lasting {
     pub face_normals: Vec<DVec3>,
 }
 
-impl Lasting {
+impl PersistentCreases {
     pub(super) fn find(
         positions: &[DVec3],
         triangles: &[[u32; 3]],
@@ -93,7 +93,7 @@ impl Lasting {
             flat_areas: &flat_areas,
             neighbours: &neighbours,
         };
-        let Evened { normals: face_normals, is_noisy } = even(&faces, whole.diagonal(), cos_smooth);
+        let DenoisedNormals { normals: face_normals, is_noisy } = denoised(&faces, whole.diagonal(), cos_smooth);
         // Evening out also sharpens rounded rims, in zigzags: a crease is one before and after it.
         let is_sharp = |edge: &&Edge| [&face_normals, given].iter().all(|of| cosine(of, edge) < cos_smooth);
         let sharp: Vec<&Edge> = edges().filter(is_sharp).collect();

@@ -21,7 +21,7 @@ const FLAT: f64 = 0.99996;
 const MOST_CREASES: usize = 16;
 
 /// Of each edge whether it is a crease that lasts.
-pub(crate) fn lasting_creases(mesh: &Mesh, edges: &EdgeList, is_crease: impl Fn(u32) -> bool) -> Vec<bool> {
+pub(crate) fn persistent_creases(mesh: &Mesh, edges: &EdgeList, is_crease: impl Fn(u32) -> bool) -> Vec<bool> {
     let is_flat = flat_faces(mesh, edges);
     let creases: Vec<u32> = (0..edges.len() as u32).filter(|edge| is_crease(*edge)).collect();
     let end = |end: usize| edges.positions()[creases[end / 2] as usize][end % 2];
