@@ -18,6 +18,7 @@
 
 #![expect(unsafe_code, reason = "OpenGL is a C interface; this module wraps all of it")]
 
+mod buffers;
 pub mod context;
 mod edges;
 pub(crate) mod execute;

@@ -18,6 +18,7 @@ mod pcx;
 pub(crate) mod png_text;
 mod powers_of_two;
 mod read;
+mod size;
 mod small;
 
 pub use materials::{MaterialPictures, material_pictures};
@@ -29,6 +30,7 @@ use crate::values::Size;
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::{bmp::BmpEncoder, png, pnm, tga::TgaEncoder};
 use image::{ExtendedColorType, ImageEncoder};
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -134,7 +136,11 @@ impl Picture {
     /// The bytes of a file; where the format is PNG, with a note in it. The error is what the encoder says.
     fn file(&self, format: PictureFormat, note: Option<&Note>) -> std::result::Result<Vec<u8>, String> {
         match note.filter(|_| format == PictureFormat::Png) {
-            Some(Note { keyword, text }) => png_text::encode(self, keyword, text).map_err(|error| error.to_string()),
+            Some(Note { keyword, text }) => {
+                let is_opaque = self.is_opaque();
+                let pixels = if is_opaque { Cow::Owned(self.rgb()) } else { Cow::Borrowed(&self.pixels) };
+                png_text::encode(self.size, &pixels, is_opaque, [keyword, text]).map_err(|error| error.to_string())
+            }
             None => {
                 let mut bytes = Vec::new();
                 self.encode(format, false, &mut bytes).map_err(|error| error.to_string())?;

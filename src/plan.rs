@@ -25,6 +25,7 @@
 mod check;
 mod display;
 mod facts;
+mod program;
 pub mod prune;
 mod submission;
 mod target;
@@ -32,14 +33,15 @@ mod tiles;
 
 pub use check::Flaw;
 pub use facts::{Facts, Shorter, WhereEven};
+pub use program::{PlanPicture, Program, Sampling, Texture, Uniform, Value};
 pub use submission::Submission;
 pub(crate) use target::DEPTH_COPIES;
 pub use target::{Attachment, Attachments, Drawn, Format, SettingValue, Target};
 pub use tiles::{Tile, TileLimits};
 
 use crate::mesh::{Part, VertexArrays};
-use crate::picture::Picture;
-use crate::scene::{Rectangle, Size};
+use crate::scene::Rectangle;
+use std::fmt;
 use std::sync::Arc;
 
 /// The steps of one picture.
@@ -256,88 +258,6 @@ tinta_geometry::choices! {
     }
 }
 
-/// A vertex shader and the fragment shaders linked with it, by their paths below `glsl/`.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub struct Program {
-    /// The vertex shader.
-    pub vertex: &'static str,
-    /// The fragment shaders: one with `main`, the others with the functions it declares; none for fixed-function fragments.
-    pub fragments: Vec<&'static str>,
-}
-
-/// A value for a shader.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Uniform {
-    /// Its name in the shader.
-    pub name: &'static str,
-    /// Its value.
-    pub value: Value,
-}
-
-/// A uniform's value.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Value {
-    /// float
-    Float(f32),
-    /// vec2
-    Vec2([f32; 2]),
-    /// vec3
-    Vec3([f32; 3]),
-    /// int
-    Int(i32),
-    /// vec2: how far apart the texels of what a pass leaves are, 1 / its size in pixels. That of a tile is a tile's.
-    TexelSize([f32; 2]),
-    /// vec2: a place on what is drawn, in pixels from its lower left corner. In a tile it is counted from the tile's.
-    PixelPlace([f32; 2]),
-}
-
-impl Value {
-    /// [`Value::TexelSize`] of what is this large.
-    pub fn texel_size(size: Size) -> Self {
-        Self::TexelSize([1.0 / size.width as f32, 1.0 / size.height as f32])
-    }
-}
-
-/// The textures a plan can read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Texture {
-    /// The framebuffer as the last [`Step::CopyFramebuffer`] left it; NEAREST, CLAMP_TO_EDGE (errata E12).
-    BorderMap,
-    /// What passes into [`Target::Textures`] drew there; NEAREST, CLAMP_TO_EDGE.
-    Drawn(Drawn),
-    /// The depth buffer as the last [`Step::CopyDepth`] left it, window z in red; NEAREST, CLAMP_TO_EDGE.
-    DepthMap,
-    /// The plan's table of this number, one-dimensional; NEAREST, CLAMP_TO_EDGE.
-    Table(usize),
-    /// The plan's picture of this number.
-    Picture(usize),
-    /// The texture of each material, by the model's own texture coordinates, LINEAR, GL_REPEAT; white where it has none.
-    Material,
-}
-
-/// A picture as a texture, its lowest row at coordinate 0.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlanPicture {
-    /// What it is, for those who read the plan.
-    pub name: &'static str,
-    /// The picture.
-    pub picture: Arc<Picture>,
-    /// How it is read.
-    pub sampling: Sampling,
-}
-
-/// How a texture is read between and beyond its texels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Sampling {
-    /// NEAREST, CLAMP_TO_EDGE.
-    NearestClamped,
-    /// LINEAR, GL_REPEAT.
-    LinearRepeated,
-    /// LINEAR_MIPMAP_LINEAR where smaller, LINEAR where larger, GL_REPEAT.
-    MipmapRepeated,
-}
-
 /// How a draw meets the depth buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
@@ -423,6 +343,65 @@ impl Step {
                 Geometry::ScreenSquare => "square",
                 Geometry::PictureSquare => "shrink",
             },
+        }
+    }
+}
+
+impl Draw {
+    /// Whether vertices are drawn where the camera has them: stated, or by the fixed-function pipeline.
+    pub fn keeps_places(&self) -> bool {
+        self.program.is_none() || self.facts.keeps_places
+    }
+
+    /// Whether every pixel of a face is drawn at the face's depth: stated, or by the fixed-function pipeline.
+    pub fn keeps_pixels(&self) -> bool {
+        self.program.as_ref().is_none_or(|program| program.fragments.is_empty()) || self.facts.keeps_pixels
+    }
+}
+
+impl Plan {
+    /// Drops what was stated of draws by any of these shaders, because they are not those that the style knew.
+    pub fn forget_facts_of(&mut self, shaders: &[String]) {
+        let has_one = |program: &Program| shaders.iter().any(|path| program.has_shader(path));
+        let steps = self.passes.iter_mut().flat_map(|pass| &mut pass.steps);
+        for draw in steps.filter_map(|step| if let Step::Draw(draw) = step { Some(draw) } else { None }) {
+            if draw.program.as_ref().is_some_and(has_one) {
+                draw.facts = Facts::default();
+            }
+            draw.facts.shorter.take_if(|shorter| has_one(&shorter.program));
+        }
+    }
+}
+
+impl Plan {
+    /// What holds the picture: what the last pass drew into.
+    pub fn picture_target(&self) -> Target {
+        self.passes.last().map_or(Target::Framebuffer, |pass| pass.target)
+    }
+
+    /// Every set of textures that its passes draw into, once.
+    pub fn attachments(&self) -> Vec<&'static Attachments> {
+        let mut all = Vec::new();
+        for pass in &self.passes {
+            if let Target::Textures(attachments) = pass.target
+                && !all.contains(&attachments)
+            {
+                all.push(attachments);
+            }
+        }
+        all
+    }
+
+    /// What the picture is, in words.
+    fn write_picture(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let holder = match self.picture_target() {
+            Target::Framebuffer => "the framebuffer".to_owned(),
+            Target::Textures(attachments) => format!("the texture {}", attachments.colors[0].name),
+        };
+        match self.output {
+            Output::Rgba => writeln!(out, "picture: {holder}"),
+            Output::Rgb => writeln!(out, "picture: {holder}'s red, green and blue"),
+            Output::AlphaAsGrey => writeln!(out, "picture: {holder}'s alpha as grey"),
         }
     }
 }

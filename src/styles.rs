@@ -26,6 +26,7 @@ mod cartoon;
 mod charcoal;
 mod dietrich;
 mod gradients;
+mod headings;
 mod ignored;
 mod ink;
 mod inking;
@@ -38,6 +39,7 @@ mod phong;
 mod ramp;
 mod row;
 mod shading;
+mod show;
 mod suggestive;
 mod supersample;
 mod textured;
@@ -61,6 +63,7 @@ pub use mrt::Mrt;
 pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
 pub use row::{Mark, Origin, Outline, StyleInfo};
+pub use show::Show;
 pub use suggestive::Suggestive;
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
@@ -70,6 +73,7 @@ use crate::error::{Error, ParseError, Result};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::settings::{HasSettings, OptionValue, Options, Setting, Table, within};
+use headings::{ALL_STYLES, CARTOON, CHARCOAL, HEADINGS, IMAGE_SPACE, INK, INKING, SUGGESTIVE, cull, no_borders};
 use row::Draw;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -202,35 +206,6 @@ const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
 /// Pictures of the drawings in charcoal and sand.
 const CHARCOAL_SHOWS: &[Show] = &[Show::Final, Show::Diffuse, Show::Cem, Show::Cet, Show::Paper];
 
-tinta_geometry::choices! {
-    /// Which of a style's pictures is wanted.
-    #[derive(Default)]
-    #[non_exhaustive]
-    pub enum Show {
-        /// The finished picture.
-        #[default]
-        Final = "final",
-        /// The normal map: red, green, blue of the map (figure 9, left).
-        Normals = "normals",
-        /// The depth map: alpha of the map as grey, near is dark (figure 9, right).
-        Depth = "depth",
-        /// The map itself, four channels.
-        Map = "map",
-        /// The borders alone (figure 12).
-        Borders = "borders",
-        /// The tones alone (figure 5).
-        Tones = "tones",
-        /// The light of a charcoal drawing (Valente 2007, figure 4, left).
-        Diffuse = "diffuse",
-        /// The contrast-enhanced model (figure 4, right).
-        Cem = "cem",
-        /// The contrast-enhanced texture where the model reads it.
-        Cet = "cet",
-        /// The paper alone.
-        Paper = "paper",
-    }
-}
-
 impl Style {
     /// The style of this name with the published settings.
     #[must_use]
@@ -339,16 +314,6 @@ impl Serialize for Style {
     }
 }
 
-/// What the settings are listed under, in this order.
-const HEADINGS: [&str; 8] = [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, SUGGESTIVE, CHARCOAL];
-const ALL_STYLES: &str = "All styles";
-const CARTOON: &str = "Styles three-pass, two-pass and mrt (published values are the paper's)";
-const INKING: &str = "Style inking: lines from the model's edges (published values are the text's)";
-const IMAGE_SPACE: &str = "Styles three-pass, two-pass, mrt and ink";
-const INK: &str = "Style ink (also the tone options of three-pass, --crease-angle of inking)";
-const SUGGESTIVE: &str = "Style suggestive (also the tone options of three-pass)";
-const CHARCOAL: &str = "Styles charcoal and sand (defaults are the text's where it gives them)";
-
 /// The settings of all styles, each declared beside its struct; those of a heading begin with the styles that have lines.
 pub(crate) fn settings() -> Vec<Setting<Style>> {
     let mut settings: Vec<Setting<Style>> =
@@ -361,21 +326,6 @@ pub(crate) fn settings() -> Vec<Setting<Style>> {
 /// Why a style of exact lines has no plan.
 fn no_passes(style: &str) -> Error {
     Error::value("style", style, "it draws exact lines and has no passes; choose another style")
-}
-
-/// The setting whether lines are left out.
-fn no_borders<T: Clone + 'static>(get: fn(&T) -> bool, set: fn(&mut T, bool)) -> Setting<T> {
-    Setting::flag("no-borders", "Leave out the lines: draw tones or paint alone", get, set)
-        .deduced("E and D draw their figures with lines, and some without")
-        .labelled("no lines")
-}
-
-/// The setting whether faces turned away are left out.
-fn cull<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
-    let help = "Faces to leave out: none, or back (those that point away): faster, and nearly the same picture of \
-        closed models";
-    Setting::either("cull", "FACES", ["none", "back"], help, field)
-        .deduced("E, D and V leave face culling off, as GL has it by default")
 }
 
 impl StyleName {

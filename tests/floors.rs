@@ -1,6 +1,10 @@
-//! The floors of both libraries: their `lib.rs` list the modules from the ground up, and each uses only those before it.
+//! The floors of both libraries: their `lib.rs` list the modules from the ground up, and each uses only those before it. And within
+//! every crate no files use one another in a circle.
+
+mod imports;
 
 use crate::support::root;
+use imports::{Uses, circles, uses};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -86,4 +90,90 @@ fn check(folder: &str, least_modules: usize, least_uses: usize) {
 fn modules_use_only_those_below_them() {
     check("src", 20, 150);
     check("crates/tinta-geometry/src", 15, 100);
+}
+
+/// The crates, and how many uses each has at least: fewer mean that its texts are read wrong.
+const CRATES: [(&str, usize); 4] =
+    [("crates/tinta-geometry/src", 1200), ("src", 1900), ("python/src", 50), ("web/src", 8)];
+
+/// Folders within which files still use one another in circles, and why. The list may only shrink.
+const LEFT: [(&str, &str); 4] = [
+    ("src/cli", "commands print by functions of the file that dispatches to them"),
+    ("src/figures", "figures and claims take their types from the file that lists them"),
+    ("src/report", "the page takes the report's head from the file that writes it"),
+    ("src/stress", "groups of cases take the case's type from the file that lists them"),
+];
+
+/// The names that tie a circle, file by file.
+fn ties(uses: &Uses, circle: &[String]) -> String {
+    let mut text = String::new();
+    for file in circle {
+        for (other, names) in uses[file].iter().filter(|(other, _)| circle.contains(other)) {
+            text.push_str(&format!("\n  {file} uses {names:?} of {other}"));
+        }
+    }
+    text
+}
+
+#[test]
+fn no_files_use_one_another_in_a_circle() {
+    let (mut problems, mut left) = (String::new(), vec![false; LEFT.len()]);
+    for (folder, least) in CRATES {
+        let (uses, count) = uses(&|file| std::fs::read_to_string(root().join(folder).join(file)).ok());
+        assert!(count >= least, "only {count} uses found in {folder}");
+        for circle in circles(&uses) {
+            let is_within =
+                |(below, _): &(&str, &str)| circle.iter().all(|file| format!("{folder}/{file}").starts_with(*below));
+            match LEFT.iter().position(is_within) {
+                Some(known) => left[known] = true,
+                None => problems.push_str(&format!("\na circle in {folder}:{}", ties(&uses, &circle))),
+            }
+        }
+    }
+    assert!(problems.is_empty(), "{problems}\nmove what they share into a file below them");
+    let gone: Vec<_> = LEFT.iter().zip(left).filter(|(_, is_left)| !is_left).collect();
+    assert!(gone.is_empty(), "no circle is left here: take it out of the list: {gone:?}");
+}
+
+/// The circles of a crate of these texts.
+fn circles_of(texts: &[(&str, &str)]) -> Vec<Vec<String>> {
+    circles(&uses(&|file| Some(texts.iter().find(|(name, _)| *name == file)?.1.to_owned())).0)
+}
+
+#[test]
+fn a_circle_is_found_through_re_exports_and_every_way_of_naming_a_file() {
+    let made_up = |inner| {
+        circles_of(&[
+            ("lib.rs", "pub mod a; mod b; pub use a::A as First; // mod c;"),
+            ("a.rs", "use super::b::{self, Kind::{self, One}};\npub struct A(b::B);"),
+            ("b.rs", "mod inner;\npub use inner::*;"),
+            ("b/inner.rs", inner),
+        ])
+    };
+    let tied = vec![vec!["a.rs".to_owned(), "b/inner.rs".to_owned()]];
+    for text in [
+        "use crate::First; pub enum Kind { One(Box<First>) } pub struct B;",
+        "pub struct B; pub fn kind() { crate::a::A::new(); }",
+        "pub struct B; fn kind() { use super::super::a::{A}; A::new(); }",
+        "use crate::a; pub struct B(a::A);",
+        "use crate::*; pub struct B(First);",
+    ] {
+        assert_eq!(made_up(text), tied, "{text}");
+    }
+    for text in [
+        "pub struct B; // crate::a::A",
+        "pub struct B(&'static str); const TEXT: &str = \"crate::a::A\"; const RAW: &str = r#\"crate::a::A\"#;",
+        "pub struct B; #[cfg(test)] mod tests { use crate::First; }",
+        "pub struct B; #[cfg(test)] use crate::First; #[cfg(test)] #[allow(unused)] fn first() -> First { todo!() }",
+        "pub(in crate::a) struct B;",
+    ] {
+        assert!(made_up(text).is_empty(), "{text}");
+    }
+    // A parent and its child.
+    let parent = [
+        ("lib.rs", "mod a;"),
+        ("a.rs", "mod b; struct A; fn f() { b::g() }"),
+        ("a/b.rs", "use super::A; pub fn g() {}"),
+    ];
+    assert_eq!(circles_of(&parent), [["a.rs", "a/b.rs"]]);
 }

@@ -17,6 +17,7 @@ mod picture;
 mod request;
 mod settings;
 mod studio;
+mod warnings;
 mod work;
 
 /// What Python imports as `tinta_npr._native`.

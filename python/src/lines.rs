@@ -3,8 +3,9 @@
 use crate::arrays::{pairs, points, shaped};
 use crate::errors::raised;
 use crate::mesh::{Mesh, scene};
-use crate::request::{Asked, Basis, warn};
+use crate::request::{Asked, Basis};
 use crate::settings::options;
+use crate::warnings::warn;
 use crate::work::done;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};

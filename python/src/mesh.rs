@@ -2,8 +2,8 @@
 
 use crate::arrays::shaped;
 use crate::errors::{in_python, raised, wrong};
-use crate::request::warn;
 use crate::settings::options;
+use crate::warnings::warn;
 use crate::work::done;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;

@@ -3,8 +3,9 @@
 use crate::arrays::shaped;
 use crate::errors::{in_python, raised, wrong};
 use crate::mesh::{Mesh, drawable};
-use crate::request::{Asked, Basis, warn};
+use crate::request::{Asked, Basis};
 use crate::studio::drawn;
+use crate::warnings::warn;
 use crate::work::done;
 use numpy::PyReadonlyArray3;
 use pyo3::prelude::*;

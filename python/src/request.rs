@@ -1,13 +1,11 @@
 //! What a drawing is asked for with: its settings, a look's and a preset's below them, the models' own; and the recipe of what
 //! comes of it, which is the command line's for models from files.
 
-use crate::errors::{in_python, python_name, raised};
+use crate::errors::{python_name, raised};
 use crate::mesh::Mesh;
 use crate::settings::{draws_lines, entries, is_reading, options};
-use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::ffi::CString;
 use std::path::{Path, PathBuf};
 use tinta::gl::ContextInfo;
 use tinta::preset::Look;
@@ -145,15 +143,4 @@ fn asked(function: &str, mut given: Options, basis: &Basis<'_>) -> Result<Reques
             Err(request.attributed(Error::value("style", request.style.name(), format!("this style draws {other}"))))
         }
     }
-}
-
-/// Warns of what is to be known of a drawing, `level` calls above.
-pub(crate) fn warn(py: Python<'_>, remarks: &[String], level: i32) -> PyResult<()> {
-    let category = py.get_type::<PyUserWarning>();
-    for remark in remarks {
-        // What has a zero in it is no sentence of ours.
-        let Ok(text) = CString::new(in_python(remark)) else { continue };
-        PyErr::warn(py, &category, &text, level)?;
-    }
-    Ok(())
 }

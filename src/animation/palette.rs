@@ -4,26 +4,12 @@
 //! them in a pattern that stands still on the screen. One palette serves frame after frame until it fits one too badly:
 //! a new one for each would let tones flicker.
 
-use super::quantize::{choose, distance, mix};
+use super::quantize::{Histogram, Mix, Packed, choose, distance, mix};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
 /// The index of no colour, where pictures have holes: the first, so that it stays when colours are added.
 pub(super) const TRANSPARENT: u8 = 0;
-
-/// A colour as one number, red in the high byte.
-pub(super) type Packed = u32;
-
-/// Colours with the number of their pixels.
-pub(super) type Histogram = Vec<(Packed, u32)>;
-
-/// Two palette entries and how many of 64 pixels the second gets, at most half of them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Mix {
-    pub first: u8,
-    pub second: u8,
-    pub share: u8,
-}
 
 pub(super) struct Palette {
     transparent: bool,

@@ -2,7 +2,19 @@
 //! Heckbert's median cut, 1982), then moved to the means of what they stand for (Lloyd). Crates for it bring large
 //! dependencies or shift flat tones.
 
-use super::palette::{Histogram, Mix, Packed};
+/// A colour as one number, red in the high byte.
+pub(super) type Packed = u32;
+
+/// Colours with the number of their pixels.
+pub(super) type Histogram = Vec<(Packed, u32)>;
+
+/// Two palette entries and how many of 64 pixels the second gets, at most half of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Mix {
+    pub first: u8,
+    pub second: u8,
+    pub share: u8,
+}
 
 /// Red, green and blue count so much in a distance: about as the eye sees them.
 const WEIGHTS: [i32; 3] = [3, 4, 2];

@@ -1,6 +1,7 @@
 //! Edges drawn by GL: indices into the objects' own vertices, so that a line lies where the faces beside it do.
 
 use super::Gl;
+use super::buffers::EdgeIndices;
 use super::execute::Resources;
 use super::immediate::{self, Places, Vertices};
 use super::legacy::{self, MODELVIEW, PROJECTION};
@@ -14,17 +15,6 @@ use glam::{Mat4, Vec3};
 use glow::HasContext;
 use std::rc::Rc;
 use std::sync::Arc;
-
-/// The ends of some edges on the device, one run after the other.
-pub(super) struct EdgeIndices {
-    runs: Arc<Vec<EdgeRun>>,
-    /// Each run's indices.
-    indices: Vec<Vec<u32>>,
-    /// All of them.
-    buffer: Buffer,
-    /// The vertices of each run that has its own.
-    own_vertices: Vec<Option<Buffer>>,
-}
 
 impl EdgeIndices {
     fn new(gl: &Rc<Gl>, runs: &Arc<Vec<EdgeRun>>, mark: Mark) -> Result<Self> {

@@ -1,11 +1,10 @@
 //! Executes plans step by step; every draw sets all the state it needs.
 
 use super::Gl;
-use super::edges::EdgeIndices;
+use super::buffers::{EdgeIndices, FaceIndices, MeshBuffers, OfVertices};
 use super::fixed_function;
 use super::immediate;
 use super::legacy;
-use super::meshes::{FaceIndices, MeshBuffers, OfVertices};
 use super::objects::{Buffer, Program, Shader, TimerQuery};
 use super::sources;
 use super::targets::{Targets, clear_each};

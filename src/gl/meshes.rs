@@ -1,6 +1,7 @@
 //! The scene's meshes on the device, and how they are drawn.
 
 use super::Gl;
+use super::buffers::{FaceIndices, MeshBuffers, OfVertices};
 use super::execute::Resources;
 use super::immediate::{self, Places, Vertices};
 use super::legacy::{FIXED_UNITS, MODELVIEW, PROJECTION};
@@ -9,33 +10,8 @@ use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Part, VertexArrays};
 use crate::plan::{Draw, FaceList, Faces, Geometry, Paint, Plan, Step, Submission};
 use crate::scene::{Color, Object, Scene};
-use glam::DVec3;
 use std::rc::Rc;
 use std::sync::Arc;
-
-/// A mesh on the device.
-pub(super) struct MeshBuffers {
-    mesh: Arc<Mesh>,
-    unit: f64,
-    pub(super) centre: DVec3,
-    pub(super) vertex_count: usize,
-    vertices: Buffer,
-    texture_coordinates: Option<Buffer>,
-    indices: Buffer,
-    parts: Vec<Part>,
-}
-
-/// Some of an object's faces on the device.
-pub(super) struct FaceIndices {
-    list: Arc<FaceList>,
-    buffer: Buffer,
-}
-
-/// Something of each of an object's vertices on the device: its texture coordinate, its colour.
-pub(super) struct OfVertices<T> {
-    list: Arc<Vec<T>>,
-    buffer: Buffer,
-}
 
 impl Resources {
     /// Uploads the scene's meshes that are not there yet and lets go of others.

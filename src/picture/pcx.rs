@@ -2,7 +2,7 @@
 //! in three planes; run-length coded. The reader is our own, over [`Bytes`].
 
 use super::Picture;
-use super::read::check_size;
+use super::size::check_size;
 use crate::bytes::Bytes;
 use crate::values::Size;
 

@@ -1,6 +1,5 @@
 //! PNG with a text in it, written and read: what the image crate does not do.
 
-use super::Picture;
 use crate::values::Size;
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
@@ -8,19 +7,16 @@ use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 #[cfg(feature = "recipes")]
 const LARGEST_BYTES: usize = 4 << 20;
 
-/// Encodes as the image crate is asked to elsewhere, with a `tEXt` chunk; `text` is ASCII.
-pub(super) fn encode(picture: &Picture, keyword: &str, text: &str) -> Result<Vec<u8>, png::EncodingError> {
-    let Size { width, height } = picture.size;
+/// Encodes as the image crate is asked to elsewhere, with a `tEXt` chunk; `text` is ASCII. Opaque pixels have three bytes, others four.
+pub(super) fn encode(
+    Size { width, height }: Size,
+    pixels: &[u8],
+    is_opaque: bool,
+    [keyword, text]: [&str; 2],
+) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height);
-    let rgb: Vec<u8>;
-    let (pixels, color) = if picture.is_opaque() {
-        rgb = picture.rgb();
-        (&rgb, ColorType::Rgb)
-    } else {
-        (&picture.pixels, ColorType::Rgba)
-    };
-    encoder.set_color(color);
+    encoder.set_color(if is_opaque { ColorType::Rgb } else { ColorType::Rgba });
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Fast);
     encoder.set_filter(Filter::Adaptive);

@@ -1,12 +1,11 @@
 //! Picture files to pictures: skins and textures. Known by content, where that says too little by extension.
 
+use super::size::{check_size, too_large};
 use super::{Picture, pcx};
 use crate::bytes::Bytes;
 use crate::error::{Error, FileKind, Result};
 use crate::files::{self, shown};
-use crate::limits::{
-    MEMORY_FACTOR, MEMORY_SLACK_BYTES, PICTURE_BYTES, PICTURE_FILE_BYTES, PICTURE_SIDE_PX, PIXELS_A_BYTE,
-};
+use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES, PICTURE_BYTES, PICTURE_FILE_BYTES, PICTURE_SIDE_PX};
 use crate::values::Size;
 use image::error::{ImageError, LimitErrorKind};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
@@ -52,34 +51,6 @@ impl Picture {
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         decode(bytes, &extension.to_ascii_lowercase(), most).map_err(|problem| Error::picture(path, problem))
     }
-}
-
-/// Refuses a picture whose pixels would take more than they may, `most` bytes among it, or more than its file can hold.
-pub(super) fn check_size(
-    Size { width, height }: Size,
-    file_bytes: usize,
-    most: u64,
-) -> std::result::Result<(), String> {
-    if width.max(height) > PICTURE_SIDE_PX {
-        return Err(too_large());
-    }
-    let (pixels, file_bytes) = (u64::from(width) * u64::from(height), file_bytes as u64);
-    if pixels > file_bytes.saturating_mul(PIXELS_A_BYTE) {
-        return Err(format!(
-            "its {file_bytes} bytes cannot hold {width} x {height} pixels; it is damaged, save it again"
-        ));
-    }
-    if pixels * 4 > PICTURE_BYTES.max(file_bytes.saturating_mul(MEMORY_FACTOR as u64)).min(most) {
-        return Err(format!(
-            "its {width} x {height} pixels take {} MiB of memory, more than its file or its model is worth; scale it down",
-            (pixels * 4) >> 20
-        ));
-    }
-    Ok(())
-}
-
-fn too_large() -> String {
-    format!("it is longer than {PICTURE_SIDE_PX} pixels on a side; scale it down")
 }
 
 /// A picture out of a file's bytes, of at most `most` bytes; the error is a sentence without the file's name.

@@ -4,7 +4,7 @@
 //! So a style states it beside the draw. A plan draws the same whatever it states: nobody but `prune` reads this, and what is
 //! not stated is not assumed. Where a shader is replaced by another text, its draws' facts are dropped.
 
-use super::{Draw, Plan, Program, Step};
+use super::Program;
 use std::fmt;
 
 /// What may be assumed of a draw's shaders. The default is nothing.
@@ -70,39 +70,6 @@ impl Facts {
     }
 }
 
-impl Draw {
-    /// Whether vertices are drawn where the camera has them: stated, or by the fixed-function pipeline.
-    pub fn keeps_places(&self) -> bool {
-        self.program.is_none() || self.facts.keeps_places
-    }
-
-    /// Whether every pixel of a face is drawn at the face's depth: stated, or by the fixed-function pipeline.
-    pub fn keeps_pixels(&self) -> bool {
-        self.program.as_ref().is_none_or(|program| program.fragments.is_empty()) || self.facts.keeps_pixels
-    }
-}
-
-impl Program {
-    /// Whether this is one of its shaders.
-    pub fn has_shader(&self, path: &str) -> bool {
-        self.vertex == path || self.fragments.contains(&path)
-    }
-}
-
-impl Plan {
-    /// Drops what was stated of draws by any of these shaders, because they are not those that the style knew.
-    pub fn forget_facts_of(&mut self, shaders: &[String]) {
-        let has_one = |program: &Program| shaders.iter().any(|path| program.has_shader(path));
-        let steps = self.passes.iter_mut().flat_map(|pass| &mut pass.steps);
-        for draw in steps.filter_map(|step| if let Step::Draw(draw) = step { Some(draw) } else { None }) {
-            if draw.program.as_ref().is_some_and(has_one) {
-                draw.facts = Facts::default();
-            }
-            draw.facts.shorter.take_if(|shorter| has_one(&shorter.program));
-        }
-    }
-}
-
 impl fmt::Display for Facts {
     /// `keeps places, keeps pixels`; nothing where nothing is stated.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -129,7 +96,7 @@ impl fmt::Display for Facts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::{Geometry, Pass};
+    use crate::plan::{Draw, Geometry, Pass, Plan, Step};
 
     fn program(vertex: &'static str, fragment: &'static str) -> Program {
         Program { vertex, fragments: vec![fragment] }

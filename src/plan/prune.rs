@@ -11,100 +11,16 @@ mod background;
 mod dead;
 mod ground;
 mod objects;
+mod rule;
 mod shaders;
 
+pub use rule::{Omission, Pruning, Rule};
+
 use super::{Draw, Geometry, Plan, Step};
-use crate::choice::Choice;
-use crate::scene::{Rectangle, Scene, Size};
+use crate::scene::Scene;
+use rule::Situation;
 use serde::Serialize;
 use std::cell::OnceCell;
-
-tinta_geometry::choices! {
-    /// A kind of thing that can be left out, in the order in which the rules are applied.
-    #[non_exhaustive]
-    pub enum Rule {
-        /// Draws that add nothing: the border's square where its filter is multiplied by 0.
-        Border = "border",
-        /// Objects outside the picture.
-        OutsideObjects = "outside-objects",
-        /// Faces that the driver would cull anyway.
-        CulledFaces = "culled-faces",
-        /// Faces of closed surfaces, turned away and behind faces that are not.
-        HiddenFaces = "hidden-faces",
-        /// Light that no tone depends on: highlights below three tones, all of it with one.
-        UnusedLight = "unused-light",
-        /// The background square where clearing does the same.
-        BackgroundSquare = "background-square",
-        /// Pixels of full-screen squares that no object reaches.
-        EmptyPixels = "empty-pixels",
-        /// Drawing and copying that nothing reads: the map of a picture without borders.
-        UnreadMap = "unread-map",
-        /// Clearing colours that the next step draws over.
-        OverwrittenClear = "overwritten-clear",
-        /// Pictures and tables of tones that no step reads.
-        UnreadTextures = "unread-textures",
-    }
-}
-
-impl Rule {
-    /// As the user writes it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        self.choice_name()
-    }
-
-    /// Shortens the plan, or says why not.
-    fn apply(self, plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
-        match self {
-            Self::Border => dead::border(plan),
-            Self::OutsideObjects => objects::outside(plan, situation),
-            Self::CulledFaces => objects::culled_faces(plan, situation),
-            Self::HiddenFaces => objects::hidden_faces(plan, situation),
-            Self::UnusedLight => shaders::unused_light(plan),
-            Self::BackgroundSquare => background::square(plan),
-            Self::EmptyPixels => background::empty_pixels(plan, situation),
-            Self::UnreadMap => dead::unread_map(plan),
-            Self::OverwrittenClear => background::overwritten_clear(plan, situation),
-            Self::UnreadTextures => dead::unread_textures(plan),
-        }
-    }
-}
-
-/// How to prune; [`crate::Renderer::pruning`] has what holds of a renderer.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Pruning {
-    /// Rules that are not to be applied. Default none.
-    pub keep: Vec<Rule>,
-    /// How many pictures of these models will be drawn, from any view: more are worth more finding out. Default 1.
-    pub pictures: u32,
-    /// Whether GL draws on the processor, where faces left out here are worth the search for them. Default yes.
-    pub is_software: bool,
-    /// Bits to which GL places a vertex within a pixel. Default 4, as many as every driver has.
-    pub subpixel_bits: u32,
-    /// Shaders, by their paths, whose texts are no longer those that the styles know: what a plan states of draws by them
-    /// does not count. Default none.
-    pub replaced_shaders: Vec<String>,
-}
-
-impl Default for Pruning {
-    fn default() -> Self {
-        Self { keep: Vec::new(), pictures: 1, is_software: true, subpixel_bits: 4, replaced_shaders: Vec::new() }
-    }
-}
-
-/// Something left out that cannot change the picture.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Omission {
-    /// Its name.
-    #[serde(rename = "name")]
-    pub rule: Rule,
-    /// What is not done any more.
-    pub what: String,
-    /// Why the picture is the same without it.
-    pub reason: String,
-    /// What about this scene and plan that rests on.
-    pub facts: Vec<String>,
-}
 
 /// A rule that left everything in.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -145,25 +61,6 @@ pub fn prune(plan: &Plan, scene: &Scene, pruning: &Pruning) -> Pruned {
     pruned
 }
 
-/// What is known of the scene, found out when first asked for.
-struct Situation<'a> {
-    scene: &'a Scene,
-    /// The size of what is drawn into.
-    surface: Size,
-    pruning: &'a Pruning,
-    extent: OnceCell<Option<Rectangle>>,
-}
-
-impl Situation<'_> {
-    /// The pixels that faces of objects can touch.
-    fn extent(&self) -> Option<Rectangle> {
-        *self.extent.get_or_init(|| {
-            let inside = self.scene.objects.iter().filter(|object| !self.scene.is_outside(object, 0.0));
-            self.scene.extent_px(inside, self.surface)
-        })
-    }
-}
-
 impl Plan {
     fn draws(&self) -> impl Iterator<Item = &Draw> {
         self.steps().filter_map(|(_, step)| if let Step::Draw(draw) = step { Some(draw) } else { None })
@@ -181,16 +78,20 @@ impl Draw {
     }
 }
 
-/// Leaves out passes without steps; the last one stays where the picture would be another target's without it.
-fn drop_empty_passes(plan: &mut Plan) {
-    let (target, last) = (plan.picture_target(), plan.passes.last().cloned());
-    plan.passes.retain(|pass| !pass.steps.is_empty());
-    if plan.picture_target().picture() != target.picture() {
-        plan.passes.extend(last);
+impl Rule {
+    /// Shortens the plan, or says why not.
+    fn apply(self, plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
+        match self {
+            Self::Border => dead::border(plan),
+            Self::OutsideObjects => objects::outside(plan, situation),
+            Self::CulledFaces => objects::culled_faces(plan, situation),
+            Self::HiddenFaces => objects::hidden_faces(plan, situation),
+            Self::UnusedLight => shaders::unused_light(plan),
+            Self::BackgroundSquare => background::square(plan),
+            Self::EmptyPixels => background::empty_pixels(plan, situation),
+            Self::UnreadMap => dead::unread_map(plan),
+            Self::OverwrittenClear => background::overwritten_clear(plan, situation),
+            Self::UnreadTextures => dead::unread_textures(plan),
+        }
     }
-}
-
-/// `1 pass`, `2 passes`.
-fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
 }

@@ -1,6 +1,5 @@
 //! Render targets of passes: the framebuffer, or textures by a framebuffer object.
 
-use super::{Output, Plan};
 use std::fmt;
 
 /// What a pass draws into.
@@ -74,39 +73,6 @@ impl Format {
     /// Whether it needs floating-point textures.
     pub fn is_float(self) -> bool {
         self != Self::Unorm8
-    }
-}
-
-impl Plan {
-    /// What holds the picture: what the last pass drew into.
-    pub fn picture_target(&self) -> Target {
-        self.passes.last().map_or(Target::Framebuffer, |pass| pass.target)
-    }
-
-    /// Every set of textures that its passes draw into, once.
-    pub fn attachments(&self) -> Vec<&'static Attachments> {
-        let mut all = Vec::new();
-        for pass in &self.passes {
-            if let Target::Textures(attachments) = pass.target
-                && !all.contains(&attachments)
-            {
-                all.push(attachments);
-            }
-        }
-        all
-    }
-
-    /// What the picture is, in words.
-    pub(super) fn write_picture(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let holder = match self.picture_target() {
-            Target::Framebuffer => "the framebuffer".to_owned(),
-            Target::Textures(attachments) => format!("the texture {}", attachments.colors[0].name),
-        };
-        match self.output {
-            Output::Rgba => writeln!(out, "picture: {holder}"),
-            Output::Rgb => writeln!(out, "picture: {holder}'s red, green and blue"),
-            Output::AlphaAsGrey => writeln!(out, "picture: {holder}'s alpha as grey"),
-        }
     }
 }
 

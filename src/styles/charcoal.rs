@@ -15,16 +15,18 @@ pub use improvements::Improvements;
 pub use pictures::{CharcoalPictures, TextureSource};
 
 use self::layout::Layout;
+use self::pictures::{Made, TextureSettings};
 use super::textured::textured;
 use super::{Show, Supersample};
 use crate::error::{Error, Result};
 use crate::hiding::doubled_faces;
 use crate::mesh::Mesh;
+use crate::picture::Picture;
 use crate::plan::{
     Depth, Draw, Facts, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
 };
 use crate::scene::{Background, Scene, Size};
-use crate::textures::Generator;
+use crate::textures::{ContrastTexture, Generator, NoiseTexture};
 use std::sync::Arc;
 
 /// Settings of `charcoal` and `sand`; the defaults are the text's where it gives them, ours elsewhere (errata V7).
@@ -132,6 +134,33 @@ fn measurable(light: [f32; 3]) -> [f32; 3] {
 }
 
 impl Charcoal {
+    /// Its noise, contrast-enhanced texture and paper.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for textures that are too large, [`Error::File`] for a picture that cannot be read.
+    pub fn textures(&self) -> Result<[Arc<Picture>; 3]> {
+        self.pictures.of(self.texture_settings()).map(|Made { noise, cet, paper, .. }| [noise, cet, paper])
+    }
+
+    /// What its textures follow from.
+    fn texture_settings(&self) -> TextureSettings {
+        let (size, seed, random) = (self.texture_size, self.seed, self.random);
+        TextureSettings {
+            contrast: ContrastTexture {
+                size,
+                seed,
+                random,
+                density_percent: self.density_percent,
+                exponent: self.cet_exponent,
+                blur_px: self.cet_blur_px,
+            },
+            noise: NoiseTexture { size, seed, random },
+            sources: [&self.noise_texture, &self.cet, &self.paper].map(TextureSource::clone),
+            has_tooth: self.improve.tooth,
+        }
+    }
+
     /// The settings of one of the text's recipes.
     pub fn recipe(recipe: CharcoalRecipe) -> Self {
         let base = Self::default();
@@ -191,7 +220,7 @@ impl Charcoal {
 
     fn plan(&self, scene: &Scene, show: Show, is_sand: bool) -> Result<Plan> {
         self.check(show, is_sand)?;
-        let made = self.pictures.of(self)?;
+        let made = self.pictures.of(self.texture_settings())?;
         let cet = match self.cet_filter {
             CetFilter::Linear => Sampling::LinearRepeated,
             CetFilter::Mipmap => Sampling::MipmapRepeated,

@@ -2,23 +2,17 @@
 //!
 //! Frames are painted when there is something new to see and at no other time.
 
-use super::event::{Effect, ViewerEvent};
 use super::player::{PlayedRecord, Player};
 use super::replay::Replay;
-use super::ui::{self, Textures};
+use super::shown::{NARROW, Shown};
 use super::viewer::{Viewer, ViewerOptions};
 use crate::error::{Error, Result};
-use crate::gl::context::window::{Shapes, WindowGl};
-use crate::picture::Picture;
 use crate::scene::Size;
-use egui::{FontData, FontDefinitions, FontFamily, ViewportId};
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
-use winit::dpi::LogicalSize;
 use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
-use winit::window::{Fullscreen, Window, WindowId};
+use winit::window::WindowId;
 
 /// How a window is opened.
 #[derive(Debug, Clone)]
@@ -32,15 +26,6 @@ pub struct WindowOptions {
     /// When the program began, for the time to the first picture.
     pub started: Instant,
 }
-
-/// Brightness of texts on the dark panels: egui's own is faint.
-const TEXT_GREY: u8 = 215;
-
-/// A window less wide, in points, begins without the panel, and folds it when it becomes so.
-const NARROW: u32 = 800;
-
-/// How long a pointer that drags rests before what it drags is drawn in full.
-const STILL: Duration = Duration::from_millis(200);
 
 /// A thread has news.
 #[derive(Debug, Clone, Copy)]
@@ -89,140 +74,6 @@ struct App {
     result: Result<()>,
 }
 
-/// What there is once there is a window.
-pub(super) struct Shown {
-    pub viewer: Viewer,
-    textures: Textures,
-    egui: egui_winit::State,
-    // Before the window it paints into.
-    gl: WindowGl,
-    window: Window,
-    title: String,
-    /// Whether the drawing area is as large as the window leaves it.
-    pub follows_window: bool,
-    /// Whether it is to be closed.
-    pub is_over: bool,
-    /// Whether there is no room for the panel beside the panes.
-    is_narrow: bool,
-    /// Whether a recording says what happens, and when the view moves.
-    is_played: bool,
-}
-
-impl Shown {
-    fn open(event_loop: &ActiveEventLoop, viewer: Viewer, size: Size, player: Option<&Player>) -> Result<Self> {
-        let follows_window = player.is_none_or(|player| !player.has_sizes());
-        let title = viewer.state.title();
-        let attributes = Window::default_attributes()
-            .with_title(title.clone())
-            .with_inner_size(LogicalSize::new(size.width, size.height));
-        let (window, gl) = WindowGl::open(event_loop, attributes)?;
-        let context = egui::Context::default();
-        context.set_fonts(fonts());
-        dress(&context);
-        let egui = egui_winit::State::new(
-            context,
-            ViewportId::ROOT,
-            event_loop,
-            Some(window.scale_factor() as f32),
-            None,
-            Some(gl.largest_texture()),
-        );
-        let mut shown = Self {
-            viewer,
-            textures: Textures::default(),
-            egui,
-            gl,
-            window,
-            title,
-            follows_window,
-            is_over: false,
-            is_narrow: size.width < NARROW,
-            is_played: player.is_some(),
-        };
-        if follows_window {
-            // The first picture is drawn while egui still finds out how much room there is.
-            let (Size { width, height }, scale) = (shown.size(), shown.window.scale_factor());
-            let [panel, status] = ui::taken(&shown.viewer.state, (f64::from(width) / scale) as f32)
-                .map(|points| (f64::from(points) * scale).round() as u32);
-            shown.event(ViewerEvent::Resize([width.saturating_sub(panel), height.saturating_sub(status)]));
-        }
-        shown.viewer.ask();
-        Ok(shown)
-    }
-
-    fn size(&self) -> Size {
-        let size = self.window.inner_size();
-        Size { width: size.width, height: size.height }
-    }
-
-    /// Paints a frame and lets happen what was done in it. What the window then shows is returned if asked for, and how long
-    /// nothing need be painted.
-    pub(super) fn frame(&mut self, is_wanted: bool) -> Result<(Option<Picture>, Duration)> {
-        let input = self.egui.take_egui_input(&self.window);
-        let context = self.egui.egui_ctx().clone();
-        let mut events = Vec::new();
-        let output = context.run(input, |context| {
-            events = ui::frame(context, &self.viewer, &mut self.textures, self.follows_window);
-        });
-        let has_events = !events.is_empty();
-        events.into_iter().for_each(|event| self.event(event));
-        let moving = self.moving();
-        if !self.is_played {
-            self.viewer.is_moving = moving.is_some();
-        }
-        self.viewer.ask();
-        let title = self.viewer.state.title();
-        if title != self.title {
-            self.window.set_title(&title);
-            self.title = title;
-        }
-        self.egui.handle_platform_output(&self.window, output.platform_output);
-        let shapes = Shapes {
-            primitives: context.tessellate(output.shapes, output.pixels_per_point),
-            textures: output.textures_delta,
-            pixels_per_point: output.pixels_per_point,
-        };
-        let size = self.size();
-        // A window without pixels shows nothing; its textures are kept up to date all the same.
-        let picture = self.gl.paint(size, &shapes, is_wanted)?;
-        let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |output| output.repaint_delay);
-        let delay = moving.map_or(delay, |left| left.min(delay));
-        Ok((picture, if has_events { Duration::ZERO } else { delay }))
-    }
-
-    /// While the pointer drags, how long it is until it counts as still.
-    fn moving(&self) -> Option<Duration> {
-        let is_down = self.egui.egui_ctx().input(|input| input.pointer.any_down());
-        let since = self.egui.egui_ctx().input(|input| input.pointer.time_since_last_movement());
-        let left = STILL.saturating_sub(Duration::try_from_secs_f32(since).unwrap_or(STILL));
-        (is_down && !left.is_zero() && self.viewer.state.is_coarse_while_moving).then_some(left)
-    }
-
-    /// Pixels of the window to a point.
-    pub(super) fn scale(&self) -> f64 {
-        self.window.scale_factor()
-    }
-
-    pub(super) fn event(&mut self, event: ViewerEvent) {
-        match self.viewer.event(event) {
-            Some(Effect::FullScreen(is_full)) => {
-                self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
-            }
-            Some(Effect::Quit) => self.is_over = true,
-            _ => {}
-        }
-    }
-
-    /// Folds the panel when the window becomes too narrow for it; opened again it stays.
-    fn fold_panel(&mut self) {
-        let is_narrow = f64::from(self.size().width) < f64::from(NARROW) * self.window.scale_factor();
-        if is_narrow && !self.is_narrow && self.viewer.state.has_panel {
-            self.event(ViewerEvent::Panel);
-        }
-        self.is_narrow = is_narrow;
-    }
-}
-
 impl App {
     fn stop(&mut self, event_loop: &ActiveEventLoop, error: Error) {
         if self.result.is_ok() {
@@ -261,7 +112,7 @@ impl App {
 impl ApplicationHandler<News> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         let Some(viewer) = self.viewer.take() else { return };
-        match Shown::open(event_loop, viewer, self.size, self.player.as_ref()) {
+        match Shown::open(event_loop, viewer, self.size, self.player.as_ref().map(Player::has_sizes)) {
             Ok(shown) => {
                 shown.window.request_redraw();
                 self.shown = Some(shown);
@@ -318,33 +169,11 @@ impl ApplicationHandler<News> for App {
     }
 }
 
-/// Dark panels with texts that can be read.
-fn dress(context: &egui::Context) {
-    context.set_theme(egui::Theme::Dark);
-    context.all_styles_mut(|style| {
-        // What fades in has to be painted again and again.
-        style.animation_time = 0.0;
-        style.visuals.override_text_color = Some(egui::Color32::from_gray(TEXT_GREY));
-    });
-}
-
-/// DejaVu for everything: egui's own fonts have licences of their own.
-pub(super) fn fonts() -> FontDefinitions {
-    let mut fonts = FontDefinitions::empty();
-    for (name, data, family) in [
-        ("sans", dejavu::sans::regular(), FontFamily::Proportional),
-        ("mono", dejavu::sans_mono::regular(), FontFamily::Monospace),
-    ] {
-        fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(data)));
-        fonts.families.insert(family, vec![name.to_owned()]);
-    }
-    fonts
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{dress, reason};
+    use super::reason;
     use crate::window::panel::{CHANGED, FAITHFUL, HINT};
+    use crate::window::shown::dress;
     use egui::Color32;
 
     /// Contrast of two colours as WCAG 2 defines it: from 1 to 21.

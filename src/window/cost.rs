@@ -3,8 +3,8 @@
 //! The exact lines of a view take longer than its picture: they are found on a thread of their own, which is told to give up
 //! as soon as the view changes.
 
-use super::draw::Cost;
 use super::event::Side;
+use super::job::Cost;
 use super::line_measure::{LineMeasure, LineScore};
 use super::report::{Report, Reporter};
 use crate::error::Result;

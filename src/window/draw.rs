@@ -5,65 +5,20 @@
 
 use super::coarse;
 use super::event::Side;
+use super::job::{Cost, Drawing, Job};
 use super::line_measure::LineMeasure;
 use super::report::{Report, Reporter};
-use crate::camera::CameraSettings;
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
-use crate::orbit::Orbit;
 use crate::picture::Picture;
-use crate::renderer::{PassTime, Renderer, median, milliseconds_since};
+use crate::renderer::{Renderer, median, milliseconds_since};
 use crate::request::Request;
-use crate::scene::{Scene, SceneSettings};
+use crate::scene::Scene;
 use crate::styles::{Show, Style};
 use std::collections::HashMap;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Instant;
-
-/// What is to be drawn.
-#[derive(Debug, Clone)]
-pub struct Job {
-    /// The models, at their places.
-    pub scene: Arc<Scene>,
-    /// From where.
-    pub orbit: Orbit,
-    /// The rest of the scene's settings.
-    pub settings: SceneSettings,
-    /// What of which style for each side that is seen.
-    pub drawings: Vec<(Side, Style, Show)>,
-    /// Whether it may be coarser: the view is on its way to another.
-    pub is_coarse: bool,
-}
-
-/// A side's picture.
-#[derive(Debug, Clone)]
-pub struct Drawing {
-    /// Which side.
-    pub side: Side,
-    /// The picture.
-    pub picture: Picture,
-    /// Time from the style's plan to the picture read back, milliseconds.
-    pub frame_ms: f64,
-}
-
-/// What a side's picture costs.
-#[derive(Debug)]
-pub struct Cost {
-    /// Which side.
-    pub side: Side,
-    /// The style's name.
-    pub style: &'static str,
-    /// Time of a whole frame, from the style's plan to the picture read back: the median of a few, milliseconds.
-    pub frame_ms: f64,
-    /// Time of each pass.
-    pub passes: Vec<PassTime>,
-    /// Whether the style draws lines.
-    pub has_lines: bool,
-    /// How dark each pixel of its lines is; `None` without lines, and where they are not measured.
-    pub ink: Option<Vec<u8>>,
-}
 
 /// What a drawing thread is told.
 pub(super) enum Order {
@@ -198,52 +153,6 @@ impl Drawer {
             costs.push(Cost { side: *side, style: style.name(), frame_ms, passes, has_lines, ink });
         }
         Ok((scene, costs))
-    }
-}
-
-impl Job {
-    /// The camera.
-    ///
-    /// # Errors
-    ///
-    /// As [`Orbit::settings`].
-    pub fn camera(&self) -> Result<CameraSettings> {
-        self.orbit.settings(&self.scene, &self.settings)
-    }
-
-    /// The scene as it is seen.
-    ///
-    /// # Errors
-    ///
-    /// As [`Scene::new`].
-    pub fn scene(&self) -> Result<Scene> {
-        let size = if self.is_coarse { coarse::size(self.settings.size) } else { self.settings.size };
-        self.scene.seen_with(&SceneSettings { camera: self.camera()?, size, ..self.settings.clone() })
-    }
-
-    /// Whether the same models are drawn as in another, in pictures of the same size.
-    pub fn is_of_same_scene_and_size(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene) && self.settings.size == other.settings.size
-    }
-
-    /// Whether they are seen from the same place, as another's are.
-    pub fn is_of_same_view(&self, other: &Self) -> bool {
-        self.orbit == other.orbit && self.settings.camera == other.settings.camera
-    }
-
-    /// Whether it is of the same scene as another, seen alike, whatever is drawn of it.
-    pub fn is_of_same_picture(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene) && self.orbit == other.orbit && self.settings == other.settings
-    }
-
-    /// Whether it would draw the same as another.
-    pub fn is_same(&self, other: &Self) -> bool {
-        self.is_of_same_picture(other) && self.drawings == other.drawings && self.is_coarse == other.is_coarse
-    }
-
-    /// Whether what it draws does for another: the same, or a finer picture than needs be.
-    pub fn does_for(&self, other: &Self) -> bool {
-        self.is_same(&Self { is_coarse: self.is_coarse && other.is_coarse, ..other.clone() })
     }
 }
 

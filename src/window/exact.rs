@@ -5,34 +5,20 @@
 //! by themselves are finished and shown, and those of the newest view are next. Strokes keep their ids from view to view, so that it can
 //! be said how many stayed.
 
-use super::draw::Job;
-use super::paint::{over, painted};
+use super::line_job::{Found, LineJob, Stayed};
+use super::paint::painted;
 use super::report::{Report, Reporter};
 use crate::error::Result;
 use crate::lines::{LineSettings, Progress, StrokeIds, VisibleLines, chain, strokes, strokes_of_paths};
 use crate::picture::Picture;
 use crate::renderer::milliseconds_since;
-use crate::scene::{Scene, SceneSettings, Size};
+use crate::scene::Scene;
 use crate::styles::LineStyle;
 use std::collections::HashSet;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-/// Whose lines are wanted, drawn how.
-#[derive(Debug, Clone)]
-pub struct LineJob {
-    /// The view; what else is drawn of it does not matter.
-    pub view: Job,
-    /// Which lines, and how they look.
-    pub style: LineStyle,
-}
-
 impl LineJob {
-    /// Whether it would draw the same as another.
-    pub fn is_same(&self, other: &Self) -> bool {
-        self.style == other.style && self.view.is_of_same_picture(&other.view)
-    }
-
     /// The lines on nothing, and how many of their strokes are those of the view before.
     fn find(&self, ids: &Mutex<Option<Kept>>, progress: &Progress) -> Result<(Picture, Stayed)> {
         let (scene, drawing) = (self.view.scene()?, &self.style.drawing);
@@ -67,25 +53,6 @@ struct Kept {
     strokes: HashSet<u32>,
 }
 
-/// How the strokes of a view are those of the one before.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stayed {
-    /// Strokes in this view.
-    pub count: usize,
-    /// Of these not in the one before; all in a first view.
-    pub new: usize,
-    /// Those of the one before that are not in this one.
-    pub gone: usize,
-}
-
-impl Stayed {
-    /// For the panel.
-    pub(super) fn text(self) -> String {
-        let Self { count, new, gone } = self;
-        format!("{count} strokes, {new} new, {gone} gone")
-    }
-}
-
 /// A scene's lines on nothing.
 ///
 /// # Errors
@@ -94,32 +61,6 @@ impl Stayed {
 pub(super) fn ink(scene: &Scene, style: &LineStyle, progress: &Progress) -> Result<Picture> {
     let lines = VisibleLines::with_progress(scene, &style.wanted(), progress)?;
     Ok(painted(&strokes(&lines, &style.drawing)?, scene.size))
-}
-
-/// Lines that were found.
-#[derive(Debug)]
-pub struct Found {
-    /// Whose they are.
-    pub job: LineJob,
-    /// They on nothing.
-    pub ink: Picture,
-    /// How many of their strokes are those of the view before.
-    pub stayed: Stayed,
-    /// What that took, milliseconds.
-    pub ms: f64,
-}
-
-impl Found {
-    /// They as a picture by themselves.
-    pub fn alone(&self) -> Picture {
-        over(&self.ink, &ground(self.ink.size, &self.job.view.settings))
-    }
-}
-
-/// What is behind lines that are a picture by themselves.
-pub(super) fn ground(size: Size, settings: &SceneSettings) -> Picture {
-    let pixel = settings.background.clear_color().map(|channel| (channel * 255.0).round() as u8);
-    Picture { size, pixels: pixel.repeat(size.pixel_count()) }
 }
 
 /// The lines of the view that is shown.
@@ -219,7 +160,8 @@ impl ExactLines {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::window::Orbit;
+    use crate::scene::{SceneSettings, Size};
+    use crate::window::{Job, Orbit};
     use crate::{LoadOptions, load};
 
     #[test]

@@ -1,36 +1,12 @@
 //! Reads models on their own thread, so that the window stays responsive.
 
-use super::report::{Report, Reporter};
+use super::report::{LoadedModels, Report, Reporter, Stage};
 use crate::error::Result;
 use crate::mesh::{LoadOptions, LoadStage, Mesh, load_watched};
 use crate::scene::{Scene, SceneSettings};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-
-/// Models that were read.
-#[derive(Debug)]
-pub struct LoadedModels {
-    /// As the user named them.
-    pub models: Vec<String>,
-    /// How they were read.
-    pub options: LoadOptions,
-    /// Their files and what was read beside them.
-    pub files: Vec<PathBuf>,
-    /// They at their places.
-    pub scene: Arc<Scene>,
-    /// What was noticed, to be said once.
-    pub remarks: Vec<String>,
-}
-
-/// How far reading is.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Stage {
-    /// What is being done.
-    pub text: String,
-    /// Steps done, share of all; steps take different times.
-    pub share: f32,
-}
 
 /// Starts threads that read models; the last one asked counts.
 pub(super) struct Loader {

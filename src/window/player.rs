@@ -1,7 +1,7 @@
 //! Plays recordings in a window frame by frame, and times them.
 
-use super::app::Shown;
 use super::replay::Replay;
+use super::shown::Shown;
 use crate::error::{Error, Result};
 use crate::picture::{Target, write_rgba_png};
 use crate::record::Summary;

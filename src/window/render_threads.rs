@@ -5,7 +5,8 @@
 //! contexts of one screen of such a driver take turns (see `gl`), so the second is of EGL's surfaceless platform where the first is of a
 //! device: the same library's driver with a screen of its own.
 
-use super::draw::{self, Job, Order};
+use super::draw::{self, Order};
+use super::job::Job;
 use super::line_measure::LineMeasure;
 use super::report::Reporter;
 use crate::gl::{Backend, ContextInfo};

@@ -1,14 +1,15 @@
 //! Messages from threads to the viewer, and how they wake it.
 
-use super::draw::{Cost, Drawing};
 use super::event::Side;
-use super::exact::Found;
+use super::job::{Cost, Drawing};
+use super::line_job::Found;
 use super::line_measure::LineScore;
-use super::load::{LoadedModels, Stage};
 use crate::error::{Error, Result};
 use crate::gl::ContextInfo;
+use crate::mesh::LoadOptions;
 use crate::scene::Scene;
 use std::collections::HashMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
@@ -64,6 +65,30 @@ pub enum Report {
     ShadersChanged(HashMap<String, String>),
     /// A file was written, or why not.
     Saved(String),
+}
+
+/// Models that were read.
+#[derive(Debug)]
+pub struct LoadedModels {
+    /// As the user named them.
+    pub models: Vec<String>,
+    /// How they were read.
+    pub options: LoadOptions,
+    /// Their files and what was read beside them.
+    pub files: Vec<PathBuf>,
+    /// They at their places.
+    pub scene: Arc<Scene>,
+    /// What was noticed, to be said once.
+    pub remarks: Vec<String>,
+}
+
+/// How far reading is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stage {
+    /// What is being done.
+    pub text: String,
+    /// Steps done, share of all; steps take different times.
+    pub share: f32,
 }
 
 /// Tells the viewer news and wakes it.

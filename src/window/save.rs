@@ -1,9 +1,11 @@
 //! Files from the window: what is shown, its exact lines, a turn, a preset; and the command line that makes the same.
 
 use super::controls;
-use super::draw::{Drawer, Job};
+use super::draw::Drawer;
 use super::event::{Save, Side};
 use super::exact;
+use super::job::Job;
+use super::line_job;
 use super::line_style::LinesShown;
 use super::paint::over;
 use super::state::ViewerState;
@@ -217,7 +219,7 @@ fn turn(state: &ViewerState, job: &Job, side: Side, backend: Backend, name: &str
         let scene = Scene { camera, ..scene.clone() };
         let mut picture = match drawn {
             Some((_, style, show)) => drawer.draw_scene(&scene, style, *show)?,
-            None => exact::ground(scene.size, &job.settings),
+            None => line_job::ground(scene.size, &job.settings),
         };
         if has_lines {
             picture = over(&exact::ink(&scene, &state.line_style(), &Progress::default())?, &picture);

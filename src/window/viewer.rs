@@ -6,14 +6,16 @@
 
 use super::compose::composed;
 use super::cost::Costs;
-use super::draw::{Drawing, Job};
 use super::event::{Effect, Save, Side, ViewerEvent};
-use super::exact::{ExactLines, LineJob};
+use super::exact::ExactLines;
+use super::job::{Drawing, Job};
+use super::line_job::LineJob;
 use super::line_measure::LineMeasure;
 use super::line_style::LinesShown;
-use super::load::{LoadedModels, Loader, Stage};
+use super::load::Loader;
 use super::paint::over;
 use super::render_threads::{Ended, RenderThreads};
+use super::report::{LoadedModels, Stage};
 use super::report::{Report, Reporter};
 use super::save::{Surroundings, save};
 use super::state::ViewerState;

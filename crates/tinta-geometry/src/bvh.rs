@@ -63,39 +63,39 @@ pub(crate) struct BoxTree {
     /// The boxes, leaf by leaf.
     boxes: Vec<Box3>,
     leaves: Vec<u32>,
-    /// Each node's hub, if all things below it have the same one, else [`NO_FAMILY`]; empty where there are no hubs.
-    hubs: Vec<u32>,
+    /// Each node's high-valence vertex, if all things below it have the same one, else [`NO_GROUP`]; empty where there are no high-valence vertices.
+    high_valence: Vec<u32>,
     /// Likewise the plane in which all things below it lie.
     planes: Vec<u32>,
 }
 
 /// Below which nodes of a hierarchy there is something wanted: by default below all.
 #[derive(Default)]
-pub(crate) struct Wanted(Vec<u32>);
+pub(crate) struct NodeSelection(Vec<u32>);
 
-impl Wanted {
+impl NodeSelection {
     fn any_below(&self, node: u32) -> bool {
-        family(&self.0, node) == NO_FAMILY
+        group(&self.0, node) == NO_GROUP
     }
 }
 
-/// Of things that belong to no family.
-pub(crate) const NO_FAMILY: u32 = u32::MAX;
+/// Of things that belong to no group.
+pub(crate) const NO_GROUP: u32 = u32::MAX;
 
-/// Families whose things are not looked for; [`NO_FAMILY`] leaves out nothing.
+/// Groups whose things are not looked for; [`NO_GROUP`] leaves out nothing.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct LeftOut {
+pub(crate) struct Exclusion {
     pub planes: [u32; 2],
-    pub hubs: [u32; 2],
+    pub high_valence: [u32; 2],
 }
 
-impl Default for LeftOut {
+impl Default for Exclusion {
     fn default() -> Self {
-        Self { planes: [NO_FAMILY; 2], hubs: [NO_FAMILY; 2] }
+        Self { planes: [NO_GROUP; 2], high_valence: [NO_GROUP; 2] }
     }
 }
 
-impl LeftOut {
+impl Exclusion {
     /// Of things in planes.
     pub(crate) fn planes(planes: [u32; 2]) -> Self {
         Self { planes, ..Self::default() }
@@ -117,20 +117,20 @@ impl BoxTree {
 
     /// The same, or a hierarchy of nothing where it is over before.
     pub(crate) fn new_unless(boxes: &[Box3], is_over: impl Fn() -> bool + Sync) -> (Self, Vec<u32>) {
-        let groups = groups(boxes, &is_over);
-        let mut groups = in_chunks(groups.len(), 1, cores(), |range| match is_over() {
+        let batches = batches(boxes, &is_over);
+        let mut batches = in_chunks(batches.len(), 1, cores(), |range| match is_over() {
             true => Bvh2::default(),
-            false => built(boxes, &groups[range.start]),
+            false => built(boxes, &batches[range.start]),
         });
         if is_over() {
             return Self::new(&[]);
         }
-        let mut nodes = if groups.len() == 1 { groups.swap_remove(0) } else { joined(&groups) };
+        let mut nodes = if batches.len() == 1 { batches.swap_remove(0) } else { joined(&batches) };
         nodes.parents = Vec::new();
         let order = std::mem::take(&mut nodes.primitive_indices);
         let leaves = (0..nodes.nodes.len() as u32).filter(|node| nodes.nodes[*node as usize].is_leaf()).collect();
         let boxes = order.iter().map(|index| boxes[*index as usize]).collect();
-        (Self { boxes, leaves, nodes, hubs: Vec::new(), planes: Vec::new() }, order)
+        (Self { boxes, leaves, nodes, high_valence: Vec::new(), planes: Vec::new() }, order)
     }
 
     /// The things' boxes, by their places.
@@ -138,10 +138,10 @@ impl BoxTree {
         &self.boxes
     }
 
-    /// Says of the thing at each place which hub it is around: [`BoxTree::pairs`] then leaves out pairs of one hub, and takes no
+    /// Says of the thing at each place which high-valence vertex it is around: [`BoxTree::pairs`] then leaves out pairs of one high-valence vertex, and takes no
     /// time over them.
-    pub(crate) fn set_hubs(&mut self, hub_of: &[u32]) {
-        self.hubs = self.of_nodes(hub_of);
+    pub(crate) fn set_high_valence(&mut self, vertex_of: &[u32]) {
+        self.high_valence = self.of_nodes(vertex_of);
     }
 
     /// Says of the thing at each place in which plane it lies: [`BoxTree::pairs`] then leaves out pairs of one plane, and
@@ -151,17 +151,17 @@ impl BoxTree {
     }
 
     /// Below which nodes there is something wanted, of the thing at each place.
-    pub(crate) fn wanted(&self, is_wanted: &[bool]) -> Wanted {
+    pub(crate) fn wanted(&self, is_wanted: &[bool]) -> NodeSelection {
         const UNWANTED: u32 = 0;
-        let families: Vec<u32> = is_wanted.iter().map(|is| if *is { NO_FAMILY } else { UNWANTED }).collect();
-        Wanted(self.of_nodes(&families))
+        let groups: Vec<u32> = is_wanted.iter().map(|is| if *is { NO_GROUP } else { UNWANTED }).collect();
+        NodeSelection(self.of_nodes(&groups))
     }
 
-    /// Of each node the family that all things below it are of, or [`NO_FAMILY`].
-    fn of_nodes(&self, family_of: &[u32]) -> Vec<u32> {
+    /// Of each node the group that all things below it are of, or [`NO_GROUP`].
+    fn of_nodes(&self, group_of: &[u32]) -> Vec<u32> {
         let nodes = &self.nodes.nodes;
-        let mut families = vec![NO_FAMILY; nodes.len()];
-        let common = |first: u32, second: u32| if first == second { first } else { NO_FAMILY };
+        let mut groups = vec![NO_GROUP; nodes.len()];
+        let common = |first: u32, second: u32| if first == second { first } else { NO_GROUP };
         // Each node after its children: they are found before it, and gone through backwards.
         let mut order: Vec<u32> = if nodes.is_empty() { Vec::new() } else { vec![0] };
         let mut next = 0;
@@ -175,62 +175,63 @@ impl BoxTree {
         for index in order.into_iter().rev() {
             let node = &nodes[index as usize];
             let first = node.first_index as usize;
-            families[index as usize] = if node.is_leaf() {
-                let things = &family_of[range(node.first_index, node.prim_count)];
-                things.iter().copied().reduce(common).unwrap_or(NO_FAMILY)
+            groups[index as usize] = if node.is_leaf() {
+                let things = &group_of[range(node.first_index, node.prim_count)];
+                things.iter().copied().reduce(common).unwrap_or(NO_GROUP)
             } else {
-                common(families[first], families[first + 1])
+                common(groups[first], groups[first + 1])
             };
         }
-        families
+        groups
     }
 
     /// Calls `visit` with each thing whose box overlaps `query` until it returns true; returns whether it did.
     pub(crate) fn any(&self, query: &Box3, visit: impl FnMut(u32) -> bool) -> bool {
-        self.any_but(query, LeftOut::default(), visit)
+        self.any_but(query, Exclusion::default(), visit)
     }
 
-    /// As [`BoxTree::any`] without some families, as far as whole leaves are of them.
-    pub(crate) fn any_but(&self, query: &Box3, left_out: LeftOut, mut visit: impl FnMut(u32) -> bool) -> bool {
-        let is_none = |families: &[u32], node: u32, left_out: [u32; 2]| {
-            let family = family(families, node);
-            family == NO_FAMILY || !left_out.contains(&family)
+    /// As [`BoxTree::any`] without some groups, as far as whole leaves are of them.
+    pub(crate) fn any_but(&self, query: &Box3, excluded: Exclusion, mut visit: impl FnMut(u32) -> bool) -> bool {
+        let is_none = |groups: &[u32], node: u32, excluded: [u32; 2]| {
+            let group = group(groups, node);
+            group == NO_GROUP || !excluded.contains(&group)
         };
-        let is_other =
-            |node: u32| is_none(&self.planes, node, left_out.planes) && is_none(&self.hubs, node, left_out.hubs);
+        let is_other = |node: u32| {
+            is_none(&self.planes, node, excluded.planes) && is_none(&self.high_valence, node, excluded.high_valence)
+        };
         self.any_leaf(query, is_other, |leaf| {
             range(leaf.first_index, leaf.prim_count)
                 .any(|place| query.overlaps(&self.boxes[place]) && visit(place as u32))
         })
     }
 
-    /// How many groups [`BoxTree::pairs`] may be asked for.
-    pub(crate) fn group_count(&self) -> usize {
+    /// How many batches of leaves [`BoxTree::pairs`] takes.
+    pub(crate) fn batch_count(&self) -> usize {
         self.leaves.len()
     }
 
-    /// Calls `visit` with each pair of things whose boxes overlap, one of them in one of these groups, until it returns true;
-    /// over all groups each pair comes once. Returns whether it did. Pairs of one hub or plane are left out as far as whole
+    /// Calls `visit` with each pair of things whose boxes overlap, one of them in one of these batches, until it returns true;
+    /// over all batches each pair comes once. Returns whether it did. Pairs of one high-valence vertex or plane are left out as far as whole
     /// leaves are of it.
-    pub(crate) fn pairs(&self, groups: std::ops::Range<usize>, visit: impl FnMut(u32, u32) -> bool) -> bool {
-        self.wanted_pairs(groups, &Wanted::default(), visit)
+    pub(crate) fn pairs(&self, batches: std::ops::Range<usize>, visit: impl FnMut(u32, u32) -> bool) -> bool {
+        self.selected_pairs(batches, &NodeSelection::default(), visit)
     }
 
     /// The same without what lies below nodes of which nothing is wanted.
-    pub(crate) fn wanted_pairs(
+    pub(crate) fn selected_pairs(
         &self,
-        groups: std::ops::Range<usize>,
-        wanted: &Wanted,
+        batches: std::ops::Range<usize>,
+        wanted: &NodeSelection,
         mut visit: impl FnMut(u32, u32) -> bool,
     ) -> bool {
-        self.leaves[groups].iter().filter(|index| wanted.any_below(**index)).any(|index| {
+        self.leaves[batches].iter().filter(|index| wanted.any_below(**index)).any(|index| {
             let node = &self.nodes.nodes[*index as usize];
             let own = range(node.first_index, node.prim_count);
-            let (hub, plane) = (family(&self.hubs, *index), family(&self.planes, *index));
+            let (vertex, plane) = (group(&self.high_valence, *index), group(&self.planes, *index));
             let is_other = |node: u32| {
                 wanted.any_below(node)
-                    && (hub == NO_FAMILY || family(&self.hubs, node) != hub)
-                    && (plane == NO_FAMILY || family(&self.planes, node) != plane)
+                    && (vertex == NO_GROUP || group(&self.high_valence, node) != vertex)
+                    && (plane == NO_GROUP || group(&self.planes, node) != plane)
             };
             self.any_leaf(&Box3(*node.aabb()), is_other, |leaf| {
                 let other = range(leaf.first_index, leaf.prim_count);
@@ -333,18 +334,18 @@ pub(crate) fn counting_steps<T>(work: impl FnOnce() -> T) -> (T, u64) {
     (result, steps().wrapping_sub(before))
 }
 
-/// A node's family; none where there are no families.
-fn family(families: &[u32], node: u32) -> u32 {
-    families.get(node as usize).copied().unwrap_or(NO_FAMILY)
+/// A node's group; none where there are no groups.
+fn group(groups: &[u32], node: u32) -> u32 {
+    groups.get(node as usize).copied().unwrap_or(NO_GROUP)
 }
 
 /// Most things whose hierarchy is built at once. Building joins those that are nearest to one another; of a row in which each is
 /// nearest to the one before, as a railing seen from its end, only two find each other in a pass over all.
 const BUILT_AT_ONCE: usize = 8192;
 
-/// The things' numbers in groups of which none has more than [`BUILT_AT_ONCE`], neighbours together: halved in the middle of the
+/// The things' numbers in batches of which none has more than [`BUILT_AT_ONCE`], neighbours together: halved in the middle of the
 /// longest side of where they lie.
-fn groups(boxes: &[Box3], is_over: impl Fn() -> bool) -> Vec<Vec<u32>> {
+fn batches(boxes: &[Box3], is_over: impl Fn() -> bool) -> Vec<Vec<u32>> {
     let middle = |number: &u32| boxes[*number as usize].0.center();
     let mut open: Vec<Vec<u32>> = vec![(0..boxes.len() as u32).collect()];
     let mut done = Vec::new();
@@ -382,24 +383,24 @@ fn hierarchy(boxes: &[Box3]) -> Bvh2 {
 }
 
 /// Hierarchies as one: a hierarchy of their roots, each of whose leaves is one of them.
-fn joined(groups: &[Bvh2]) -> Bvh2 {
-    let roots: Vec<Box3> = groups.iter().map(|group| Box3(*group.nodes[0].aabb())).collect();
+fn joined(batches: &[Bvh2]) -> Bvh2 {
+    let roots: Vec<Box3> = batches.iter().map(|batch| Box3(*batch.nodes[0].aabb())).collect();
     let mut whole = hierarchy(&roots);
-    let group_of = std::mem::take(&mut whole.primitive_indices);
+    let batch_of = std::mem::take(&mut whole.primitive_indices);
     for top in 0..whole.nodes.len() {
         if !whole.nodes[top].is_leaf() {
             continue;
         }
-        let group = &groups[group_of[whole.nodes[top].first_index as usize] as usize];
-        // All but the group's root are put behind what there is.
+        let batch = &batches[batch_of[whole.nodes[top].first_index as usize] as usize];
+        // All but the batch's root are put behind what there is.
         let (first_node, first_thing) = (whole.nodes.len() as u32 - 1, whole.primitive_indices.len() as u32);
-        let mut moved = group.nodes.iter().map(|node| Bvh2Node {
+        let mut moved = batch.nodes.iter().map(|node| Bvh2Node {
             first_index: node.first_index + if node.is_leaf() { first_thing } else { first_node },
             ..*node
         });
         whole.nodes[top] = moved.next().unwrap_or_default();
         whole.nodes.extend(moved);
-        whole.primitive_indices.extend_from_slice(&group.primitive_indices);
+        whole.primitive_indices.extend_from_slice(&batch.primitive_indices);
     }
     whole
 }
@@ -433,7 +434,7 @@ mod tests {
             assert_eq!(found, [wanted]);
         }
         let mut pairs = Vec::new();
-        tree.pairs(0..tree.group_count(), |first, second| {
+        tree.pairs(0..tree.batch_count(), |first, second| {
             let [a, b] = [first, second].map(|place| order[place as usize]);
             pairs.push((a.min(b), a.max(b)));
             false

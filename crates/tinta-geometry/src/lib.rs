@@ -38,6 +38,7 @@ pub mod choice;
 #[doc(hidden)]
 pub mod files;
 mod memory;
+mod disjoint_sets;
 #[doc(hidden)]
 pub mod markup;
 #[doc(hidden)]

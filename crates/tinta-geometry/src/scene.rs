@@ -25,6 +25,7 @@
 mod extent;
 mod precision;
 mod turntable;
+mod vertex_boxes;
 
 pub use crate::values::{Background, Color, Rectangle, Size};
 
@@ -290,7 +291,7 @@ impl Scene {
 
     /// Boxes around an object's vertices, as its arrays have them.
     fn boxes<'a>(&self, object: &'a Object) -> &'a [[Vec3; 2]] {
-        object.boxes.get_or_init(|| extent::boxes(self.arrays(object)))
+        object.boxes.get_or_init(|| vertex_boxes::boxes(self.arrays(object)))
     }
 
     /// Makes every object's arrays now, on the thread that has the time.

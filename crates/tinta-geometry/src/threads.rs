@@ -16,6 +16,12 @@ pub fn threads_for(faces: usize) -> usize {
     cores().min(faces / FACES_WORTH_A_THREAD).max(1)
 }
 
+/// How many threads work on so many simple items, such as points, is worth.
+pub fn threads_for_items(count: usize) -> usize {
+    const ITEMS_WORTH_A_THREAD: usize = 20_000;
+    cores().min(count / ITEMS_WORTH_A_THREAD).max(1)
+}
+
 /// Cuts `0..count` into at most `pieces` ranges of nearly one length.
 pub fn ranges(count: usize, pieces: usize) -> Vec<std::ops::Range<usize>> {
     let length = count.div_ceil(pieces.max(1)).max(1);

@@ -3,7 +3,7 @@
 //! The system's legacy profile is OpenGL 2.1 with GLSL 1.20, just what the articles need. glutin's CGL asks for a core profile
 //! first and for the main thread, hence the calls by name. This was compiled and never run: see docs/installing.md.
 
-use super::driver::{NotCurrent, Platform};
+use super::platform::{NotCurrent, Platform};
 use crate::scene::Size;
 use libloading::Library;
 use std::ffi::{CStr, c_char, c_void};

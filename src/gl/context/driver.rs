@@ -8,6 +8,7 @@ use super::context_lock::{self, ContextGuard, ContextLock};
 #[cfg(not(target_os = "macos"))]
 use super::egl;
 use super::load::load_functions;
+use super::platform::{NotCurrent, Platform};
 #[cfg(all(unix, not(target_os = "macos")))]
 use super::surfaceless;
 #[cfg(windows)]
@@ -15,7 +16,6 @@ use super::wgl;
 use super::{Attempt, Backend, ContextInfo, Outcome, osmesa};
 use crate::error::{Error, Result};
 use crate::scene::Size;
-use std::ffi::{CStr, c_void};
 use std::mem::ManuallyDrop;
 use std::rc::Rc;
 
@@ -32,36 +32,6 @@ pub(crate) struct Context {
     faults: Option<Rc<Faults>>,
     /// Shared with the contexts of the same screen; `None` for those of hardware, which may all be at work at once.
     lock: Option<&'static ContextLock>,
-}
-
-/// Why a context cannot be made current.
-pub(super) struct NotCurrent {
-    pub(super) is_lost: bool,
-    pub(super) reason: String,
-}
-
-/// A platform's context with the surface it draws into.
-pub(super) trait Platform {
-    /// Makes the surface this large. The context is not current.
-    fn resize(&mut self, size: Size) -> std::result::Result<(), String>;
-
-    /// Makes the context current on this thread.
-    fn make_current(&self) -> std::result::Result<(), NotCurrent>;
-
-    /// Ends that.
-    fn release(&self);
-
-    /// The address of a GL function, or null. The context is current.
-    fn proc_address(&self, name: &CStr) -> *const c_void;
-
-    /// The largest surface, where the platform has a limit of its own.
-    fn largest_surface(&self) -> Size;
-
-    /// Whether there is no surface, so that a framebuffer object has to stand for it.
-    #[cfg_attr(not(any(target_os = "macos", test)), expect(dead_code, reason = "only contexts of macOS do"))]
-    fn lacks_surface(&self) -> bool {
-        false
-    }
 }
 
 /// Opens a platform's context of this version of OpenGL.

@@ -4,8 +4,8 @@ use super::super::Gl;
 use super::super::faults::Faults;
 use super::super::immediate::Immediate;
 use super::super::legacy::{self, Legacy};
-use super::driver::Platform;
 use super::info::{ContextInfo, LEAST_SUBPIXEL_BITS};
+use super::platform::Platform;
 #[cfg(any(target_os = "macos", test))]
 use super::surface_framebuffer::SurfaceFramebuffer;
 use crate::error::Error;

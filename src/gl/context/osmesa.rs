@@ -1,6 +1,6 @@
 //! Mesa's off-screen library: a context that draws into our memory, with no device at all. Mesa 25.1 removed it.
 
-use super::driver::{NotCurrent, Platform};
+use super::platform::{NotCurrent, Platform};
 use crate::scene::Size;
 use libloading::{Library, Symbol};
 use std::cell::{Cell, RefCell};

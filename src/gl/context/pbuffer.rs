@@ -1,6 +1,6 @@
 //! A context that draws into a pbuffer, through glutin: by EGL on a device, by WGL on Windows.
 
-use super::driver::{NotCurrent, Platform};
+use super::platform::{NotCurrent, Platform};
 use crate::scene::Size;
 use glutin::config::{Api, Config, ConfigSurfaceTypes, ConfigTemplateBuilder, GlConfig};
 use glutin::context::{

@@ -3,8 +3,8 @@
 //! Two contexts of a software driver's screen must take turns (`context_lock`). A context here and one of a device need not, as
 //! OSMesa's need not; unlike OSMesa it is there wherever EGL is. glutin knows no such display, hence the calls by name.
 
-use super::driver::{NotCurrent, Platform};
 use super::egl;
+use super::platform::{NotCurrent, Platform};
 use crate::scene::Size;
 use libloading::Library;
 use std::ffi::{CStr, c_char, c_void};

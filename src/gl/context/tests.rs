@@ -1,7 +1,8 @@
 //! Contexts take turns.
 
 use super::context_lock::{ContextLock, OF_EGL, OF_OSMESA, OF_SURFACELESS};
-use super::driver::{NotCurrent, Platform, VERSION};
+use super::driver::VERSION;
+use super::platform::{NotCurrent, Platform};
 use super::{Backend, Context, egl, osmesa};
 use crate::mesh::{LoadOptions, load};
 use crate::picture::Picture;

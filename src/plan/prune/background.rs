@@ -1,7 +1,7 @@
 //! Pixels without an object: squares that could be a clear, squares that need not reach there, clears that are drawn over.
 
 use super::ground::{Ground, covers, stays_in_objects};
-use super::{Omission, Rule, Situation, counted, drop_empty_passes};
+use super::rule::{Omission, Rule, Situation, counted, drop_empty_passes};
 use crate::plan::{Blend, Depth, Draw, Geometry, Pass, Plan, Step, Target, Texture, WhereEven};
 use crate::scene::Rectangle;
 use crate::tolerances::EIGHT_BIT_TIE;

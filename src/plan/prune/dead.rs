@@ -1,6 +1,6 @@
 //! Dead code elimination for plans: draws that add nothing, maps and copies without a filter, textures without a shader.
 
-use super::{Omission, Rule, counted, drop_empty_passes};
+use super::rule::{Omission, Rule, counted, drop_empty_passes};
 use crate::plan::{Draw, Plan, Step, Target, Texture};
 
 /// Leaves out draws that add nothing, as borders do whose response is multiplied by 0.

@@ -1,7 +1,7 @@
 //! Objects outside the picture, and faces that a view cannot show.
 
 use super::ground::stays_in_objects;
-use super::{Omission, Rule, Situation, counted};
+use super::rule::{Omission, Rule, Situation, counted};
 use crate::hiding::{DrawnFaces, faces_not_culled};
 use crate::plan::{Blend, Depth, Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
 use crate::scene::{Object, Scene};

@@ -1,6 +1,6 @@
 //! Light that no tone depends on.
 
-use super::{Omission, Rule};
+use super::rule::{Omission, Rule};
 use crate::plan::{Plan, Shorter};
 
 /// Exchanges programs for those without the light that reaches no threshold.

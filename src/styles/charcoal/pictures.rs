@@ -1,6 +1,5 @@
 //! The charcoal drawing's three textures, made once for all pictures with the same settings.
 
-use super::Charcoal;
 use crate::error::{Error, Result};
 use crate::picture::Picture;
 use crate::settings::{Kind, Problem, Value};
@@ -74,7 +73,7 @@ impl Value for TextureSource {
 
 /// Textures kept for the next picture; shared between clones. Two of them are always equal: they follow from the settings.
 #[derive(Debug, Clone, Default)]
-pub struct CharcoalPictures(Arc<Mutex<Option<(Settings, Made)>>>);
+pub struct CharcoalPictures(Arc<Mutex<Option<(TextureSettings, Made)>>>);
 
 impl PartialEq for CharcoalPictures {
     fn eq(&self, _: &Self) -> bool {
@@ -84,13 +83,13 @@ impl PartialEq for CharcoalPictures {
 
 /// What the textures follow from.
 #[derive(Debug, Clone, PartialEq)]
-struct Settings {
-    contrast: ContrastTexture,
-    noise: NoiseTexture,
+pub(super) struct TextureSettings {
+    pub contrast: ContrastTexture,
+    pub noise: NoiseTexture,
     /// Of noise, contrast-enhanced texture and paper.
-    sources: [TextureSource; 3],
+    pub sources: [TextureSource; 3],
     /// Whether the paper's height is wanted.
-    has_tooth: bool,
+    pub has_tooth: bool,
 }
 
 /// The textures.
@@ -104,14 +103,9 @@ pub(super) struct Made {
 }
 
 impl CharcoalPictures {
-    /// Noise, contrast-enhanced texture and paper of these settings.
-    pub fn all(&self, charcoal: &Charcoal) -> Result<(Arc<Picture>, Arc<Picture>, Arc<Picture>)> {
-        self.of(charcoal).map(|Made { noise, cet, paper, .. }| (noise, cet, paper))
-    }
-
     /// The textures of these settings: those kept, or else made now.
-    pub(super) fn of(&self, charcoal: &Charcoal) -> Result<Made> {
-        let (size, seed, random) = (charcoal.texture_size, charcoal.seed, charcoal.random);
+    pub(super) fn of(&self, settings: TextureSettings) -> Result<Made> {
+        let (size, seed, random) = (settings.noise.size, settings.noise.seed, settings.noise.random);
         if size.width.max(size.height) > LARGEST_SIDE_PX {
             return Err(Error::value(
                 "texture-size",
@@ -119,19 +113,6 @@ impl CharcoalPictures {
                 format!("a texture has 1 to {LARGEST_SIDE_PX} pixels on each side"),
             ));
         }
-        let settings = Settings {
-            contrast: ContrastTexture {
-                size,
-                seed,
-                random,
-                density_percent: charcoal.density_percent,
-                exponent: charcoal.cet_exponent,
-                blur_px: charcoal.cet_blur_px,
-            },
-            noise: NoiseTexture { size, seed, random },
-            sources: [&charcoal.noise_texture, &charcoal.cet, &charcoal.paper].map(TextureSource::clone),
-            has_tooth: charcoal.improve.tooth,
-        };
         // What is behind the lock is replaced as a whole, so a panic elsewhere leaves nothing half done.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((known, made)) = kept.as_ref()

@@ -1,7 +1,20 @@
 //! The numbers that curvature is made of: tensors in tangent planes, how they are fitted in a triangle and seen in another plane.
 
-use super::Curvature;
 use glam::{DVec2, DVec3};
+
+/// The surface at a vertex. Lengths are in file units.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Curvature {
+    /// The unit normal; 0 where there is none.
+    pub normal: DVec3,
+    /// The principal curvatures, the one of larger amount first, 1 / length; convex is positive.
+    pub principal: [f64; 2],
+    /// Their directions, unit vectors; with the normal they are right-handed. Their signs mean nothing.
+    pub directions: [DVec3; 2],
+    /// The derivative C of the curvature tensor, 1 / length²: C(u, u, u), C(u, u, v), C(u, v, v) and C(v, v, v) for the
+    /// directions u and v. The first is how the first principal curvature grows along its own direction.
+    pub derivative: [f64; 4],
+}
 
 /// A tangent plane with its two axes, right-handed with the normal.
 #[derive(Debug, Clone, Copy)]

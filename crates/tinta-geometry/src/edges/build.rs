@@ -5,7 +5,8 @@
 //! a place of its own in memory for every edge; a vertex's half-edges lie together here.
 
 use super::{EdgeList, Incidence};
-use crate::threads::in_parallel;
+use crate::mesh::Mesh;
+use crate::threads::{in_parallel, threads_for};
 
 /// One side of a triangle as found: its higher position, and its face times two plus 1 if it runs from high to low. An array
 /// and no struct, so that fresh memory need not be cleared by hand.
@@ -13,7 +14,7 @@ type HalfEdge = [u32; 2];
 
 /// The edges of a range of lower positions.
 #[derive(Default)]
-struct Part {
+struct EdgeRange {
     positions: Vec<[u32; 2]>,
     faces: Vec<[u32; 2]>,
     incidence: Vec<Incidence>,
@@ -25,7 +26,27 @@ const SEARCHED: usize = 12;
 
 const NO_EDGE: u32 = u32::MAX;
 
-pub(super) fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) -> EdgeList {
+impl EdgeList {
+    /// Builds the list in time linear in the faces, on as many threads as the machine has and the mesh is worth.
+    pub fn new(mesh: &Mesh) -> Self {
+        Self::with_threads(mesh, threads_for(mesh.triangles.len()))
+    }
+
+    /// As [`EdgeList::new`] with a number of threads, at least 1; the result is the same for all of them.
+    ///
+    /// Faces that name a position twice or one that does not exist have no edges; [`EdgeList::degenerate_faces`] counts
+    /// them.
+    pub fn with_threads(mesh: &Mesh, threads: usize) -> Self {
+        edge_list(&mesh.triangles, mesh.positions.len() as u32, threads.max(1))
+    }
+
+    /// The list of triangles that belong to no [`Mesh`], over this many positions, as [`EdgeList::with_threads`] makes it.
+    pub(crate) fn of_triangles(triangles: &[[u32; 3]], positions: u32, threads: usize) -> Self {
+        edge_list(triangles, positions, threads.max(1))
+    }
+}
+
+fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) -> EdgeList {
     let is_degenerate = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a || *a.max(b).max(c) >= positions;
     // Half-edges are counted in 32 bits: a mesh of more has 30 GB of edges, and what is beyond has none here.
     let (triangles, beyond) = triangles.split_at(triangles.len().min(u32::MAX as usize / 3));
@@ -36,8 +57,8 @@ pub(super) fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) 
     .sum::<usize>();
     // Each thread sorts the half-edges of its share of the faces, then matches those of its share of the positions.
     let sorted = in_parallel(triangles.len(), threads, |faces| match degenerate_faces {
-        0 => Sorted::new(triangles, faces, positions as usize, |_| false),
-        _ => Sorted::new(triangles, faces, positions as usize, is_degenerate),
+        0 => SortedHalfEdges::new(triangles, faces, positions as usize, |_| false),
+        _ => SortedHalfEdges::new(triangles, faces, positions as usize, is_degenerate),
     });
     let shares = shares(&sorted, positions, threads);
     let parts = in_parallel(shares.len(), shares.len(), |share| part(&sorted, &shares[share.start]));
@@ -45,7 +66,7 @@ pub(super) fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) 
 }
 
 /// Ranges of positions with about the same number of half-edges each, one a thread.
-fn shares(sorted: &[Sorted], positions: u32, threads: usize) -> Vec<std::ops::Range<u32>> {
+fn shares(sorted: &[SortedHalfEdges], positions: u32, threads: usize) -> Vec<std::ops::Range<u32>> {
     let before = |position: u32| match position {
         0 => 0,
         position => sorted.iter().map(|sorted| sorted.ends[position as usize - 1] as usize).sum::<usize>(),
@@ -65,7 +86,7 @@ fn shares(sorted: &[Sorted], positions: u32, threads: usize) -> Vec<std::ops::Ra
         .collect()
 }
 
-fn join(parts: Vec<Part>, degenerate_faces: usize) -> EdgeList {
+fn join(parts: Vec<EdgeRange>, degenerate_faces: usize) -> EdgeList {
     let mut parts = parts.into_iter();
     let mut all = parts.next().unwrap_or_default();
     for part in parts {
@@ -75,7 +96,7 @@ fn join(parts: Vec<Part>, degenerate_faces: usize) -> EdgeList {
         all.incidence.extend_from_slice(&part.incidence);
         all.non_manifold.extend(part.non_manifold.into_iter().map(|(edge, faces)| (edge + first, faces)));
     }
-    let Part { positions, faces, incidence, non_manifold } = all;
+    let EdgeRange { positions, faces, incidence, non_manifold } = all;
     EdgeList { positions, faces, incidence, non_manifold, degenerate_faces }
 }
 
@@ -87,13 +108,13 @@ fn sides(&[a, b, c]: &[u32; 3]) -> [(u32, u32, u32); 3] {
 }
 
 /// The half-edges of some faces, sorted by their lower position and, within one, in the faces' order.
-struct Sorted {
+struct SortedHalfEdges {
     /// Where each position's half-edges end; they begin where those of the one before end.
     ends: Vec<u32>,
     half_edges: Vec<HalfEdge>,
 }
 
-impl Sorted {
+impl SortedHalfEdges {
     fn new(
         triangles: &[[u32; 3]],
         faces: std::ops::Range<usize>,
@@ -124,9 +145,9 @@ impl Sorted {
 }
 
 /// The edges whose lower positions are in a range.
-fn part(sorted: &[Sorted], low: &std::ops::Range<u32>) -> Part {
-    let mut part = Part::default();
-    let begin_of = |sorted: &Sorted| match low.start {
+fn part(sorted: &[SortedHalfEdges], low: &std::ops::Range<u32>) -> EdgeRange {
+    let mut part = EdgeRange::default();
+    let begin_of = |sorted: &SortedHalfEdges| match low.start {
         0 => 0,
         start => sorted.ends[start as usize - 1] as usize,
     };
@@ -174,7 +195,7 @@ impl Table {
     }
 }
 
-impl Part {
+impl EdgeRange {
     /// Adds half-edges of one position, whose edges begin at `first`.
     #[inline(always)]
     fn match_half_edges(&mut self, low: u32, first: usize, half_edges: &[HalfEdge], table: &mut Table) {

@@ -368,7 +368,7 @@ impl Classes {
 /// Unit normals of all faces; NaN for one without area, which makes every comparison with it fail.
 fn face_normals(mesh: &Mesh, threads: usize) -> Vec<[f64; 3]> {
     let normal = |triangle: &[u32; 3]| {
-        let Some([a, b, c]) = corners(mesh, triangle) else { return DVec3::NAN };
+        let Some([a, b, c]) = mesh.corners(triangle) else { return DVec3::NAN };
         let product = (b - a).cross(c - a);
         let squared = product.length_squared();
         // Plain arithmetic where it neither overflows nor underflows nor loses a needle; the careful way elsewhere.
@@ -379,12 +379,6 @@ fn face_normals(mesh: &Mesh, threads: usize) -> Vec<[f64; 3]> {
         }
     };
     filled(mesh.triangles.len(), threads, [0.0; 3], |face| normal(&mesh.triangles[face]).to_array())
-}
-
-/// A triangle's corners; `None` where one does not exist.
-pub(super) fn corners(mesh: &Mesh, triangle: &[u32; 3]) -> Option<[DVec3; 3]> {
-    let corner = |position: u32| mesh.positions.get(position as usize).copied();
-    Some([corner(triangle[0])?, corner(triangle[1])?, corner(triangle[2])?])
 }
 
 /// What the classes of an edge are found from.

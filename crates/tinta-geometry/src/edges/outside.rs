@@ -4,14 +4,13 @@
 //! turned to one orientation, and the sign of the volume says which; inside another shell it is a hollow's, whose outside is what it
 //! encloses. Open shells, and shells with an edge of three faces, keep the winding of the file.
 
-use super::classes::corners;
-use super::smooth::Groups;
 use super::{EdgeList, Incidence};
+use crate::disjoint_sets::DisjointSets;
 use crate::mesh::Mesh;
 use glam::DVec3;
 
 /// A closed shell.
-struct Closed {
+struct ClosedShell {
     /// Its faces, turned round where the second says so.
     faces: Vec<(u32, bool)>,
     bounds: [DVec3; 2],
@@ -35,22 +34,22 @@ pub(super) fn fronts_outside(mesh: &Mesh, edges: &EdgeList) -> Vec<bool> {
 }
 
 /// The shells that are closed and have one orientation when some of their faces are turned.
-fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<Closed> {
+fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<ClosedShell> {
     let count = mesh.triangles.len();
     // Each face twice, as it is and turned round: what hangs together has one orientation.
     let as_it_is = |face: u32| face;
     let turned = |face: u32| face + count as u32;
-    let mut groups = Groups::new(count * 2);
+    let mut groups = DisjointSets::new(count * 2);
     let mut is_open = vec![false; count * 2];
     for edge in 0..edges.len() as u32 {
         match (edges.incidence()[edge as usize], edges.faces(edge)) {
             (Incidence::Inner, &[first, second]) => {
-                groups.unite(as_it_is(first), as_it_is(second));
-                groups.unite(turned(first), turned(second));
+                groups.join([as_it_is(first), as_it_is(second)]);
+                groups.join([turned(first), turned(second)]);
             }
             (Incidence::InnerReversed, &[first, second]) => {
-                groups.unite(as_it_is(first), turned(second));
-                groups.unite(turned(first), as_it_is(second));
+                groups.join([as_it_is(first), turned(second)]);
+                groups.join([turned(first), as_it_is(second)]);
             }
             (_, faces) => faces.iter().for_each(|face| is_open[*face as usize] = true),
         }
@@ -63,7 +62,7 @@ fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<Closed> {
     }
     let (low, high) = mesh.bounds();
     let centre = low * 0.5 + high * 0.5;
-    let mut shells: Vec<Option<Closed>> = (0..count * 2).map(|_| None).collect();
+    let mut shells: Vec<Option<ClosedShell>> = (0..count * 2).map(|_| None).collect();
     for face in 0..count as u32 {
         let roots = [as_it_is(face), turned(face)].map(|node| groups.root(node));
         if roots.into_iter().any(|root| is_open[root as usize]) {
@@ -71,11 +70,11 @@ fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<Closed> {
         }
         // Of a shell and the same turned round one is enough: that of the lower number.
         let is_turned = roots[1] < roots[0];
-        let Some(corners) = corners(mesh, &mesh.triangles[face as usize]) else { continue };
+        let Some(corners) = mesh.corners(&mesh.triangles[face as usize]) else { continue };
         let [a, b, c] = corners.map(|corner| corner - centre);
         let volume = a.dot(b.cross(c)) * if is_turned { -1.0 } else { 1.0 };
         let [low, high] = [a.min(b).min(c) + centre, a.max(b).max(c) + centre];
-        let new = || Closed { faces: Vec::new(), bounds: [low, high], volume: 0.0 };
+        let new = || ClosedShell { faces: Vec::new(), bounds: [low, high], volume: 0.0 };
         let shell = shells[roots[0].min(roots[1]) as usize].get_or_insert_with(new);
         shell.faces.push((face, is_turned));
         shell.bounds = [shell.bounds[0].min(low), shell.bounds[1].max(high)];
@@ -84,7 +83,7 @@ fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<Closed> {
     shells.into_iter().flatten().collect()
 }
 
-impl Closed {
+impl ClosedShell {
     /// Whether another shell lies within this one: whether a ray from one of its corners leaves this one an odd number of times.
     fn encloses(&self, mesh: &Mesh, other: &Self) -> bool {
         /// Along no axis and in no plane that models have.
@@ -92,7 +91,7 @@ impl Closed {
         let [[low, high], [other_low, other_high]] = [self.bounds, other.bounds];
         let is_within = low.cmple(other_low).all() && other_high.cmple(high).all();
         let Some((first, _)) = other.faces.first().filter(|_| is_within) else { return false };
-        let of = |face: u32| corners(mesh, &mesh.triangles[face as usize]);
+        let of = |face: u32| mesh.corners(&mesh.triangles[face as usize]);
         let Some([from, ..]) = of(*first) else { return false };
         let is_crossed = |[a, b, c]: [DVec3; 3]| {
             let turn = |p: DVec3, q: DVec3| (p - from).cross(q - from).dot(AWAY);

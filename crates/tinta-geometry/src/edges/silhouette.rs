@@ -3,7 +3,6 @@
 //! The exact rule asks each face for its side once, in f32 with a bound on the error and, for the few faces that cannot be
 //! told so, exactly. The text's rule multiplies two products with one view vector (errata D3, D4).
 
-use super::classes::corners;
 use super::{EdgeList, Eye, Incidence, Side, side_of_face};
 use crate::mesh::{Mesh, triangle_normal};
 use crate::settings::Setting;
@@ -99,7 +98,7 @@ impl Silhouettes {
     pub fn new(mesh: &Mesh, edges: &EdgeList) -> Self {
         let frame = Frame::of(mesh);
         let plane = |face: usize| {
-            corners(mesh, &mesh.triangles[face]).map_or(Vec4::NAN, |corners| plane(&frame, corners)).to_array()
+            mesh.corners(&mesh.triangles[face]).map_or(Vec4::NAN, |corners| plane(&frame, corners)).to_array()
         };
         let count = mesh.triangles.len();
         let is_reversed = |edge: &u32| edges.incidence[*edge as usize] == Incidence::InnerReversed;
@@ -175,7 +174,7 @@ impl Silhouettes {
         let local = self.local_eye(eye, rule);
         let along_view = |face: u32| along_view(self.planes[face as usize], &local);
         let side = |face: u32| {
-            let corners = corners(mesh, &mesh.triangles[face as usize]);
+            let corners = mesh.corners(&mesh.triangles[face as usize]);
             corners.map_or(Side::Edge, |corners| side_of_face(corners, eye))
         };
         let is_silhouette = |edge: &u32| {
@@ -197,7 +196,7 @@ impl Silhouettes {
     /// Whether the eye sees a face's front, by exact arithmetic; `mesh` is the one the planes were made from.
     #[cold]
     fn is_front_exactly(&self, mesh: &Mesh, face: usize, eye: Eye) -> bool {
-        let corners = corners(mesh, &mesh.triangles[face]);
+        let corners = mesh.corners(&mesh.triangles[face]);
         corners.is_some_and(|corners| side_of_face(corners, eye) == Side::Front)
     }
 }

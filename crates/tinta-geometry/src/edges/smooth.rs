@@ -9,6 +9,7 @@
 mod rims;
 
 use super::{Class, ClassSet, Classes, CreaseAngle, EdgeList, Incidence};
+use crate::disjoint_sets::DisjointSets;
 use crate::mesh::{Mesh, NONE};
 use crate::threads::{filled, threads_for};
 use glam::DVec3;
@@ -92,7 +93,7 @@ fn side_of(triangle: &[u32; 3], [a, b]: [u32; 2]) -> Option<usize> {
 /// The normals, their positions, and each corner's normal.
 fn normals(mesh: &Mesh, edges: &EdgeList, is_sharp: &[bool]) -> (Vec<DVec3>, Vec<u32>, Vec<[u32; 3]>) {
     let triangles = &mesh.triangles;
-    let mut groups = Groups::new(triangles.len() * 3);
+    let mut groups = DisjointSets::new(triangles.len() * 3);
     for (edge, ends) in edges.positions().iter().enumerate() {
         let &[first, second] = edges.faces(edge as u32) else { continue };
         if is_sharp[edge] {
@@ -104,7 +105,7 @@ fn normals(mesh: &Mesh, edges: &EdgeList, is_sharp: &[bool]) -> (Vec<DVec3>, Vec
                 corner.map(|corner| face * 3 + corner as u32)
             };
             if let (Some(first), Some(second)) = (corner(first), corner(second)) {
-                groups.unite(first, second);
+                groups.join([first, second]);
             }
         }
     }
@@ -148,12 +149,12 @@ fn weighted_normals(corners: [DVec3; 3]) -> [DVec3; 3] {
 /// How the shell of each face is closed, and the shell of each position.
 fn shells(mesh: &Mesh, edges: &EdgeList) -> (Vec<Shell>, Vec<u32>) {
     let count = mesh.triangles.len();
-    let mut groups = Groups::new(count);
+    let mut groups = DisjointSets::new(count);
     let mut is_open = vec![false; count];
     for edge in 0..edges.len() as u32 {
         let faces = edges.faces(edge);
         match (edges.incidence()[edge as usize], faces) {
-            (Incidence::Inner, &[first, second]) => groups.unite(first, second),
+            (Incidence::Inner, &[first, second]) => groups.join([first, second]),
             _ => faces.iter().for_each(|face| is_open[*face as usize] = true),
         }
     }
@@ -185,31 +186,4 @@ fn shells(mesh: &Mesh, edges: &EdgeList) -> (Vec<Shell>, Vec<u32>) {
         triangle.iter().for_each(|position| position_shells[*position as usize] = number);
     }
     (shells, position_shells)
-}
-
-/// Numbers in groups (union-find).
-pub(super) struct Groups {
-    parents: Vec<u32>,
-}
-
-impl Groups {
-    pub(super) fn new(count: usize) -> Self {
-        Self { parents: (0..count as u32).collect() }
-    }
-
-    /// The lowest number of a group.
-    pub(super) fn root(&mut self, mut number: u32) -> u32 {
-        while self.parents[number as usize] != number {
-            let above = self.parents[self.parents[number as usize] as usize];
-            self.parents[number as usize] = above;
-            number = above;
-        }
-        number
-    }
-
-    pub(super) fn unite(&mut self, first: u32, second: u32) {
-        let (first, second) = (self.root(first), self.root(second));
-        let (root, other) = (first.min(second), first.max(second));
-        self.parents[other as usize] = root;
-    }
 }

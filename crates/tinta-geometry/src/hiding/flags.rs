@@ -61,7 +61,7 @@ pub(super) fn flagged(surface: &Surface, shells: &mut Shells, hierarchy: &Hierar
     let Hierarchy { tree, faces } = hierarchy;
     let most_pairs = faces.len().saturating_mul(PAIRS_OF_A_FACE);
     let pairs = AtomicUsize::new(0);
-    let too_many = in_chunks(tree.group_count(), GROUPS_AT_A_TIME, cores(), |groups| {
+    let too_many = in_chunks(tree.batch_count(), GROUPS_AT_A_TIME, cores(), |groups| {
         let mut own = 0;
         tree.pairs(groups, |first, second| {
             own += 1;

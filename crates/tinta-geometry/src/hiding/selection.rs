@@ -8,7 +8,7 @@ use crate::threads::{in_parallel, threads_for};
 pub(super) fn select(arrays: &VertexArrays, is_kept: impl Fn(usize, &[u32]) -> bool + Sync) -> DrawnFaces {
     let count = arrays.indices.len() / 3;
     let kept = in_parallel(count, threads_for(count), |faces| {
-        let mut kept = Kept { indices: Vec::with_capacity(faces.len() * 3), counts: Vec::new() };
+        let mut kept = FaceSelection { indices: Vec::with_capacity(faces.len() * 3), counts: Vec::new() };
         let first_part = arrays.parts.partition_point(|part| part.first + part.count <= faces.start as u32 * 3);
         for (number, part) in arrays.parts.iter().enumerate().skip(first_part) {
             let begin = (part.first as usize / 3).max(faces.start);
@@ -30,13 +30,13 @@ pub(super) fn select(arrays: &VertexArrays, is_kept: impl Fn(usize, &[u32]) -> b
 }
 
 /// What is kept of a range of faces.
-struct Kept {
+struct FaceSelection {
     indices: Vec<u32>,
     /// Parts, and how many of the indices are each one's.
     counts: Vec<(usize, u32)>,
 }
 
-fn joined(kept: Vec<Kept>, arrays: &VertexArrays) -> DrawnFaces {
+fn joined(kept: Vec<FaceSelection>, arrays: &VertexArrays) -> DrawnFaces {
     let mut parts: Vec<Part> = Vec::with_capacity(arrays.parts.len());
     let mut last = None;
     let mut first = 0;

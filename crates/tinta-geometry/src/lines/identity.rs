@@ -15,10 +15,11 @@
 //! its number. Less than a quarter ([`LEAST_SHARE`]) of the shorter of both in common is no reason to be the same. What finds
 //! no old stroke is a new one; no number is given twice.
 
-use super::chain::{LinePath, chain_curves};
-use super::features::{Part, asked};
-use super::{LineSegment, LineSettings, VisibleLines, parts};
+use super::{LineSegment, LineSettings, VisibleLines};
 use crate::edges::{Class, ClassSet};
+use crate::lines::drawing::chain::{LinePath, chain_curves};
+use crate::lines::input::features::asked;
+use crate::lines::input::object_edges::{ObjectEdges, object_edges};
 use crate::scene::Scene;
 use glam::{DVec3, IVec3};
 use std::cmp::Reverse;
@@ -73,7 +74,7 @@ impl StrokeIds {
     pub fn new(scene: &Scene, settings: &LineSettings) -> Self {
         let mut curves = HashMap::new();
         let mut count = 0;
-        for (object, part) in parts(scene).iter().enumerate() {
+        for (object, part) in object_edges(scene).iter().enumerate() {
             add_curves(part, settings, &mut count, |edge, curve| {
                 curves.insert((object as u32, edge), curve);
             });
@@ -198,7 +199,7 @@ impl Stroke {
 
 /// Calls `add` with the edges of a part that do not depend on the view, by their vertices in the file, and the curve of each,
 /// numbered from `count` on.
-fn add_curves(part: &Part<'_>, settings: &LineSettings, count: &mut u32, mut add: impl FnMut([u32; 2], u32)) {
+fn add_curves(part: &ObjectEdges<'_>, settings: &LineSettings, count: &mut u32, mut add: impl FnMut([u32; 2], u32)) {
     let edges = part.edges.get();
     let (list, mesh) = (edges.list(), edges.mesh());
     let classes = edges.classes(settings.crease_angle, asked(settings));

@@ -1,10 +1,10 @@
 //! Smooth contours against closed forms, against themselves in other places and orders, against edges where all is flat, and where
 //! little of a surface is left.
 
-use super::closed_forms::{ClosedForm, distance};
 use super::{LineSegment, LineSettings, VisibleLines, chain, first_hits};
 use crate::camera::{CameraSettings, View};
 use crate::edges::{Class, ClassSet, SilhouetteRule};
+use crate::lines::smooth::closed_forms::{ClosedForm, distance};
 use crate::mesh::{LoadOptions, Mesh, load};
 use crate::scene::{Scene, SceneSettings};
 use glam::{DQuat, DVec2, DVec3};

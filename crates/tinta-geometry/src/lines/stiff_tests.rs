@@ -2,9 +2,9 @@
 //! wrong, and shapes that are mostly flat.
 
 use super::LineSettings;
-use super::closed_forms::{ClosedForm, ContourDistance, Patch, distance};
 use super::smooth_tests::{camera, found, of_triangles, scene, smooth};
 use crate::edges::{Class, SilhouetteRule};
+use crate::lines::smooth::closed_forms::{ClosedForm, ContourDistance, Patch, distance};
 use crate::mesh::{LoadOptions, Mesh, load};
 use glam::{DVec2, DVec3, Vec3};
 use std::io::Write;

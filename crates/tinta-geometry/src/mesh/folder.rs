@@ -29,7 +29,7 @@ enum Place<'a> {
 
 /// What became of a file that a model names.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Found {
+pub(super) enum Lookup {
     /// It lies here.
     Here(PathBuf),
     /// It is there but outside the folder.
@@ -66,32 +66,32 @@ impl<'a> Folder<'a> {
     }
 
     /// The file of this name, which may have folders before it.
-    pub(super) fn find(&self, name: &Path) -> Found {
+    pub(super) fn find(&self, name: &Path) -> Lookup {
         match &self.place {
             Place::Disk { path, within } => {
                 let path = path.join(name);
                 match within {
-                    _ if !path.is_file() => Found::Nowhere,
-                    Some(within) if !files::is_within(&path, within) => Found::Outside,
-                    _ => Found::Here(path),
+                    _ if !path.is_file() => Lookup::Nowhere,
+                    Some(within) if !files::is_within(&path, within) => Lookup::Outside,
+                    _ => Lookup::Here(path),
                 }
             }
             Place::Memory(files) => match in_memory(files, name) {
-                Some((name, _)) => Found::Here(PathBuf::from(name)),
-                None => Found::Nowhere,
+                Some((name, _)) => Lookup::Here(PathBuf::from(name)),
+                None => Lookup::Nowhere,
             },
         }
     }
 
     /// The file of this name as seen from a folder above the model's: games name pictures from where they are installed.
-    pub(super) fn find_from_above(&self, name: &Path) -> Found {
-        let Place::Disk { path, within } = &self.place else { return Found::Nowhere };
-        let (Ok(real), true) = (listed(path).canonicalize(), name.is_relative()) else { return Found::Nowhere };
+    pub(super) fn find_from_above(&self, name: &Path) -> Lookup {
+        let Place::Disk { path, within } = &self.place else { return Lookup::Nowhere };
+        let (Ok(real), true) = (listed(path).canonicalize(), name.is_relative()) else { return Lookup::Nowhere };
         let places = real.ancestors().skip(1).take(name.components().count()).map(|above| above.join(name));
         match places.into_iter().find(|place| place.is_file()) {
-            None => Found::Nowhere,
-            Some(place) if within.as_ref().is_some_and(|within| !files::is_within(&place, within)) => Found::Outside,
-            Some(place) => Found::Here(place),
+            None => Lookup::Nowhere,
+            Some(place) if within.as_ref().is_some_and(|within| !files::is_within(&place, within)) => Lookup::Outside,
+            Some(place) => Lookup::Here(place),
         }
     }
 

@@ -62,7 +62,7 @@ fn contents(
     let Materials { list, coordinates, unread_pictures } = Materials::of(&root, &buffers, path)?;
     let mut soup =
         Soup { materials: list, files: buffers.files.clone(), bytes_beside: buffers.bytes_beside, ..Soup::default() };
-    let outlines = nodes.outlines(&root, &accessors, &coordinates)?;
+    let outlines = parts::outlines(&nodes, &root, &accessors, &coordinates)?;
     if outlines.is_empty() {
         return Err(match root.meshes.len() {
             0 => "it holds no meshes; is it the right file?".to_owned(),
@@ -71,7 +71,7 @@ fn contents(
         });
     }
     refuse_too_much(&outlines, bytes.len() + buffers.bytes_beside)?;
-    let mut left_out = LeftOut { unread_pictures, ..LeftOut::of(&root) };
+    let mut left_out = Omissions { unread_pictures, ..Omissions::of(&root) };
     for (outline, places) in &outlines {
         left_out.primitives += outline.others;
         soup.points_and_lines += outline.others;
@@ -132,7 +132,7 @@ fn refuse_too_much(outlines: &[(Outline<'_>, Vec<usize>)], file_bytes: usize) ->
 
 /// What a file holds and is not drawn, to be said in one sentence.
 #[derive(Default)]
-struct LeftOut {
+struct Omissions {
     /// Primitives that are points or lines.
     primitives: usize,
     animations: usize,
@@ -144,7 +144,7 @@ struct LeftOut {
     extensions: Vec<String>,
 }
 
-impl LeftOut {
+impl Omissions {
     fn of(root: &Root) -> Self {
         let unknown = root.extensions_used.iter().filter(|name| !is_understood(name));
         Self {

@@ -4,197 +4,19 @@ use super::folder::Folder;
 use super::format::{self, Format};
 #[cfg(feature = "gltf")]
 use super::gltf;
-use super::{Defects, Mesh, ModelFrame, lying, md2, obj, ply, skin, soup::Soup, stl, text, three_ds};
+use super::options::check;
+use super::{Defects, Mesh, md2, obj, ply, skin, soup::Soup, stl, text, three_ds, up_axis_guess};
 use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
 use crate::files::{self, Failure};
 use crate::limits::MODEL_BYTES;
 use crate::memory;
-use crate::settings::{HasSettings, Setting, Table, under};
-use crate::tolerances::{LARGEST_WELD, WELD};
-use glam::DVec3;
-use serde::{Serialize, Serializer};
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
 
-/// How a model is read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LoadOptions {
-    /// Vertices nearer than this share of the bounding-box diagonal become one. Default 1e-7, one unit in the last
-    /// place of an f32 file; 0 welds equal ones only; more closes cracks, too much eats small parts.
-    pub weld: f64,
-    /// Where normals come from. Default: the file, computed where it has none.
-    pub normals: Normals,
-    /// Neighbouring faces that differ by more than this angle do not share a computed normal. Default 60 degrees;
-    /// more rounds edges off, less makes facets.
-    pub smooth_angle_degrees: f64,
-    /// The axis that points up in the file. Default: its format's, z for STL, MD2 and 3DS, y for the others.
-    pub up_axis: UpAxis,
-    /// Whether a defect is an error. Default: no, it is counted.
-    pub strict: bool,
-    /// The frame of an animated model (MD2). Default 0, the first; a fraction lies between two.
-    pub model_frame: ModelFrame,
-    /// A picture for all of the model's surfaces. Default: those the file names, found beside it; for MD2 also one that
-    /// has the model's own name.
-    pub skin: Option<PathBuf>,
-    /// Whether files that the model names, materials, data and pictures, may lie outside its folder. Default: no, they are not
-    /// followed, whether named by `..`, absolutely or through links, and that is said.
-    pub allow_external: bool,
-}
-
-impl Default for LoadOptions {
-    fn default() -> Self {
-        Self {
-            weld: WELD,
-            normals: Normals::File,
-            smooth_angle_degrees: 60.0,
-            up_axis: UpAxis::Auto,
-            strict: false,
-            model_frame: ModelFrame::default(),
-            skin: None,
-            allow_external: false,
-        }
-    }
-}
-
-impl HasSettings for LoadOptions {
-    fn table() -> &'static Table<Self> {
-        static TABLE: LazyLock<Table<LoadOptions>> =
-            LazyLock::new(|| Table { settings: LoadOptions::settings(), defaults: vec![LoadOptions::default()] });
-        &TABLE
-    }
-}
-
-impl LoadOptions {
-    /// The settings, also for a table of something that is read.
-    pub fn settings() -> Vec<Setting<Self>> {
-        let settings = vec![
-            Setting::field(
-                "up-axis",
-                "AXIS",
-                "Axis that points up in the file: auto (z in STL, MD2 and 3DS, else y), x, y, z, -x, -y, -z",
-                |load: &mut Self| &mut load.up_axis,
-            )
-            .common(),
-            Setting::field(
-                "weld",
-                "SHARE",
-                "Join vertices closer than this share of the model's size",
-                |load: &mut Self| &mut load.weld,
-            )
-            .range(0.0, 0.001, 6)
-            .said("1e-7"),
-            Setting::field(
-                "normals",
-                "WHERE",
-                "Normals: file (the file's; if it has none, as smooth), smooth (computed, see --smooth-angle), \
-                 lasting (the file's; if it has none, computed without the noise of scans, with sharp edges only at \
-                 long creases), flat (one for each face), dachsbacher (one for each vertex, as in his text)",
-                |load: &mut Self| &mut load.normals,
-            ),
-            Setting::field(
-                "smooth-angle",
-                "DEGREES",
-                "Largest angle between two faces that computed normals round off, in degrees; more rounds off \
-                 sharper edges",
-                |load: &mut Self| &mut load.smooth_angle_degrees,
-            )
-            .range(0.0, 180.0, 1),
-            Setting::flag(
-                "strict",
-                "Refuse models with defects",
-                |load: &Self| load.strict,
-                |load, is_on| load.strict = is_on,
-            )
-            .said("off, defects are counted and skipped"),
-            Setting::open_field(
-                "skin",
-                "FILE",
-                "",
-                "Picture for all surfaces (PCX, PNG, TGA, BMP, JPEG, PPM)",
-                |load: &mut Self| &mut load.skin,
-            )
-            .said("the picture that the model names"),
-            Setting::flag(
-                "allow-external",
-                "Also read material files, data and pictures outside the model's folder",
-                |load: &Self| load.allow_external,
-                |load, is_on| load.allow_external = is_on,
-            )
-            .said("off, they are reported and skipped"),
-            Setting::field(
-                "model-frame",
-                "N|NAME",
-                "Frame of an animated model (MD2): a number from 0, or a name; 1.5 is halfway between 1 and 2",
-                |load: &mut Self| &mut load.model_frame,
-            ),
-        ];
-        under("Models", settings).collect()
-    }
-}
-
-/// Each setting under its name; of a path whose bytes are no text what can be kept.
-impl Serialize for LoadOptions {
-    fn serialize<S: Serializer>(&self, to: S) -> std::result::Result<S::Ok, S::Error> {
-        Self::table().record(self).serialize(to)
-    }
-}
-
-crate::choices! {
-    /// Where a mesh's normals come from.
-    #[derive(Hash)]
-    pub enum Normals {
-        /// From the file; computed smooth where the file has none.
-        File = "file",
-        /// Computed: smooth up to the smoothing angle.
-        Smooth = "smooth",
-        /// From the file; where it has none smooth, and split only along creases that reach through a share of the model: the single sharp
-        /// edges of scans and of models of few triangles are smoothed. Where a surface has a scan's noise, that is evened out.
-        Lasting = "lasting",
-        /// Computed: each face its own.
-        Flat = "flat",
-        /// Computed by the listing of C. Dachsbacher's article: one normal a vertex, to which each triangle there adds its unit
-        /// normal; nothing is split at creases.
-        Dachsbacher = "dachsbacher",
-    }
-}
-
-crate::choices! {
-    /// The model's axis that shall point up.
-    pub enum UpAxis {
-        /// As the file's format has it: z up in STL and 3DS (where -y is the front) and in MD2 (where x is), y in the others.
-        Auto = "auto",
-        /// +x is up.
-        X = "x",
-        /// +y is up, as here.
-        Y = "y",
-        /// +z is up; -y is then the front.
-        Z = "z",
-        /// -x is up.
-        MinusX = "-x",
-        /// -y is up.
-        MinusY = "-y",
-        /// -z is up.
-        MinusZ = "-z",
-    }
-}
-
-impl UpAxis {
-    /// Rotates a vector so that this axis becomes +y; exact, components only change places and signs. For `Auto` the
-    /// vector stays: it was turned as its format has it.
-    pub fn to_y_up(self, v: DVec3) -> DVec3 {
-        match self {
-            Self::X => DVec3::new(-v.y, v.x, v.z),
-            Self::Auto | Self::Y => v,
-            Self::Z => DVec3::new(v.x, v.z, -v.y),
-            Self::MinusX => DVec3::new(v.y, -v.x, v.z),
-            Self::MinusY => DVec3::new(-v.x, -v.y, v.z),
-            Self::MinusZ => DVec3::new(v.x, -v.z, v.y),
-        }
-    }
-}
+pub use super::options::{LoadOptions, LoadStage, Normals, UpAxis};
 
 /// What [`load`] read and what it noticed on the way, to be said once.
 #[derive(Debug)]
@@ -220,32 +42,6 @@ pub struct Loaded {
 /// this model; [`Error::File`] when `options.skin` is no file.
 pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
     load_watched(path, options, &|_| {})
-}
-
-/// What is being done while a model is read, in this order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum LoadStage {
-    /// Its bytes come from the disk.
-    Reading,
-    /// They are understood.
-    Parsing,
-    /// Vertices become one, polygons triangles, faces that are none are dropped.
-    Joining,
-    /// Normals are made, or those of the file taken over.
-    Normals,
-}
-
-impl LoadStage {
-    /// What it does, in words.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Reading => "reading the file",
-            Self::Parsing => "parsing",
-            Self::Joining => "joining vertices",
-            Self::Normals => "normals",
-        }
-    }
 }
 
 /// As [`load`], for whoever shows how far it is: `watch` is told of each stage when it begins.
@@ -381,7 +177,7 @@ fn made(
     let files = std::mem::take(&mut soup.files);
     let other_up = soup.other_up.filter(|_| options.up_axis == UpAxis::Auto);
     let mesh = soup.into_mesh_watched(path, options, watch)?;
-    if let Some(up) = other_up.filter(|up| lying::seems_to_lie(&mesh, *up)) {
+    if let Some(up) = other_up.filter(|up| up_axis_guess::seems_to_lie(&mesh, *up)) {
         remarks.push(format!(
             "{path}: the model may lie on its side, because its only flat end is at its lowest {up}; if it does, add --up-axis {up}"
         ));
@@ -392,24 +188,6 @@ fn made(
         remarks.push(format!("{path}: {others}; {}", others.consequence()));
     }
     Ok(Loaded { mesh, frames, files, remarks, stages: Vec::new() })
-}
-
-pub(super) fn check(options: &LoadOptions) -> Result<()> {
-    if !(0.0..=LARGEST_WELD).contains(&options.weld) {
-        return Err(Error::value(
-            "weld",
-            options.weld,
-            format!("the tolerance is a share of the model's size from 0 to {LARGEST_WELD}"),
-        ));
-    }
-    if !(0.0..=180.0).contains(&options.smooth_angle_degrees) {
-        return Err(Error::value(
-            "smooth-angle",
-            options.smooth_angle_degrees,
-            "the angle is between 0 and 180 degrees",
-        ));
-    }
-    options.skin.as_deref().map_or(Ok(()), skin::check)
 }
 
 /// Stood up from z, which is up in files of this format by custom, unless an axis is given.
@@ -449,7 +227,7 @@ fn soup(
     if bytes.is_empty() {
         return Err(Error::model(path, "the file is empty; export the model again"));
     }
-    let bytes = &*text::decoded(bytes);
+    let bytes = &*if stl::is_binary(bytes) { Cow::Borrowed(bytes) } else { text::decoded(bytes) };
     let named = Format::by_name(path);
     let found = Format::by_content(bytes).filter(|found| format::unread(path).is_none() || found.is_unmistakable());
     let format = found.or(named).ok_or_else(|| {
@@ -497,6 +275,7 @@ fn soup(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
 
     #[test]
     fn a_file_that_memory_does_not_hold_is_refused_before_it_is_read() {
@@ -511,24 +290,6 @@ mod tests {
         assert!(message.ends_with(sentence), "{message}");
         assert!(check_free(path, Some(6 << 30)).is_ok() && check_free(path, None).is_ok());
         assert!(check_free("no such file", Some(0)).is_ok(), "which has a sentence of its own");
-    }
-
-    #[test]
-    fn every_up_axis_turns_into_y_by_a_rotation() {
-        let axes = [
-            ("x", DVec3::X),
-            ("y", DVec3::Y),
-            ("z", DVec3::Z),
-            ("-x", DVec3::NEG_X),
-            ("-y", DVec3::NEG_Y),
-            ("-z", DVec3::NEG_Z),
-        ];
-        for (text, up) in axes {
-            let axis = <UpAxis as crate::settings::Value>::parse(text).unwrap();
-            assert_eq!(axis.to_y_up(up), DVec3::Y, "{text}");
-            let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|v| axis.to_y_up(v));
-            assert_eq!(x.cross(y), z, "{text} keeps handedness");
-        }
     }
 
     #[test]

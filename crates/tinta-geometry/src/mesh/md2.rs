@@ -6,7 +6,7 @@
 //! counter-clockwise, shares from the lower left. The file's normals, numbers into a table of the game's, are not used:
 //! they are computed. Layout: the game's `dmdl_t` and its tables, as its authors published it.
 
-use super::folder::{Folder, Found};
+use super::folder::{Folder, Lookup};
 use super::frame::Between;
 use super::load::{LoadOptions, UpAxis};
 use super::soup::{Corner, Soup};
@@ -230,16 +230,16 @@ fn find_skin(
     let mut outside = Vec::new();
     for name in names.filter(|name| !name.is_empty()).chain(own.clone()) {
         let from_above = folder.find_from_above(Path::new(&name.replace('\\', "/")));
-        if let Found::Here(place) = from_above {
+        if let Lookup::Here(place) = from_above {
             return Some(place);
         }
         match skin::find(folder, &name) {
-            Found::Here(place) => {
-                let sentence = skin::stand_in(folder, &name, &place, from_above == Found::Outside);
+            Lookup::Here(place) => {
+                let sentence = skin::stand_in(folder, &name, &place, from_above == Lookup::Outside);
                 remarks.extend(sentence.map(|sentence| format!("{path}: {sentence}")));
                 return Some(place);
             }
-            Found::Nowhere if from_above == Found::Nowhere => {}
+            Lookup::Nowhere if from_above == Lookup::Nowhere => {}
             _ => outside.push(skin::outside("skin", &name)),
         }
     }

@@ -6,13 +6,14 @@
 //! corner's index. A group is what can be reached around the vertex over shared edges whose faces differ by no more
 //! than the angle. Faces weigh in with the sine of their angle at the vertex over the lengths of the sides there (Max 1999:
 //! exact on a sphere), which needs no arc cosine and, on a square, does not depend on how it is cut. Where only creases that last
-//! are to be split (`lasting.rs`), all other vertices are smooth throughout, flat faces weigh in with their areas, and where a surface
+//! are to be split (`persistent_creases.rs`), all other vertices are smooth throughout, flat faces weigh in with their areas, and where a surface
 //! is curved normals come nearer to their neighbours' (`calm.rs`).
 
 mod calm;
 mod curved;
-mod even;
-mod lasting;
+mod denoise_normals;
+mod incidence;
+mod persistent_creases;
 mod noise;
 mod patches;
 
@@ -21,8 +22,9 @@ use crate::threads::{in_parallel, threads_for};
 use crate::tolerances::CANCELLED_NORMALS;
 use calm::calm;
 use glam::{DVec3, Vec3};
-use lasting::Lasting;
-use std::ops::Range;
+pub(super) use incidence::Incidence;
+use incidence::angle_at;
+use persistent_creases::PersistentCreases;
 
 /// Where normals are split.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +51,8 @@ pub(super) fn fill_missing(
         return;
     }
     let incidence = Incidence::new(positions.len(), triangles);
-    let lasting = cos_beside.map(|_| Lasting::find(positions, triangles, face_normals, &incidence, cos_smooth));
+    let lasting =
+        cos_beside.map(|_| PersistentCreases::find(positions, triangles, face_normals, &incidence, cos_smooth));
     let face_normals = lasting.as_ref().map_or(face_normals, |lasting| &lasting.face_normals);
     let is_smooth = |vertex: usize| lasting.as_ref().is_some_and(|lasting| !lasting.vertices[vertex]);
     let weighted = |corner: u32| match &lasting {
@@ -65,7 +68,7 @@ pub(super) fn fill_missing(
     let found = in_parallel(positions.len(), threads_for(triangles.len()), |vertices| {
         let corners = incidence.corners_of(&vertices);
         let mut found =
-            Found { normals: Vec::with_capacity(vertices.len()), indices: Vec::with_capacity(corners.len()) };
+            CornerNormals { normals: Vec::with_capacity(vertices.len()), indices: Vec::with_capacity(corners.len()) };
         let mut fan = Fan::default();
         for vertex in vertices {
             let corners = incidence.corners(vertex);
@@ -107,7 +110,7 @@ pub(super) fn fill_missing(
     });
     let first = normals.len() as u32;
     normals.reserve_exact(found.iter().map(|found| found.normals.len()).sum());
-    let mut corners = incidence.corners.iter();
+    let mut corners = incidence.all_corners().iter();
     for mut found in found {
         let before = normals.len() as u32;
         normals.append(&mut found.normals);
@@ -141,7 +144,7 @@ pub(super) fn one_a_position(position_count: usize, triangles: &[[u32; 3]], face
 }
 
 /// The normals of some vertices' corners.
-struct Found {
+struct CornerNormals {
     normals: Vec<Vec3>,
     /// For each corner in the incidence's order its normal here, or [`NONE`] where it has one already.
     indices: Vec<u32>,
@@ -155,52 +158,9 @@ fn weighted_normal(positions: &[DVec3], triangles: &[[u32; 3]], corner: u32) -> 
     to_next.cross(to_previous) / (to_next.length_squared() * to_previous.length_squared())
 }
 
-/// A face's angle at one of its corners, radians.
-fn angle_at(positions: &[DVec3], triangles: &[[u32; 3]], corner: u32) -> f64 {
-    let triangle = triangles[corner as usize / 3];
-    let [at, next, previous] = [0, 1, 2].map(|step| positions[triangle[(corner as usize % 3 + step) % 3] as usize]);
-    let (to_next, to_previous) = (next - at, previous - at);
-    to_next.cross(to_previous).length().atan2(to_next.dot(to_previous))
-}
-
 /// The direction of a sum of normals, if it has one.
 fn smooth(sum: DVec3) -> Option<DVec3> {
     (sum / sum.abs().max_element()).try_normalize()
-}
-
-/// For every position the triangle corners that meet there, as `3 * triangle + corner`.
-pub(super) struct Incidence {
-    starts: Vec<u32>,
-    corners: Vec<u32>,
-}
-
-impl Incidence {
-    pub(super) fn new(position_count: usize, triangles: &[[u32; 3]]) -> Self {
-        let mut starts = vec![0u32; position_count + 1];
-        for index in triangles.as_flattened() {
-            starts[*index as usize + 1] += 1;
-        }
-        for vertex in 0..position_count {
-            starts[vertex + 1] += starts[vertex];
-        }
-        let mut next = starts.clone();
-        let mut corners = vec![0u32; triangles.len() * 3];
-        for (corner, index) in triangles.as_flattened().iter().enumerate() {
-            let slot = &mut next[*index as usize];
-            corners[*slot as usize] = corner as u32;
-            *slot += 1;
-        }
-        Self { starts, corners }
-    }
-
-    /// The corners at some vertices, one after the other.
-    fn corners_of(&self, vertices: &Range<usize>) -> &[u32] {
-        &self.corners[self.starts[vertices.start] as usize..self.starts[vertices.end] as usize]
-    }
-
-    pub(super) fn corners(&self, vertex: usize) -> &[u32] {
-        &self.corners[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
-    }
 }
 
 /// The faces around one vertex; kept between vertices for its memory.
@@ -289,7 +249,7 @@ impl Fan {
         corners: &[u32],
         weighted: impl Fn(u32) -> DVec3,
         is_missing: impl Fn(u32) -> bool,
-        found: &mut Found,
+        found: &mut CornerNormals,
     ) {
         self.sum(corners, weighted);
         self.indices.clear();

@@ -9,7 +9,7 @@
 mod agreement;
 mod lines;
 mod materials;
-mod piece;
+mod chunk;
 mod quick;
 
 use super::folder::Folder;
@@ -17,7 +17,7 @@ use super::soup::Soup;
 use super::text;
 use crate::error::{Error, Result};
 use crate::threads::{cores, in_chunks};
-use piece::{Counts, Naming, Piece};
+use chunk::{Chunk, Counts, Naming};
 
 /// How much of a file is read in one go. Much less than a core's share, as another core opens the GL context meanwhile.
 const PIECE_BYTES: usize = 1 << 20;
@@ -68,16 +68,16 @@ fn read_in_pieces(
         .collect();
     let pieces = in_chunks(pieces.len(), 1, cores(), |piece| {
         let (text, counts) = &counted[piece.start];
-        Piece::read(text, starts[piece.start], *counts)
+        Chunk::read(text, starts[piece.start], *counts)
     });
-    let pieces: std::result::Result<Vec<Piece>, piece::Problem> = pieces.into_iter().collect();
+    let pieces: std::result::Result<Vec<Chunk>, chunk::Problem> = pieces.into_iter().collect();
     let pieces = pieces.map_err(|problem| {
         Error::model(path, format!("{}; correct this line or export the model again", problem.what))
             .at(Some(problem.line))
     })?;
     let free_form = pieces
         .iter()
-        .fold([0, 0], |[curves, surfaces], piece: &Piece| [curves + piece.free_form[0], surfaces + piece.free_form[1]]);
+        .fold([0, 0], |[curves, surfaces], piece: &Chunk| [curves + piece.free_form[0], surfaces + piece.free_form[1]]);
     let (mut soup, namings) = joined(pieces);
     if let Some(left_out) = free_form_in_words(free_form) {
         if soup.corners.is_empty() {
@@ -108,7 +108,7 @@ fn free_form_in_words([curves, surfaces]: [usize; 2]) -> Option<String> {
 }
 
 /// All pieces as one, and the materials named with how many faces come before each.
-fn joined(pieces: Vec<Piece>) -> (Soup, Vec<(usize, Naming)>) {
+fn joined(pieces: Vec<Chunk>) -> (Soup, Vec<(usize, Naming)>) {
     let mut soup = Soup::default();
     let mut namings = Vec::new();
     let mut polygons = 0;
@@ -118,7 +118,7 @@ fn joined(pieces: Vec<Piece>) -> (Soup, Vec<(usize, Naming)>) {
     let has_colors = pieces.iter().any(|piece| !piece.colors.is_empty());
     for mut piece in pieces {
         if has_colors {
-            piece.colors.resize(piece.positions.len(), piece::NO_COLOR);
+            piece.colors.resize(piece.positions.len(), chunk::NO_COLOR);
             soup.colors.append(&mut piece.colors);
         }
         soup.positions.append(&mut piece.positions);

@@ -2,6 +2,7 @@
 //!
 //! `header.rs` reads the header, `payload.rs` what follows it, `paint.rs` what faces have besides their corners.
 
+mod colors;
 mod header;
 mod paint;
 mod payload;
@@ -11,8 +12,9 @@ use super::soup::{Corner, Soup, direction, is_too_much};
 use crate::error::{Error, Result};
 use crate::files::shown;
 use crate::limits::PLY_HEADER_BYTES;
+use colors::{full_color, share};
 use glam::{DVec3, Vec2};
-use header::{Element, Header, PropertyType, ScalarType};
+use header::{Element, Header};
 use paint::Paint;
 use payload::{Damage, Payload, Value};
 
@@ -102,27 +104,6 @@ struct Contents {
     /// What a colour's full strength is in the file; `None` where vertices have no colours.
     full_color: Option<f64>,
     paint: Paint,
-}
-
-/// What stands for a channel's full strength: in whole numbers the largest of its type, else 1; `None` without all three channels.
-fn full_color(element: &Element) -> Option<f64> {
-    let types = |names: [&str; 3]| -> Option<Vec<PropertyType>> {
-        let of = |name| element.properties.iter().find(|own| own.name == name).map(|own| own.data_type);
-        names.into_iter().map(of).collect()
-    };
-    let types = types(["red", "green", "blue"]).or_else(|| types(["diffuse_red", "diffuse_green", "diffuse_blue"]))?;
-    match types.first()? {
-        PropertyType::Scalar(ScalarType::UChar) => Some(f64::from(u8::MAX)),
-        PropertyType::Scalar(ScalarType::UShort) => Some(f64::from(u16::MAX)),
-        PropertyType::Scalar(ScalarType::Float | ScalarType::Double) => Some(1.0),
-        _ => None,
-    }
-}
-
-/// A colour of the file as shares of its full strength.
-fn share(color: DVec3, full: f64) -> [f32; 3] {
-    let share = (color / full).clamp(DVec3::ZERO, DVec3::ONE);
-    if share.is_finite() { share.as_vec3().to_array() } else { [1.0; 3] }
 }
 
 impl Contents {

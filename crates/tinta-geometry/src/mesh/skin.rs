@@ -1,6 +1,6 @@
 //! Pictures that belong on a model: found beside it, or given with `--skin`.
 
-use super::folder::{Folder, Found};
+use super::folder::{Folder, Lookup};
 use super::soup::Soup;
 use super::{Material, NONE};
 use crate::error::{Error, Result};
@@ -16,17 +16,17 @@ pub(super) const EXTENSIONS: [&str; 6] = ["pcx", "png", "tga", "bmp", "jpg", "jp
 /// says, in any case and, where it is not there, with any other extension of a picture.
 ///
 /// Models name pictures as they lay on their author's disk, `C:\ART\SKIN.PCX`.
-pub(super) fn find(folder: &Folder<'_>, name: &str) -> Found {
+pub(super) fn find(folder: &Folder<'_>, name: &str) -> Lookup {
     let slashes = name.replace('\\', "/");
     let written = [name, &slashes].map(|name| folder.find(Path::new(name)));
     let base = slashes.rsplit('/').next().unwrap_or_default();
     let places = written.into_iter().chain(std::iter::once_with(|| beside(folder, base)));
-    let mut best = Found::Nowhere;
+    let mut best = Lookup::Nowhere;
     for found in places {
         match found {
-            Found::Here(_) => return found,
-            Found::Outside => best = found,
-            Found::Nowhere => {}
+            Lookup::Here(_) => return found,
+            Lookup::Outside => best = found,
+            Lookup::Nowhere => {}
         }
     }
     best
@@ -73,8 +73,8 @@ pub(super) fn lying_there(folder: &Folder<'_>, stem: &str) -> Vec<String> {
 }
 
 /// The picture of this name in a folder, in any case, or else the first with its stem and an extension of a picture.
-fn beside(folder: &Folder<'_>, base: &str) -> Found {
-    let Some(stem) = Path::new(base).file_stem().and_then(|stem| stem.to_str()) else { return Found::Nowhere };
+fn beside(folder: &Folder<'_>, base: &str) -> Lookup {
+    let Some(stem) = Path::new(base).file_stem().and_then(|stem| stem.to_str()) else { return Lookup::Nowhere };
     let rank = |name: &str| {
         if name.eq_ignore_ascii_case(base) {
             return Some(0);
@@ -88,12 +88,12 @@ fn beside(folder: &Folder<'_>, base: &str) -> Found {
         folder.names().iter().filter_map(|name| Some((rank(name)?, name))).collect();
     // The order of a folder's entries is nobody's promise: rank, then name decide.
     candidates.sort_unstable();
-    let mut best = Found::Nowhere;
+    let mut best = Lookup::Nowhere;
     for (_, name) in candidates {
         match folder.find(Path::new(name)) {
-            found @ Found::Here(_) => return found,
-            Found::Outside => best = Found::Outside,
-            Found::Nowhere => {}
+            found @ Lookup::Here(_) => return found,
+            Lookup::Outside => best = Lookup::Outside,
+            Lookup::Nowhere => {}
         }
     }
     best
@@ -102,7 +102,7 @@ fn beside(folder: &Folder<'_>, base: &str) -> Found {
 /// Puts where each material's picture lies in place of the name the file has for it; a sentence for each that is
 /// nowhere, or outside the model's folder.
 pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks: &mut Vec<String>) {
-    let mut known: HashMap<PathBuf, Found> = HashMap::new();
+    let mut known: HashMap<PathBuf, Lookup> = HashMap::new();
     let mut lost = Vec::new();
     for material in &mut soup.materials {
         let Some(name) = material.texture.take().filter(|_| folder.is_some()) else { continue };
@@ -110,9 +110,9 @@ pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks
             let name = name.to_string_lossy();
             let found = find(folder, &name);
             match &found {
-                Found::Here(place) => lost.extend(stand_in(folder, &name, place, false)),
-                Found::Outside => lost.push(outside("picture", &name)),
-                Found::Nowhere => lost.push(format!(
+                Lookup::Here(place) => lost.extend(stand_in(folder, &name, place, false)),
+                Lookup::Outside => lost.push(outside("picture", &name)),
+                Lookup::Nowhere => lost.push(format!(
                     "the picture {} is not beside it; its faces get the material's colour; --skin names another \
                      picture",
                     shown(&name)
@@ -120,7 +120,7 @@ pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks
             }
             found
         });
-        if let Found::Here(place) = found {
+        if let Lookup::Here(place) = found {
             folder.put_picture(material, place.clone());
         }
     }
@@ -139,21 +139,6 @@ pub(super) fn remark(path: &str, sentences: Vec<String>, others: &str, remarks: 
     if more > 0 {
         remarks.push(format!("{path}: {more} more {others}"));
     }
-}
-
-/// Refuses a skin that is not there.
-pub(super) fn check(skin: &Path) -> Result<()> {
-    if skin.is_file() {
-        return Ok(());
-    }
-    let problem = if skin.is_dir() {
-        "this is a directory; name a picture in it"
-    } else if skin.exists() {
-        "this is not a regular file; name a picture"
-    } else {
-        "there is no such file; check the name after --skin"
-    };
-    Err(Error::picture(skin, problem))
 }
 
 /// Makes a picture the texture of every material; faces without one get one.
@@ -197,9 +182,9 @@ mod tests {
         }
         let model = at("model.3ds");
         let found = |name: &str| match find(&Folder::of(model.to_str().unwrap(), false), name) {
-            Found::Here(path) => Some(path),
+            Lookup::Here(path) => Some(path),
             other => {
-                assert_eq!(other, Found::Nowhere, "{name}");
+                assert_eq!(other, Lookup::Nowhere, "{name}");
                 None
             }
         };
@@ -212,8 +197,8 @@ mod tests {
         for name in ["other.png", "model", "", "..", "art", "/", "\\"] {
             assert_eq!(found(name), None, "{name}");
         }
-        assert_eq!(find(&Folder::of("/no/such/folder/a.obj", false), "skin.png"), Found::Nowhere);
-        assert_eq!(find(&Folder::of_files(&[]), "/etc/passwd"), Found::Nowhere);
+        assert_eq!(find(&Folder::of("/no/such/folder/a.obj", false), "skin.png"), Lookup::Nowhere);
+        assert_eq!(find(&Folder::of_files(&[]), "/etc/passwd"), Lookup::Nowhere);
     }
 
     #[test]
@@ -221,7 +206,7 @@ mod tests {
         let files: [(&str, &[u8]); 3] = [("Wood.PNG", b"wood"), ("art/deep.png", b"deep"), ("other.mtl", b"library")];
         let folder = Folder::of_files(&files);
         let found = |name: &str| match find(&folder, name) {
-            Found::Here(path) => Some(path),
+            Lookup::Here(path) => Some(path),
             _ => None,
         };
         assert_eq!(found("C:\\ART\\wood.png"), Some(PathBuf::from("Wood.PNG")));
@@ -253,12 +238,5 @@ mod tests {
         soup.corners.iter_mut().for_each(|corner| corner.texture = NONE);
         let message = put_on(&mut soup, Path::new("a.png"), "a.obj").unwrap_err().to_string();
         assert!(message.starts_with("skin a.png: a.obj has no texture coordinates"), "{message}");
-    }
-
-    #[test]
-    fn a_skin_that_is_not_there_is_refused_by_name() {
-        let message = |path: &str| check(Path::new(path)).unwrap_err().to_string();
-        assert!(message("no-such.pcx").starts_with("no-such.pcx: there is no such file"));
-        assert!(message("/").contains("directory"));
     }
 }

@@ -2,13 +2,11 @@
 //!
 //! Some programs write UTF-16, and old ones end lines with a carriage return alone. Readers see neither.
 
-use super::stl;
 use std::borrow::Cow;
 
-/// A model file's bytes without a byte order mark, and from UTF-16 in UTF-8. Binary STL stays as it is: its header may hold anything.
+/// A model file's bytes without a byte order mark, and from UTF-16 in UTF-8.
 pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, [u8]> {
     match bytes {
-        _ if stl::is_binary(bytes) => Cow::Borrowed(bytes),
         [0xef, 0xbb, 0xbf, rest @ ..] => Cow::Borrowed(rest),
         [0xff, 0xfe, rest @ ..] => Cow::Owned(of_utf16(rest, u16::from_le_bytes)),
         [0xfe, 0xff, rest @ ..] => Cow::Owned(of_utf16(rest, u16::from_be_bytes)),

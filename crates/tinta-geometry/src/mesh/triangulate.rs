@@ -5,13 +5,13 @@
 
 mod blockers;
 mod ears;
-mod simple;
+mod simple_polygon;
 
 use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS};
 use earcut::Earcut;
 use ears::cut_ears;
 use glam::{DVec2, DVec3};
-use simple::is_simple;
+use simple_polygon::is_simple;
 
 /// Splits one polygon (its corners' positions, in order) into triangles of corner numbers.
 ///

@@ -2,7 +2,8 @@
 
 use super::hilbert::hilbert_code;
 use super::normals::Incidence;
-use super::{Mesh, NONE, bytes_of};
+use super::triangle_mesh::bytes_of;
+use super::{Mesh, NONE};
 use crate::threads::{both, filled, sort_by, threads_for};
 use glam::DVec3;
 

@@ -1,7 +1,5 @@
 //! Whose a value is: a text's, drawn from a text, or ours. Declared with the setting or the constant it is said of.
 
-use super::Setting;
-
 /// Whose a value is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Whose {
@@ -47,25 +45,5 @@ impl Provenance {
     /// It was chosen here for this reason.
     pub const fn ours(reason: &'static str) -> Self {
         Self { whose: Whose::Ours, why: reason }
-    }
-}
-
-impl<T> Setting<T> {
-    /// With the place where a text prints its default.
-    #[must_use]
-    pub fn printed(self, place: &'static str) -> Self {
-        Self { provenance: Some(Provenance::printed(place)), ..self }
-    }
-
-    /// With what its default follows from.
-    #[must_use]
-    pub fn deduced(self, from: &'static str) -> Self {
-        Self { provenance: Some(Provenance::deduced(from)), ..self }
-    }
-
-    /// With the reason why its default was chosen here.
-    #[must_use]
-    pub fn ours(self, reason: &'static str) -> Self {
-        Self { provenance: Some(Provenance::ours(reason)), ..self }
     }
 }

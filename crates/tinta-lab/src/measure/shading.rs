@@ -67,7 +67,7 @@ impl<'a> Shading<'a> {
                     }
                     _ => None,
                 };
-                let (noise, cet, paper) = charcoal.pictures.all(charcoal)?;
+                let [noise, cet, paper] = charcoal.textures()?;
                 Some(Self::Charcoal { charcoal, noise, cet, paper, sand })
             }
             _ => None,

@@ -1,7 +1,7 @@
 use super::*;
 use crate::camera::CameraSettings;
 use crate::edges::{ClassCounts, SilhouetteRule};
-use crate::lines::closed_forms::ClosedForm;
+use crate::lines::smooth::closed_forms::ClosedForm;
 use crate::lines::{LineTimes, SvgSettings, svg_of_paths};
 use crate::mesh::{LoadOptions, Mesh};
 use crate::scene::{SceneSettings, Size};

@@ -1,12 +1,8 @@
 //! A glTF file's nodes: which of them its scene shows, and where each lies.
 
-use super::accessors::Accessors;
-use super::materials::Coordinates;
-use super::parts::Outline;
 use crate::limits::NODE_LEVELS;
 use glam::{DMat4, DQuat, DVec3};
 use gltf_json::{Index, Node, Root, Scene};
-use std::collections::BTreeMap;
 
 /// What the scene shows.
 pub(super) struct Nodes {
@@ -38,27 +34,6 @@ impl Nodes {
             return Err("its nodes form a cycle; export it again".to_owned());
         }
         Ok(Self { scene_from_node, shown: shown(root)? })
-    }
-
-    /// The meshes that are shown, each with the nodes that show it.
-    pub(super) fn outlines<'a>(
-        &self,
-        root: &'a Root,
-        accessors: &Accessors<'a>,
-        coordinates: &'a [Coordinates],
-    ) -> Result<Vec<(Outline<'a>, Vec<usize>)>, String> {
-        let mut places: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for node in &self.shown {
-            if let Some(mesh) = root.nodes[*node].mesh {
-                places.entry(mesh.value()).or_default().push(*node);
-            }
-        }
-        let outline = |(mesh, nodes): (usize, Vec<usize>)| {
-            let mesh =
-                root.meshes.get(mesh).ok_or_else(|| format!("its mesh {mesh} does not exist; export it again"))?;
-            Ok((Outline::of(mesh, root, accessors, coordinates)?, nodes))
-        };
-        places.into_iter().map(outline).collect()
     }
 }
 

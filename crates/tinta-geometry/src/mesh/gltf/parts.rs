@@ -9,6 +9,7 @@ use glam::{DMat3, DMat4, DVec3, Vec2};
 use gltf_json::mesh::{Mode, MorphTarget, Primitive, Semantic};
 use gltf_json::validation::Checked::{self, Valid};
 use gltf_json::{Accessor, Index, Mesh, Root, Skin};
+use std::collections::BTreeMap;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -16,7 +17,7 @@ use std::collections::hash_map::Entry;
 pub(super) struct Outline<'a> {
     mesh: &'a Mesh,
     sets: Vec<Set<'a>>,
-    pieces: Vec<Piece<'a>>,
+    pieces: Vec<PrimitivePart<'a>>,
     /// How many primitives are points or lines.
     pub others: usize,
 }
@@ -30,7 +31,7 @@ struct Set<'a> {
 }
 
 /// A primitive's triangles over the vertices of a set.
-struct Piece<'a> {
+struct PrimitivePart<'a> {
     primitive: &'a Primitive,
     mode: Mode,
     set: usize,
@@ -84,7 +85,7 @@ impl<'a> Outline<'a> {
                 None => outline.sets[set].count,
             };
             let material = material.map_or(NONE, |material| material as u32);
-            outline.pieces.push(Piece { primitive, mode, set, corners, material });
+            outline.pieces.push(PrimitivePart { primitive, mode, set, corners, material });
         }
         Ok(outline)
     }
@@ -118,6 +119,26 @@ struct Vertices {
     colors: Vec<[f32; 3]>,
     /// The joints that move each vertex, and how much; a vertex has these in each list.
     weights: Vec<Vec<([f64; 4], [f64; 4])>>,
+}
+
+/// The meshes that are shown, each with the nodes that show it.
+pub(super) fn outlines<'a>(
+    nodes: &Nodes,
+    root: &'a Root,
+    accessors: &Accessors<'a>,
+    coordinates: &'a [Coordinates],
+) -> Result<Vec<(Outline<'a>, Vec<usize>)>, String> {
+    let mut places: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for node in &nodes.shown {
+        if let Some(mesh) = root.nodes[*node].mesh {
+            places.entry(mesh.value()).or_default().push(*node);
+        }
+    }
+    let outline = |(mesh, nodes): (usize, Vec<usize>)| {
+        let mesh = root.meshes.get(mesh).ok_or_else(|| format!("its mesh {mesh} does not exist; export it again"))?;
+        Ok((Outline::of(mesh, root, accessors, coordinates)?, nodes))
+    };
+    places.into_iter().map(outline).collect()
 }
 
 /// Adds a mesh in all its places.

@@ -3,8 +3,8 @@
 //! Only vertices within a curved surface take part (`curved.rs`), away from creases that last and open rims: flat faces, cylinders and cones of machine parts
 //! keep theirs exactly. One round reaches as far as one edge, so that relief wider than a facet stays. Neighbours count less the more they differ.
 
-use super::Incidence;
-use super::lasting::Lasting;
+use super::incidence::Incidence;
+use super::persistent_creases::PersistentCreases;
 use crate::mesh::NONE;
 use crate::threads::{filled, threads_for};
 use glam::{DVec3, Vec3};
@@ -16,7 +16,7 @@ const SHARE: f64 = 0.5;
 pub(super) fn calm(
     triangles: &[[u32; 3]],
     incidence: &Incidence,
-    lasting: &Lasting,
+    lasting: &PersistentCreases,
     cos_smooth: f64,
     first: u32,
     normals: &mut [Vec3],

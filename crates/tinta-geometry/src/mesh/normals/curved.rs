@@ -5,9 +5,9 @@
 //! curvature); around a vertex of a plane, a cylinder or a cone they do. A patch is curved where the larger part of its area lies at such
 //! vertices, in facets from which the surface that they stand for bulges by less than the outline of `print` is wide.
 
-use super::even::Faces;
-use super::lasting::{Edge, Sets};
-use super::{Incidence, angle_at};
+use super::denoise_normals::Faces;
+use super::incidence::{Incidence, angle_at};
+use crate::disjoint_sets::DisjointSets;
 use crate::threads::{filled, threads_for};
 use std::f64::consts::TAU;
 
@@ -18,8 +18,14 @@ const BENDS: f64 = 0.01;
 /// The most that a surface bulges from a facet, in shares of the diagonal of the model's box.
 const BULGE: f64 = 0.003;
 
-/// The mean area of facets that are too small to be seen, in squares of that diagonal: the patches of `even.rs` are as large.
+/// The mean area of facets that are too small to be seen, in squares of that diagonal: the patches of `denoise_normals.rs` are as large.
 const UNSEEN: f64 = 9e-6;
+
+/// An edge of two faces.
+pub(super) struct Edge {
+    pub ends: [u32; 2],
+    pub faces: [u32; 2],
+}
 
 /// Of each triangle whether it is within a curved patch; `edges` are those of two triangles, each once.
 pub(super) fn curved<'a, I: Iterator<Item = &'a Edge>>(
@@ -33,7 +39,7 @@ pub(super) fn curved<'a, I: Iterator<Item = &'a Edge>>(
     if faces.areas.iter().sum::<f64>() < UNSEEN * diagonal * diagonal * count as f64 {
         return vec![false; count];
     }
-    let mut patches = Sets::new(count);
+    let mut patches = DisjointSets::new(count);
     let (mut turns, mut at_vertex) = (vec![0.0; vertices], vec![0; vertices]);
     let mut largest = vec![0.0f64; count];
     for Edge { ends, faces: of } in edges() {
@@ -62,9 +68,12 @@ pub(super) fn curved<'a, I: Iterator<Item = &'a Edge>>(
         // An arc whose ends turn by half of that angle each lies an eighth of its chord's length times it from the chord.
         let is_close = longest * largest[face] < 8.0 * BULGE * diagonal;
         let bent = triangle.iter().filter(|vertex| bends[**vertex as usize]).count() as f64 / 3.0;
-        let [all, of_curved] = &mut areas[patches.root(face as u32)];
+        let [all, of_curved] = &mut areas[patches.root(face as u32) as usize];
         *all += faces.areas[face];
         *of_curved += if is_close { faces.areas[face] * bent } else { 0.0 };
     }
-    (0..count as u32).map(|face| areas[patches.root(face)]).map(|[all, of_curved]| of_curved > 0.5 * all).collect()
+    (0..count as u32)
+        .map(|face| areas[patches.root(face) as usize])
+        .map(|[all, of_curved]| of_curved > 0.5 * all)
+        .collect()
 }

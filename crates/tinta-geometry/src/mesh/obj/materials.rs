@@ -1,6 +1,6 @@
 //! MTL: the material files that an OBJ file names, and which faces have which material.
 
-use super::piece::Naming;
+use super::chunk::Naming;
 use crate::error::{Error, Result};
 use crate::files::{Failure, shown};
 use crate::limits::{MATERIAL_FILE_BYTES, MATERIAL_FILES, MATERIALS};

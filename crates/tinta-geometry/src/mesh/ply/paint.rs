@@ -1,9 +1,9 @@
 //! What a PLY file's faces have besides their corners: texture coordinates and the number of a picture, as MeshLab writes
 //! them, or a colour.
 
+use super::colors::{full_color, share};
 use super::header::Header;
 use super::payload::Value;
-use super::{full_color, share};
 use crate::limits::FACE_COLORS;
 use crate::mesh::soup::Soup;
 use crate::mesh::{Material, NONE};

@@ -2,7 +2,7 @@
 //!
 //! The tree stays as it is while the polygon gets smaller; what changes is which corners count.
 
-use super::simple::turn;
+use super::simple_polygon::turn;
 use glam::DVec2;
 use std::ops::Range;
 

@@ -6,7 +6,7 @@
 //! polygon and what turns left is decided by exact predicates, so that a polygon whose sides do not cross always has an ear.
 
 use super::blockers::Blockers;
-use super::simple::turn;
+use super::simple_polygon::turn;
 use glam::DVec2;
 use std::collections::VecDeque;
 

@@ -1,0 +1,346 @@
+//! Joins pieces of lines into polylines, which a pen draws without being lifted.
+//!
+//! In: the pieces of [`crate::lines::VisibleLines`]. Out: [`LinePath`]s. Two pieces of one layer and object are joined
+//! where their ends coincide bit for bit. Where more than two meet, the two that go on straightest are joined first. Sorting
+//! the ends finds the meetings, O(n log n); only sums, products and square roots decide, so that every platform joins alike.
+
+use crate::edges::Class;
+use crate::lines::LineSegment;
+use crate::lines::drawing::layers::Layer;
+use glam::DVec2;
+use std::cmp::Ordering;
+
+/// Pieces drawn as one line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinePath {
+    /// Their class; an outline's pieces may be of several, of which this is one.
+    pub class: Class,
+    /// Whether they are seen.
+    pub is_visible: bool,
+    /// Whether they are outline.
+    pub is_outline: bool,
+    /// Their object in the scene.
+    pub object: u32,
+    /// Their ends in order, pixels, y down; a closed path's first point is not repeated.
+    pub points_px: Vec<DVec2>,
+    /// Whether the last point is joined to the first.
+    pub is_closed: bool,
+    /// The pieces by their places among those chained: piece `k` goes from point `k` to the next.
+    pub segments: Vec<usize>,
+    /// The stroke that it is in all frames of a turn, see [`crate::lines::StrokeIds`]; `None` for a drawing by itself.
+    pub stroke: Option<u32>,
+}
+
+impl LinePath {
+    /// The layer it is drawn in.
+    pub(in crate::lines) fn layer(&self) -> Layer {
+        Layer::of(self.class, self.is_visible, self.is_outline)
+    }
+
+    /// The path along the other direction.
+    pub(in crate::lines) fn reverse(&mut self) {
+        self.points_px.reverse();
+        self.segments.reverse();
+        if self.is_closed {
+            // The piece that closes the path stays the last one: the points begin where they ended.
+            self.points_px.rotate_right(1);
+        }
+    }
+
+    /// The closed path from another of its points on.
+    pub(in crate::lines) fn rotate(&mut self, first: usize) {
+        self.points_px.rotate_left(first);
+        self.segments.rotate_left(first);
+    }
+}
+
+/// No end is joined here.
+const FREE: usize = usize::MAX;
+
+/// On each side of straight on, how many ends are tried where many meet: all of them where up to nine do.
+const TRIED: usize = 4;
+
+/// Where a piece ends. Ends are numbered: piece `k` has ends `2k` and `2k + 1`.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct End {
+    object: u32,
+    layer: Layer,
+    curve: u32,
+    x: u64,
+    y: u64,
+    number: usize,
+}
+
+impl End {
+    fn meets(&self, other: &Self) -> bool {
+        (self.object, self.layer, self.curve, self.x, self.y)
+            == (other.object, other.layer, other.curve, other.x, other.y)
+    }
+}
+
+/// Joins pieces to paths, in the order of each path's first piece. Pieces without length are left out, and hidden ones in whose place
+/// others are drawn.
+pub fn chain(segments: &[LineSegment]) -> Vec<LinePath> {
+    chain_curves(segments, |_| 0)
+}
+
+/// The same of pieces that belong to curves by their numbers: only those of one curve are joined.
+pub(in crate::lines) fn chain_curves(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Vec<LinePath> {
+    let partners = partners(segments, curve);
+    let mut is_drawn = vec![false; segments.len()];
+    let mut paths = Vec::new();
+    for first in 0..segments.len() {
+        if !is_drawn[first] && is_drawn_itself(&segments[first]) {
+            paths.push(walk(segments, &partners, first, &mut is_drawn));
+        }
+    }
+    paths
+}
+
+fn is_drawn_itself(segment: &LineSegment) -> bool {
+    !segment.is_covered && segment.ends_px[0] != segment.ends_px[1]
+}
+
+fn position(segments: &[LineSegment], end: usize) -> DVec2 {
+    segments[end / 2].ends_px[end % 2]
+}
+
+/// The end each end is joined with, or [`FREE`].
+fn partners(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Vec<usize> {
+    let mut ends = Vec::with_capacity(segments.len() * 2);
+    for (index, segment) in segments.iter().enumerate().filter(|(_, segment)| is_drawn_itself(segment)) {
+        for (which, point) in segment.ends_px.iter().enumerate() {
+            // Adding 0 makes -0 a 0, which is the same place.
+            let [x, y] = [point.x, point.y].map(|value| (value + 0.0).to_bits());
+            let layer = segment.layer();
+            ends.push(End { object: segment.object, layer, curve: curve(segment), x, y, number: index * 2 + which });
+        }
+    }
+    ends.sort_unstable();
+    let mut partners = vec![FREE; segments.len() * 2];
+    for meeting in ends.chunk_by(End::meets) {
+        match meeting {
+            [_] => (),
+            [a, b] => join(&mut partners, a.number, b.number),
+            many => join_straightest(segments, many, &mut partners),
+        }
+    }
+    partners
+}
+
+fn join(partners: &mut [usize], a: usize, b: usize) {
+    partners[a] = b;
+    partners[b] = a;
+}
+
+/// Joins the ends of one meeting in pairs, those that go on straightest first.
+fn join_straightest(segments: &[LineSegment], meeting: &[End], partners: &mut [usize]) {
+    // The direction in which each end leaves the meeting, and where that is on a circle of circumference 4.
+    let mut leaving: Vec<(f64, DVec2, usize)> = meeting
+        .iter()
+        .map(|end| {
+            let away = position(segments, end.number ^ 1) - position(segments, end.number);
+            let direction = away.normalize_or_zero();
+            (place_on_circle(direction), direction, end.number)
+        })
+        .collect();
+    leaving.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+    let count = leaving.len();
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (index, (place, direction, number)) in leaving.iter().enumerate() {
+        let straight_on = (place + 2.0) % 4.0;
+        let nearest = leaving.partition_point(|(place, ..)| *place < straight_on);
+        for step in 0..count.min(2 * TRIED + 1) {
+            let other = (nearest + count * TRIED + step - TRIED) % count;
+            if other != index {
+                let (_, other_direction, other_number) = leaving[other];
+                // -1 straight on, 1 back.
+                let cosine = direction.dot(other_direction);
+                pairs.push((cosine, (*number).min(other_number), (*number).max(other_number)));
+            }
+        }
+    }
+    pairs.sort_unstable_by(|a, b| match a.0.total_cmp(&b.0) {
+        Ordering::Equal => (a.1, a.2).cmp(&(b.1, b.2)),
+        order => order,
+    });
+    for (_, a, b) in pairs {
+        if partners[a] == FREE && partners[b] == FREE {
+            join(partners, a, b);
+        }
+    }
+}
+
+/// A number in [0, 4) that grows with the direction's angle: no trigonometry, which differs between platforms.
+fn place_on_circle(direction: DVec2) -> f64 {
+    let DVec2 { x, y } = direction;
+    let sum = x.abs() + y.abs();
+    if sum == 0.0 {
+        return 0.0;
+    }
+    match (x >= 0.0, y >= 0.0) {
+        (true, true) => y / sum,
+        (false, true) => 1.0 - x / sum,
+        (false, false) => 2.0 - y / sum,
+        (true, false) => (3.0 + x / sum) % 4.0,
+    }
+}
+
+/// The path through the piece `first`, in that piece's direction.
+fn walk(segments: &[LineSegment], partners: &[usize], first: usize, is_drawn: &mut [bool]) -> LinePath {
+    let mut begin = first * 2;
+    let mut is_closed = false;
+    while partners[begin] != FREE {
+        begin = partners[begin] ^ 1;
+        if begin == first * 2 {
+            is_closed = true;
+            break;
+        }
+    }
+    let mut points_px = vec![position(segments, begin)];
+    let mut pieces = Vec::new();
+    loop {
+        is_drawn[begin / 2] = true;
+        pieces.push(begin / 2);
+        points_px.push(position(segments, begin ^ 1));
+        begin = partners[begin ^ 1];
+        if begin == FREE || is_drawn[begin / 2] {
+            break;
+        }
+    }
+    if is_closed {
+        points_px.pop();
+    }
+    let LineSegment { class, is_visible, is_outline, object, .. } = segments[first];
+    LinePath { class, is_visible, is_outline, object, points_px, is_closed, segments: pieces, stroke: None }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn segment(a: [f64; 2], b: [f64; 2]) -> LineSegment {
+        LineSegment {
+            class: Class::Crease,
+            is_visible: true,
+            is_outline: false,
+            background: [false; 2],
+            is_covered: false,
+            ends_px: [a.into(), b.into()],
+            ends_world: [a, b].map(|[x, y]| glam::DVec3::new(x, y, 0.0)),
+            edge: Some([0, 1]),
+            angle_degrees: None,
+            object: 0,
+        }
+    }
+
+    #[test]
+    fn a_square_in_any_order_and_direction_is_one_closed_path() {
+        let corners = [[1.0, 1.0], [9.0, 1.0], [9.0, 9.0], [1.0, 9.0]];
+        let side = |i: usize| segment(corners[i], corners[(i + 1) % 4]);
+        let turned = |i: usize| segment(corners[(i + 1) % 4], corners[i]);
+        let paths = chain(&[side(2), turned(0), side(3), turned(1)]);
+        assert_eq!(paths.len(), 1);
+        assert!(paths[0].is_closed);
+        assert_eq!(paths[0].segments, [0, 2, 1, 3]);
+        let around = [[9.0, 9.0], [1.0, 9.0], [1.0, 1.0], [9.0, 1.0]].map(DVec2::from_array);
+        assert_eq!(paths[0].points_px, around);
+    }
+
+    #[test]
+    fn at_a_t_the_straight_line_goes_on() {
+        let stem = segment([5.0, 5.0], [5.0, 9.0]);
+        let (left, right) = (segment([1.0, 5.0], [5.0, 5.0]), segment([9.0, 5.0], [5.0, 5.0]));
+        let paths = chain(&[stem, left, right]);
+        let shapes: Vec<&[usize]> = paths.iter().map(|path| &path.segments[..]).collect();
+        assert_eq!(shapes, [&[0][..], &[1, 2]]);
+    }
+
+    #[test]
+    fn where_many_lines_cross_each_goes_straight_on() {
+        let spoke = |k: u32| {
+            let angle = f64::from(k) / 200.0 * std::f64::consts::TAU;
+            segment([50.0, 50.0], [50.0 + 40.0 * angle.cos(), 50.0 + 40.0 * angle.sin()])
+        };
+        let paths = chain(&(0..200).map(spoke).collect::<Vec<_>>());
+        assert_eq!(paths.len(), 100);
+        for path in paths {
+            assert_eq!(path.segments[0].abs_diff(path.segments[1]), 100, "{:?}", path.segments);
+        }
+    }
+
+    #[test]
+    fn lines_over_one_another_and_loops_at_a_meeting_are_followed_to_their_end() {
+        let twice = [segment([1.0, 1.0], [5.0, 1.0]), segment([1.0, 1.0], [5.0, 1.0])];
+        let paths = chain(&twice);
+        assert!(paths.len() == 1 && paths[0].is_closed && paths[0].points_px.len() == 2);
+        // A loop that comes back to where two other lines meet.
+        let a = [50.0, 50.0];
+        let around = [[a, [60.0, 60.0]], [[60.0, 60.0], [40.0, 60.0]], [[40.0, 60.0], a]];
+        let through = [[[10.0, 50.0], a], [a, [90.0, 50.0]]];
+        let pieces: Vec<LineSegment> = around.iter().chain(&through).map(|[a, b]| segment(*a, *b)).collect();
+        let paths = chain(&pieces);
+        let shapes: Vec<(bool, &[usize])> = paths.iter().map(|path| (path.is_closed, &path.segments[..])).collect();
+        assert_eq!(shapes, [(true, &[0, 1, 2][..]), (false, &[3, 4])]);
+    }
+
+    #[test]
+    fn classes_visibilities_and_objects_are_not_joined() {
+        let meet = || [segment([1.0, 1.0], [2.0, 2.0]), segment([2.0, 2.0], [3.0, 1.0])];
+        assert_eq!(chain(&meet()).len(), 1);
+        let changes: [fn(&mut LineSegment); 4] =
+            [|s| s.class = Class::Boundary, |s| s.is_visible = false, |s| s.is_outline = true, |s| s.object = 1];
+        for change in changes {
+            let mut segments = meet();
+            change(&mut segments[1]);
+            assert_eq!(chain(&segments).len(), 2);
+        }
+        let mut outline = meet().map(|segment| LineSegment { is_outline: true, ..segment });
+        outline[1].class = Class::Boundary;
+        assert_eq!(chain(&outline).len(), 1, "an outline goes on whatever its classes are");
+        let mut segments = meet();
+        segments[0].ends_px[1].x = 2.0_f64.next_up();
+        assert_eq!(chain(&segments).len(), 2, "ends that only nearly meet");
+        let negative = [segment([-0.0, 1.0], [2.0, 2.0]), segment([0.0, 1.0], [3.0, 1.0])];
+        assert_eq!(chain(&negative).len(), 1, "0 and -0 are the same place");
+    }
+
+    #[test]
+    fn every_piece_is_in_one_path_and_every_path_holds_together() {
+        // A grid of streets: meetings of two, three and four.
+        let mut segments = Vec::new();
+        for i in 0..20 {
+            for j in 0..20 {
+                let at = |i: i32, j: i32| [f64::from(i), f64::from(j)];
+                segments.push(segment(at(i, j), at(i + 1, j)));
+                segments.push(segment(at(i, j + 1), at(i, j)));
+            }
+        }
+        segments.push(segment([3.0, 3.0], [3.0, 3.0]));
+        let paths = chain(&segments);
+        let mut seen: Vec<usize> = paths.iter().flat_map(|path| path.segments.clone()).collect();
+        seen.sort_unstable();
+        assert_eq!(seen, (0..800).collect::<Vec<_>>());
+        for path in &paths {
+            let count = path.points_px.len();
+            for (k, piece) in path.segments.iter().enumerate() {
+                let ends = segments[*piece].ends_px;
+                let step = [path.points_px[k], path.points_px[(k + 1) % count]];
+                assert!(ends == step || [ends[1], ends[0]] == step);
+            }
+        }
+        assert!(paths.is_sorted_by_key(|path| path.segments.iter().min().copied()));
+        assert!(paths.len() < 50, "{}", paths.len());
+    }
+
+    #[test]
+    fn a_path_turned_round_keeps_its_pieces_between_their_points() {
+        let corners = [[1.0, 1.0], [9.0, 1.0], [9.0, 9.0]];
+        let mut path = chain(&[0, 1, 2].map(|i| segment(corners[i], corners[(i + 1) % 3]))).remove(0);
+        path.rotate(1);
+        path.reverse();
+        assert_eq!(path.segments, [0, 2, 1]);
+        let order = [[9.0, 1.0], [1.0, 1.0], [9.0, 9.0]].map(DVec2::from_array);
+        assert_eq!(path.points_px, order);
+    }
+}

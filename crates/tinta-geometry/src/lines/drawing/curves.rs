@@ -1,0 +1,279 @@
+//! Polylines as cubic Bézier curves within a stated error.
+//!
+//! In: a [`LinePath`] and the largest error, pixels. Out: [`Step`]s from its first point on. The path is cut at its corners, which
+//! stay. Through the points between two of them goes a smooth curve of cubics (Bessel's tangents), of which kurbo makes as few as
+//! it can. These are then held against the polyline, point by point in both directions: where they are farther from it than
+//! allowed, the stretch is halved and tried again; what is left of two points is a straight line. So the error holds whatever
+//! the fit does, and a straight line stays one.
+
+use crate::lines::drawing::chain::LinePath;
+use crate::lines::drawing::simplify::simplified;
+use crate::tolerances::STRAIGHT_PX;
+use glam::DVec2;
+use kurbo::simplify::SimplifyBezPath;
+use kurbo::{BezPath, CubicBez, ParamCurve, PathSeg, Point, fit_to_bezpath_opt};
+
+/// How a path goes on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Step {
+    /// Straight to a point, pixels.
+    Line(DVec2),
+    /// Along a cubic Bézier curve: two control points and its end, pixels.
+    Curve([DVec2; 3]),
+}
+
+/// Smallest and largest error of a fit, pixels: below, numbers of three decimals are no longer close enough.
+pub(in crate::lines) const FIT_PX: std::ops::RangeInclusive<f64> = 0.01..=100.0;
+
+/// Cosine of the angle by which a path turns at a corner, 35 degrees: what turns less is drawn as a curve if that is close enough.
+const CORNER_COSINE: f64 = 0.819;
+
+/// Most points that are fitted at once.
+const MOST_POINTS: usize = 200;
+
+/// Points of each curve that are held against the polyline.
+const SAMPLES: usize = 24;
+
+/// What rounding to three decimals and leaving out points on straight lines take from the error.
+const RESERVED_PX: f64 = 2.0 * STRAIGHT_PX;
+
+/// Share of the error that the fit may use by its own estimate.
+const ESTIMATED: f64 = 0.7;
+
+/// A path as curves no farther than `error_px` from it, and its first point; a closed path comes back there.
+pub fn fitted(path: &LinePath, error_px: f64) -> (DVec2, Vec<Step>) {
+    let mut points = simplified(path);
+    points.dedup();
+    let Some(first) = points.first().copied() else { return (DVec2::ZERO, Vec::new()) };
+    if points.len() < 3 {
+        return (first, points[1..].iter().map(|point| Step::Line(*point)).collect());
+    }
+    let tolerance = (error_px - RESERVED_PX).max(0.0);
+    let corner = |points: &[DVec2], at: usize| {
+        let count = points.len();
+        let (before, after) = (points[(at + count - 1) % count], points[(at + 1) % count]);
+        let [into, out] = [points[at] - before, after - points[at]].map(DVec2::normalize_or_zero);
+        into.dot(out) < CORNER_COSINE
+    };
+    let mut is_smooth_ring = false;
+    if path.is_closed {
+        // It begins at a corner, or goes round without one.
+        let begin = (0..points.len()).find(|at| corner(&points, *at));
+        is_smooth_ring = begin.is_none();
+        points.rotate_left(begin.unwrap_or(0));
+        points.push(points[0]);
+    }
+    let inner = (1..points.len() - 1).filter(|at| corner(&points, *at));
+    let cuts: Vec<usize> = [0].into_iter().chain(inner).chain([points.len() - 1]).collect();
+    let mut steps = Vec::new();
+    for cut in cuts.windows(2) {
+        let run = &points[cut[0]..=cut[1]];
+        fit(run, &tangents(run, is_smooth_ring), tolerance, &mut steps);
+    }
+    (points[0], steps)
+}
+
+/// The direction of a smooth curve through points at each of them, by the length along it (Bessel).
+fn tangents(points: &[DVec2], is_ring: bool) -> Vec<DVec2> {
+    let last = points.len() - 1;
+    let slope = |from: usize| (points[from + 1] - points[from]) / points[from].distance(points[from + 1]);
+    let length = |from: usize| points[from].distance(points[from + 1]);
+    let between = |before: usize, after: usize| {
+        let (h, k) = (length(before), length(after));
+        (slope(before) * k + slope(after) * h) / (h + k)
+    };
+    let mut tangents: Vec<DVec2> = (1..last).map(|at| between(at - 1, at)).collect();
+    let [start, end] = if is_ring {
+        [between(last - 1, 0); 2]
+    } else if last > 1 {
+        // A parabola through the first three points, and the last.
+        [slope(0) * 2.0 - tangents[0], slope(last - 1) * 2.0 - tangents[last - 2]]
+    } else {
+        [slope(0); 2]
+    };
+    tangents.insert(0, start);
+    tangents.push(end);
+    tangents.into_iter().map(DVec2::normalize_or_zero).collect()
+}
+
+/// Adds the steps from the first point on to the last.
+fn fit(points: &[DVec2], tangents: &[DVec2], tolerance: f64, steps: &mut Vec<Step>) {
+    let last = points.len() - 1;
+    if last == 1 {
+        steps.push(Step::Line(points[1]));
+        return;
+    }
+    if points.len() <= MOST_POINTS
+        && let Some(curves) = curves(points, tangents, tolerance)
+    {
+        steps.extend(curves.iter().map(|curve| Step::Curve([curve.p1, curve.p2, curve.p3].map(vector))));
+        return;
+    }
+    let middle = last / 2;
+    fit(&points[..=middle], &tangents[..=middle], tolerance, steps);
+    fit(&points[middle..], &tangents[middle..], tolerance, steps);
+}
+
+/// Cubics through the first and the last of some points, if they are near enough.
+fn curves(points: &[DVec2], tangents: &[DVec2], tolerance: f64) -> Option<Vec<CubicBez>> {
+    let mut smooth = BezPath::new();
+    smooth.move_to(point(points[0]));
+    for at in 1..points.len() {
+        let third = points[at - 1].distance(points[at]) / 3.0;
+        let controls = [points[at - 1] + tangents[at - 1] * third, points[at] - tangents[at] * third];
+        smooth.curve_to(point(controls[0]), point(controls[1]), point(points[at]));
+    }
+    let found = fit_to_bezpath_opt(&SimplifyBezPath::new(smooth), tolerance * ESTIMATED);
+    let mut curves: Vec<CubicBez> = Vec::new();
+    for segment in found.segments() {
+        match segment {
+            PathSeg::Cubic(cubic) => curves.push(cubic),
+            PathSeg::Line(_) | PathSeg::Quad(_) => return None,
+        }
+    }
+    // The ends as they are, so that what meets still does.
+    curves.first_mut()?.p0 = point(points[0]);
+    curves.last_mut()?.p3 = point(points[points.len() - 1]);
+    let is_finite = |curve: &CubicBez| [curve.p0, curve.p1, curve.p2, curve.p3].iter().all(|point| point.is_finite());
+    (curves.iter().all(is_finite) && is_near(&curves, points, tolerance)).then_some(curves)
+}
+
+/// Whether no point of the curves is farther from a polyline than allowed, and none of the polyline from the curves.
+fn is_near(curves: &[CubicBez], points: &[DVec2], tolerance: f64) -> bool {
+    let at = |curve: &CubicBez, sample: usize| vector(curve.eval(sample as f64 / SAMPLES as f64));
+    let mut drawn: Vec<DVec2> = vec![points[0]];
+    drawn.extend(curves.iter().flat_map(|curve| (1..=SAMPLES).map(move |sample| at(curve, sample))));
+    all_near(&drawn, points, tolerance) && all_near(points, &drawn, tolerance)
+}
+
+/// Whether all points of one polyline, and the middles between them, are near another.
+fn all_near(points: &[DVec2], line: &[DVec2], tolerance: f64) -> bool {
+    let middles = points.windows(2).map(|pair| (pair[0] + pair[1]) * 0.5);
+    points.iter().copied().chain(middles).all(|point| {
+        let square = line.windows(2).map(|ends| square_to(point, [ends[0], ends[1]])).fold(f64::INFINITY, f64::min);
+        square <= tolerance * tolerance
+    })
+}
+
+/// The square of a point's distance from a line.
+fn square_to(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
+    let along = b - a;
+    let square = along.length_squared();
+    let share = if square > 0.0 { ((point - a).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    point.distance_squared(a + along * share)
+}
+
+fn point(DVec2 { x, y }: DVec2) -> Point {
+    Point::new(x, y)
+}
+
+fn vector(Point { x, y }: Point) -> DVec2 {
+    DVec2::new(x, y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::edges::Class;
+    use std::f64::consts::TAU;
+
+    fn path(points_px: Vec<DVec2>, is_closed: bool) -> LinePath {
+        let (class, segments) = (Class::Silhouette, Vec::new());
+        LinePath { class, is_visible: true, is_outline: false, object: 0, points_px, is_closed, segments, stroke: None }
+    }
+
+    /// Points along the drawn path, densely.
+    fn drawn((first, steps): &(DVec2, Vec<Step>)) -> Vec<DVec2> {
+        let mut points = vec![*first];
+        for step in steps {
+            let from = points[points.len() - 1];
+            match step {
+                Step::Line(to) => points.extend((1..=400).map(|k| from.lerp(*to, f64::from(k) / 400.0))),
+                Step::Curve([first, second, end]) => {
+                    let curve = CubicBez::new(point(from), point(*first), point(*second), point(*end));
+                    points.extend((1..=400).map(|k| vector(curve.eval(f64::from(k) / 400.0))));
+                }
+            }
+        }
+        points
+    }
+
+    fn farthest(points: &[DVec2], line: &[DVec2]) -> f64 {
+        let square =
+            |point: &DVec2| line.windows(2).map(|ends| square_to(*point, [ends[0], ends[1]])).fold(f64::MAX, f64::min);
+        points.iter().map(square).fold(0.0, f64::max).sqrt()
+    }
+
+    #[track_caller]
+    fn assert_within(points: &[DVec2], is_closed: bool, error_px: f64) -> Vec<Step> {
+        let fit = fitted(&path(points.to_vec(), is_closed), error_px);
+        let mut line = points.to_vec();
+        if is_closed {
+            line.push(points[0]);
+        }
+        let curve = drawn(&fit);
+        let (there, back) = (farthest(&curve, &line), farthest(&line, &curve));
+        assert!(there <= error_px && back <= error_px, "{there} {back} of {error_px} px, {} steps", fit.1.len());
+        fit.1
+    }
+
+    #[test]
+    fn a_circle_of_many_points_is_a_few_curves_within_the_error() {
+        let circle: Vec<DVec2> =
+            (0..180).map(|k| DVec2::from_angle(f64::from(k) / 180.0 * TAU) * 100.0 + 256.0).collect();
+        for (error_px, most) in [(0.5, 8), (0.1, 12), (0.05, 16)] {
+            let steps = assert_within(&circle, true, error_px);
+            assert!(steps.len() <= most, "{} steps at {error_px}", steps.len());
+            assert!(steps.iter().all(|step| matches!(step, Step::Curve(_))));
+        }
+    }
+
+    #[test]
+    fn straight_lines_stay_and_so_do_corners() {
+        let corners = [[10.0, 10.0], [200.0, 10.0], [200.0, 90.0], [10.0, 90.0]].map(DVec2::from_array);
+        assert_eq!(
+            fitted(&path(corners.to_vec(), false), 1.0).1,
+            corners[1..].iter().map(|to| Step::Line(*to)).collect::<Vec<_>>()
+        );
+        assert_eq!(fitted(&path(corners.to_vec(), true), 1.0).1.len(), 4);
+        let line: Vec<DVec2> = (0..50).map(|k| DVec2::new(3.0, 1.0) * f64::from(k)).collect();
+        assert_eq!(fitted(&path(line.clone(), false), 1.0), (line[0], vec![Step::Line(line[49])]));
+        // An arc between two corners.
+        let arc =
+            (0..=40).map(|k| DVec2::new(100.0, 100.0) + DVec2::from_angle(f64::from(k) / 40.0 * TAU / 2.0) * 60.0);
+        let half_disc: Vec<DVec2> = arc.collect();
+        let steps = assert_within(&half_disc, true, 0.2);
+        assert!(steps.contains(&Step::Line(half_disc[0])), "{steps:?}");
+    }
+
+    #[test]
+    fn noise_and_spirals_stay_within_the_error() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as f64 / f64::from(1u32 << 30) - 1.0
+        };
+        let noisy: Vec<DVec2> = (0..300)
+            .map(|k| DVec2::new(f64::from(k), 40.0 + 10.0 * (f64::from(k) / 30.0).sin() + 0.3 * random()))
+            .collect();
+        let spiral: Vec<DVec2> =
+            (0..400).map(|k| DVec2::from_angle(f64::from(k) * 0.1) * f64::from(k) * 0.5 + 256.0).collect();
+        let coarse: Vec<DVec2> =
+            (0..12).map(|k| DVec2::from_angle(f64::from(k) / 12.0 * TAU) * 200.0 + 256.0).collect();
+        for error_px in [0.02, 0.1, 0.5, 2.0] {
+            assert_within(&noisy, false, error_px);
+            assert_within(&spiral, false, error_px);
+            assert_within(&coarse, true, error_px);
+        }
+    }
+
+    #[test]
+    fn what_is_hardly_a_path_is_still_one() {
+        for points in [vec![DVec2::ZERO], vec![DVec2::ZERO, DVec2::X], vec![DVec2::ZERO, DVec2::X, DVec2::ZERO]] {
+            for is_closed in [false, true] {
+                let (_, steps) = fitted(&path(points.clone(), is_closed), 0.5);
+                assert!(steps.len() <= 3 && drawn(&(points[0], steps)).iter().all(|point| point.is_finite()));
+            }
+        }
+    }
+}

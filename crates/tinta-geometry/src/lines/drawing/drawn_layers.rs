@@ -1,0 +1,130 @@
+//! A drawing as whoever writes it needs it: its page, and its layers from the lowest to the highest with their looks and paths.
+//!
+//! In: lines, the paths they were chained to, settings. Out: a [`Drawing`]; SVG and PDF write the same one.
+
+use crate::error::Result;
+use crate::lines::drawing::chain::{LinePath, chain};
+use crate::lines::drawing::layers::Layer;
+use crate::lines::drawing::page::Page;
+use crate::lines::drawing::pen::{dashes, in_pen_order};
+use crate::lines::drawing::settings::{Hidden, SvgSettings};
+use crate::lines::drawing::simplify::simplified;
+use crate::lines::{LineSegment, VisibleLines};
+use crate::scene::{Color, Size};
+use glam::DVec2;
+
+/// Opacity of hidden lines drawn as ghosts.
+pub const GHOST_OPACITY: f32 = 0.3;
+
+/// Width of a pen's line where nothing is said, pixels: to look at; the pen has its own.
+const PEN_WIDTH_PX: f64 = 0.5;
+
+/// Dashes and the gaps between them, widths of their line; its round ends take one from each gap.
+const DASH_WIDTHS: [f64; 2] = [6.0, 5.0];
+
+/// A pen's dashes and gaps, shares of the picture's longer side: so many at most, however large the picture.
+const PEN_DASHES: [f64; 2] = [1.0 / 128.0, 1.0 / 170.0];
+
+/// What is to be written.
+pub(in crate::lines) struct Drawing<'a> {
+    pub segments: &'a [LineSegment],
+    /// What is said of lines that are a part.
+    pub note: Option<String>,
+    pub settings: &'a SvgSettings,
+    pub page: Page,
+    /// From the lowest to the highest, without those that have no lines.
+    pub layers: Vec<DrawnLayer>,
+}
+
+/// The paths of a layer and how they look.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnLayer {
+    /// Which layer.
+    pub layer: Layer,
+    /// Its lines' colour.
+    pub color: Color,
+    /// Its lines' width, pixels.
+    pub width_px: f64,
+    /// Dash and gap, pixels.
+    pub dash_px: Option<[f64; 2]>,
+    /// Whether it is drawn with [`GHOST_OPACITY`], as a whole: where lines cross it does not add up.
+    pub is_ghost: bool,
+    /// Its lines.
+    pub paths: Vec<LinePath>,
+}
+
+/// The drawing that an SVG file of these lines is, as plain values: its layers from the lowest to the highest, without spurs and
+/// specks. For whoever draws them by other means.
+///
+/// # Errors
+///
+/// As [`crate::lines::svg()`].
+pub fn drawn_layers(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<DrawnLayer>> {
+    let lines = lines.without_specks(settings)?;
+    let mut layers = Drawing::new(&lines, chain(&lines.segments), settings)?.layers;
+    for path in layers.iter_mut().flat_map(|layer| &mut layer.paths) {
+        path.points_px = settings.points_of(path);
+    }
+    Ok(layers)
+}
+
+impl<'a> Drawing<'a> {
+    /// Puts the paths into their layers.
+    ///
+    /// # Errors
+    ///
+    /// As [`SvgSettings::check`] and [`VisibleLines::check`].
+    pub(in crate::lines) fn new(
+        lines: &'a VisibleLines,
+        paths: Vec<LinePath>,
+        settings: &'a SvgSettings,
+    ) -> Result<Self> {
+        settings.check()?;
+        lines.check()?;
+        let page = page(lines, settings);
+        let mut paths: Vec<(Layer, LinePath)> = paths.into_iter().map(|path| (path.layer(), path)).collect();
+        let layers = Layer::upwards().filter(|layer| settings.draws(layer.is_visible())).filter_map(|layer| {
+            let of_it = paths.extract_if(.., |(of, _)| *of == layer).map(|(_, path)| path).collect();
+            let drawn = DrawnLayer::new(layer, of_it, &page, settings, lines.size);
+            (!drawn.paths.is_empty()).then_some(drawn)
+        });
+        let layers = layers.collect();
+        Ok(Self { segments: &lines.segments, note: lines.partial_note(), settings, page, layers })
+    }
+}
+
+/// The page of a drawing: its lines fill a sheet.
+pub(in crate::lines) fn page(lines: &VisibleLines, settings: &SvgSettings) -> Page {
+    let is_drawn = |segment: &LineSegment| settings.draws(segment.is_visible) && !segment.is_covered;
+    Page::new(lines, is_drawn, settings.page_size, settings.margin.0)
+}
+
+impl DrawnLayer {
+    fn new(layer: Layer, mut paths: Vec<LinePath>, page: &Page, settings: &SvgSettings, size: Size) -> Self {
+        let is_pens_own = settings.is_for_pen && !settings.says_width(layer);
+        let width_px = if is_pens_own { PEN_WIDTH_PX } else { settings.width_px(layer, page.units) };
+        let is_dashed = !layer.is_visible() && settings.hidden == Hidden::Dashed;
+        if settings.is_for_pen {
+            if is_dashed {
+                let [dash, gap] = PEN_DASHES.map(|share| share * f64::from(size.width.max(size.height)));
+                paths = paths.iter().flat_map(|path| dashes(path, dash, gap)).collect();
+            }
+            paths = in_pen_order(paths);
+        }
+        Self {
+            layer,
+            color: settings.color(layer),
+            width_px,
+            dash_px: (is_dashed && !settings.is_for_pen).then(|| DASH_WIDTHS.map(|widths| widths * width_px)),
+            is_ghost: !layer.is_visible() && settings.hidden == Hidden::Ghost && !settings.is_for_pen,
+            paths,
+        }
+    }
+}
+
+impl SvgSettings {
+    /// The points of a path as they are written.
+    pub(in crate::lines) fn points_of(&self, path: &LinePath) -> Vec<DVec2> {
+        if self.has_provenance { path.points_px.clone() } else { simplified(path) }
+    }
+}

@@ -1,0 +1,384 @@
+//! The layers of a drawing, and what is said of single ones: colours and widths, of which drawings by GL know those of classes.
+//!
+//! In: texts such as `silhouette=3,hidden=0.5`. Out: [`OfLayers`], a value for some of the names. `CLASS` is a class's visible
+//! lines, `hidden-CLASS` its hidden ones, `hidden` all hidden ones, `outline` what of the visible lines has nothing but
+//! background on one side.
+
+use crate::choice::nearest;
+use crate::edges::Class;
+use crate::error::ParseError;
+use crate::lines::drawing::length::Length;
+use crate::settings::{Kind, Problem, Setting, Value};
+use crate::values::Color;
+use std::fmt::Display;
+use std::str::FromStr;
+
+/// Lines that are drawn alike, one layer above the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Layer {
+    /// Visible lines beyond which there is only background, of any class.
+    Outline,
+    /// A class's other visible lines.
+    Visible(Class),
+    /// A class's hidden lines.
+    Hidden(Class),
+}
+
+impl Layer {
+    /// The layer of a line.
+    pub(in crate::lines) fn of(class: Class, is_visible: bool, is_outline: bool) -> Self {
+        match (is_visible, is_outline) {
+            (true, true) => Self::Outline,
+            (true, false) => Self::Visible(class),
+            (false, _) => Self::Hidden(class),
+        }
+    }
+
+    /// All of them from the lowest to the highest: hidden ones below, and the first class above the others, for an edge of
+    /// several belongs to the first.
+    pub fn upwards() -> impl Iterator<Item = Self> {
+        let classes = || Class::ALL.into_iter().rev().map(|(_, class)| class);
+        classes().map(Self::Hidden).chain(classes().map(Self::Visible)).chain([Self::Outline])
+    }
+
+    /// Whether its lines are seen.
+    pub fn is_visible(self) -> bool {
+        !matches!(self, Self::Hidden(_))
+    }
+
+    /// What a program that shows layers calls it, in two words.
+    pub fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::Outline => ["visible", "outline"],
+            Self::Visible(class) => ["visible", class.name()],
+            Self::Hidden(class) => ["hidden", class.name()],
+        }
+    }
+
+    /// The names under which something may be said of it, the first one given is meant. An outline is most often silhouette.
+    fn names(self) -> [Option<Name>; 2] {
+        match self {
+            Self::Outline => [Some(Name::Outline), Some(Name::Class(Class::Silhouette))],
+            Self::Visible(class) => [Some(Name::Class(class)), None],
+            Self::Hidden(class) => [Some(Name::HiddenClass(class)), Some(Name::Hidden)],
+        }
+    }
+}
+
+const CLASSES: usize = Class::ALL.len();
+
+/// What something can be said of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Name {
+    Class(Class),
+    Outline,
+    Hidden,
+    HiddenClass(Class),
+}
+
+/// What all hidden lines are called, and how the names of hidden classes begin.
+const HIDDEN_LINES: &str = "hidden";
+const HIDDEN: &str = "hidden-";
+
+impl Name {
+    fn index(self) -> usize {
+        match self {
+            Self::Class(class) => class as usize,
+            Self::Outline => CLASSES,
+            Self::Hidden => CLASSES + 1,
+            Self::HiddenClass(class) => CLASSES + 2 + class as usize,
+        }
+    }
+
+    fn all() -> impl Iterator<Item = Self> {
+        let classes = || Class::ALL.into_iter().map(|(_, class)| class);
+        classes().map(Self::Class).chain([Self::Outline, Self::Hidden]).chain(classes().map(Self::HiddenClass))
+    }
+
+    fn text(self) -> String {
+        match self {
+            Self::Class(class) => class.name().to_owned(),
+            Self::Outline => "outline".to_owned(),
+            Self::Hidden => HIDDEN_LINES.to_owned(),
+            Self::HiddenClass(class) => format!("{HIDDEN}{}", class.name()),
+        }
+    }
+}
+
+impl FromStr for Name {
+    type Err = ParseError;
+
+    fn from_str(text: &str) -> Result<Self, ParseError> {
+        match text {
+            "outline" => Ok(Self::Outline),
+            HIDDEN_LINES => Ok(Self::Hidden),
+            _ => match text.strip_prefix(HIDDEN) {
+                Some(class) => Ok(Self::HiddenClass(class.parse()?)),
+                None => Ok(Self::Class(text.parse().map_err(|problem| {
+                    match nearest(text, &["outline", HIDDEN_LINES]) {
+                        Some(meant) => format!("did you mean {meant}?"),
+                        None => format!("{problem}, outline, hidden, or hidden- and a class"),
+                    }
+                })?)),
+            },
+        }
+    }
+}
+
+/// A value for some of the names.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OfLayers<T>([Option<T>; 2 * CLASSES + 2]);
+
+impl<T> Default for OfLayers<T> {
+    fn default() -> Self {
+        Self([const { None }; 2 * CLASSES + 2])
+    }
+}
+
+impl<T: Copy> OfLayers<T> {
+    /// The same for a class's visible lines and nothing else.
+    pub fn set_class(&mut self, class: Class, value: T) {
+        self.0[Name::Class(class).index()] = Some(value);
+    }
+
+    /// For the outline.
+    pub fn set_outline(&mut self, value: T) {
+        self.0[Name::Outline.index()] = Some(value);
+    }
+
+    /// For all hidden lines of which nothing else is said.
+    pub fn set_hidden(&mut self, value: T) {
+        self.0[Name::Hidden.index()] = Some(value);
+    }
+
+    /// What is said of a layer.
+    pub fn of(&self, layer: Layer) -> Option<T> {
+        layer.names().into_iter().flatten().find_map(|name| self.0[name.index()])
+    }
+
+    /// Whether something is said of the outline, so that it has to be found.
+    pub fn tells_outline(&self) -> bool {
+        self.0[Name::Outline.index()].is_some()
+    }
+
+    /// The first name beside those of classes of which something is said: what drawings by GL do not have.
+    pub fn first_beyond_classes(&self) -> Option<String> {
+        self.given().map(|(name, _)| name).find(|name| !matches!(name, Name::Class(_))).map(Name::text)
+    }
+
+    /// The names with what is said of them.
+    fn given(&self) -> impl Iterator<Item = (Name, T)> {
+        Name::all().filter_map(|name| Some((name, self.0[name.index()]?)))
+    }
+
+    /// The first value that is none, with its name.
+    pub(in crate::lines) fn find(&self, mut is_wrong: impl FnMut(T) -> bool) -> Option<(String, T)> {
+        self.given().find(|(_, value)| is_wrong(*value)).map(|(name, value)| (name.text(), value))
+    }
+}
+
+impl<T: Copy + Display> OfLayers<T> {
+    /// `NAME=VALUE`, with commas between.
+    fn text(&self) -> String {
+        self.given().map(|(name, value)| format!("{}={value}", name.text())).collect::<Vec<_>>().join(",")
+    }
+}
+
+impl<T: Copy> OfLayers<T> {
+    fn parsed(text: &str, usage: &str, value: impl Fn(&str) -> Result<T, ParseError>) -> Result<Self, ParseError> {
+        let mut values = Self::default();
+        for setting in text.split(',') {
+            let (name, text) = setting.split_once('=').ok_or_else(|| usage.to_owned())?;
+            values.0[name.trim().parse::<Name>()?.index()] = Some(value(text.trim())?);
+        }
+        Ok(values)
+    }
+}
+
+const BLACK: Color = Color([0.0; 3]);
+
+/// Colours of lines; where none is said visible ones are black.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ClassColors(pub OfLayers<Color>);
+
+impl ClassColors {
+    /// Outer lines red, inner ones blue: figure 6 of Evangelista et al. 2005.
+    pub fn figure_6() -> Self {
+        let is_outer = |class| matches!(class, Class::Boundary | Class::NonManifold | Class::Silhouette);
+        let mut colors = OfLayers::default();
+        for (_, class) in Class::ALL {
+            let color = if is_outer(class) { Color([0.9, 0.05, 0.05]) } else { Color([0.1, 0.2, 0.9]) };
+            colors.set_class(class, color);
+        }
+        Self(colors)
+    }
+
+    /// A class's colour where it is seen.
+    pub fn of_class(&self, class: Class) -> Color {
+        self.0.of(Layer::Visible(class)).unwrap_or(BLACK)
+    }
+
+    /// What is said of a name: a class, `outline`, `hidden` or `hidden-` and a class.
+    ///
+    /// # Errors
+    ///
+    /// For a name that there is not, those there are.
+    pub fn named(&self, name: &str) -> Result<Option<Color>, ParseError> {
+        Ok(self.0.0[name.parse::<Name>()?.index()])
+    }
+
+    /// Says a colour of a name, or nothing any more.
+    ///
+    /// # Errors
+    ///
+    /// As [`ClassColors::named`].
+    pub fn set_named(&mut self, name: &str, color: Option<Color>) -> Result<(), ParseError> {
+        self.0.0[name.parse::<Name>()?.index()] = color;
+        Ok(())
+    }
+
+    /// What colours can be said of: every class, and these besides.
+    fn kind_of(more: &[&'static str]) -> Kind {
+        let names = Class::ALL.iter().map(|(name, _)| *name).chain(more.iter().copied()).collect();
+        let example = "silhouette=red,crease=rgb(1 2.5 3),normal=#010203";
+        Kind::Colors { names, offered: &["figure-6", "black"], example }
+    }
+
+    /// The setting of the colours of a drawing, which knows layers beside classes.
+    pub fn setting_of_drawing<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        let mut setting = Self::setting(field);
+        setting.kind = Self::kind_of(&["outline", HIDDEN_LINES]);
+        setting
+    }
+
+    /// The setting of the colours.
+    pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+        let help = "Colours of the lines by class: CLASS=COLOR, separated by commas, or figure-6 (outer red, inner \
+            blue); in style lines also outline, hidden and hidden-CLASS";
+        Setting::field("class-colors", "COLORS", help, field)
+            .printed("D, Inking: glColor3ub( 0, 0, 0 )")
+            .labelled("class colours")
+    }
+}
+
+impl Value for ClassColors {
+    fn kind() -> Kind {
+        Self::kind_of(&[])
+    }
+
+    /// `NAME=COLOR` of each name of which one is said.
+    fn text(&self) -> String {
+        if *self == Self::figure_6() {
+            return "figure-6".to_owned();
+        }
+        let text = self.0.text();
+        if text.is_empty() { "black".to_owned() } else { text }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(text.parse()?)
+    }
+}
+
+impl FromStr for ClassColors {
+    type Err = ParseError;
+
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
+        let usage = "write figure-6, or CLASS=COLOR, separated by commas: silhouette=red,crease=blue";
+        match text {
+            "figure-6" => Ok(Self::figure_6()),
+            "black" => Ok(Self::default()),
+            _ => {
+                let mut colors = OfLayers::parsed(text, usage, str::parse)?;
+                // Black is what a class has anyway.
+                colors.0[..CLASSES].iter_mut().for_each(|color| *color = color.filter(|color| *color != BLACK));
+                Ok(Self(colors))
+            }
+        }
+    }
+}
+
+/// Widths of lines; where none is said visible ones are as wide as all others.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ClassWidths(pub OfLayers<Length>);
+
+/// What no widths are called.
+const NONE: &str = "none";
+
+impl Value for ClassWidths {
+    fn kind() -> Kind {
+        Kind::Text { offered: &[], example: "silhouette=3,crease=0.5mm,hidden-crease=0.25mm" }
+    }
+
+    fn text(&self) -> String {
+        let text = self.0.text();
+        if text.is_empty() { NONE.to_owned() } else { text }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        Ok(text.parse()?)
+    }
+}
+
+impl FromStr for ClassWidths {
+    type Err = ParseError;
+
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
+        let usage = "write CLASS=PIXELS, separated by commas: outline=3,crease=1,hidden=0.5; on paper also 0.35mm";
+        match text {
+            NONE => Ok(Self::default()),
+            _ => OfLayers::parsed(text, usage, |text| text.parse().map_err(|_| usage.to_owned().into())).map(Self),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_said_of_a_layer_itself_comes_before_what_is_said_of_several() {
+        let widths: ClassWidths = "silhouette=3, hidden=0.5,hidden-crease=0.25mm".parse().unwrap();
+        let of = |layer| widths.0.of(layer);
+        assert_eq!(of(Layer::Visible(Class::Silhouette)), Some(Length::Px(3.0)));
+        assert_eq!(of(Layer::Outline), Some(Length::Px(3.0)), "most of an outline is silhouette");
+        assert_eq!(of(Layer::Visible(Class::Boundary)), None);
+        assert_eq!(of(Layer::Hidden(Class::Boundary)), Some(Length::Px(0.5)));
+        assert_eq!(of(Layer::Hidden(Class::Crease)), Some(Length::Mm(0.25)));
+        assert!(!widths.0.tells_outline() && "outline=1".parse::<ClassWidths>().unwrap().0.tells_outline());
+        for bad in ["crease", "crease=", "crease=wide", "edges=2", "", "hidden-=1", "hidden-outline=1", "visible=1"] {
+            assert!(bad.parse::<ClassWidths>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn every_name_is_read_and_written() {
+        let names: Vec<String> = Name::all().map(Name::text).collect();
+        assert_eq!(names.len(), 2 * CLASSES + 2);
+        for (number, name) in names.iter().enumerate() {
+            assert_eq!(name.parse::<Name>().unwrap().index(), number);
+            let text = format!("{name}=#010203");
+            let colors: ClassColors = text.parse().unwrap();
+            assert_eq!(Value::text(&colors), text);
+            assert_eq!(colors.named(name).unwrap(), Some(Color([1.0 / 255.0, 2.0 / 255.0, 3.0 / 255.0])), "{name}");
+            let mut without = colors;
+            without.set_named(name, None).unwrap();
+            assert_eq!(without, ClassColors::default());
+            let beyond = (number >= CLASSES).then(|| name.clone());
+            assert_eq!(colors.0.first_beyond_classes(), beyond);
+        }
+        assert_eq!("crease=black".parse(), Ok(ClassColors::default()));
+        assert_eq!(Value::text(&ClassColors::figure_6()), "figure-6");
+        assert_eq!(Value::text(&ClassColors::default()), "black");
+        assert_eq!(Value::text(&ClassWidths::default()), "none");
+    }
+
+    #[test]
+    fn hidden_layers_lie_below_visible_ones_and_the_outline_above_all() {
+        let layers: Vec<Layer> = Layer::upwards().collect();
+        assert_eq!(layers.len(), 2 * CLASSES + 1);
+        assert_eq!(layers[0], Layer::Hidden(Class::ApparentRidge));
+        assert_eq!(layers[2 * CLASSES - 1..], [Layer::Visible(Class::Boundary), Layer::Outline]);
+        assert!(layers.iter().position(|layer| layer.is_visible()) == Some(CLASSES));
+    }
+}

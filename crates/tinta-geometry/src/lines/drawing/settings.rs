@@ -1,0 +1,455 @@
+//! The settings of drawings: SVG and PDF.
+
+use crate::edges::Class;
+use crate::error::{Error, Result};
+use crate::lines::drawing::curves::FIT_PX;
+use crate::lines::drawing::layers::{ClassColors, ClassWidths, Layer};
+use crate::lines::drawing::length::{LINE_WIDTH, LINE_WIDTH_RANGE, LINE_WIDTH_SAID, Length, Millimetres, Units};
+use crate::lines::drawing::page::{PageSize, Paper};
+use crate::scene::{Background, Color};
+use crate::settings::{HasSettings, Kind, Setting, Table, Value, under};
+use std::sync::LazyLock;
+
+/// How a drawing is written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SvgSettings {
+    /// Its title. Default none.
+    pub title: String,
+    /// The command that made it, kept in its metadata. Default none.
+    pub command: String,
+    /// The recipe to make it again, JSON, kept in an SVG's metadata too. Default none.
+    pub recipe: String,
+    /// What becomes of hidden lines. Default none of them is written.
+    pub hidden: Hidden,
+    /// Colours of single layers. Default black; hidden lines that are dashed half-way to the paper's colour.
+    pub class_colors: ClassColors,
+    /// Width of the lines. Default 2 pixels, on [`PageSize::Paper`] half a millimetre.
+    pub line_width: Option<Length>,
+    /// Widths of single layers. Default that of all; hidden lines half of what their class has.
+    pub class_widths: ClassWidths,
+    /// Strokes and branches that end free and are shorter than this are left out unless that would open a line; creases below
+    /// eight times it, and at most eight widths where it is longer than one. Default the strokes' own width.
+    pub min_length: Option<Length>,
+    /// How far lines may be from where they are, pixels, so that they can be written as cubic Bézier curves. Default not at all:
+    /// polylines.
+    pub fit_px: Option<f64>,
+    /// A rectangle behind everything, or nothing. Default white.
+    pub background: Background,
+    /// How large it is on paper. Default left to the program that shows it.
+    pub page_size: PageSize,
+    /// What stays free around the drawing on [`PageSize::Paper`]. Default 15 millimetres.
+    pub margin: Millimetres,
+    /// Whether each path names its class, object, mesh edges and angles; then no point is left out. Default no.
+    pub has_provenance: bool,
+    /// Whether it is for a plotter: lines in an order that spares empty ways, dashes as lines of their own, no background; layers,
+    /// widths and colours tell its pens apart, and lines are half a pixel wide where nothing is said. Default no.
+    pub is_for_pen: bool,
+}
+
+impl Default for SvgSettings {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            command: String::new(),
+            recipe: String::new(),
+            hidden: Hidden::None,
+            class_colors: ClassColors::default(),
+            line_width: None,
+            class_widths: ClassWidths::default(),
+            min_length: None,
+            fit_px: None,
+            background: Background::Color(WHITE),
+            page_size: PageSize::Unset,
+            margin: Millimetres(15.0),
+            has_provenance: false,
+            is_for_pen: false,
+        }
+    }
+}
+
+const WHITE: Color = Color([1.0; 3]);
+
+impl HasSettings for SvgSettings {
+    fn table() -> &'static Table<Self> {
+        static TABLE: LazyLock<Table<SvgSettings>> =
+            LazyLock::new(|| Table { settings: SvgSettings::settings(), defaults: vec![SvgSettings::default()] });
+        &TABLE
+    }
+}
+
+/// What a size on paper that is left open is called.
+const UNSET: &str = "none";
+
+/// What a length is called that follows from others.
+const AUTO: &str = "auto";
+
+/// Width of lines of which nothing is said, and on a sheet of paper.
+const WIDTH: Length = Length::Px(2.0);
+const WIDTH_ON_PAPER: Length = Length::Mm(0.5);
+
+impl SvgSettings {
+    /// The settings, also for a table of something that has a drawing in it; title, recipe and background come from elsewhere.
+    pub fn settings() -> Vec<Setting<Self>> {
+        let number = |low: f64, high: f64| Kind::Numbers { count: 1, range: [low, high], decimals: 1 };
+        let width = Setting::of(
+            "width-mm",
+            "MM",
+            number(10.0, 1000.0),
+            "Width on paper in millimetres; the height follows",
+            |svg: &Self| if let PageSize::WidthMm(width) = svg.page_size { width.text() } else { UNSET.to_owned() },
+            |svg, text| {
+                svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::WidthMm(f64::parse(text)?) };
+                Ok(())
+            },
+        );
+        let dpi = Setting::of(
+            "dpi",
+            "N",
+            number(10.0, 1200.0),
+            "Resolution on paper, in pixels per inch",
+            |svg: &Self| if let PageSize::Dpi(dpi) = svg.page_size { dpi.text() } else { UNSET.to_owned() },
+            |svg, text| {
+                svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::Dpi(f64::parse(text)?) };
+                Ok(())
+            },
+        );
+        let paper = Setting::of(
+            "page",
+            "PAPER",
+            Paper::kind(),
+            "Sheet of paper, which the drawing fills up to --margin: A3, A4, A5, letter or WIDTHxHEIGHTmm; it takes \
+             the orientation of --size, or a fixed one: A4-landscape, A4-portrait",
+            |svg: &Self| if let PageSize::Paper(paper) = svg.page_size { paper.text() } else { UNSET.to_owned() },
+            |svg, text| {
+                svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::Paper(Paper::parse(text)?) };
+                Ok(())
+            },
+        );
+        let (name, value_name, help) = LINE_WIDTH;
+        let (low, high, decimals) = LINE_WIDTH_RANGE;
+        let settings = vec![
+            ClassColors::setting_of_drawing(|svg: &mut Self| &mut svg.class_colors),
+            Setting::open_field(name, value_name, AUTO, help, |svg: &mut Self| &mut svg.line_width)
+                .range(low, high, decimals)
+                .said(LINE_WIDTH_SAID),
+            Setting::field(
+                "hidden",
+                "HOW",
+                "Hidden lines: none, dashed (grey) or ghost (faint; unbroken and in full colour with --pen); half as \
+                 wide as the visible ones, in layers below them",
+                |svg: &mut Self| &mut svg.hidden,
+            ),
+            Setting::field(
+                "class-widths",
+                "WIDTHS",
+                "Widths of the lines by class: CLASS=WIDTH, separated by commas, in pixels of --size, millimetres (0.35mm) or \
+                 line widths (2x); also outline (at the background), hidden, hidden-CLASS",
+                |svg: &mut Self| &mut svg.class_widths,
+            )
+            .said("the width of all lines, half of it for hidden ones"),
+            Setting::open_field(
+                "min-length",
+                "LENGTH",
+                AUTO,
+                "Leave out lines with a free end that are shorter than this, in pixels of --size or millimetres on \
+                 paper (1mm); 0 keeps all",
+                |svg: &mut Self| &mut svg.min_length,
+            )
+            .range(0.0, 20.0, 1)
+            .said("the line's width, 8 widths for creases; 0 into .json"),
+            Setting::open_field(
+                "fit-curves",
+                "PX",
+                UNSET,
+                "Turn bent lines into cubic Bézier curves, at most this far from them in pixels of --size; more \
+                 writes fewer curves",
+                |svg: &mut Self| &mut svg.fit_px,
+            )
+            .range(*FIT_PX.start(), *FIT_PX.end(), 2)
+            .said("none, only straight segments"),
+            width.open(UNSET).said("none, sizes are in pixels"),
+            dpi.open(UNSET).said("none, sizes are in pixels"),
+            paper.open(UNSET).said("none, sizes are in pixels"),
+            Setting::field("margin", "MM", "Free border of --page, in millimetres", |svg: &mut Self| &mut svg.margin),
+            Setting::flag(
+                "provenance",
+                "Write each path's class, object, mesh edges and angles into the file, and keep all points",
+                |svg: &Self| svg.has_provenance,
+                |svg, is_on| svg.has_provenance = is_on,
+            ),
+            Setting::flag(
+                "pen",
+                "Draw for a plotter: order lines for short moves with the pen up, write dashes as separate lines, \
+                 leave out the background; an outline with a width of its own (--class-widths, --look technical) is \
+                 a layer for a second pen",
+                |svg: &Self| svg.is_for_pen,
+                |svg, is_on| svg.is_for_pen = is_on,
+            ),
+        ];
+        let heading = "Style lines: exact visible lines, as vectors into FILE.svg, FILE.pdf or FILE.json, as pixels \
+            into FILE.png with --look technical or --style lines; also --classes, --class-colors, --line-width, \
+            --crease-angle";
+        under(heading, settings).collect()
+    }
+}
+
+crate::choices! {
+    /// What becomes of hidden lines.
+    #[derive(Default)]
+    pub enum Hidden {
+        /// They are left out.
+        #[default]
+        None = "none",
+        /// They are dashed.
+        Dashed = "dashed",
+        /// They are faint; for a pen, which cannot be, thin lines in layers of their own.
+        Ghost = "ghost",
+    }
+}
+
+/// Widest and thinnest line, pixels or millimetres; the widest as in the style inking, the thinnest still written as more than 0.
+const WIDTHS: std::ops::RangeInclusive<f64> = 1e-3..=16_384.0;
+
+impl SvgSettings {
+    /// Refuses nonsense, before any work.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a width, a length, a paper size or a resolution that is none, and for millimetres without paper.
+    pub fn check(&self) -> Result<()> {
+        let has_paper = self.page_size.is_set();
+        let is_wrong = |width: Length| !width.all(|number| WIDTHS.contains(&number));
+        let refuse_width = |name: &str, value: String| {
+            let limits = (WIDTHS.start(), WIDTHS.end());
+            let problem = format!("a line's width is a number from {} to {}", limits.0, limits.1);
+            Err(Error::value(name, value, problem))
+        };
+        if let Some(width) = self.line_width {
+            if is_wrong(width) {
+                return refuse_width("line-width", width.to_string());
+            }
+            width.check_unit("line-width", has_paper)?;
+            width.check_is_no_multiple("line-width")?;
+        }
+        if let Some((name, width)) = self.class_widths.0.find(is_wrong) {
+            return refuse_width("class-widths", format!("{name}={width}"));
+        }
+        if let Some((_, width)) = self.class_widths.0.find(|width| width.check_unit("", has_paper).is_err()) {
+            width.check_unit("class-widths", has_paper)?;
+        }
+        if let Some(length) = self.min_length {
+            length.check_unit("min-length", has_paper)?;
+            length.check_is_no_multiple("min-length")?;
+            if !length.all(|number| number >= 0.0 && number.is_finite()) {
+                return Err(Error::value("min-length", length, "a length is a number, 0 or more"));
+            }
+        }
+        if let Some(error) = self.fit_px {
+            if !FIT_PX.contains(&error) {
+                let problem = format!("the error of curves is a number from {} to {}", FIT_PX.start(), FIT_PX.end());
+                return Err(Error::value("fit-curves", error, problem));
+            }
+            if self.has_provenance {
+                return Err(Error::setting("fit-curves", "--provenance keeps every point; leave out one of the two"));
+            }
+        }
+        if self.margin != Self::default().margin && !matches!(self.page_size, PageSize::Paper(_)) {
+            return Err(Error::setting("margin", "only a sheet of paper has a margin; add --page A4, or leave it out"));
+        }
+        self.page_size.check(self.margin)
+    }
+
+    /// Whether outlines have to be found: some look is said of them.
+    pub fn tells_outline(&self) -> bool {
+        self.class_widths.0.tells_outline() || self.class_colors.0.tells_outline()
+    }
+
+    /// Whether a layer is drawn.
+    pub(in crate::lines) fn draws(&self, is_visible: bool) -> bool {
+        is_visible || self.hidden != Hidden::None
+    }
+
+    /// How wide lines are of which nothing is said.
+    fn width(&self) -> Length {
+        self.line_width.unwrap_or(match self.page_size {
+            PageSize::Paper(_) => WIDTH_ON_PAPER,
+            _ => WIDTH,
+        })
+    }
+
+    /// A layer's width, pixels: what is said of it, or for hidden lines half of what their class has.
+    pub(in crate::lines) fn width_px(&self, layer: Layer, units: Units) -> f64 {
+        let px = |length: Length| length.px(units).unwrap_or(0.0);
+        match (self.class_widths.0.of(layer), layer) {
+            (Some(Length::Times(times)), _) => times * px(self.width()),
+            (Some(width), _) => px(width),
+            (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), units) * HIDDEN_WIDTH,
+            (None, _) => px(self.width()),
+        }
+    }
+
+    /// Whether something is said of how wide a layer is.
+    pub(in crate::lines) fn says_width(&self, layer: Layer) -> bool {
+        self.line_width.is_some() || self.class_widths.0.of(layer).is_some()
+    }
+
+    /// A layer's colour: what is said of it; dashes are half as strong as their class. A pen has one ink for both, and ghosts
+    /// are faint anyway.
+    pub(in crate::lines) fn color(&self, layer: Layer) -> Color {
+        match (self.class_colors.0.of(layer), layer) {
+            (Some(color), _) => color,
+            (None, Layer::Hidden(class)) => {
+                let color = self.color(Layer::Visible(class));
+                let is_grey = self.hidden == Hidden::Dashed && !self.is_for_pen;
+                if is_grey { mixed(color, self.paper_color(), HIDDEN_STRENGTH) } else { color }
+            }
+            (None, _) => Color([0.0; 3]),
+        }
+    }
+
+    /// What is behind the lines; white where nothing is.
+    pub(in crate::lines) fn paper_color(&self) -> Color {
+        match self.background {
+            Background::Color(color) if !self.is_for_pen => color,
+            _ => WHITE,
+        }
+    }
+
+    /// Below which length a stroke of a layer may be left out, pixels. A pen is as wide as any other line. Creases that belong to
+    /// an edge of a part end at others; what ends free are folds of a scan. So do silhouettes within the outline, where it is told
+    /// apart: what ends free are the facets of a curved surface that turn away one by one.
+    pub(in crate::lines) fn min_length_px(&self, layer: Layer, units: Units) -> f64 {
+        let width = self.width_px(layer, units);
+        let length = self.min_length.and_then(|length| length.px(units)).unwrap_or(width);
+        let may_be_a_fold = match layer {
+            Layer::Visible(Class::Crease) | Layer::Hidden(Class::Crease) => true,
+            Layer::Visible(Class::Silhouette) => self.tells_outline(),
+            _ => false,
+        };
+        if may_be_a_fold { length.max(LEAST_FOLD * length.min(width)) } else { length }
+    }
+}
+
+/// A colour on its way from the paper's: 0 is the paper's.
+pub(in crate::lines) fn mixed(color: Color, paper: Color, strength: f32) -> Color {
+    let [Color(color), Color(paper)] = [color, paper];
+    Color(std::array::from_fn(|channel| paper[channel] + (color[channel] - paper[channel]) * strength))
+}
+
+/// So much longer must creases, and silhouettes within the outline, be that end free or hang on nothing.
+const LEAST_FOLD: f64 = 8.0;
+
+/// Hidden lines' width and strength, as shares of what their class has.
+const HIDDEN_WIDTH: f64 = 0.5;
+const HIDDEN_STRENGTH: f32 = 0.5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn units(px_per_mm: Option<f64>) -> Units {
+        Units { px_per_mm, height_px: 512.0 }
+    }
+
+    fn base() -> SvgSettings {
+        SvgSettings::default()
+    }
+
+    #[test]
+    fn nonsense_is_refused_by_name() {
+        let message = |settings: SvgSettings| settings.check().unwrap_err().to_string();
+        for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let line_width = Some(Length::Px(width));
+            assert!(message(SvgSettings { line_width, ..base() }).starts_with("line-width"));
+            let mut class_widths = ClassWidths::default();
+            class_widths.0.set_class(Class::Boundary, Length::Px(width));
+            assert!(message(SvgSettings { class_widths, ..base() }).starts_with("class-widths boundary="));
+        }
+        for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let with = |page_size| message(SvgSettings { page_size, ..base() });
+            assert!(with(PageSize::WidthMm(value)).starts_with("width-mm"));
+            assert!(with(PageSize::Dpi(value)).starts_with("dpi"));
+        }
+        for length in [-1.0, f64::NAN, f64::INFINITY] {
+            let min_length = Some(Length::Px(length));
+            assert!(message(SvgSettings { min_length, ..base() }).starts_with("min-length"));
+        }
+        assert!(message(SvgSettings { margin: Millimetres(3.0), ..base() }).starts_with("margin: only"));
+        assert!(base().check().is_ok());
+    }
+
+    #[test]
+    fn millimetres_need_paper() {
+        let mm = Some(Length::Mm(0.5));
+        let class_widths: ClassWidths = "hidden=0.2mm".parse().unwrap();
+        let on_screen = [
+            SvgSettings { line_width: mm, ..base() },
+            SvgSettings { min_length: mm, ..base() },
+            SvgSettings { class_widths, ..base() },
+        ];
+        for settings in on_screen {
+            assert!(settings.check().unwrap_err().to_string().contains("--page A4"));
+            for page_size in [PageSize::WidthMm(90.0), PageSize::Dpi(96.0), PageSize::Paper("A4".parse().unwrap())] {
+                assert!(SvgSettings { page_size, ..settings.clone() }.check().is_ok());
+            }
+        }
+    }
+
+    #[test]
+    fn hidden_lines_are_half_as_wide_and_grey_unless_said_otherwise() {
+        let hidden = Layer::Hidden(Class::Crease);
+        let dashed = SvgSettings { hidden: Hidden::Dashed, ..base() };
+        assert_eq!((dashed.width_px(hidden, units(None)), dashed.color(hidden)), (1.0, Color([0.5; 3])));
+        let red = Color([1.0, 0.0, 0.0]);
+        let mut told = dashed.clone();
+        told.class_widths.0.set_class(Class::Crease, Length::Mm(3.0));
+        told.class_colors.0.set_class(Class::Crease, red);
+        assert_eq!((told.width_px(hidden, units(Some(2.0))), told.color(hidden)), (3.0, Color([1.0, 0.5, 0.5])));
+        told.class_widths.0.set_hidden(Length::Px(0.25));
+        told.class_colors.0.set_hidden(red);
+        assert_eq!((told.width_px(hidden, units(Some(2.0))), told.color(hidden)), (0.25, red));
+        let pen = SvgSettings { is_for_pen: true, ..dashed.clone() };
+        assert_eq!(pen.color(hidden), Color([0.0; 3]), "a pen's ink does not thin");
+        let on_black = SvgSettings { background: Background::Color(Color([0.0; 3])), ..told };
+        assert_eq!(on_black.paper_color(), Color([0.0; 3]));
+    }
+
+    #[test]
+    fn widths_of_classes_may_be_multiples_of_all_lines_width() {
+        let class_widths = "outline=2x,hidden=1x".parse().unwrap();
+        let line_width = Some(Length::ScreenOrPaper { percent: 0.5, mm: 0.35 });
+        let settings = SvgSettings { class_widths, line_width, page_size: PageSize::Dpi(96.0), ..base() };
+        let layers = [Layer::Outline, Layer::Visible(Class::Crease), Layer::Hidden(Class::Crease)];
+        let widths = |settings: &SvgSettings, px_per_mm| layers.map(|layer| settings.width_px(layer, units(px_per_mm)));
+        assert_eq!(widths(&settings, Some(10.0)), [7.0, 3.5, 3.5]);
+        assert_eq!(widths(&settings, None), [5.12, 2.56, 2.56]);
+        let told = SvgSettings { line_width: Some(Length::Mm(0.25)), ..settings.clone() };
+        assert_eq!(widths(&told, Some(10.0)), [5.0, 2.5, 2.5]);
+        assert!(settings.check().is_ok() && told.check().is_ok());
+        let itself = SvgSettings { line_width: Some(Length::Times(2.0)), ..settings.clone() };
+        assert!(itself.check().unwrap_err().to_string().contains("line-width 2x"));
+        let nothing = SvgSettings { class_widths: "outline=0x".parse().unwrap(), ..settings };
+        assert!(nothing.check().unwrap_err().to_string().contains("outline=0x"));
+    }
+
+    #[test]
+    fn lines_are_half_a_millimetre_wide_on_a_sheet() {
+        let layer = Layer::Visible(Class::Silhouette);
+        assert_eq!(base().width_px(layer, units(None)), 2.0);
+        let paper = SvgSettings { page_size: PageSize::Paper("A4".parse().unwrap()), ..base() };
+        assert_eq!(paper.width_px(layer, units(Some(3.0))), 1.5);
+        assert_eq!(paper.min_length_px(layer, units(Some(3.0))), 1.5);
+        assert_eq!(paper.min_length_px(Layer::Visible(Class::Crease), units(Some(3.0))), 12.0);
+        assert_eq!(SvgSettings { line_width: Some(Length::Px(4.0)), ..paper }.width_px(layer, units(Some(3.0))), 4.0);
+    }
+
+    #[test]
+    fn silhouettes_within_an_outline_that_is_told_apart_are_as_long_as_creases() {
+        let length = |settings: &SvgSettings, layer| settings.min_length_px(layer, units(None));
+        let told = SvgSettings { class_widths: "outline=2x".parse().unwrap(), ..base() };
+        assert_eq!(length(&base(), Layer::Visible(Class::Silhouette)), 2.0);
+        assert_eq!(length(&told, Layer::Visible(Class::Silhouette)), 16.0);
+        assert_eq!(length(&told, Layer::Outline), 4.0);
+        assert_eq!(length(&told, Layer::Visible(Class::Boundary)), 2.0);
+    }
+}

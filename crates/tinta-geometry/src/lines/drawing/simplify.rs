@@ -1,0 +1,145 @@
+//! Removes the points of a polyline that do not change its shape.
+//!
+//! From one kept point a cone of directions is narrowed by each point passed, so that the straight line to the next kept
+//! point goes by all of them within [`STRAIGHT_PX`]. One look at each point, O(n), and no recursion.
+
+use crate::lines::LinePath;
+use crate::tolerances::STRAIGHT_PX;
+use glam::DVec2;
+
+/// The points of a path without those within [`STRAIGHT_PX`] of the straight lines between the others. The first stays, and
+/// an open path's last.
+pub(in crate::lines) fn simplified(path: &LinePath) -> Vec<DVec2> {
+    let mut points = path.points_px.clone();
+    if path.is_closed {
+        points.extend(path.points_px.first());
+    }
+    let Some(first) = points.first() else { return points };
+    let mut kept = vec![*first];
+    let mut cone = Cone::at(*first);
+    for pair in points.windows(2) {
+        let [previous, point] = [pair[0], pair[1]];
+        if !cone.contains(point) {
+            kept.push(previous);
+            cone = Cone::at(previous);
+        }
+        cone.narrow(point);
+    }
+    if !path.is_closed {
+        kept.extend(points.last());
+    } else if kept.len() == 1 {
+        // Nothing but turns within the tolerance; two points at least make a path.
+        kept.extend(path.points_px.get(1));
+    }
+    kept
+}
+
+/// The directions from a kept point that pass near enough to every point since.
+struct Cone {
+    apex: DVec2,
+    /// Both borders, the left one first as seen along y up; `None` while any direction will do.
+    borders: Option<[DVec2; 2]>,
+    /// The farthest point so far: a line that comes back is not straight.
+    reach: f64,
+}
+
+impl Cone {
+    fn at(apex: DVec2) -> Self {
+        Self { apex, borders: None, reach: 0.0 }
+    }
+
+    /// Whether the line may go straight to this point.
+    fn contains(&self, point: DVec2) -> bool {
+        let away = point - self.apex;
+        let is_between = |[low, high]: [DVec2; 2]| low.perp_dot(away) >= 0.0 && away.perp_dot(high) >= 0.0;
+        away.length() >= self.reach && self.borders.is_none_or(is_between)
+    }
+
+    /// Lets only directions stay that pass by this point.
+    fn narrow(&mut self, point: DVec2) {
+        let away = point - self.apex;
+        let distance = away.length();
+        self.reach = self.reach.max(distance);
+        if distance <= STRAIGHT_PX {
+            return;
+        }
+        // The two tangents from the apex to a circle of the tolerance around the point.
+        let sine = STRAIGHT_PX / distance;
+        let cosine = (1.0 - sine * sine).sqrt();
+        let direction = away / distance;
+        let [low, high] = [DVec2::new(cosine, -sine), DVec2::new(cosine, sine)].map(|turn| turn.rotate(direction));
+        self.borders = Some(match self.borders {
+            None => [low, high],
+            Some([old_low, old_high]) => [
+                if old_low.perp_dot(low) > 0.0 { low } else { old_low },
+                if old_high.perp_dot(high) < 0.0 { high } else { old_high },
+            ],
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::edges::Class;
+
+    fn path(points: &[[f64; 2]], is_closed: bool) -> LinePath {
+        let points_px = points.iter().map(|point| DVec2::from_array(*point)).collect();
+        LinePath {
+            stroke: None,
+            class: Class::Crease,
+            is_visible: true,
+            is_outline: false,
+            object: 0,
+            points_px,
+            is_closed,
+            segments: Vec::new(),
+        }
+    }
+
+    fn kept(points: &[[f64; 2]], is_closed: bool) -> Vec<[f64; 2]> {
+        simplified(&path(points, is_closed)).into_iter().map(|point| point.to_array()).collect()
+    }
+
+    #[test]
+    fn points_on_a_straight_line_are_left_out_and_corners_stay() {
+        let line = [[0.0, 0.0], [1.0, 1.0], [2.5, 2.5], [7.0, 7.0]];
+        assert_eq!(kept(&line, false), [[0.0, 0.0], [7.0, 7.0]]);
+        let corner = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [2.0, 2.0]];
+        assert_eq!(kept(&corner, false), [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0]]);
+        let bend = [[0.0, 0.0], [1.0, 0.0021], [2.0, 0.0]];
+        assert_eq!(kept(&bend, false).len(), 3);
+        assert_eq!(kept(&[[0.0, 0.0], [1.0, 0.0005], [2.0, 0.0]], false).len(), 2);
+    }
+
+    #[test]
+    fn a_line_that_comes_back_keeps_its_turn() {
+        let there_and_back = [[0.0, 0.0], [5.0, 0.0], [3.0, 0.0]];
+        assert_eq!(kept(&there_and_back, false), there_and_back);
+        assert_eq!(kept(&[[0.0, 0.0], [5.0, 0.0], [0.0, 0.0]], false).len(), 3);
+    }
+
+    #[test]
+    fn a_closed_path_stays_closed_around_its_corners() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [0.0, 1.0]];
+        assert_eq!(kept(&square, true), [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
+        assert!(kept(&[[0.0, 0.0], [1e-4, 0.0]], true).len() >= 2);
+    }
+
+    #[test]
+    fn a_circle_of_many_points_stays_within_the_tolerance_of_all_of_them() {
+        let at = |k: u32| DVec2::from_angle(f64::from(k) / 20_000.0 * std::f64::consts::TAU) * 200.0;
+        let points: Vec<[f64; 2]> = (0..20_000).map(|k| at(k).to_array()).collect();
+        let corners = simplified(&path(&points, true));
+        assert!((100..2_000).contains(&corners.len()), "{}", corners.len());
+        let distance = |point: DVec2, a: DVec2, b: DVec2| {
+            let share = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+            point.distance(a + (b - a) * share)
+        };
+        for point in points.iter().step_by(7).map(|point| DVec2::from_array(*point)) {
+            let nearest = (0..corners.len()).map(|k| distance(point, corners[k], corners[(k + 1) % corners.len()]));
+            let nearest = nearest.fold(f64::MAX, f64::min);
+            assert!(nearest <= STRAIGHT_PX * 1.000_001, "{nearest}");
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! Leaves out what is too short to be a line: specks, barbs, and strokes that lie under the ink of others.
+//!
+//! In: pieces of lines, how wide each is drawn and how short is too short. Out: the pieces that stay. Pieces hang together
+//! where they have an end in common, bit for bit; they touch where an end of one comes within [`JOINED_PX`] of the other, as
+//! where a line ends behind a nearer one. Three things go:
+//!
+//! - a *speck*: all that hangs together is shorter than too short and touches the rest at one place at most;
+//! - a *barb*: from an end that is free, where nothing hangs or touches, to the first fork, likewise;
+//! - a *sliver's side*: what touches the rest at two places that stay joined by lines as wide and also shorter than too short,
+//!   so that these lie under the same ink.
+//!
+//! So what closes a line stays: an outline has no free end, and of its parts only such go that another way round closes.
+//! Nothing is left out because something else was: a long line never goes bit by bit.
+
+mod strokes;
+mod shortest_path;
+
+use crate::bvh::steps;
+use crate::error::{Error, Result};
+use crate::lines::VisibleLines;
+use crate::lines::drawing::layers::Layer;
+use crate::lines::drawing::settings::SvgSettings;
+use crate::lines::progress::{Phase, Progress};
+use crate::lines::visible::outline::readable;
+use crate::threads::{cores, in_chunks};
+use glam::DVec2;
+use shortest_path::ShortestPaths;
+use strokes::{Branch, Stroke, Strokes};
+
+impl VisibleLines {
+    /// The lines without spurs and specks as a drawing's settings ask: what is shorter than [`SvgSettings::min_length`]. Where settings say
+    /// something of the outline, what cannot be read as outline is none: beside slits narrower than it, and in runs shorter than four
+    /// of its widths.
+    ///
+    /// # Errors
+    ///
+    /// As [`SvgSettings::check`] and [`VisibleLines::check`].
+    pub fn without_specks(&self, settings: &SvgSettings) -> Result<Self> {
+        self.without_specks_with_progress(settings, &Progress::default())
+    }
+
+    /// The same, telling how far it is.
+    ///
+    /// # Errors
+    ///
+    /// Also [`Error::Cancelled`] and, but where a part is asked for, [`Error::OutOfTime`].
+    pub fn without_specks_with_progress(&self, settings: &SvgSettings, progress: &Progress) -> Result<Self> {
+        settings.check()?;
+        self.check()?;
+        let units = crate::lines::drawing::drawn_layers::page(self, settings).units;
+        let segments = match settings.tells_outline() {
+            true => readable(&self.segments, settings.width_px(Layer::Outline, units), progress),
+            false => self.segments.clone(),
+        };
+        let mut keeps = vec![true; segments.len()];
+        // Hidden lines lie in layers of their own, which may be switched off.
+        for is_visible in [true, false] {
+            let strokes: Vec<Stroke> = segments
+                .iter()
+                .enumerate()
+                .filter(|(_, segment)| segment.is_visible == is_visible && !segment.is_covered)
+                .map(|(number, segment)| Stroke::new(number, segment, settings, units))
+                .collect();
+            let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));
+            match Strokes::new(&strokes, border).too_short(progress) {
+                Ok(all) => all.into_iter().for_each(|stroke| keeps[strokes[stroke].number] = false),
+                // Some of them would depend on the machine.
+                Err(Error::OutOfTime { asked_for_part: true, .. }) => {
+                    return Ok(Self { has_specks: true, segments, ..self.clone_without_segments() });
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        let kept = segments.into_iter().zip(keeps).filter(|(_, keeps)| *keeps).map(|(segment, _)| segment);
+        Ok(Self { segments: kept.collect(), ..self.clone_without_segments() })
+    }
+
+    fn clone_without_segments(&self) -> Self {
+        Self {
+            size: self.size,
+            segments: Vec::new(),
+            edges: self.edges,
+            changes: self.changes.clone(),
+            covered_triangles: self.covered_triangles,
+            undecided: self.undecided,
+            has_specks: self.has_specks,
+            times: self.times,
+        }
+    }
+}
+
+/// Branches whose neighbours a thread looks at at once.
+const LOOKED_AT_ONCE: usize = 2048;
+
+impl Strokes<'_> {
+    /// All that go.
+    fn too_short(&self, progress: &Progress) -> Result<Vec<usize>> {
+        progress.begin(Phase::TooShort, 0);
+        progress.go_on_drawing()?;
+        let mut is_gone = vec![false; self.strokes.len()];
+        let wholes = self.small_wholes();
+        let barbs = self.barbs();
+        let loose: Vec<&Branch> = wholes.iter().chain(&barbs).collect();
+        let goes = in_chunks(loose.len(), LOOKED_AT_ONCE, cores(), |range| {
+            let goes =
+                |branch: usize| progress.go_on_drawing().is_ok() && self.places_touched(loose[branch]).len() <= 1;
+            range.map(goes).collect::<Vec<bool>>()
+        });
+        progress.go_on_drawing()?;
+        for (branch, _) in loose.iter().zip(goes.concat()).filter(|(_, goes)| *goes) {
+            branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
+        }
+        let spans = self.spans();
+        let is_side = |branch: &&Branch| branch.length < self.least(branch, |stroke| stroke.least_side);
+        let mut sides: Vec<&Branch> = wholes.iter().filter(is_side).chain(&spans).collect();
+        sides.sort_by(|a, b| a.length.total_cmp(&b.length));
+        let places_touched = in_chunks(sides.len(), LOOKED_AT_ONCE, cores(), |range| {
+            let places = |side: usize| match progress.go_on_drawing() {
+                Ok(()) => <[DVec2; 2]>::try_from(self.places_touched(sides[side])).ok(),
+                Err(_) => None,
+            };
+            range.map(places).collect::<Vec<_>>()
+        });
+        progress.go_on_drawing()?;
+        let mut is_needed = vec![false; self.strokes.len()];
+        let mut paths = ShortestPaths::new(self);
+        progress.begin(Phase::TooShort, sides.len());
+        let mut before = steps();
+        for (branch, places) in sides.into_iter().zip(places_touched.into_iter().flatten()) {
+            progress.go_on_drawing()?;
+            let now = steps();
+            progress.advance(1, now.wrapping_sub(before));
+            before = now;
+            if branch.strokes.iter().any(|stroke| is_needed[*stroke] || is_gone[*stroke]) {
+                continue;
+            }
+            let Some([from, to]) = places else { continue };
+            let may_use = |stroke: usize| !is_gone[stroke] && !branch.strokes.contains(&stroke);
+            if let Some(route) = paths.shortest(self, branch, [from, to], may_use) {
+                route.into_iter().for_each(|stroke| is_needed[stroke] = true);
+                branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
+            }
+        }
+        Ok((0..self.strokes.len()).filter(|stroke| is_gone[*stroke]).collect())
+    }
+
+    fn meeting(&self, end: u32) -> &[u32] {
+        &self.ends[self.meetings[end as usize]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lines::progress::Progress;
+    use crate::lines::{LineSettings, VisibleLines};
+    use crate::mesh::Mesh;
+    use crate::scene::{Scene, SceneSettings};
+    use std::time::Duration;
+
+    #[test]
+    fn where_a_part_is_wanted_and_the_time_is_over_specks_stay_and_that_is_said() {
+        let scene = Scene::new(vec![Mesh::triangle()], &SceneSettings::default()).unwrap();
+        let whole = VisibleLines::of(&scene, &LineSettings::default()).unwrap();
+        let settings = SvgSettings { min_length: Some("2000".parse().unwrap()), ..SvgSettings::default() };
+        let ended = |progress: &Progress| whole.without_specks_with_progress(&settings, progress);
+        let part = ended(&Progress::exactly_within_or_part(Duration::ZERO)).unwrap();
+        assert_eq!(part, VisibleLines { has_specks: true, ..whole.clone() });
+        let note = "partial: the time was over before specks were left out";
+        assert_eq!(part.partial_note().as_deref(), Some(note));
+        let enough = ended(&Progress::exactly_within_or_part(Duration::from_secs(3_600))).unwrap();
+        assert_eq!((enough.partial_note(), enough.segments.len() < whole.segments.len()), (None, true));
+    }
+}

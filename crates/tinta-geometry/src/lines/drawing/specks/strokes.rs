@@ -1,0 +1,218 @@
+//! Pieces of lines as they are drawn, and where they hang together.
+
+use crate::bvh::{Box3, BoxTree};
+use crate::lines::LineSegment;
+use crate::lines::drawing::layers::Layer;
+use crate::lines::drawing::length::Units;
+use crate::lines::drawing::settings::SvgSettings;
+use crate::tolerances::JOINED_PX;
+use glam::DVec2;
+
+/// A piece as it is drawn.
+pub(super) struct Stroke {
+    /// Its place among all pieces.
+    pub number: usize,
+    pub ends: [DVec2; 2],
+    pub length: f64,
+    pub width: f64,
+    /// Below which length it is too short by itself.
+    pub least: f64,
+    /// Below which length it is too short for one side of something.
+    pub least_side: f64,
+}
+
+impl Stroke {
+    pub(super) fn new(number: usize, segment: &LineSegment, settings: &SvgSettings, units: Units) -> Self {
+        let layer: Layer = segment.layer();
+        let ends = segment.ends_px;
+        Self {
+            number,
+            ends,
+            length: ends[0].distance(ends[1]),
+            width: settings.width_px(layer, units),
+            least: settings.min_length_px(layer, units),
+            least_side: settings.min_length_px(layer, units).min(settings.width_px(layer, units)),
+        }
+    }
+
+    /// Its ends, or those of parts of it: the box of a long one that is aslant holds much else.
+    pub(super) fn parts(&self) -> impl Iterator<Item = [DVec2; 2]> + use<> {
+        /// Pixels.
+        const LONGEST: f64 = 8.0;
+        let ([a, b], count) = (self.ends, (self.length / LONGEST).ceil().max(1.0));
+        let at = move |part: f64| if part == count { b } else { a + (b - a) * (part / count) };
+        (0..count as usize).map(move |part| [at(part as f64), at(part as f64 + 1.0)])
+    }
+
+    /// Distance from a point.
+    pub(super) fn distance(&self, point: DVec2) -> f64 {
+        let along = self.ends[1] - self.ends[0];
+        let square = along.length_squared();
+        let share = if square > 0.0 { ((point - self.ends[0]).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+        point.distance(self.ends[0] + along * share)
+    }
+}
+
+/// Pieces, where they hang together, and a tree that finds neighbours.
+pub(super) struct Strokes<'a> {
+    pub strokes: &'a [Stroke],
+    /// The picture's lower right corner: lines end at its border without being free.
+    pub border: DVec2,
+    /// The meeting at each end: stroke `k` has ends `2k` and `2k + 1`.
+    pub meetings: Vec<usize>,
+    /// The ends at each meeting.
+    pub ends: Vec<Vec<u32>>,
+    pub tree: BoxTree,
+    /// Strokes by the places of their parts in the tree.
+    pub order: Vec<u32>,
+}
+
+/// Strokes that hang together and may be too short as a whole, from one end to another.
+pub(super) struct Branch {
+    pub strokes: Vec<usize>,
+    pub length: f64,
+}
+
+impl<'a> Strokes<'a> {
+    pub(super) fn new(strokes: &'a [Stroke], border: DVec2) -> Self {
+        let place = |end: usize| (strokes[end / 2].ends[end % 2] + 0.0).to_array().map(f64::to_bits);
+        let mut sorted: Vec<usize> = (0..strokes.len() * 2).collect();
+        sorted.sort_unstable_by_key(|end| (place(*end), *end));
+        let mut meetings = vec![0; sorted.len()];
+        let mut ends: Vec<Vec<u32>> = Vec::new();
+        for group in sorted.chunk_by(|a, b| place(*a) == place(*b)) {
+            group.iter().for_each(|end| meetings[*end] = ends.len());
+            ends.push(group.iter().map(|end| *end as u32).collect());
+        }
+        let mut parts: Vec<(Box3, u32)> = Vec::with_capacity(strokes.len());
+        for (number, stroke) in strokes.iter().enumerate() {
+            parts.extend(stroke.parts().map(|ends| (Box3::around(ends.map(|end| end.extend(0.0))), number as u32)));
+        }
+        let (tree, order) = BoxTree::new(&parts.iter().map(|(around, _)| *around).collect::<Vec<Box3>>());
+        let order = order.into_iter().map(|part| parts[part as usize].1).collect();
+        Self { strokes, border, meetings, ends, tree, order }
+    }
+
+    /// The least length of what a branch is made of.
+    pub(super) fn least(&self, branch: &Branch, least: Least) -> f64 {
+        branch.strokes.iter().map(|stroke| least(&self.strokes[*stroke])).fold(f64::INFINITY, f64::min)
+    }
+
+    /// From an end on to the next meeting of one or of more than two; `None` once it is long enough, and for a ring.
+    pub(super) fn branch(&self, from: u32, least: Least) -> Option<(Branch, u32)> {
+        let mut branch = Branch { strokes: Vec::new(), length: 0.0 };
+        let mut least_length = f64::INFINITY;
+        let mut end = from;
+        loop {
+            let number = end as usize / 2;
+            branch.strokes.push(number);
+            branch.length += self.strokes[number].length;
+            least_length = least_length.min(least(&self.strokes[number]));
+            // A stroke's other end.
+            end ^= 1;
+            if branch.length >= least_length {
+                return None;
+            }
+            match self.meeting(end) {
+                [a, b] if *a / 2 != *b / 2 => end = if *a == end { *b } else { *a },
+                _ => return Some((branch, end)),
+            }
+            if end == from {
+                return None;
+            }
+        }
+    }
+
+    /// What hangs together and is too short as a whole.
+    pub(super) fn small_wholes(&self) -> Vec<Branch> {
+        let mut is_seen = vec![false; self.strokes.len()];
+        // What meets somewhere is asked for once: of lines around one corner all meet there.
+        let mut is_met = vec![false; self.ends.len()];
+        let mut wholes = Vec::new();
+        for first in 0..self.strokes.len() {
+            if is_seen[first] {
+                continue;
+            }
+            is_seen[first] = true;
+            let mut whole = Branch { strokes: vec![first], length: 0.0 };
+            let mut next = 0;
+            while let Some(&number) = whole.strokes.get(next) {
+                next += 1;
+                whole.length += self.strokes[number].length;
+                for end in [number * 2, number * 2 + 1] {
+                    if std::mem::replace(&mut is_met[self.meetings[end]], true) {
+                        continue;
+                    }
+                    for neighbour in self.meeting(end as u32).iter().map(|end| *end as usize / 2) {
+                        if !is_seen[neighbour] {
+                            is_seen[neighbour] = true;
+                            whole.strokes.push(neighbour);
+                        }
+                    }
+                }
+            }
+            if whole.length < self.least(&whole, |stroke| stroke.least) {
+                wholes.push(whole);
+            }
+        }
+        wholes
+    }
+
+    /// From every free end to the first fork.
+    pub(super) fn barbs(&self) -> Vec<Branch> {
+        let begins = |end: &u32| self.meeting(*end).len() == 1;
+        let all = (0..self.strokes.len() as u32 * 2).filter(begins);
+        let branches = all.filter_map(|end| self.branch(end, |stroke| stroke.least));
+        branches.filter(|(_, end)| self.meeting(*end).len() > 2).map(|(branch, _)| branch).collect()
+    }
+
+    /// From every fork to the next one.
+    pub(super) fn spans(&self) -> Vec<Branch> {
+        let is_fork = |end: &u32| self.meeting(*end).len() > 2;
+        let all = (0..self.strokes.len() as u32 * 2).filter(is_fork);
+        let branches = all.filter_map(|end| Some((end, self.branch(end, |stroke| stroke.least_side)?)));
+        // Each is found from both its ends.
+        branches.filter(|(from, (_, to))| is_fork(to) && from < to).map(|(_, (branch, _))| branch).collect()
+    }
+
+    /// The places at which a branch hangs on the rest, touches it or ends at the picture's border; of more than two only three.
+    pub(super) fn places_touched(&self, branch: &Branch) -> Vec<DVec2> {
+        let mut places: Vec<DVec2> = Vec::new();
+        let add = |places: &mut Vec<DVec2>, place: DVec2| {
+            if places.iter().all(|known| known.distance(place) > 2.0 * JOINED_PX) {
+                places.push(place);
+            }
+            places.len() > 2
+        };
+        for &number in &branch.strokes {
+            let stroke = &self.strokes[number];
+            let is_on_border =
+                |end: &DVec2| end.min_element() <= JOINED_PX || (self.border - *end).min_element() <= JOINED_PX;
+            let are_many = stroke.ends.into_iter().filter(is_on_border).any(|end| add(&mut places, end));
+            let are_many = are_many
+                || self.any_near(stroke.ends, JOINED_PX, |other_number| {
+                    if branch.strokes.contains(&other_number) {
+                        return false;
+                    }
+                    let other = &self.strokes[other_number];
+                    let own = stroke.ends.into_iter().filter(|end| other.distance(*end) <= JOINED_PX);
+                    let others = other.ends.into_iter().filter(|end| stroke.distance(*end) <= JOINED_PX);
+                    own.chain(others).any(|end| add(&mut places, end))
+                });
+            if are_many {
+                break;
+            }
+        }
+        places
+    }
+
+    /// Calls `visit` with each stroke of which the box of a part comes so near to that of two points, perhaps several times, until
+    /// it returns true; returns whether it did.
+    pub(super) fn any_near(&self, [a, b]: [DVec2; 2], distance: f64, mut visit: impl FnMut(usize) -> bool) -> bool {
+        let query = Box3::new((a.min(b) - distance).extend(0.0), (a.max(b) + distance).extend(0.0));
+        self.tree.any(&query, |place| visit(self.order[place as usize] as usize))
+    }
+}
+
+/// Which length of a stroke is meant.
+pub(super) type Least = fn(&Stroke) -> f64;

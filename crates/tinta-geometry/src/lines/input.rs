@@ -1,0 +1,9 @@
+//! The lines of a scene before their visibility is known: objects with repaired meshes, edges by class, other features.
+
+pub(super) mod covered;
+pub(super) mod face_subset;
+pub(super) mod feature;
+pub(super) mod features;
+pub(super) mod mesh_repair;
+pub(super) mod object_edges;
+pub(super) mod split_t_junctions;

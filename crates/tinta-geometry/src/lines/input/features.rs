@@ -1,0 +1,256 @@
+//! The lines of a scene before their visibility is known: edges by class, places where surfaces end, intersections.
+
+use crate::bvh::NO_GROUP;
+use crate::edges::{
+    Class, ClassCounts, ClassSet, Classes, EdgeList, Incidence, MeshEdges, SilhouetteRule, persistent_creases,
+};
+use crate::lines::LineSettings;
+use crate::lines::input::feature::Feature;
+use crate::lines::input::object_edges::ObjectEdges;
+use crate::lines::smooth::contours::{Contours, OnEdge, between};
+use crate::lines::visible::faces::{Faces, Own, near_crossing};
+use crate::lines::visible::intersections::Intersection;
+use crate::lines::visible::space::Space;
+use crate::mesh::{Mesh, triangle_normal};
+use crate::scene::Scene;
+use glam::DVec3;
+use std::ops::Range;
+
+/// Classes at which a surface ends or turns away.
+const OCCLUDING: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, Class::Silhouette]);
+
+/// Classes of edges that may have to last.
+const CREASES: [Class; 3] = [Class::Crease, Class::ConvexCrease, Class::ConcaveCrease];
+
+/// Of each edge of a mesh whether it is a crease that lasts, where only such are drawn.
+fn lasting(edges: &MeshEdges, classes: &Classes, settings: &LineSettings) -> Option<Vec<bool>> {
+    let is_crease = |edge: u32| !classes.of_edges[edge as usize].and(ClassSet::of(&CREASES)).is_empty();
+    settings.lasting_creases.then(|| persistent_creases(edges.mesh(), edges.list(), is_crease))
+}
+
+/// The classes of a mesh's edges that have to be known for some settings.
+pub(in crate::lines) fn asked(settings: &LineSettings) -> ClassSet {
+    let of_contours = if settings.has_smooth_contours() { ClassSet::of(&[Class::Crease]) } else { ClassSet::default() };
+    settings.classes.or(OCCLUDING).or(of_contours).and(ClassSet::EDGES)
+}
+
+/// The edges of all parts that are wanted or hide others, in a stable order, and how many are wanted of each class. With smooth
+/// contours only sharp edges are drawn as silhouette, as far as they are; what hides others is the same.
+pub(in crate::lines) fn edge_features(
+    scene: &Scene,
+    space: &Space,
+    faces: &Faces,
+    parts: &[ObjectEdges<'_>],
+    contours: Option<&Contours>,
+    settings: &LineSettings,
+) -> (Vec<Feature>, ClassCounts) {
+    let mut features = Vec::new();
+    let mut counts = ClassCounts::default();
+    let (mut first_position, mut first_face) = (0, 0);
+    for (number, part) in parts.iter().enumerate() {
+        let edges = part.edges.get();
+        let list = edges.list();
+        let classes = edges.classes(settings.crease_angle, asked(settings));
+        let silhouette = part.silhouette(scene.eye(part.object, SilhouetteRule::Exact));
+        let (mesh, first_number) = (edges.mesh(), first_face);
+        let lasting = lasting(edges, &classes, settings);
+        let number_of = |face: u32| first_number + part.whole_face(face);
+        first_face += part.shape().triangles.len() as u32;
+        let edge_on = edges_of_edge_on_faces(faces, list, first_number..first_face, number_of);
+        for edge in merged(merged(classes.marked.iter().copied(), silhouette.iter().copied()), edge_on.iter().copied())
+        {
+            let mut of_edge = classes.of_edges[edge as usize];
+            if part.is_within_a_face(edge) {
+                continue;
+            }
+            if lasting.as_ref().is_some_and(|lasting| !lasting[edge as usize]) {
+                of_edge = of_edge.without(&CREASES);
+            }
+            let by_edge_on = match edge_on.binary_search(&edge) {
+                Ok(_) => at_edge_on(faces, mesh, list, edge, number_of),
+                Err(_) => None,
+            };
+            if by_edge_on.unwrap_or_else(|| silhouette.binary_search(&edge).is_ok()) {
+                of_edge = of_edge.or(ClassSet::of(&[Class::Silhouette]));
+            }
+            let occludes = !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
+            let on_edge = contours.map_or(OnEdge::ByFaces, |contours| {
+                contours.parts[number].on_edge(space, &faces.positions, list, edge)
+            });
+            let parts_by_class = parts_by_class(of_edge, on_edge, settings.classes);
+            if let Some(class) = parts_by_class.iter().filter_map(|(class, _)| *class).min() {
+                *counts.of(class) += 1;
+            }
+            for (class, [from, to]) in parts_by_class {
+                if class.is_none() && !occludes {
+                    continue;
+                }
+                let ends = list.positions()[edge as usize];
+                let [low, high] = ends.map(|position| faces.positions[(position + first_position) as usize]);
+                features.push(Feature {
+                    class,
+                    occludes,
+                    object: number as u32,
+                    own: Own::Edge(ends.map(|position| position + first_position)),
+                    ends: [from, to].map(|share| between(low, high, share)),
+                    weld: faces.weld(first_position),
+                    planes: planes_of(faces, list.faces(edge), number_of),
+                    plane: plane_of(faces, list.faces(edge), number_of),
+                    edge: Some(ends.map(|position| mesh.file_vertices[position as usize])),
+                    angle_degrees: angle(mesh, list, edge),
+                });
+            }
+        }
+        first_position += mesh.positions.len() as u32;
+    }
+    (features, counts)
+}
+
+/// From where to where an edge is drawn as which class, if as one.
+fn parts_by_class(of_edge: ClassSet, on_edge: OnEdge, wanted: ClassSet) -> Vec<(Option<Class>, [f64; 2])> {
+    let drawn = |with: &[Class]| {
+        let others = of_edge.classes().filter(|class| *class != Class::Silhouette);
+        others.fold(ClassSet::of(with), |set, class| set.or(ClassSet::of(&[class]))).and(wanted).first()
+    };
+    let other = drawn(&[]);
+    let (turned, silhouette) = match on_edge {
+        OnEdge::ByFaces => return vec![(of_edge.and(wanted).first(), [0.0, 1.0])],
+        OnEdge::Parts(parts) => (drawn(&[Class::Silhouette]), parts),
+        OnEdge::OfContour(parts) => (None, parts),
+    };
+    let mut parts = Vec::new();
+    let mut from = 0.0;
+    for part in silhouette {
+        if part[0] > from {
+            parts.push((other, [from, part[0]]));
+        }
+        parts.push((turned, part));
+        from = part[1];
+    }
+    if from < 1.0 {
+        parts.push((other, [from, 1.0]));
+    }
+    parts
+}
+
+/// The planes of the first two faces at an edge.
+fn planes_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> [u32; 2] {
+    let plane = |index: usize| at_edge.get(index).map_or(NO_GROUP, |face| faces.plane(number_of(*face)));
+    [plane(0), plane(1)]
+}
+
+/// The plane in which all faces at an edge lie, if they lie in one of many faces.
+fn plane_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> u32 {
+    let planes = at_edge.iter().map(|face| faces.plane(number_of(*face)));
+    planes.reduce(|first, second| if first == second { first } else { NO_GROUP }).unwrap_or(NO_GROUP)
+}
+
+/// The lines where faces intersect, as features.
+pub(in crate::lines) fn intersection_features(
+    faces: &Faces,
+    parts: &[ObjectEdges<'_>],
+    intersections: &[Intersection],
+) -> Vec<Feature> {
+    let starts: Vec<u32> = parts
+        .iter()
+        .scan(0, |next, part| Some(std::mem::replace(next, *next + part.shape().triangles.len() as u32)))
+        .collect();
+    let feature = |intersection: &Intersection| {
+        let [first, second] = intersection.faces.map(|face| triangle_normal(faces.corners(face)));
+        Feature {
+            class: Some(Class::Intersection),
+            occludes: false,
+            object: (starts.partition_point(|start| *start <= faces.numbers[intersection.faces[0] as usize]) - 1)
+                as u32,
+            own: Own::Faces(intersection.faces),
+            ends: intersection.ends,
+            weld: faces.weld(faces.triangles[intersection.faces[0] as usize][0]),
+            planes: intersection.faces.map(|face| faces.plane(faces.numbers[face as usize])),
+            plane: NO_GROUP,
+            edge: None,
+            angle_degrees: first.zip(second).map(|(first, second)| degrees_between(first, second)),
+        }
+    };
+    intersections.iter().map(feature).collect()
+}
+
+/// Where faces are cut off by the near plane: what is behind appears there.
+pub(in crate::lines) fn near_plane_features(space: &Space, faces: &Faces) -> Vec<Feature> {
+    let cut = |face: &u32| {
+        let corners = faces.corners(*face);
+        let mut points = (0..3).filter_map(|side| near_crossing(space, corners[side], corners[(side + 1) % 3]));
+        Some(Feature {
+            class: None,
+            occludes: true,
+            object: 0,
+            own: Own::Faces([*face; 2]),
+            ends: [points.next()?, points.next()?],
+            weld: 0.0,
+            planes: [NO_GROUP; 2],
+            plane: NO_GROUP,
+            edge: None,
+            angle_degrees: None,
+        })
+    };
+    faces.cut_by_near.iter().filter_map(cut).collect()
+}
+
+/// Edges of the faces that are seen edge-on: there a surface that faces the eye may go over into one that does not, without
+/// any single edge between the two.
+fn edges_of_edge_on_faces(
+    faces: &Faces,
+    list: &EdgeList,
+    numbers: Range<u32>,
+    number_of: impl Fn(u32) -> u32,
+) -> Vec<u32> {
+    let is_edge_on = |face: &u32| faces.edge_on.binary_search(&number_of(*face)).is_ok();
+    if faces.edge_on.iter().any(|number| numbers.contains(number)) {
+        (0..list.len() as u32).filter(|edge| list.faces(*edge).iter().any(is_edge_on)).collect()
+    } else {
+        Vec::new()
+    }
+}
+
+/// Whether an edge is silhouette, if one of its two faces at least is seen edge-on, whatever the last digit says of it: to an eye
+/// just beside this one such a face shows its front or its back, so that the edge is silhouette to one of both. Two edge-on
+/// faces at an edge lie in one plane; where they are folded onto one another, one of both is always turned away.
+fn at_edge_on(faces: &Faces, mesh: &Mesh, list: &EdgeList, edge: u32, number_of: impl Fn(u32) -> u32) -> Option<bool> {
+    let &[first, second] = list.faces(edge) else { return None };
+    let is_edge_on = |face: u32| faces.edge_on_for_sure.binary_search(&number_of(face)).is_ok();
+    match (is_edge_on(first), is_edge_on(second)) {
+        (false, false) => None,
+        (true, true) => Some(angle(mesh, list, edge).is_some_and(|degrees| degrees > 90.0)),
+        _ => Some(true),
+    }
+}
+
+/// The angle between an edge's two faces, of one orientation, degrees.
+fn angle(mesh: &Mesh, list: &EdgeList, edge: u32) -> Option<f64> {
+    let &[first, second] = list.faces(edge) else { return None };
+    let normal =
+        |face: u32| triangle_normal(mesh.triangles[face as usize].map(|corner| mesh.positions[corner as usize]));
+    let (first, second) = (normal(first)?, normal(second)?);
+    let is_reversed = list.incidence()[edge as usize] == Incidence::InnerReversed;
+    Some(degrees_between(first, if is_reversed { -second } else { second }))
+}
+
+/// The angle between two unit vectors, exact also where it is small.
+fn degrees_between(first: DVec3, second: DVec3) -> f64 {
+    first.cross(second).length().atan2(first.dot(second)).to_degrees()
+}
+
+/// Two ascending sequences as one, each number once.
+fn merged(first: impl Iterator<Item = u32>, second: impl Iterator<Item = u32>) -> impl Iterator<Item = u32> {
+    let (mut first, mut second) = (first.peekable(), second.peekable());
+    std::iter::from_fn(move || {
+        let next = match (first.peek(), second.peek()) {
+            (Some(a), Some(b)) => *a.min(b),
+            (Some(a), None) => *a,
+            (None, Some(b)) => *b,
+            (None, None) => return None,
+        };
+        first.next_if_eq(&next);
+        second.next_if_eq(&next);
+        Some(next)
+    })
+}

@@ -1,0 +1,97 @@
+//! Repairs a mesh before its lines are found.
+//!
+//! - Of faces that [cover one another](crate::lines::input::covered), as a surface modelled from both sides has them, one set is kept: the others
+//!   would make every edge one of four faces.
+//! - Faces no higher than what is welded are left out where they lie at others: they are lines.
+//! - Faces are split at [T-junctions](crate::lines::input::split_t_junctions), so that no line is drawn across a surface that looks whole. What hides is the
+//!   face as it was: a thousand slivers of it would hide the same, and be in one another's way.
+//!
+//! Cracks wider than `--weld` stay openings.
+
+use crate::edges::EdgeList;
+use crate::lines::input::covered::covered_faces;
+use crate::lines::input::face_subset::keep_faces;
+use crate::lines::input::split_t_junctions::{Split, chains, split_at_junctions};
+use crate::mesh::Mesh;
+use crate::threads::{in_chunks, threads_for};
+use crate::tolerances::WELD;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, HashSet};
+use std::sync::Arc;
+
+/// What was repaired of a mesh.
+pub(in crate::lines) struct RepairedMesh {
+    /// The faces that hide: without repeated ones.
+    pub shape: Arc<Mesh>,
+    /// The mesh that edges are found on: faces with vertices on their sides are split there.
+    pub split: Arc<Mesh>,
+    /// Of each of its faces the one of the shape that it is a part of.
+    pub whole_faces: Vec<u32>,
+    /// The vertices on each edge that was split, in their order along it.
+    pub on_edges: BTreeMap<[u32; 2], Vec<u32>>,
+    /// How many faces others cover, which were left out.
+    pub covered: usize,
+}
+
+/// The repaired mesh, if there was anything to repair.
+pub(in crate::lines) fn repaired(mesh: &Arc<Mesh>, edges: &EdgeList) -> Option<RepairedMesh> {
+    let lines = faces_without_height(mesh, edges);
+    let mut shape = WorkingMesh { mesh: mesh.clone(), edges: Cow::Borrowed(edges) };
+    shape.leave_out(&lines);
+    let covered = covered_faces(&shape.mesh, &shape.edges, &chains(&shape.mesh, &shape.edges));
+    shape.leave_out(&covered);
+    let split = split_at_junctions(&shape.mesh, &shape.edges);
+    let is_repaired = !lines.is_empty() || !covered.is_empty() || split.is_some();
+    let shape = shape.mesh;
+    let covered = covered.len();
+    is_repaired.then(|| match split {
+        Some(Split { mesh, whole_faces, on_edges }) => {
+            RepairedMesh { shape, split: Arc::new(mesh), whole_faces, on_edges, covered }
+        }
+        None => {
+            let whole_faces = (0..shape.triangles.len() as u32).collect();
+            RepairedMesh { split: shape.clone(), shape, whole_faces, on_edges: BTreeMap::new(), covered }
+        }
+    })
+}
+
+/// A mesh with some of its faces left out, and its edges.
+struct WorkingMesh<'a> {
+    mesh: Arc<Mesh>,
+    edges: Cow<'a, EdgeList>,
+}
+
+impl WorkingMesh<'_> {
+    fn leave_out(&mut self, faces: &HashSet<u32>) {
+        if !faces.is_empty() {
+            self.mesh = Arc::new(keep_faces(&self.mesh, |face| !faces.contains(&face)));
+            self.edges = Cow::Owned(EdgeList::new(&self.mesh));
+        }
+    }
+}
+
+/// Faces whose third corner lies on the side between the other two, as well as welding tells places apart, and that share a side
+/// with one that has a height. Others are wires, and drawn.
+fn faces_without_height(mesh: &Mesh, edges: &EdgeList) -> HashSet<u32> {
+    let (low, high) = mesh.bounds();
+    let weld = WELD * low.distance(high);
+    let has_height = |face: u32| {
+        let [a, b, c] = mesh.triangles[face as usize].map(|corner| mesh.positions[corner as usize]);
+        let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared()).sqrt();
+        (b - a).cross(c - a).length() > weld * longest
+    };
+    let found = in_chunks(mesh.triangles.len(), FACES_A_THREAD, threads_for(mesh.triangles.len()), |faces| {
+        faces.map(|face| face as u32).filter(|face| !has_height(*face)).collect::<Vec<u32>>()
+    });
+    let found = found.concat();
+    if found.is_empty() {
+        return HashSet::new();
+    }
+    let at_surfaces = (0..edges.len() as u32).map(|edge| edges.faces(edge));
+    let at_surfaces: HashSet<u32> =
+        at_surfaces.filter(|faces| faces.iter().any(|face| has_height(*face))).flatten().copied().collect();
+    found.into_iter().filter(|face| at_surfaces.contains(face)).collect()
+}
+
+/// Faces a thread looks at at once.
+const FACES_A_THREAD: usize = 8192;

@@ -1,0 +1,164 @@
+//! The objects of a scene with their edges: those of the mesh as it is, or as it was repaired.
+
+use crate::edges::{Eye, Incidence, MeshEdges, Side, SilhouetteRule, side_of_face};
+use crate::lines::input::mesh_repair::{self, RepairedMesh};
+use crate::mesh::Mesh;
+use crate::scene::{Object, Scene};
+use crate::tolerances::CONTACT;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+/// An object with its edges.
+pub(in crate::lines) struct ObjectEdges<'a> {
+    pub object: &'a Object,
+    pub edges: Edges<'a>,
+}
+
+/// The edges of the scene's own mesh, or of a repaired one.
+pub(in crate::lines) enum Edges<'a> {
+    OfScene(&'a MeshEdges),
+    Repaired(Arc<RepairedEdges>),
+}
+
+/// The edges of a repaired mesh with the faces that hide.
+pub(in crate::lines) struct RepairedEdges {
+    edges: MeshEdges,
+    shape: Arc<Mesh>,
+    whole_faces: Vec<u32>,
+    /// Edges of two faces, one of which at least is a part of a face, ascending.
+    at_split_faces: Vec<u32>,
+    on_edges: BTreeMap<[u32; 2], Vec<u32>>,
+    covered: usize,
+}
+
+impl RepairedEdges {
+    pub(in crate::lines) fn new(repaired: RepairedMesh) -> Self {
+        let RepairedMesh { shape, split, whole_faces, on_edges, covered } = repaired;
+        let edges = MeshEdges::new(split);
+        let is_split = |face: &u32| {
+            let whole = whole_faces[*face as usize];
+            edges.mesh().triangles[*face as usize] != shape.triangles[whole as usize]
+        };
+        let is_at_one = |edge: &u32| matches!(edges.list().faces(*edge), faces @ [_, _] if faces.iter().any(is_split));
+        let at_split_faces = (0..edges.list().len() as u32).filter(is_at_one).collect();
+        Self { edges, shape, whole_faces, at_split_faces, on_edges, covered }
+    }
+
+    /// Whether of the two faces at an edge one is seen from the front and the other is not: of split faces the whole decides, for
+    /// rounding turns their parts.
+    fn is_silhouette(&self, edge: u32, eye: Eye) -> bool {
+        let &[first, second] = self.edges.list().faces(edge) else { return false };
+        let side = |face: u32| {
+            let corners = self.shape.triangles[self.whole_faces[face as usize] as usize];
+            side_of_face(corners.map(|corner| self.shape.positions[corner as usize]), eye)
+        };
+        // Turned the other way round, the second face shows its back.
+        let is_reversed = self.edges.list().incidence()[edge as usize] == Incidence::InnerReversed;
+        let front_of_second = if is_reversed { Side::Back } else { Side::Front };
+        (side(first) == Side::Front) != (side(second) == front_of_second)
+    }
+}
+
+impl Edges<'_> {
+    pub(in crate::lines) fn get(&self) -> &MeshEdges {
+        match self {
+            Self::OfScene(edges) => edges,
+            Self::Repaired(repaired) => &repaired.edges,
+        }
+    }
+}
+
+impl ObjectEdges<'_> {
+    /// The faces that hide.
+    pub(in crate::lines) fn shape(&self) -> &Arc<Mesh> {
+        match &self.edges {
+            Edges::OfScene(edges) => edges.mesh(),
+            Edges::Repaired(repaired) => &repaired.shape,
+        }
+    }
+
+    /// Of a face of the edge list the number of the one in the shape that it is a part of.
+    pub(in crate::lines) fn whole_face(&self, face: u32) -> u32 {
+        match &self.edges {
+            Edges::OfScene(_) => face,
+            Edges::Repaired(repaired) => repaired.whole_faces[face as usize],
+        }
+    }
+
+    /// Whether faces were split at vertices on their edges.
+    pub(in crate::lines) fn has_split_edges(&self) -> bool {
+        matches!(&self.edges, Edges::Repaired(repaired) if !repaired.on_edges.is_empty())
+    }
+
+    /// The vertices on an edge of the shape where its faces were split, in their order along it; the edge's lower position first.
+    pub(in crate::lines) fn on_edge(&self, edge: [u32; 2]) -> &[u32] {
+        match &self.edges {
+            Edges::OfScene(_) => &[],
+            Edges::Repaired(repaired) => repaired.on_edges.get(&edge).map_or(&[], Vec::as_slice),
+        }
+    }
+
+    /// The exact silhouette edges for an eye, ascending.
+    pub(in crate::lines) fn silhouette(&self, eye: Eye) -> Vec<u32> {
+        let mut silhouette = self.edges.get().silhouette(eye, SilhouetteRule::Exact);
+        if let Edges::Repaired(repaired) = &self.edges {
+            let at_split_faces = &repaired.at_split_faces;
+            silhouette.retain(|edge| at_split_faces.binary_search(edge).is_err());
+            silhouette.extend(at_split_faces.iter().filter(|edge| repaired.is_silhouette(**edge, eye)));
+            silhouette.sort_unstable();
+        }
+        silhouette
+    }
+
+    /// How many of the mesh's faces others cover, which were left out.
+    pub(in crate::lines) fn covered(&self) -> usize {
+        match &self.edges {
+            Edges::OfScene(_) => 0,
+            Edges::Repaired(repaired) => repaired.covered,
+        }
+    }
+
+    /// Whether an edge runs through the inside of a face that was split. What lies on that face may have an edge there, too: it counts for
+    /// itself, and is none where two faces lie flat on either side.
+    pub(in crate::lines) fn is_within_a_face(&self, edge: u32) -> bool {
+        if matches!(self.edges, Edges::OfScene(_)) {
+            return false;
+        }
+        let mut faces = self.edges.get().list().faces(edge).to_vec();
+        faces.sort_unstable_by_key(|face| self.whole_face(*face));
+        let of_wholes = faces.chunk_by(|a, b| self.whole_face(*a) == self.whole_face(*b));
+        let others: Vec<u32> = of_wholes.filter(|parts| parts.len() != 2).flatten().copied().collect();
+        others.len() < faces.len() && (others.is_empty() || self.lie_flat(edge, &others))
+    }
+
+    /// Whether two faces at an edge lie in one plane on either side of it.
+    fn lie_flat(&self, edge: u32, faces: &[u32]) -> bool {
+        let &[first, second] = faces else { return false };
+        let (edges, mesh) = (self.edges.get(), self.edges.get().mesh());
+        let ends = edges.list().positions()[edge as usize];
+        let [from, to] = ends.map(|end| mesh.positions[end as usize]);
+        // The normals as if both turned the same way round the edge: opposite ones where they lie on either side.
+        let normal = |face: u32| {
+            let third = mesh.triangles[face as usize].into_iter().find(|corner| !ends.contains(corner))?;
+            (to - from).cross(mesh.positions[third as usize] - from).try_normalize()
+        };
+        normal(first).zip(normal(second)).is_some_and(|(first, second)| (first + second).length() <= CONTACT)
+    }
+}
+
+/// The scene's objects with their edges, repaired where that is needed; objects of one mesh share them.
+pub(in crate::lines) fn object_edges(scene: &Scene) -> Vec<ObjectEdges<'_>> {
+    let mut known: HashMap<*const Mesh, Option<Arc<RepairedEdges>>> = HashMap::new();
+    let mut parts = Vec::with_capacity(scene.objects.len());
+    for object in &scene.objects {
+        let (mesh, edges) = (&object.mesh, scene.edges(object));
+        let repair =
+            || mesh_repair::repaired(mesh, edges.list()).map(|repaired| Arc::new(RepairedEdges::new(repaired)));
+        let edges = match known.entry(Arc::as_ptr(mesh)).or_insert_with(repair) {
+            None => Edges::OfScene(edges),
+            Some(edges) => Edges::Repaired(edges.clone()),
+        };
+        parts.push(ObjectEdges { object, edges });
+    }
+    parts
+}

@@ -1,0 +1,313 @@
+//! T-junctions: a vertex of one face that lies on the side of another.
+//!
+//! In: a mesh and its edges. Out: the mesh with the faces at such sides split there, so that both become one edge. First come chains of
+//! edges that cover another from end to end: they are that edge, cut on one side. Then every vertex of an open rim that lies on
+//! another rim: surfaces side by side are one. Cracks wider than `--weld` stay openings.
+
+use crate::bvh::{Box3, BoxTree};
+use crate::edges::{EdgeList, Incidence};
+use crate::lines::input::face_subset::with_faces;
+use crate::mesh::Mesh;
+use crate::tolerances::{CONTACT, WELD};
+use glam::DVec3;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, HashMap};
+
+/// How much the directions of edges on one line may differ.
+const SAME_DIRECTION: f64 = 1e-4;
+
+/// An edge that others cover from end to end, where it is a rim or they all are. Solids that merely touch along parts of their edges
+/// are no chain.
+pub(in crate::lines) struct Chain {
+    pub long: u32,
+    /// From one end of the long one to the other.
+    pub edges: Vec<u32>,
+}
+
+/// All such edges.
+pub(in crate::lines) fn chains(mesh: &Mesh, edges: &EdgeList) -> Vec<Chain> {
+    let mut is_asked = vec![false; mesh.positions.len()];
+    let rims = (0..edges.len()).filter(|edge| edges.incidence()[*edge] == Incidence::Boundary);
+    rims.for_each(|rim| edges.positions()[rim].iter().for_each(|end| is_asked[*end as usize] = true));
+    loop {
+        let leaving = HalfEdges::new(mesh, edges, |position| is_asked[position as usize]);
+        let pairs = leaving.along_one_another();
+        let ends = pairs.iter().flatten().flat_map(|edge| edges.positions()[*edge as usize]);
+        let new: Vec<u32> = ends.filter(|end| !is_asked[*end as usize]).collect();
+        if new.is_empty() {
+            return pairs.into_iter().filter_map(|pair| leaving.chain(pair)).collect();
+        }
+        new.into_iter().for_each(|end| is_asked[end as usize] = true);
+    }
+}
+
+/// Edges as they leave some positions, those of one position by their directions.
+struct HalfEdges<'a> {
+    edges: &'a EdgeList,
+    half_edges: Vec<HalfEdge>,
+}
+
+/// An edge as it leaves one of its ends.
+#[derive(Clone, Copy)]
+struct HalfEdge {
+    from: u32,
+    to: u32,
+    edge: u32,
+    direction: DVec3,
+    length: f64,
+    /// The direction's part along one that no grid is aligned with.
+    skewed: f64,
+}
+
+impl HalfEdge {
+    fn is_along(&self, other: &Self) -> bool {
+        self.direction.dot(other.direction) > 0.0 && self.direction.cross(other.direction).length() <= SAME_DIRECTION
+    }
+}
+
+impl<'a> HalfEdges<'a> {
+    fn new(mesh: &Mesh, edges: &'a EdgeList, is_asked: impl Fn(u32) -> bool) -> Self {
+        let skew = DVec3::new(0.453_5, 0.711_7, 0.536_3);
+        let mut half_edges = Vec::new();
+        for (edge, [low, high]) in (0..).zip(edges.positions()) {
+            for (from, to) in [(*low, *high), (*high, *low)].into_iter().filter(|(from, _)| is_asked(*from)) {
+                let along = mesh.positions[to as usize] - mesh.positions[from as usize];
+                let direction = along.normalize_or_zero();
+                half_edges.push(HalfEdge {
+                    from,
+                    to,
+                    edge,
+                    direction,
+                    length: along.length(),
+                    skewed: direction.dot(skew),
+                });
+            }
+        }
+        let order = |a: &HalfEdge, b: &HalfEdge| {
+            a.from.cmp(&b.from).then(a.skewed.total_cmp(&b.skewed)).then(a.edge.cmp(&b.edge))
+        };
+        half_edges.sort_unstable_by(order);
+        Self { edges, half_edges }
+    }
+
+    fn is_rim(&self, edge: u32) -> bool {
+        self.edges.incidence()[edge as usize] == Incidence::Boundary
+    }
+
+    /// Pairs of edges, one of which at least is a rim, that leave a position in one direction.
+    fn along_one_another(&self) -> Vec<[u32; 2]> {
+        let mut pairs = Vec::new();
+        for (index, half_edge) in self.half_edges.iter().enumerate() {
+            let near = self.half_edges[index + 1..]
+                .iter()
+                .take_while(|other| other.from == half_edge.from && other.skewed - half_edge.skewed <= SAME_DIRECTION)
+                .filter(|other| (self.is_rim(half_edge.edge) || self.is_rim(other.edge)) && half_edge.is_along(other));
+            pairs.extend(near.map(|other| {
+                if half_edge.length > other.length {
+                    [half_edge.edge, other.edge]
+                } else {
+                    [other.edge, half_edge.edge]
+                }
+            }));
+        }
+        pairs
+    }
+
+    /// The chain that begins with the second edge and covers the first.
+    fn chain(&self, [long, short]: [u32; 2]) -> Option<Chain> {
+        let from = self.edges.positions()[long as usize];
+        let common = from.into_iter().find(|end| self.edges.positions()[short as usize].contains(end))?;
+        let leaving = |position: u32| {
+            let start = self.half_edges.partition_point(|half_edge| half_edge.from < position);
+            self.half_edges[start..].iter().take_while(move |half_edge| half_edge.from == position)
+        };
+        let of = |edge: u32| leaving(common).find(|half_edge| half_edge.edge == edge);
+        let (long_edge, mut last) = (of(long)?, of(short)?);
+        let (mut chain, mut covered) = (vec![short], last.length);
+        while last.to != long_edge.to {
+            let left = long_edge.length - covered;
+            last = leaving(last.to)
+                .filter(|half_edge| half_edge.is_along(long_edge) && half_edge.length <= left * (1.0 + SAME_DIRECTION))
+                .min_by(|a, b| a.length.total_cmp(&b.length))?;
+            covered += last.length;
+            chain.push(last.edge);
+        }
+        (self.is_rim(long) || chain.iter().all(|edge| self.is_rim(*edge))).then_some(Chain { long, edges: chain })
+    }
+}
+
+/// A mesh whose faces were split.
+pub(in crate::lines) struct Split {
+    pub mesh: Mesh,
+    /// Of each face the one it was part of.
+    pub whole_faces: Vec<u32>,
+    /// The vertices on each edge that was split, in their order along it.
+    pub on_edges: BTreeMap<[u32; 2], Vec<u32>>,
+}
+
+/// The mesh with its faces split at all T-junctions; `None` if there is none.
+pub(in crate::lines) fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Split> {
+    /// A chain may cover an edge of another chain.
+    const MOST_ROUNDS: usize = 8;
+    let mut split: Option<Split> = None;
+    let mut edges = Cow::Borrowed(edges);
+    for _ in 0..MOST_ROUNDS {
+        let current = split.as_ref().map_or(mesh, |split| &split.mesh);
+        let chains = chains(current, &edges);
+        let Some(next) = split_at(current, on_bundles(current, &edges, &chains)) else { break };
+        edges = Cow::Owned(EdgeList::new(&next.mesh));
+        split = Some(Split::after(split, next));
+    }
+    let current = split.as_ref().map_or(mesh, |split| &split.mesh);
+    let is_rim = |edge: &usize| edges.incidence()[*edge] == Incidence::Boundary;
+    let rims: Vec<[u32; 2]> = (0..edges.len()).filter(is_rim).map(|edge| edges.positions()[edge]).collect();
+    match split_at(current, vertices_on(current, &rims, &ends_of(&rims))) {
+        Some(next) => Some(Split::after(split, next)),
+        None => split,
+    }
+}
+
+/// The ends of edges, each once.
+fn ends_of(edges: &[[u32; 2]]) -> Vec<u32> {
+    let mut ends = edges.as_flattened().to_vec();
+    ends.sort_unstable();
+    ends.dedup();
+    ends
+}
+
+/// The vertices of chains on the edges that they cover, and on one another's edges.
+fn on_bundles(mesh: &Mesh, edges: &EdgeList, chains: &[Chain]) -> BTreeMap<[u32; 2], Vec<u32>> {
+    let mut bundles: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for Chain { long, edges } in chains {
+        bundles.entry(*long).or_insert_with(|| vec![*long]).extend(edges);
+    }
+    let mut on_edges = BTreeMap::new();
+    for mut bundle in bundles.into_values() {
+        bundle.sort_unstable();
+        bundle.dedup();
+        let bundle: Vec<[u32; 2]> = bundle.into_iter().map(|edge| edges.positions()[edge as usize]).collect();
+        on_edges.extend(vertices_on(mesh, &bundle, &ends_of(&bundle)));
+    }
+    on_edges
+}
+
+impl Split {
+    /// Two splits, one after the other, as one.
+    fn after(first: Option<Self>, then: Self) -> Self {
+        let Some(first) = first else { return then };
+        let Self { mesh, whole_faces, on_edges } = then;
+        let whole_faces = whole_faces.into_iter().map(|face| first.whole_faces[face as usize]).collect();
+        let mut of_both = on_edges.clone();
+        for (edge, vertices) in first.on_edges {
+            let ends = [[edge[0]].as_slice(), &vertices, &[edge[1]]].concat();
+            let mut along = Vec::new();
+            for pair in ends.windows(2) {
+                let between =
+                    on_edges.get(&[pair[0].min(pair[1]), pair[0].max(pair[1])]).map_or(&[][..], Vec::as_slice);
+                match pair[0] < pair[1] {
+                    true => along.extend(between),
+                    false => along.extend(between.iter().rev()),
+                }
+                along.push(pair[1]);
+            }
+            along.pop();
+            of_both.insert(edge, along);
+        }
+        Self { mesh, whole_faces, on_edges: of_both }
+    }
+}
+
+/// The mesh with its faces split at the vertices on their sides; `None` if no face has any.
+fn split_at(mesh: &Mesh, on_sides: BTreeMap<[u32; 2], Vec<u32>>) -> Option<Split> {
+    if on_sides.is_empty() {
+        return None;
+    }
+    let of_sides: HashMap<[u32; 2], &[u32]> = on_sides.iter().map(|(edge, on)| (*edge, on.as_slice())).collect();
+    let mut faces = Vec::with_capacity(mesh.triangles.len() + on_sides.len());
+    let mut is_split = false;
+    for (face, corners) in mesh.triangles.iter().enumerate() {
+        let before = faces.len();
+        split(*corners, &of_sides, &mut |corners| faces.push((face, corners)));
+        is_split |= faces.len() > before + 1;
+    }
+    let whole_faces = faces.iter().map(|(face, _)| *face as u32).collect();
+    is_split.then(|| Split { mesh: with_faces(mesh, faces), whole_faces, on_edges: on_sides })
+}
+
+/// Splits a face at the vertices on its sides: into a fan around the corner opposite to its first side with any, and at that
+/// side's two ends into fans around the vertices next to them.
+fn split(corners: [u32; 3], on_sides: &HashMap<[u32; 2], &[u32]>, add: &mut impl FnMut([u32; 3])) {
+    // From corner to corner with what is between them.
+    let between = |side: usize| {
+        let (from, to) = (corners[side], corners[(side + 1) % 3]);
+        let mut between = on_sides.get(&[from.min(to), from.max(to)]).map_or_else(Vec::new, |between| between.to_vec());
+        between.retain(|vertex| !corners.contains(vertex));
+        if from > to {
+            between.reverse();
+        }
+        between
+    };
+    let sides: [Vec<u32>; 3] = std::array::from_fn(between);
+    let Some(first) = sides.iter().position(|side| !side.is_empty()) else { return add(corners) };
+    let [a, b, c] = [0, 1, 2].map(|step| corners[(first + step) % 3]);
+    let [on_ab, on_bc, on_ca] = [0, 1, 2].map(|step| sides[(first + step) % 3].as_slice());
+    let (nearest_a, nearest_b) = (on_ab[0], on_ab[on_ab.len() - 1]);
+    fan(nearest_a, &[&[c], on_ca, &[a]].concat(), add);
+    fan(c, on_ab, add);
+    fan(nearest_b, &[&[b], on_bc, &[c]].concat(), add);
+}
+
+/// A triangle around an apex for each two neighbours on a way.
+fn fan(apex: u32, along: &[u32], add: &mut impl FnMut([u32; 3])) {
+    along.windows(2).for_each(|pair| add([apex, pair[0], pair[1]]));
+}
+
+/// Length of the parts in which rims are looked for, the mesh's radii.
+const LONGEST_PART: f64 = 0.1;
+
+/// For each edge, the lower position first, the vertices that lie on it, in their order along it; edges without any have no entry.
+pub(in crate::lines) fn vertices_on(mesh: &Mesh, edges: &[[u32; 2]], vertices: &[u32]) -> BTreeMap<[u32; 2], Vec<u32>> {
+    let position = |index: u32| mesh.positions[index as usize];
+    let (low, high) = mesh.bounds();
+    let radius = (high - low).length() * 0.5;
+    let weld = WELD * 2.0 * radius;
+    let scaled = |point: DVec3| (point - (low + high) * 0.5) / radius;
+    let (mut boxes, mut edge_of) = (Vec::new(), Vec::new());
+    for (edge, ends) in edges.iter().enumerate() {
+        let [a, b] = ends.map(|end| scaled(position(end)));
+        let margin = DVec3::splat(CONTACT * a.distance(b) + WELD);
+        // In parts, so that a long one is not asked for everything in its box.
+        let count = (a.distance(b) / LONGEST_PART).ceil().max(1.0);
+        for part in 0..count as u32 {
+            let [from, to] = [part, part + 1].map(|place| a.lerp(b, f64::from(place) / count));
+            boxes.push(Box3::new(from.min(to) - margin, from.max(to) + margin));
+            edge_of.push(edge);
+        }
+    }
+    let (tree, order) = BoxTree::new(&boxes);
+    let mut places: BTreeMap<[u32; 2], Vec<(f64, u32)>> = BTreeMap::new();
+    for vertex in vertices {
+        let point = position(*vertex);
+        tree.any(&Box3::around([scaled(point)]), |place| {
+            let ends = edges[edge_of[order[place as usize] as usize]];
+            let (start, along) = (position(ends[0]), position(ends[1]) - position(ends[0]));
+            let place = (point - start).dot(along) / along.length_squared();
+            let distance = (start + along * place).distance(point);
+            let length = along.length();
+            let from_end = place.min(1.0 - place) * length;
+            // So near an end it may as well lie on another edge from there, unless it is exactly on this one. What is nearer
+            // still is the end: welding has seen to that.
+            let touching = if from_end > CONTACT * length { CONTACT * length } else { weld };
+            if distance <= touching && from_end > weld {
+                places.entry(ends).or_default().push((place, *vertex));
+            }
+            false
+        });
+    }
+    let in_order = |mut places: Vec<(f64, u32)>| {
+        places.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        places.dedup();
+        places.into_iter().map(|(_, vertex)| vertex).collect()
+    };
+    places.into_iter().map(|(ends, places)| (ends, in_order(places))).collect()
+}

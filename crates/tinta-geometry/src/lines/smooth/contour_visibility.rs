@@ -1,0 +1,267 @@
+//! Which parts of smooth contours are seen.
+//!
+//! A point of a smooth contour lies inside a face, which the eye may see from behind: then the faces beside it, between it and the
+//! polygons' own silhouette, hide it, though the surface that is meant would not. So the point is not asked itself. The plane
+//! through the eye, the point and the smooth normal there cuts the faces in a line; on it the *summit* is asked, the place that lies
+//! farthest out, in the picture, along the normal. The search for it goes both ways from the point: for the length of one edge, and
+//! on until a face's side and its smooth normals agree, all n . v at its corners having the face's sign, or until n . v along the line changes
+//! its sign, that is at another contour; a sharp edge always ends it. The point is seen if no face hides the summit, by the
+//! rule of all other lines. All faces that hide it cut that plane, too, so that none of those passed on the way can.
+//!
+//! A piece on a sharp edge, at which only the smooth normals turn away, is asked likewise, from the edge into both its faces.
+//!
+//! Where the surface bends towards the eye on the normal's side, the same holds with the normal turned round: such a place is seen
+//! only from a surface's inner side. On a shell that encloses something it is hidden without being asked.
+//!
+//! A piece is cut where its image crosses those of nearer edges at which a surface ends or turns away, and where it passes
+//! through a face; between, its middle decides.
+
+use crate::bvh::{Box3, NO_GROUP, steps};
+use crate::edges::Class;
+use crate::lines::LineSegment;
+use crate::lines::input::object_edges::ObjectEdges;
+use crate::lines::progress::{Phase, Progress};
+use crate::lines::smooth::contours::{ContourPiece, Contours, between};
+use crate::lines::visible::faces::{Own, Probe};
+use crate::lines::visible::image::Image;
+use crate::lines::visible::interval::Interval;
+use crate::lines::visible::line_index::LineIndex;
+use crate::mesh::NONE;
+use crate::threads::{cores, spread_chunks};
+use crate::tolerances::CONTACT;
+use glam::{DVec2, DVec3};
+
+/// A piece of contour in the picture.
+#[derive(Debug, Clone)]
+pub(in crate::lines) struct ContourIntervals {
+    /// Its place among the contours' pieces.
+    pub piece: usize,
+    pub image: Image,
+    pub intervals: Vec<Interval>,
+}
+
+/// Most faces that the search for a summit passes in one direction: far more than lie between a contour and a silhouette.
+pub(in crate::lines) const MOST_FACES: usize = 64;
+
+/// Contours decided by a thread at once.
+const CHUNK: usize = 32;
+
+/// What smooth contours are decided with.
+pub(in crate::lines) struct ContourLines<'a> {
+    pub lines: &'a LineIndex<'a>,
+    pub contours: &'a Contours,
+    pub parts: &'a [ObjectEdges<'a>],
+}
+
+impl ContourLines<'_> {
+    /// Every piece inside the picture, told apart, in the contours' order.
+    pub(in crate::lines) fn decided(&self, progress: &Progress) -> Vec<ContourIntervals> {
+        progress.begin(Phase::Contours, self.contours.pieces.len());
+        let chunks = spread_chunks(self.contours.pieces.len(), CHUNK, cores(), |range| {
+            if progress.is_over() {
+                return Vec::new();
+            }
+            let (count, before) = (range.len(), steps());
+            let decided = range.filter_map(|piece| self.decide(piece)).collect::<Vec<_>>();
+            progress.advance(count, steps().wrapping_sub(before));
+            decided
+        });
+        chunks.concat()
+    }
+
+    /// The pieces as they are drawn.
+    pub(in crate::lines) fn segments(&self, decided: &[ContourIntervals]) -> Vec<LineSegment> {
+        let mut segments = Vec::new();
+        for ContourIntervals { piece, image, intervals } in decided {
+            let drawn = intervals.iter().filter(|interval| interval.is_visible || self.lines.finds_hidden);
+            segments.extend(drawn.map(|interval| LineSegment {
+                class: Class::Silhouette,
+                is_visible: interval.is_visible,
+                is_outline: interval.background != [false; 2],
+                background: interval.background,
+                is_covered: false,
+                ends_px: [image.at(interval.from), image.at(interval.to)],
+                ends_world: image.ends_world(self.lines.space, [interval.from, interval.to]),
+                edge: self.edge_in_file(&self.contours.pieces[*piece]),
+                angle_degrees: None,
+                object: self.contours.pieces[*piece].part,
+            }));
+        }
+        segments
+    }
+
+    /// The edge on which a piece lies, by its vertices in the file.
+    fn edge_in_file(&self, piece: &ContourPiece) -> Option<[u32; 2]> {
+        let edges = self.parts[piece.part as usize].edges.get();
+        let ends = edges.list().positions()[piece.on_edge? as usize];
+        Some(ends.map(|position| edges.mesh().file_vertices[position as usize]))
+    }
+
+    fn decide(&self, number: usize) -> Option<ContourIntervals> {
+        let (lines, piece) = (self.lines, &self.contours.pieces[number]);
+        let image = Image::of(lines.space, piece.ends)?;
+        let inside = image.inside(lines.space.size, 0.0)?;
+        if image.a == image.b || inside[0] == inside[1] {
+            return None;
+        }
+        let whole = |intervals| Some(ContourIntervals { piece: number, image, intervals });
+        let [from, to] = inside;
+        if self.contours.is_inside(piece) {
+            return whole(vec![Interval { from, to, is_visible: false, background: [false; 2] }]);
+        }
+        let places = lines.places(&image, inside, self.cuts(piece, &image, inside));
+        let mut intervals: Vec<Interval> = Vec::new();
+        for place in places.windows(2) {
+            let probe = self.probe(piece, &image, (place[0] + place[1]) * 0.5);
+            let is_visible = self.is_seen(&probe);
+            let background =
+                if lines.finds_outline && is_visible { self.background(&image, &probe) } else { [false; 2] };
+            match intervals.last_mut() {
+                Some(last) if last.is_visible == is_visible && last.background == background => last.to = place[1],
+                _ => intervals.push(Interval { from: place[0], to: place[1], is_visible, background }),
+            }
+        }
+        whole(intervals)
+    }
+
+    /// On which sides of a piece there is background beyond its summit: on its right and on its left.
+    fn background(&self, image: &Image, summit: &Probe) -> [bool; 2] {
+        let lines = self.lines;
+        let outwards = DVec2::new(summit.aside.x, -summit.aside.y);
+        let px = summit.px + outwards * lines.beside_px();
+        let beside = Probe { px, view: lines.space.point(px, summit.key), ..*summit };
+        if lines.faces.is_covered(lines.space, &beside, image.touch_px(lines.space)) {
+            return [false; 2];
+        }
+        let is_right = (image.b - image.a).perp().dot(outwards) > 0.0;
+        [is_right, !is_right]
+    }
+
+    /// Where what is seen of a piece may change.
+    fn cuts(&self, piece: &ContourPiece, image: &Image, inside: [f64; 2]) -> Vec<f64> {
+        let lines = self.lines;
+        let touch_px = image.touch_px(lines.space);
+        let keys = inside.map(|place| image.key(place));
+        let farthest = keys[0].max(keys[1]);
+        let nearer = [f64::NEG_INFINITY, farthest + farthest.abs() * (2.0 * CONTACT)];
+        let sought = if lines.finds_outline { [f64::NEG_INFINITY, f64::INFINITY] } else { nearer };
+        let mut cuts = Vec::new();
+        lines.rims.any(&image.part_box(inside, touch_px, sought), |other_index| {
+            if let Some(other) = &lines.images[other_index] {
+                let touch_px = touch_px.max(other.touch_px(lines.space));
+                match lines.finds_outline {
+                    true => cuts.extend(image.meetings(other, touch_px)),
+                    false => lines.add_crossings(image, other, touch_px, true, &mut cuts),
+                }
+            }
+            false
+        });
+        lines.any_occluder(&image.part_box(inside, touch_px, keys), [NO_GROUP; 2], |face| {
+            let point = lines.piercing(piece.ends, face);
+            cuts.extend(point.map(|point| image.place_of(lines.space.project(point).0)));
+            false
+        });
+        cuts
+    }
+
+    /// Whether no face hides a point.
+    pub(in crate::lines) fn is_seen(&self, probe: &Probe) -> bool {
+        let lines = self.lines;
+        lines.faces.leave_open(lines.space, probe, |column, visit| lines.any_occluder(column, [NO_GROUP; 2], visit))
+    }
+
+    /// The summit of a place of a piece, as the faces are asked about it.
+    pub(in crate::lines) fn probe(&self, piece: &ContourPiece, image: &Image, place: f64) -> Probe {
+        let lines = self.lines;
+        let start = lines.space.point(image.at(place), image.key(place));
+        let normal = between(piece.normals[0], piece.normals[1], place);
+        let outwards = lines.space.image_direction(start, normal).normalize_or_zero();
+        let outwards = if piece.bends_away { outwards } else { -outwards };
+        let part = &self.contours.parts[piece.part as usize];
+        let (summit, edge) = self.summit(piece, start, normal, outwards);
+        let ends = self.parts[piece.part as usize].edges.get().list().positions()[edge as usize];
+        let own = ends.map(|position| position + part.first_position);
+        let (px, key) = lines.space.project(summit);
+        Probe {
+            view: summit,
+            px,
+            key,
+            // Down in the picture is up in the eye's space.
+            aside: DVec3::new(outwards.x, -outwards.y, 0.0),
+            line_length: lines.faces.positions[own[0] as usize].distance(lines.faces.positions[own[1] as usize]),
+            weld: lines.faces.weld(part.first_position),
+            own: Own::Edge(own),
+            own_ends: own,
+        }
+    }
+
+    /// The summit and the edge it lies on.
+    fn summit(&self, piece: &ContourPiece, start: DVec3, normal: DVec3, outwards: DVec2) -> (DVec3, u32) {
+        let space = self.lines.space;
+        let plane = space.to_eye(start).cross(normal);
+        let start_px = space.project(start).0;
+        let part = &self.contours.parts[piece.part as usize];
+        let list = self.parts[piece.part as usize].edges.get().list();
+        let near = part.longest_side(&self.lines.faces.positions, piece.face);
+        let to_eye = space.to_eye(start);
+        // From inside a face both ways, from an edge into both its faces.
+        let ways = match piece.on_edge {
+            None => [(piece.face, NONE, 1.0), (piece.face, NONE, -1.0)],
+            Some(edge) => {
+                let faces = list.faces(edge);
+                [(faces[0], edge, 1.0), (faces[faces.len() - 1], edge, 1.0)]
+            }
+        };
+        let mut best = (if piece.on_edge.is_some() { 0.0 } else { f64::NEG_INFINITY }, start, piece.edges[0]);
+        for (mut face, mut came, way) in ways {
+            for _ in 0..MOST_FACES {
+                let positions = &self.lines.faces.positions;
+                let Some(exit) = part.exit(positions, face, came, [start, plane], to_eye * way) else { break };
+                let is_towards = to_eye.dot(exit.point - start) > 0.0;
+                if -exit.point.z < space.near {
+                    break;
+                }
+                let height = (space.project(exit.point).0 - start_px).dot(outwards);
+                if height > best.0 {
+                    best = (height, exit.point, exit.edge);
+                }
+                // Towards the eye the surface that is meant shows its front, if it bends away; else its back.
+                let is_on_its_side = (exit.towards > 0.0) == (is_towards == piece.bends_away);
+                let is_near = exit.point.distance(start) < near;
+                if (!is_near && !is_on_its_side) || part.surface.is_sharp[exit.edge as usize] {
+                    break;
+                }
+                let Some(next) = list.faces(exit.edge).iter().find(|other| **other != face) else { break };
+                if !is_near && self.agrees(piece.part, *next) {
+                    break;
+                }
+                (face, came) = (*next, exit.edge);
+            }
+        }
+        (best.1, best.2)
+    }
+
+    /// Whether a face's side and its smooth normals agree.
+    fn agrees(&self, part: u32, face: u32) -> bool {
+        let part = &self.contours.parts[part as usize];
+        let is_front = part.is_front_face(self.lines.space, &self.lines.faces.positions, face);
+        part.of_face(face).iter().all(|towards| (*towards >= 0.0) == is_front)
+    }
+
+    /// Calls `visit` with each face that hides a probe and how far before it that face is, until it returns true.
+    pub(in crate::lines) fn any_hider(&self, probe: &Probe, mut visit: impl FnMut(u32, f64) -> bool) -> bool {
+        let (space, faces) = (self.lines.space, self.lines.faces);
+        let tie_px = space.tie_px(-probe.view.z);
+        let column = Box3::new((probe.px - tie_px).extend(f64::NEG_INFINITY), (probe.px + tie_px).extend(probe.key));
+        let tie = tie_px / space.px_per_unit(-probe.view.z);
+        self.lines.any_occluder(&column, [NO_GROUP; 2], |face| {
+            if faces.hides(space, face, probe, tie) == [false; 2] {
+                return false;
+            }
+            let [a, b, c] = faces.corners(face);
+            let depth = faces.hit_depth(space, [a, (b - a).cross(c - a)], probe);
+            let slant = if space.is_perspective() { probe.view.length() / -probe.view.z } else { 1.0 };
+            visit(face, (-probe.view.z - depth) * slant)
+        })
+    }
+}

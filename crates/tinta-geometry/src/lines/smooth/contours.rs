@@ -1,0 +1,353 @@
+//! Smooth contours: where the surface that the faces stand for turns away from the eye (Hertzmann and Zorin 2000).
+//!
+//! In: the scene's parts with their [`SmoothSurface`]s. Out: [`Contours`]. At every corner n . v is known, n the smooth normal
+//! and v the way to the eye; inside a face it is taken to be linear, so that it is 0 along one straight piece at most, which
+//! begins and ends on the face's sides. A side that two faces share without being sharp has one end for both, bit for bit: the pieces chain without
+//! a gap. Exactly 0, and what rounding cannot tell from it, counts as front, as if the eye stood a little farther out along the
+//! normal: no face is crossed by more than one piece, one over which n . v is 0 by none, and through a vertex where it is
+//! 0 the contour goes as if it passed just beside it.
+//!
+//! At a sharp edge both its faces have normals of their own. It is silhouette along those parts where one side is front and the
+//! other is not; where a smooth contour ends on it, such a part begins. Between flat faces that is the rule of polygons.
+
+use crate::edges::{CreaseAngle, EdgeList, Eye, Incidence, Shell, SilhouetteRule, SmoothSurface};
+use crate::lines::input::object_edges::ObjectEdges;
+use crate::lines::visible::space::Space;
+use crate::mesh::{Mesh, NONE, triangle_normal};
+use crate::scene::Scene;
+use crate::threads::{cores, filled, in_chunks};
+use crate::tolerances::{EDGE_ON, FLAT};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// The smooth contours of a scene, before their visibility is known.
+pub(in crate::lines) struct Contours {
+    pub parts: Vec<ObjectSurface>,
+    /// By object, then face; then those on edges; then what is cut off from others at cusps.
+    pub pieces: Vec<ContourPiece>,
+    /// Where they hang together.
+    pub links: Vec<Link>,
+}
+
+/// A part's smooth surface as an eye sees it.
+pub(in crate::lines) struct ObjectSurface {
+    pub surface: Arc<SmoothSurface>,
+    pub mesh: Arc<Mesh>,
+    /// Of each normal n . v, in units of v; 0 where that is rounding.
+    pub towards: Vec<f64>,
+    /// Of the part's first position among all.
+    pub first_position: u32,
+    /// Whether the eye may be inside of closed shells.
+    sees_inside: bool,
+    /// The parts of sharp edges beside curved faces that are silhouette: by edge, then along it.
+    pub edge_parts: Vec<(u32, [f64; 2])>,
+}
+
+/// A straight piece of a contour, inside one face or on a sharp edge.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::lines) struct ContourPiece {
+    /// The part and its face, of those that the edges are of.
+    pub part: u32,
+    pub face: u32,
+    /// The edges on which it begins and ends, and where: in the eye's space.
+    pub edges: [u32; 2],
+    pub ends: [DVec3; 2],
+    /// The smooth surface's normals there, of any length, in the eye's space.
+    pub normals: [DVec3; 2],
+    /// Whether the front's side of the piece is the nearer one: there the surface bends away from the eye on the normal's side.
+    pub bends_away: bool,
+    /// What its own face says of that: how much n . v grows towards the eye there, times twice the face's area.
+    pub bend: f64,
+    /// The sharp edge it lies on, if it does: one at which the smooth normals turn away, the faces do not.
+    pub on_edge: Option<u32>,
+}
+
+/// Two pieces that meet, and which end of each; on an edge, or at a cusp inside a face.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::lines) struct Link {
+    pub part: u32,
+    pub ends: [(usize, usize); 2],
+}
+
+/// Where a cut through a face leaves it.
+pub(in crate::lines) struct Exit {
+    pub point: DVec3,
+    pub edge: u32,
+    /// n . v there.
+    pub towards: f64,
+}
+
+/// How the smooth rule sees an edge.
+pub(in crate::lines) enum OnEdge {
+    /// By its faces, as the exact rule does.
+    ByFaces,
+    /// It is silhouette between these shares of it, counted from its lower position.
+    Parts(Vec<[f64; 2]>),
+    /// The same, but only its smooth normals turn away, its faces do not: a contour has these parts.
+    OfContour(Vec<[f64; 2]>),
+}
+
+/// Faces looked at by a thread at once.
+const CHUNK: usize = 8192;
+
+impl Contours {
+    /// Finds the pieces, each with what its own face says; `positions` are those of all parts in the eye's space; the near plane may cut faces open.
+    pub(in crate::lines) fn new(
+        scene: &Scene,
+        space: &Space,
+        positions: &[DVec3],
+        is_cut_by_near: bool,
+        parts: &[ObjectEdges<'_>],
+        crease_angle: CreaseAngle,
+    ) -> Self {
+        let mut all = Self { parts: Vec::with_capacity(parts.len()), pieces: Vec::new(), links: Vec::new() };
+        let mut first_position = 0;
+        for (number, part) in parts.iter().enumerate() {
+            let edges = part.edges.get();
+            let (mesh, surface) = (edges.mesh().clone(), edges.smooth(crease_angle));
+            let eye = scene.eye(part.object, SilhouetteRule::Exact);
+            let count = surface.normals.len();
+            let towards = filled(count, cores().min(count / CHUNK).max(1), 0.0, |normal| {
+                towards(surface.normals[normal], mesh.positions[surface.normal_positions[normal] as usize], eye)
+            });
+            let (low, high) = mesh.bounds();
+            let is_within = |eye: DVec3| eye.cmpge(low).all() && eye.cmple(high).all();
+            let sees_inside = is_cut_by_near || matches!(eye, Eye::Point(eye) if is_within(eye));
+            let mut part =
+                ObjectSurface { surface, mesh, towards, first_position, sees_inside, edge_parts: Vec::new() };
+            let chunks = in_chunks(part.mesh.triangles.len(), CHUNK, cores(), |range| {
+                range.filter_map(|face| part.piece(space, positions, number as u32, face as u32)).collect::<Vec<_>>()
+            });
+            chunks.into_iter().for_each(|chunk| all.pieces.extend(chunk));
+            let list = edges.list();
+            for edge in (0..list.len() as u32).filter(|edge| part.surface.is_sharp[*edge as usize]) {
+                match part.on_edge(space, positions, list, edge) {
+                    OnEdge::ByFaces => {}
+                    OnEdge::Parts(shares) => part.edge_parts.extend(shares.into_iter().map(|share| (edge, share))),
+                    OnEdge::OfContour(shares) => {
+                        let pieces = part.pieces_on_edge(space, positions, list, number as u32, edge, shares);
+                        all.pieces.extend(pieces);
+                    }
+                }
+            }
+            first_position += part.mesh.positions.len() as u32;
+            all.parts.push(part);
+        }
+        all
+    }
+
+    /// Whether a piece's shell encloses something and it bends towards its inside: it cannot be seen from outside.
+    pub(in crate::lines) fn is_inside(&self, piece: &ContourPiece) -> bool {
+        self.parts[piece.part as usize].encloses(piece.face, piece.bends_away)
+    }
+}
+
+/// n . v of a normal at a position; 0 where that is rounding.
+fn towards(normal: DVec3, position: DVec3, eye: Eye) -> f64 {
+    let to_eye = match eye {
+        Eye::Point(eye) => eye - position,
+        Eye::Direction(direction) => direction,
+    };
+    let towards = normal.dot(to_eye);
+    if towards.abs() <= EDGE_ON * to_eye.length() { 0.0 } else { towards }
+}
+
+/// Whether a value counts as front.
+fn is_front(towards: f64) -> bool {
+    towards >= 0.0
+}
+
+/// Where along an edge, from its lower position on, a value that is linear along it passes 0.
+fn zero([low, high]: [f64; 2]) -> f64 {
+    (low / (low - high)).clamp(0.0, 1.0)
+}
+
+/// A point between two, the ends as they are.
+pub(in crate::lines) fn between(from: DVec3, to: DVec3, share: f64) -> DVec3 {
+    match share {
+        0.0 => from,
+        1.0 => to,
+        _ => from + (to - from) * share,
+    }
+}
+
+impl ObjectSurface {
+    /// n . v at a face's corners.
+    pub(in crate::lines) fn of_face(&self, face: u32) -> [f64; 3] {
+        self.surface.corner_normals[face as usize].map(|normal| self.towards[normal as usize])
+    }
+
+    /// A face's corners in the eye's space.
+    pub(in crate::lines) fn corners(&self, positions: &[DVec3], face: u32) -> [DVec3; 3] {
+        self.mesh.triangles[face as usize].map(|position| positions[(position + self.first_position) as usize])
+    }
+
+    /// A face's longest side.
+    pub(in crate::lines) fn longest_side(&self, positions: &[DVec3], face: u32) -> f64 {
+        let [a, b, c] = self.corners(positions, face);
+        a.distance(b).max(b.distance(c)).max(c.distance(a))
+    }
+
+    /// The piece of contour inside a face, if there is one.
+    fn piece(&self, space: &Space, positions: &[DVec3], part: u32, face: u32) -> Option<ContourPiece> {
+        let values = self.of_face(face);
+        let fronts = values.map(is_front);
+        if fronts == [true; 3] || fronts == [false; 3] || self.surface.sides[face as usize] == [NONE; 3] {
+            return None;
+        }
+        let triangle = self.mesh.triangles[face as usize];
+        let corners = self.corners(positions, face);
+        let normals = self.surface.corner_normals[face as usize].map(|normal| self.surface.normals[normal as usize]);
+        let mut crossings = (0..3).filter(|side| fronts[*side] != fronts[(side + 1) % 3]).map(|side| {
+            let next = (side + 1) % 3;
+            // The same numbers in the same order from either face.
+            let [low, high] = if triangle[side] < triangle[next] { [side, next] } else { [next, side] };
+            let share = zero([values[low], values[high]]);
+            let edge = self.surface.sides[face as usize][side];
+            let point = between(corners[low], corners[high], share);
+            let normal = normals[low] + (normals[high] - normals[low]) * share;
+            (edge, point, space.direction(normal))
+        });
+        let (first, second) = (crossings.next()?, crossings.next()?);
+        let (along, across) = (corners[1] - corners[0], corners[2] - corners[0]);
+        let normal = along.cross(across);
+        // The direction in which n . v grows fastest, times the normal's square.
+        let growth = across.cross(normal) * (values[1] - values[0]) + normal.cross(along) * (values[2] - values[0]);
+        let bend = growth.dot(space.to_eye((first.1 + second.1) * 0.5)) / normal.length();
+        Some(ContourPiece {
+            part,
+            face,
+            edges: [first.0, second.0],
+            ends: [first.1, second.1],
+            normals: [first.2, second.2],
+            bends_away: bend > 0.0,
+            bend: if bend.is_finite() { bend } else { 0.0 },
+            on_edge: None,
+        })
+    }
+
+    /// Those shares of a sharp edge at which its smooth normals turn away but its faces do not.
+    fn pieces_on_edge(
+        &self,
+        space: &Space,
+        positions: &[DVec3],
+        list: &EdgeList,
+        part: u32,
+        edge: u32,
+        shares: Vec<[f64; 2]>,
+    ) -> Vec<ContourPiece> {
+        let &[first, second] = list.faces(edge) else { return Vec::new() };
+        let ends = list.positions()[edge as usize];
+        let [low, high] = ends.map(|position| positions[(position + self.first_position) as usize]);
+        let normal = |face: u32, share: f64| {
+            let [low, high] = self.at_ends(face, ends).map(|normal| self.surface.normals[normal as usize]);
+            between(low, high, share)
+        };
+        let bends_away = self.is_convex(positions, [first, second]);
+        let piece = |[from, to]: [f64; 2]| ContourPiece {
+            part,
+            face: first,
+            edges: [edge; 2],
+            ends: [from, to].map(|share| between(low, high, share)),
+            normals: [from, to].map(|share| space.direction(normal(first, share) + normal(second, share))),
+            bends_away,
+            bend: 0.0,
+            on_edge: Some(edge),
+        };
+        shares.into_iter().map(piece).collect()
+    }
+
+    /// Where a plane through a point leaves a face by another side than it came in, the farther along a direction.
+    pub(in crate::lines) fn exit(
+        &self,
+        positions: &[DVec3],
+        face: u32,
+        came: u32,
+        [point, plane]: [DVec3; 2],
+        way: DVec3,
+    ) -> Option<Exit> {
+        let corners = self.corners(positions, face);
+        let values = self.of_face(face);
+        let heights = corners.map(|corner| plane.dot(corner - point));
+        let exits = (0..3).filter_map(|side| {
+            let next = (side + 1) % 3;
+            let edge = self.surface.sides[face as usize][side];
+            if edge == came || edge == NONE || (heights[side] >= 0.0) == (heights[next] >= 0.0) {
+                return None;
+            }
+            let share = heights[side] / (heights[side] - heights[next]);
+            let towards = values[side] + (values[next] - values[side]) * share;
+            Some(Exit { point: between(corners[side], corners[next], share), edge, towards })
+        });
+        exits.max_by(|a, b| way.dot(a.point).total_cmp(&way.dot(b.point)))
+    }
+
+    /// Whether the eye sees a face's front.
+    pub(in crate::lines) fn is_front_face(&self, space: &Space, positions: &[DVec3], face: u32) -> bool {
+        let [a, b, c] = self.corners(positions, face);
+        (b - a).cross(c - a).dot(space.to_eye(a)) > 0.0
+    }
+
+    /// Where an edge is silhouette.
+    pub(in crate::lines) fn on_edge(&self, space: &Space, positions: &[DVec3], list: &EdgeList, edge: u32) -> OnEdge {
+        if list.incidence()[edge as usize] != Incidence::Inner {
+            return OnEdge::ByFaces;
+        }
+        if !self.surface.is_sharp[edge as usize] {
+            return OnEdge::Parts(Vec::new());
+        }
+        let ends = list.positions()[edge as usize];
+        let &[first, second] = list.faces(edge) else { return OnEdge::ByFaces };
+        if self.is_flat(first, ends) && self.is_flat(second, ends) {
+            return OnEdge::ByFaces;
+        }
+        let values = [first, second].map(|face| self.at_ends(face, ends).map(|normal| self.towards[normal as usize]));
+        let mut places = vec![0.0, 1.0];
+        places.extend(values.iter().filter(|[low, high]| is_front(*low) != is_front(*high)).map(|ends| zero(*ends)));
+        places.sort_unstable_by(f64::total_cmp);
+        let differs = |place: f64| {
+            let [first, second] = values.map(|[low, high]| low + (high - low) * place);
+            is_front(first) != is_front(second)
+        };
+        let parts = places.windows(2).filter(|part| part[0] < part[1] && differs((part[0] + part[1]) * 0.5));
+        let parts = parts.map(|part| [part[0], part[1]]).collect();
+        // Where one does not see the bend from outside, the edge is what else it is.
+        match self.is_front_face(space, positions, first) == self.is_front_face(space, positions, second) {
+            false => OnEdge::Parts(parts),
+            true if self.encloses(first, self.is_convex(positions, [first, second])) => OnEdge::Parts(Vec::new()),
+            true => OnEdge::OfContour(parts),
+        }
+    }
+
+    /// Whether a second face lies behind a first.
+    fn is_convex(&self, positions: &[DVec3], of: [u32; 2]) -> bool {
+        let [[a, b, c], other] = of.map(|face| self.corners(positions, face));
+        (b - a).cross(c - a).dot((other[0] + other[1] + other[2]) / 3.0 - a) < 0.0
+    }
+
+    /// Whether a face's shell encloses something, and what bends so at the face bends towards its inside.
+    fn encloses(&self, face: u32, bends_away: bool) -> bool {
+        !self.sees_inside
+            && match self.surface.shells[face as usize] {
+                Shell::Open => false,
+                Shell::Outward => !bends_away,
+                Shell::Inward => bends_away,
+            }
+    }
+
+    /// A face's normals at two of its positions.
+    fn at_ends(&self, face: u32, ends: [u32; 2]) -> [u32; 2] {
+        let triangle = self.mesh.triangles[face as usize];
+        ends.map(|end| {
+            let corner = triangle.iter().position(|position| *position == end).unwrap_or(0);
+            self.surface.corner_normals[face as usize][corner]
+        })
+    }
+
+    /// Whether a face's smooth normals at two of its positions are its own.
+    fn is_flat(&self, face: u32, ends: [u32; 2]) -> bool {
+        let corners = self.mesh.triangles[face as usize].map(|position| self.mesh.positions[position as usize]);
+        let Some(own) = triangle_normal(corners) else { return true };
+        self.at_ends(face, ends).iter().all(|normal| self.surface.normals[*normal as usize].distance(own) <= FLAT)
+    }
+}

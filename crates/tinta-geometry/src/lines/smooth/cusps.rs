@@ -1,0 +1,119 @@
+//! On which side of the surface a smooth contour bends away, told by more than one face; and where that changes, at its cusps.
+//!
+//! In: the pieces of [`Contours`](crate::lines::smooth::contours::Contours), each with what its own face says. Out: the same, each with what the contour says in the mean within
+//! two edges of it, along it and either way; faces weigh in by their area. Between the middles of two pieces the mean is taken to be linear, so that a cusp has a
+//! place inside a piece, which is cut in two there. Linear n . v has slopes that are right only on average: where the contour runs along the
+//! view, single faces say now this, now that. What lasts for less than two edges is no cusp.
+
+use crate::edges::{CreaseAngle, Shell};
+use crate::lines::input::object_edges::ObjectEdges;
+use crate::lines::smooth::contours::{ContourPiece, Contours, Link, ObjectSurface, between};
+use crate::lines::visible::space::Space;
+use crate::scene::Scene;
+use glam::DVec3;
+
+/// How far a piece is looked around for what its contour does, edges.
+pub(in crate::lines) const REACH: f64 = 2.0;
+
+impl Contours {
+    /// Finds contours and their cusps; see [`Contours::new`].
+    pub(in crate::lines) fn with_cusps(
+        scene: &Scene,
+        space: &Space,
+        positions: &[DVec3],
+        is_cut_by_near: bool,
+        parts: &[ObjectEdges<'_>],
+        crease_angle: CreaseAngle,
+    ) -> Self {
+        let mut all = Self::new(scene, space, positions, is_cut_by_near, parts, crease_angle);
+        all.links = links(&all.parts, &all.pieces);
+        settle(&all.parts, &mut all.pieces, positions, &mut all.links);
+        all
+    }
+}
+
+/// The places where two pieces hang together: on edges that are not sharp.
+fn links(parts: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
+    let mut ends: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(pieces.len() * 2);
+    for (number, piece) in pieces.iter().enumerate() {
+        let is_sharp = &parts[piece.part as usize].surface.is_sharp;
+        let smooth = piece.edges.iter().enumerate().filter(|(_, edge)| !is_sharp[**edge as usize]);
+        ends.extend(smooth.map(|(end, edge)| (piece.part, *edge, number, end)));
+    }
+    ends.sort_unstable();
+    let links = ends.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).filter_map(|ends| match ends {
+        [a, b] => Some(Link { part: a.0, ends: [(a.2, a.3), (b.2, b.3)] }),
+        _ => None,
+    });
+    links.collect()
+}
+
+/// Lets each piece bend as its contour around it does, and cuts those in two within which that changes.
+fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[DVec3], links: &mut Vec<Link>) {
+    let mut neighbours = vec![[None; 2]; pieces.len()];
+    for Link { ends: [first, second], .. } in links.iter() {
+        neighbours[first.0][first.1] = Some(*second);
+        neighbours[second.0][second.1] = Some(*first);
+    }
+    let lengths: Vec<f64> = pieces.iter().map(|piece| piece.ends[0].distance(piece.ends[1])).collect();
+    // Of each piece the mean around it, and whether its whole contour is shorter than that.
+    let means: Vec<(f64, bool)> = (0..pieces.len())
+        .map(|number| {
+            let reach = REACH * parts[pieces[number].part as usize].longest_side(positions, pieces[number].face);
+            let (mut sum, mut length) = (pieces[number].bend * lengths[number], lengths[number]);
+            let mut is_short = true;
+            for end in 0..2 {
+                let mut left = reach;
+                let mut next = neighbours[number][end];
+                while let Some((other, came)) = next.filter(|(other, _)| left > 0.0 && *other != number) {
+                    sum += pieces[other].bend * lengths[other].min(left);
+                    length += lengths[other].min(left);
+                    left -= lengths[other];
+                    next = neighbours[other][came ^ 1];
+                }
+                is_short &= left > 0.0;
+            }
+            let own = if pieces[number].bends_away { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE };
+            (if sum == 0.0 { own } else { sum / length }, is_short)
+        })
+        .collect();
+    for (piece, (mean, is_short)) in pieces.iter_mut().zip(&means).filter(|(piece, _)| piece.on_edge.is_none()) {
+        let shell = parts[piece.part as usize].surface.shells[piece.face as usize];
+        piece.bends_away = match (is_short, shell) {
+            (false, _) | (_, Shell::Open) => *mean > 0.0,
+            (true, Shell::Outward) => true,
+            (true, Shell::Inward) => false,
+        };
+    }
+    let mut is_cut = vec![false; pieces.len()];
+    for index in 0..links.len() {
+        let Link { part, ends: [first, second] } = links[index];
+        if pieces[first.0].bends_away == pieces[second.0].bends_away || means[first.0].1 || means[second.0].1 {
+            continue;
+        }
+        // The mean is that in the pieces' middles, and linear between.
+        let halves = [first, second].map(|(piece, _)| lengths[piece] * 0.5);
+        let [before, after] = [first, second].map(|(piece, _)| means[piece].0);
+        let zero = before / (before - after) * (halves[0] + halves[1]) - halves[0];
+        // The piece in which it changes, and how far from the edge.
+        let (near, far, depth) = if zero < 0.0 { (second, first, -zero) } else { (first, second, zero) };
+        let share = depth / lengths[far.0];
+        if !(share > 0.0 && share < 1.0) || is_cut[far.0] {
+            continue;
+        }
+        is_cut[far.0] = true;
+        let new = pieces.len();
+        let piece = &mut pieces[far.0];
+        let at = if far.1 == 0 { share } else { 1.0 - share };
+        let middle = between(piece.ends[0], piece.ends[1], at);
+        let normal = between(piece.normals[0], piece.normals[1], at);
+        let mut cut = *piece;
+        // The part at the edge is the new one.
+        (cut.ends[far.1 ^ 1], cut.normals[far.1 ^ 1]) = (middle, normal);
+        (piece.ends[far.1], piece.normals[far.1]) = (middle, normal);
+        cut.bends_away = !piece.bends_away;
+        pieces.push(cut);
+        links[index].ends = [near, (new, far.1)];
+        links.push(Link { part, ends: [(new, far.1 ^ 1), far] });
+    }
+}

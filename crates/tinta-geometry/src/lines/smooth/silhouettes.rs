@@ -1,0 +1,238 @@
+//! Smooth silhouettes for those who draw with a depth buffer: where the surface that is meant turns away, and how near the eye a line
+//! there must be drawn to be seen.
+//!
+//! A contour runs through faces, some of which the eye sees from behind; the faces beside it then hide it, though the surface that is
+//! meant would not. A drawing that decides every line by itself asks its summit instead (`summits`). A depth buffer knows one depth
+//! a pixel, so here each end is moved towards the eye: the plane through the eye, the end and its normal cuts the mesh in a line, which is followed
+//! towards the eye until it comes before the end again, the last time within the length of an edge, and there the end is put. In the picture it stays
+//! where it is.
+
+use crate::edges::{CreaseAngle, SilhouetteRule};
+use crate::lines::input::object_edges::{Edges, ObjectEdges};
+use crate::lines::smooth::contour_visibility::MOST_FACES;
+use crate::lines::smooth::contours::{ContourPiece, Contours, ObjectSurface, OnEdge};
+use crate::lines::visible::space::Space;
+use crate::mesh::NONE;
+use crate::scene::Scene;
+use crate::threads::{filled, threads_for};
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// The smooth silhouette of one object.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SmoothSilhouette {
+    /// Whole edges, ascending: sharp ones between flat faces, one seen from the front and one not.
+    pub edges: Vec<u32>,
+    /// Parts of sharp edges beside curved faces, by edge: from where to where, as shares of the way from its lower position to its higher.
+    pub edge_parts: Vec<(u32, [f64; 2])>,
+    /// What runs through faces, in the mesh's own coordinates, moved towards the eye so that faces of their own object which are next
+    /// to it do not hide it. Pieces that meet share an end bit for bit.
+    pub pieces: Vec<[DVec3; 2]>,
+}
+
+impl SmoothSilhouette {
+    /// The parts of an edge that are silhouette, in order; none of one that is not or is as a whole.
+    pub fn parts_of(&self, edge: u32) -> impl Iterator<Item = [f64; 2]> {
+        let first = self.edge_parts.partition_point(|(other, _)| *other < edge);
+        self.edge_parts[first..].iter().take_while(move |(other, _)| *other == edge).map(|(_, part)| *part)
+    }
+}
+
+/// The smooth silhouette of each object of a scene, sharp at creases of this angle; what a closed shell hides of its own is left out.
+pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<SmoothSilhouette> {
+    let space = Space::of(scene);
+    let parts: Vec<ObjectEdges<'_>> =
+        scene.objects.iter().map(|object| ObjectEdges { object, edges: Edges::OfScene(scene.edges(object)) }).collect();
+    let mut positions = Vec::with_capacity(scene.objects.iter().map(|object| object.mesh.positions.len()).sum());
+    for object in &scene.objects {
+        let own = &object.mesh.positions;
+        let view = |index: usize| space.view(own[index] + object.offset);
+        positions.extend(filled(own.len(), threads_for(own.len()), DVec3::ZERO, view));
+    }
+    let is_before = |position: &DVec3| -position.z < space.near;
+    let is_cut_by_near = positions.iter().any(is_before) && !positions.iter().all(is_before);
+    let contours = Contours::with_cusps(scene, &space, &positions, is_cut_by_near, &parts, crease_angle);
+    let mut found = Vec::with_capacity(parts.len());
+    for (part, surface) in parts.iter().zip(&contours.parts) {
+        let edges = part.edges.get();
+        let mut silhouette = SmoothSilhouette::default();
+        silhouette.edges = edges.silhouette(scene.eye(part.object, SilhouetteRule::Exact), SilhouetteRule::Exact);
+        silhouette
+            .edges
+            .retain(|edge| matches!(surface.on_edge(&space, &positions, edges.list(), *edge), OnEdge::ByFaces));
+        silhouette.edge_parts = surface.edge_parts.clone();
+        found.push(silhouette);
+    }
+    // Pieces that meet are followed from the same face, so that they still do.
+    let mut moved: HashMap<(u32, [u64; 3]), DVec3> = HashMap::new();
+    let is_seen = |piece: &&ContourPiece| !contours.is_inside(piece);
+    for piece in contours.pieces.iter().filter(is_seen) {
+        let number = piece.part as usize;
+        let (part, surface) = (&parts[number], &contours.parts[number]);
+        let ends = [0, 1].map(|end| {
+            let key = (piece.part, piece.ends[end].to_array().map(f64::to_bits));
+            *moved.entry(key).or_insert_with(|| {
+                space.world(before_own_faces(&space, &positions, part, surface, piece, end)) - part.object.offset
+            })
+        });
+        found[number].pieces.push(ends);
+    }
+    found
+}
+
+/// The end of a piece, moved towards the eye to where the faces beside it do not hide it, in the eye's space.
+fn before_own_faces(
+    space: &Space,
+    positions: &[DVec3],
+    part: &ObjectEdges<'_>,
+    surface: &ObjectSurface,
+    piece: &ContourPiece,
+    end: usize,
+) -> DVec3 {
+    let (start, normal) = (piece.ends[end], piece.normals[end]);
+    if -start.z <= space.near {
+        return start;
+    }
+    let list = part.edges.get().list();
+    let to_eye = space.to_eye(start).normalize_or_zero();
+    let plane = to_eye.cross(normal);
+    // Across the line of sight, to the side where the surface goes beyond the end.
+    let across = plane.cross(to_eye).normalize_or_zero();
+    let outwards = if (across.dot(normal) > 0.0) == piece.bends_away { across } else { -across };
+    let reach = surface.longest_side(positions, piece.face);
+    let (mut face, mut came) = (piece.face, NONE);
+    let (mut height, mut nearer, mut moved) = (0.0, 0.0, 0.0);
+    for _ in 0..MOST_FACES {
+        let Some(exit) = surface.exit(positions, face, came, [start, plane], to_eye) else { break };
+        if -exit.point.z < space.near {
+            break;
+        }
+        let (height_before, nearer_before): (f64, f64) = (height, nearer);
+        height = outwards.dot(exit.point - start);
+        nearer = to_eye.dot(exit.point - start);
+        if height <= 0.0 && height_before > 0.0 {
+            moved = nearer_before + (nearer - nearer_before) * (height_before / (height_before - height));
+        }
+        let is_near = exit.point.distance(start) < reach;
+        let next = list.faces(exit.edge).iter().find(|other| **other != face);
+        let next = next.filter(|_| (is_near || height > 0.0) && !surface.surface.is_sharp[exit.edge as usize]);
+        let Some(next) = next else { break };
+        (face, came) = (*next, exit.edge);
+    }
+    start + to_eye * f64::clamp(moved, 0.0, -start.z - space.near)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::edges::Class;
+    use crate::lines::smooth::closed_forms::ClosedForm;
+    use crate::lines::smooth::contours::between;
+    use crate::lines::smooth_tests::{camera, cylinder, found, scene, smooth};
+    use crate::lines::visible::cast::first_hit;
+    use crate::lines::visible::faces::Faces;
+    use crate::mesh::{LoadOptions, load};
+    use glam::DVec2;
+
+    fn px(scene: &Scene, piece: [DVec3; 2]) -> [DVec2; 2] {
+        let space = Space::of(scene);
+        piece.map(|end| space.project(space.view(end + scene.objects[0].offset)).0)
+    }
+
+    #[test]
+    fn the_pieces_of_an_ellipsoid_are_one_ring_in_the_picture_where_the_exact_lines_are() {
+        for parallel in [false, true] {
+            let mesh = ClosedForm::ellipsoid(1.0, 0.6, 1.4).mesh(2_000, 0.2).unwrap();
+            let scene = scene(mesh, crate::camera::CameraSettings { parallel, ..camera(30.0, 15.0) });
+            let silhouette = &smooth_silhouettes(&scene, smooth().crease_angle)[0];
+            assert!(silhouette.edges.is_empty() && silhouette.edge_parts.is_empty());
+            assert!(silhouette.pieces.len() > 80, "{}", silhouette.pieces.len());
+            let mut ends: HashMap<[u64; 3], usize> = HashMap::new();
+            for end in silhouette.pieces.as_flattened() {
+                *ends.entry(end.to_array().map(f64::to_bits)).or_default() += 1;
+            }
+            assert_eq!(ends.values().filter(|count| **count != 2).count(), 0);
+            let lines = found(&scene, &smooth());
+            let drawn: Vec<[DVec2; 2]> = lines
+                .segments
+                .iter()
+                .filter(|segment| segment.class == Class::Silhouette && segment.is_visible)
+                .map(|segment| segment.ends_px)
+                .collect();
+            assert_eq!(drawn.len(), silhouette.pieces.len());
+            for piece in &silhouette.pieces {
+                let own = px(&scene, *piece);
+                let is_same = |other: &[DVec2; 2]| {
+                    let distance = |a: DVec2, b: DVec2| a.distance(b);
+                    distance(own[0], other[0]).max(distance(own[1], other[1])) < 1e-6
+                        || distance(own[0], other[1]).max(distance(own[1], other[0])) < 1e-6
+                };
+                assert!(drawn.iter().any(is_same), "{own:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_face_beside_a_contour_hides_it() {
+        for (form, jitter) in [
+            (ClosedForm::ellipsoid(1.0, 1.0, 1.0), 0.2),
+            (ClosedForm::Torus { ring: 1.0, tube: 0.4 }, 0.0),
+            (ClosedForm::Torus { ring: 1.0, tube: 0.4 }, 0.2),
+        ] {
+            let scene = scene(form.mesh(4_000, jitter).unwrap(), camera(30.0, 65.0));
+            let space = Space::of(&scene);
+            let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
+            let hidden = |end: &DVec3| {
+                let view = space.view(*end);
+                let hit = first_hit(&space, &faces, &[0], space.project(view).0);
+                hit.is_some_and(|hit| hit.depth < -view.z - 1e-5)
+            };
+            let silhouette = &smooth_silhouettes(&scene, smooth().crease_angle)[0];
+            let ends = silhouette.pieces.as_flattened();
+            let count = ends.iter().filter(|end| hidden(end)).count();
+            assert_eq!(count, 0, "{form:?} {jitter}: of {} ends", ends.len());
+            // On the surface itself many are.
+            let lines = found(&scene, &smooth());
+            let unmoved: Vec<DVec3> = lines
+                .segments
+                .iter()
+                .filter(|line| line.class == Class::Silhouette && line.is_visible)
+                .flat_map(|line| line.ends_world)
+                .collect();
+            let share = unmoved.iter().filter(|end| hidden(end)).count() as f64 / unmoved.len() as f64;
+            assert!(share > 0.15, "{form:?} {jitter}: {share} of {} ends", unmoved.len());
+        }
+    }
+
+    #[test]
+    fn of_flat_faces_whole_edges_are_silhouette_and_of_a_cylinder_half_its_rims() {
+        let options = LoadOptions::default();
+        let gear = load("../../models/gear.obj", &options).unwrap().mesh;
+        let gear = scene(gear, camera(30.0, 15.0));
+        let all_sharp = CreaseAngle::from_degrees(2.0).unwrap();
+        let silhouette = &smooth_silhouettes(&gear, all_sharp)[0];
+        let (edges, eye) = (gear.edges(&gear.objects[0]), gear.eye(&gear.objects[0], SilhouetteRule::Exact));
+        assert_eq!(silhouette.edges, edges.silhouette(eye, SilhouetteRule::Exact));
+        assert!(silhouette.edge_parts.is_empty() && silhouette.pieces.is_empty());
+        let view = crate::camera::CameraSettings { parallel: true, ..camera(11.0, 30.0) };
+        let rolled = scene(cylinder(48), view);
+        let silhouette = &smooth_silhouettes(&rolled, smooth().crease_angle)[0];
+        // Two straight contours along the side, and of each rim the half where the side shows its front and the end does not, or the
+        // other way round; where a contour ends, a part of an edge may belong to it. All of it is seen.
+        let edges = rolled.edges(&rolled.objects[0]).list();
+        let shares: f64 = silhouette.edge_parts.iter().map(|(_, [from, to])| to - from).sum();
+        assert!(shares > 46.0 && shares < 48.0 + 1e-9, "{shares}");
+        assert!(silhouette.edges.is_empty() && (4..=6).contains(&silhouette.pieces.len()));
+        let mesh = &rolled.objects[0].mesh;
+        let of_edges = silhouette.edge_parts.iter().map(|(edge, part)| {
+            let [low, high] = edges.positions()[*edge as usize].map(|position| mesh.positions[position as usize]);
+            part.map(|share| between(low, high, share))
+        });
+        let all = of_edges.chain(silhouette.pieces.iter().copied()).map(|piece| px(&rolled, piece));
+        let length: f64 = all.map(|[a, b]| a.distance(b)).sum();
+        let lines = found(&rolled, &smooth());
+        let exact = lines.segments.iter().filter(|line| line.class == Class::Silhouette && line.is_visible);
+        let exact: f64 = exact.map(|line| line.ends_px[0].distance(line.ends_px[1])).sum();
+        assert!((length - exact).abs() < 1e-6, "{length} {exact}");
+    }
+}

@@ -1,0 +1,23 @@
+//! Which parts of lines are seen: the faces in the eye's space, the trees over faces and lines, cuts and rays.
+
+pub(super) mod bundles;
+pub(super) mod cast;
+pub(super) mod crossings;
+pub(super) mod doubled;
+pub(super) mod face_image;
+pub(super) mod faces;
+pub(super) mod image;
+pub(super) mod intersections;
+pub(super) mod interval;
+pub(super) mod line_index;
+pub(super) mod nearest_faces;
+pub(super) mod occluder_probe;
+pub(super) mod occluders;
+pub(super) mod outline;
+pub(super) mod overlapping_lines;
+pub(super) mod planes;
+pub(super) mod pyramid;
+pub(super) mod ranges;
+pub(super) mod search;
+pub(super) mod space;
+pub(super) mod visibility;

@@ -1,0 +1,120 @@
+//! Where what is seen of a line may change: at crossings with nearer rims, where it passes through faces, and where lines on one
+//! another begin, end or change places.
+
+use crate::bvh::Exclusion;
+use crate::lines::visible::faces::Own;
+use crate::lines::visible::image::Image;
+use crate::lines::visible::line_index::LineIndex;
+use crate::lines::visible::overlapping_lines::OverlappingLines;
+use crate::tolerances::CONTACT;
+use glam::DVec3;
+
+impl LineIndex<'_> {
+    /// Adds the places along a part of a line where what is seen of it may change; whether there are too many to look at all.
+    pub(in crate::lines) fn add_cuts(
+        &self,
+        index: usize,
+        image: &Image,
+        overlapping: &OverlappingLines,
+        part: [f64; 2],
+        most: usize,
+        cuts: &mut Vec<f64>,
+    ) -> bool {
+        let feature = &self.features[index];
+        let touch_px = image.touch_px(self.space);
+        let keys = part.map(|place| image.key(place));
+        let farthest = keys[0].max(keys[1]);
+        let nearer = [f64::NEG_INFINITY, farthest + farthest.abs() * (2.0 * CONTACT)];
+        let start = cuts.len();
+        // Lines from one position cross nowhere else.
+        let excluded = Exclusion { planes: feature.planes, high_valence: feature.own.corners(self.faces) };
+        let are_too_many = self.rims.any_but(&image.part_box(part, touch_px, nearer), excluded, |other_index| {
+            if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
+                let touch_px = touch_px.max(other.touch_px(self.space));
+                let occludes = !feature.own.meets(self.features[other_index].own);
+                self.add_crossings(image, &other, touch_px, occludes, cuts);
+            }
+            cuts.len() - start > most
+        });
+        if are_too_many || (!self.finds_hidden && self.add_overlaps(index, image, overlapping, part, most, cuts)) {
+            return true;
+        }
+        let Own::Faces(own) = feature.own else { return false };
+        // Faces with the corner in which it begins it meets nowhere else.
+        self.any_but(&image.part_box(part, touch_px, keys), excluded, |face| {
+            if own.contains(&face) {
+                return false;
+            }
+            cuts.extend(self.piercing(feature.ends, face).map(|point| image.place_of(self.space.project(point).0)));
+            cuts.len() - start > most
+        })
+    }
+
+    /// Adds the places where an edge passes through faces.
+    pub(in crate::lines) fn add_piercings(&self, index: usize, image: &Image, places: &mut Vec<f64>) {
+        let Own::Edge([a, b]) = self.features[index].own else { return };
+        if let Some(points) = self.piercings.get(&[a.min(b), a.max(b)]) {
+            places.extend(points.iter().map(|point| image.place_of(self.space.project(*point).0)));
+        }
+    }
+
+    /// Adds where a line's image that lies on this one begins and ends and where both are equally near, and where a nearer one
+    /// at which a surface ends crosses or touches it.
+    pub(in crate::lines) fn add_crossings(
+        &self,
+        image: &Image,
+        other: &Image,
+        touch_px: f64,
+        occludes: bool,
+        cuts: &mut Vec<f64>,
+    ) {
+        let along = image.b - image.a;
+        let length = along.length();
+        let (c, d) = (along.perp_dot(other.a - image.a) / length, along.perp_dot(other.b - image.a) / length);
+        if (c > touch_px && d > touch_px) || (c < -touch_px && d < -touch_px) {
+            return;
+        }
+        if let Some(range) = image.overlap(other, touch_px) {
+            cuts.extend(range);
+            cuts.extend(image.same_key(other));
+        }
+        if !occludes || c == d {
+            return;
+        }
+        let on_other = (c / (c - d)).clamp(0.0, 1.0);
+        let place = image.place_of(other.at(on_other));
+        if place * length < -touch_px || (place - 1.0) * length > touch_px {
+            return;
+        }
+        let (key, other_key) = (image.key(place), other.key(on_other));
+        // What is clearly farther away hides nothing; where that is not clear, a cut too many does no harm.
+        if other_key <= key + key.abs() * CONTACT {
+            cuts.push(place);
+        }
+    }
+
+    /// Where a line passes through a face, if it does.
+    pub(in crate::lines) fn piercing(&self, [from, to]: [DVec3; 2], face: u32) -> Option<DVec3> {
+        let [a, b, c] = self.faces.corners(face);
+        let normal = (b - a).cross(c - a);
+        let (start, end) = (normal.dot(from - a), normal.dot(to - a));
+        if (start > 0.0) == (end > 0.0) {
+            return None;
+        }
+        let point = from + (to - from) * (start / (start - end));
+        // Inside, or near enough: one cut too many does no harm.
+        let scale = -1e-9 * normal.length_squared();
+        let is_left = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) >= scale;
+        (is_left(a, b) && is_left(b, c) && is_left(c, a)).then_some(point)
+    }
+}
+
+impl Own {
+    /// Whether two edges share an end, where both end anyway.
+    fn meets(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Edge([a, b]), Self::Edge(other)) => other.contains(&a) || other.contains(&b),
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Which hidden lines a drawing leaves out, because another line lies on them in the picture and is drawn in their place.
+//!
+//! In: pieces of lines. Out: the same pieces, hidden ones cut where such a line begins or ends, and marked. A visible line is drawn in
+//! place of every hidden one under it; of hidden ones the one of the first class, and of one class the first. Lines lie on one another
+//! up to [`JOINED_PX`], which a file of three decimals barely tells apart. Trees of both kinds find the candidates; a line that is
+//! covered as a whole asks no further.
+
+use crate::error::{Error, Result};
+use crate::lines::LineSegment;
+use crate::lines::progress::Progress;
+use crate::lines::visible::image::{Image, LineParts, LineTree};
+use crate::lines::visible::ranges::gaps;
+use crate::lines::visible::space::Space;
+use crate::threads::{cores, in_chunks};
+use crate::tolerances::JOINED_PX;
+
+/// Hidden lines that a thread looks at at once.
+const CHUNK: usize = 512;
+
+/// Pixels: the box of a longer part that is aslant holds much else. Shorter parts find long lines that nearly coincide once for each part.
+const LONGEST_PART: f64 = 128.0;
+
+/// Cuts and marks hidden pieces. Where a part of the lines is enough and the time is over, all stay as they are.
+///
+/// # Errors
+///
+/// [`Error::Cancelled`] and [`Error::OutOfTime`].
+pub(in crate::lines) fn marked(
+    segments: Vec<LineSegment>,
+    space: &Space,
+    progress: &Progress,
+) -> Result<Vec<LineSegment>> {
+    if segments.iter().all(|segment| segment.is_visible) {
+        return Ok(segments);
+    }
+    let images: Vec<Image> = segments.iter().map(|segment| image_of(space, segment)).collect();
+    let tree = |is_visible: bool| {
+        let mut parts = LineParts::default();
+        for (number, image) in
+            images.iter().enumerate().filter(|(number, _)| segments[*number].is_visible == is_visible)
+        {
+            for part in image.parts([0.0, 1.0], LONGEST_PART) {
+                for directions in image.directions(JOINED_PX) {
+                    parts.add(image.part_box(part, 0.0, directions), number);
+                }
+            }
+        }
+        parts.tree(progress)
+    };
+    let lines = DrawnLines { segments: &segments, images: &images, trees: [tree(true), tree(false)] };
+    let covered = in_chunks(segments.len(), CHUNK, cores(), |range| {
+        let covered = |number: usize| match segments[number].is_visible || progress.go_on_drawing().is_err() {
+            true => Vec::new(),
+            false => lines.covered(number),
+        };
+        range.map(covered).collect::<Vec<_>>()
+    });
+    match progress.go_on_drawing() {
+        Err(Error::OutOfTime { asked_for_part: true, .. }) => return Ok(segments),
+        ended => ended?,
+    }
+    let all = segments.iter().zip(&images).zip(covered.into_iter().flatten());
+    Ok(all.flat_map(|((segment, image), covered)| cut(space, segment, image, &covered)).collect())
+}
+
+/// A piece as it lies in the picture.
+fn image_of(space: &Space, segment: &LineSegment) -> Image {
+    let [a, b] = segment.ends_px;
+    let keys = segment.ends_world.map(|end| space.project(space.view(end)).1);
+    Image { a, b, keys, noise_px: 0.0 }
+}
+
+/// Pieces with the trees of visible and of hidden ones.
+struct DrawnLines<'a> {
+    segments: &'a [LineSegment],
+    images: &'a [Image],
+    trees: [LineTree; 2],
+}
+
+impl DrawnLines<'_> {
+    /// From where to where lines lie on a hidden one that are drawn in its place, ascending.
+    fn covered(&self, number: usize) -> Vec<[f64; 2]> {
+        let image = &self.images[number];
+        let tolerance = JOINED_PX / image.length();
+        let mut covered: Vec<[f64; 2]> = Vec::new();
+        for tree in &self.trees {
+            for part in image.parts([0.0, 1.0], LONGEST_PART) {
+                let mut found = |other: usize| {
+                    let lies_on_it = || image.overlap(&self.images[other], JOINED_PX);
+                    if let Some(range) = self.comes_before(other, number).then(lies_on_it).flatten() {
+                        covered = joined(std::mem::take(&mut covered), range, tolerance);
+                    }
+                    covered == [[0.0, 1.0]]
+                };
+                let mut directions = image.directions(JOINED_PX);
+                if directions.any(|directions| tree.any(&image.part_box(part, JOINED_PX, directions), &mut found)) {
+                    return covered;
+                }
+            }
+        }
+        covered
+    }
+
+    /// Whether a line is drawn in place of a hidden one on which it lies.
+    fn comes_before(&self, other: usize, hidden: usize) -> bool {
+        let rank = |number: usize| (!self.segments[number].is_visible, self.segments[number].class, number);
+        let [other, hidden] = [other, hidden].map(rank);
+        !other.0 || other < hidden
+    }
+}
+
+/// Ascending ranges and one more, as one where they are no farther apart than so much, and up to the line's ends where these are near.
+fn joined(ranges: Vec<[f64; 2]>, [from, to]: [f64; 2], tolerance: f64) -> Vec<[f64; 2]> {
+    let from = if from <= tolerance { 0.0 } else { from };
+    let to = if to >= 1.0 - tolerance { 1.0 } else { to };
+    let mut joined: Vec<[f64; 2]> = Vec::with_capacity(ranges.len() + 1);
+    let mut new = [from, to];
+    for range in ranges {
+        if range[0] <= new[1] + tolerance && new[0] <= range[1] + tolerance {
+            new = [new[0].min(range[0]), new[1].max(range[1])];
+        } else {
+            joined.push(range);
+        }
+    }
+    let place = joined.partition_point(|range| range[0] < new[0]);
+    joined.insert(place, new);
+    joined
+}
+
+/// A piece in parts that are covered as a whole or not at all, along it.
+fn cut(space: &Space, segment: &LineSegment, image: &Image, covered: &[[f64; 2]]) -> Vec<LineSegment> {
+    let part = |range: [f64; 2], is_covered: bool| {
+        let (px, world) = (range.map(|place| image.at(place)), image.ends_world(space, range));
+        // A piece's own ends stay bit for bit.
+        let is_own = [range[0] == 0.0, range[1] == 1.0];
+        let end = |end: usize| if is_own[end] { segment.ends_world[end] } else { world[end] };
+        (range[0], LineSegment { is_covered, ends_px: px, ends_world: [end(0), end(1)], ..segment.clone() })
+    };
+    let covered_parts = covered.iter().map(|range| part(*range, true));
+    let mut parts: Vec<_> =
+        covered_parts.chain(gaps([0.0, 1.0], covered).into_iter().map(|gap| part(gap, false))).collect();
+    parts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    parts.into_iter().map(|(_, segment)| segment).collect()
+}

@@ -1,0 +1,59 @@
+//! Faces as they lie in the picture: how far inside of each side a pixel is, by one product each.
+
+use crate::lines::visible::faces::Faces;
+use crate::lines::visible::space::Space;
+use crate::threads::{cores, in_chunks};
+use glam::DVec2;
+
+/// A face's image.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::lines) struct FaceImage {
+    /// Of each side the unit vector inwards, and where that is 0: side `k` goes from corner `k` to the next.
+    inwards: [DVec2; 3],
+    starts_px: [f64; 3],
+    /// The sides' lengths. One without length has no direction.
+    pub lengths_px: [f64; 3],
+    /// By how much rounding may be off.
+    pub rounding_px: f64,
+}
+
+/// Most faces whose images are kept.
+const MOST: usize = 200_000;
+
+/// Faces a thread looks at at once.
+const MADE_AT_ONCE: usize = 4096;
+
+impl FaceImage {
+    pub(in crate::lines) fn of(space: &Space, faces: &Faces, place: u32) -> Self {
+        let points = faces.corners(place).map(|corner| space.project(corner).0);
+        let area = (points[1] - points[0]).perp_dot(points[2] - points[0]);
+        let reach = points.iter().map(|px| px.abs().max_element()).fold(space.size.max_element(), f64::max);
+        let sides = [0, 1, 2].map(|side| points[(side + 1) % 3] - points[side]);
+        let lengths_px = sides.map(DVec2::length);
+        let inwards = [0, 1, 2].map(|side| sides[side].perp() * (area.signum() / lengths_px[side]));
+        let starts_px = [0, 1, 2].map(|side| inwards[side].dot(points[side]));
+        Self { inwards, starts_px, lengths_px, rounding_px: reach * 1e-12 }
+    }
+
+    /// Of all faces by their places, or of none where these are too many to keep. Those that reach through the near plane have
+    /// no image that means anything.
+    pub(in crate::lines) fn of_all(space: &Space, faces: &Faces) -> Vec<Self> {
+        if faces.triangles.len() > MOST {
+            return Vec::new();
+        }
+        let of = |range: std::ops::Range<usize>| {
+            range.map(|place| Self::of(space, faces, place as u32)).collect::<Vec<Self>>()
+        };
+        in_chunks(faces.triangles.len(), MADE_AT_ONCE, cores(), of).concat()
+    }
+
+    /// Of each side the unit vector inwards, and what its product with a pixel on the side is.
+    pub(in crate::lines) fn sides(&self) -> impl Iterator<Item = (DVec2, f64)> {
+        self.inwards.into_iter().zip(self.starts_px)
+    }
+
+    /// How far inside of a side a pixel is.
+    pub(in crate::lines) fn inside(&self, side: usize, px: DVec2) -> f64 {
+        self.inwards[side].dot(px) - self.starts_px[side]
+    }
+}

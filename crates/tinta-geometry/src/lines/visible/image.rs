@@ -1,0 +1,241 @@
+//! Lines as they lie in the picture, and trees of them.
+
+use crate::bvh::{Box3, BoxTree, Exclusion, NO_GROUP};
+use crate::lines::progress::Progress;
+use crate::lines::visible::space::Space;
+use crate::tolerances::TOUCH;
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+/// A line's image: straight, its key linear along it.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::lines) struct Image {
+    pub a: DVec2,
+    pub b: DVec2,
+    pub keys: [f64; 2],
+    /// How far it may be off by the rounding of the world's own numbers, pixels.
+    pub noise_px: f64,
+}
+
+impl Image {
+    /// The image of what of a line is between the planes.
+    pub(in crate::lines) fn of(space: &Space, ends: [DVec3; 2]) -> Option<Self> {
+        let depths = ends.map(|end| -end.z);
+        let mut range = [0.0f64, 1.0f64];
+        for (start, end) in
+            [(depths[0] - space.near, depths[1] - space.near), (space.far - depths[0], space.far - depths[1])]
+        {
+            if start < 0.0 && end < 0.0 {
+                return None;
+            }
+            if start < 0.0 {
+                range[0] = range[0].max(start / (start - end));
+            } else if end < 0.0 {
+                range[1] = range[1].min(start / (start - end));
+            }
+        }
+        if range[0] >= range[1] {
+            return None;
+        }
+        // The ends themselves as they are, so that lines that meet there meet in the picture.
+        let point = |share: f64| match share {
+            0.0 => ends[0],
+            1.0 => ends[1],
+            _ => ends[0] + (ends[1] - ends[0]) * share,
+        };
+        let ((a, first), (b, second)) = (space.project(point(range[0])), space.project(point(range[1])));
+        let nearest = range.map(|share| -point(share).z).into_iter().fold(f64::INFINITY, f64::min);
+        Some(Self { a, b, keys: [first, second], noise_px: space.noise * space.px_per_unit(nearest) })
+    }
+
+    pub(in crate::lines) fn length(&self) -> f64 {
+        self.a.distance(self.b)
+    }
+
+    /// The distance below which a place lies on the line, pixels.
+    pub(in crate::lines) fn touch_px(&self, space: &Space) -> f64 {
+        TOUCH * space.size.max_element() + self.noise_px
+    }
+
+    /// From where to where on this line another lies on it, if it does: everywhere between it is nearer than `touch_px`.
+    pub(in crate::lines) fn overlap(&self, other: &Self, touch_px: f64) -> Option<[f64; 2]> {
+        let (first, last) = (self.place_of(other.a), self.place_of(other.b));
+        let range = [first.min(last).max(0.0), first.max(last).min(1.0)];
+        let length = (range[1] - range[0]) * self.length();
+        // Also of lines that only meet at their ends.
+        if length <= touch_px || length.is_nan() {
+            return None;
+        }
+        let is_on_it = |place: f64| {
+            let px = self.at(place);
+            other.at(other.place_of(px).clamp(0.0, 1.0)).distance(px) <= touch_px
+        };
+        (is_on_it(range[0]) && is_on_it(range[1])).then_some(range)
+    }
+
+    /// Where both have the same key on this line, if there is one such place: where two lines that lie on one another in the
+    /// picture change places in depth.
+    pub(in crate::lines) fn same_key(&self, other: &Self) -> Option<f64> {
+        let difference = |place: f64| self.key(place) - other.key(other.place_of(self.at(place)));
+        let (start, end) = (difference(0.0), difference(1.0));
+        ((start < 0.0) != (end < 0.0)).then(|| start / (start - end))
+    }
+
+    /// The directions that a line may have which touches this one at two places, from where to where, as the third coordinate of
+    /// boxes; and the same once more half a turn away where they reach over an end. Of two lines one has what the other has then.
+    pub(in crate::lines) fn directions(&self, touch_px: f64) -> impl Iterator<Item = [f64; 2]> + use<> {
+        /// Far more than rounding turns a line by.
+        const LEAST: f64 = 1e-6;
+        /// Pixels that a radian counts: lines apart by their directions are then apart in the hierarchy, too.
+        const PX: f64 = 1024.0;
+        let along = self.b - self.a;
+        let direction = along.y.atan2(along.x).rem_euclid(PI);
+        let spread = (2.0 * touch_px / along.length() + LEAST).min(PI);
+        let turned = if direction < PI * 0.5 { direction + PI } else { direction - PI };
+        let reaches_over = direction < spread || direction + spread > PI;
+        let all = [Some(direction), reaches_over.then_some(turned)];
+        all.into_iter().flatten().map(move |direction| [(direction - spread) * PX, (direction + spread) * PX])
+    }
+
+    /// The pixel at a place from 0 to 1.
+    pub(in crate::lines) fn at(&self, place: f64) -> DVec2 {
+        match place {
+            0.0 => self.a,
+            1.0 => self.b,
+            _ => self.a + (self.b - self.a) * place,
+        }
+    }
+
+    /// What lies at two places, in the world.
+    pub(in crate::lines) fn ends_world(&self, space: &Space, places: [f64; 2]) -> [DVec3; 2] {
+        places.map(|place| space.world(space.point(self.at(place), self.key(place))))
+    }
+
+    pub(in crate::lines) fn key(&self, place: f64) -> f64 {
+        self.keys[0] + (self.keys[1] - self.keys[0]) * place
+    }
+
+    /// The place nearest to a pixel.
+    pub(in crate::lines) fn place_of(&self, px: DVec2) -> f64 {
+        let along = self.b - self.a;
+        let square = along.length_squared();
+        if square > 0.0 { (px - self.a).dot(along) / square } else { 0.0 }
+    }
+
+    /// From where to where a line is inside the picture with a margin around it (Liang and Barsky 1984).
+    pub(in crate::lines) fn inside(&self, size: DVec2, margin: f64) -> Option<[f64; 2]> {
+        let along = self.b - self.a;
+        let mut range = [0.0f64, 1.0f64];
+        for (start, step, limit) in [(self.a.x, along.x, size.x), (self.a.y, along.y, size.y)] {
+            let (low, high) = (-margin - start, limit + margin - start);
+            if step == 0.0 {
+                if low > 0.0 || high < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let (enter, leave) = if step > 0.0 { (low / step, high / step) } else { (high / step, low / step) };
+            range = [range[0].max(enter), range[1].min(leave)];
+        }
+        (range[0] <= range[1]).then_some(range)
+    }
+
+    /// A range of places in parts no longer than so many pixels.
+    pub(in crate::lines) fn parts(
+        &self,
+        [from, to]: [f64; 2],
+        longest_px: f64,
+    ) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let count = ((to - from) * self.length() / longest_px).ceil().max(1.0);
+        (0..count as usize).map(move |part| {
+            let place = |part: usize| from + (to - from) * (part as f64 / count);
+            [place(part), place(part + 1)]
+        })
+    }
+
+    /// The box around a part, wider by a margin in pixels, between two keys.
+    pub(in crate::lines) fn part_box(&self, part: [f64; 2], margin: f64, keys: [f64; 2]) -> Box3 {
+        let [first, second] = part.map(|place| self.at(place));
+        let (low, high) = (first.min(second) - margin, first.max(second) + margin);
+        Box3::new(low.extend(keys[0].min(keys[1])), high.extend(keys[0].max(keys[1])))
+    }
+}
+
+/// Parts of lines with their boxes, and each one's line.
+#[derive(Default)]
+pub(in crate::lines) struct LineParts {
+    boxes: Vec<Box3>,
+    numbers: Vec<u32>,
+    planes: Vec<u32>,
+    high_valence: Vec<u32>,
+}
+
+/// The same, to be asked what overlaps.
+pub(in crate::lines) struct LineTree {
+    tree: BoxTree,
+    numbers: Vec<u32>,
+}
+
+impl LineParts {
+    /// How many there are.
+    pub(in crate::lines) fn len(&self) -> usize {
+        self.boxes.len()
+    }
+
+    /// Adds those of another.
+    pub(in crate::lines) fn append(&mut self, other: Self) {
+        self.boxes.extend(other.boxes);
+        self.numbers.extend(other.numbers);
+        self.planes.extend(other.planes);
+        self.high_valence.extend(other.high_valence);
+    }
+
+    /// Adds a part of a line.
+    pub(in crate::lines) fn add(&mut self, around: Box3, line: usize) {
+        self.boxes.push(around);
+        self.numbers.push(line as u32);
+    }
+
+    /// Adds a part of a line that ends in a high-valence vertex, all of whose faces lie in a plane.
+    pub(in crate::lines) fn add_of_groups(&mut self, around: Box3, line: usize, plane: u32, vertex: u32) {
+        self.add(around, line);
+        self.planes.push(plane);
+        self.high_valence.push(vertex);
+    }
+
+    /// Their tree; one of nothing where the work is over before.
+    pub(in crate::lines) fn tree(self, progress: &Progress) -> LineTree {
+        let (mut tree, order) = BoxTree::new_unless(&self.boxes, || progress.is_over());
+        if order.len() < self.boxes.len() {
+            return LineTree { tree, numbers: Vec::new() };
+        }
+        let in_order = |groups: &[u32]| {
+            let has_some = groups.iter().any(|group| *group != NO_GROUP);
+            has_some.then(|| order.iter().map(|index| groups[*index as usize]).collect::<Vec<u32>>())
+        };
+        if let Some(planes) = in_order(&self.planes) {
+            tree.set_planes(&planes);
+        }
+        if let Some(high_valence) = in_order(&self.high_valence) {
+            tree.set_high_valence(&high_valence);
+        }
+        LineTree { tree, numbers: order.iter().map(|index| self.numbers[*index as usize]).collect() }
+    }
+}
+
+impl LineTree {
+    /// Calls `visit` with each line a part of which overlaps, perhaps several times, until it returns true.
+    pub(in crate::lines) fn any(&self, query: &Box3, mut visit: impl FnMut(usize) -> bool) -> bool {
+        self.tree.any(query, |place| visit(self.numbers[place as usize] as usize))
+    }
+
+    /// The same without lines of some groups, as far as whole leaves of them are.
+    pub(in crate::lines) fn any_but(
+        &self,
+        query: &Box3,
+        excluded: Exclusion,
+        mut visit: impl FnMut(usize) -> bool,
+    ) -> bool {
+        self.tree.any_but(query, excluded, |place| visit(self.numbers[place as usize] as usize))
+    }
+}

@@ -1,0 +1,208 @@
+//! All lines with their images, and the trees in which whatever hides or crosses one is found.
+
+use crate::bvh::{Box3, Exclusion, NO_GROUP};
+use crate::error::Result;
+use crate::lines::input::feature::Feature;
+use crate::lines::progress::Progress;
+use crate::lines::settings::LineSettings;
+use crate::lines::visible::bundles::Bundles;
+use crate::lines::visible::faces::{Faces, Own, Probe};
+use crate::lines::visible::image::{Image, LineParts, LineTree};
+use crate::lines::visible::intersections::Piercing;
+use crate::lines::visible::nearest_faces::NearestFaces;
+use crate::lines::visible::occluders::Occluders;
+use crate::lines::visible::pyramid::Pyramid;
+use crate::lines::visible::space::Space;
+use crate::memory;
+use crate::threads::{cores, in_chunks};
+use crate::tolerances::{SHORTEST_LINE, TOUCH};
+use glam::DVec3;
+use std::cell::LazyCell;
+use std::collections::HashMap;
+
+/// All lines with their images, ready to be decided one by one.
+pub(in crate::lines) struct LineIndex<'a> {
+    pub(in crate::lines) space: &'a Space,
+    pub(in crate::lines) faces: &'a Faces,
+    pub(in crate::lines) features: &'a [Feature],
+    /// Of what of each line is between the near and the far plane.
+    pub(in crate::lines) images: Vec<Option<Image>>,
+    /// Where edges pass through faces.
+    pub(in crate::lines) piercings: HashMap<[u32; 2], Vec<DVec3>>,
+    /// Where surfaces end: what any line may be crossed by.
+    pub(in crate::lines) rims: LineTree,
+    /// What single faces hide; `None` where none is large enough.
+    pub(in crate::lines) pyramid: Option<&'a Pyramid>,
+    /// What hides others; `None` where the faces as they are do.
+    occluders: Option<Occluders>,
+    /// Which faces are nearest; `None` where little lies in front of one another.
+    pub(in crate::lines) nearest_faces: Option<&'a NearestFaces>,
+    /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
+    pub(in crate::lines) overlapping: LineTree,
+    /// Many lines that lie on one another.
+    pub(in crate::lines) bundles: Bundles,
+    pub(in crate::lines) shortest_px: f64,
+    pub(in crate::lines) finds_outline: bool,
+    pub(in crate::lines) finds_hidden: bool,
+}
+
+/// Parts of the picture's larger side in which long lines are asked for what crosses them, so that a diagonal one does not
+/// ask for everything in its box.
+pub(in crate::lines) const PARTS_OF_PICTURE: f64 = 16.0;
+
+/// What a part of a line takes while its tree is built, at the most, bytes: box, nodes, numbers, and what building them needs.
+const BYTES_A_PART: usize = 320;
+
+/// Lines whose parts a thread finds at once.
+const MADE_AT_ONCE: usize = 4096;
+
+/// Parts' lines between two looks at the time.
+const LINES_A_GLANCE: usize = 64;
+
+impl<'a> LineIndex<'a> {
+    pub(in crate::lines) fn new(
+        space: &'a Space,
+        faces: &'a Faces,
+        features: &'a [Feature],
+        piercings: &[Piercing],
+        (pyramid, nearest_faces): (Option<&'a Pyramid>, Option<&'a NearestFaces>),
+        settings: &LineSettings,
+        progress: &Progress,
+    ) -> Result<Self> {
+        let &LineSettings { finds_outline, finds_hidden, .. } = settings;
+        let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
+        let side = space.size.max_element();
+        let high_valence = high_valence(features);
+        let occluders = Occluders::new(space, faces, pyramid, nearest_faces.is_some());
+        // Where much lies behind one another a box is asked for by many.
+        let rim_px = side / PARTS_OF_PICTURE / if nearest_faces.is_some() { 4.0 } else { 1.0 };
+        let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
+            let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
+            for index in range {
+                if index % LINES_A_GLANCE == 0 && progress.is_over() {
+                    break;
+                }
+                let (feature, image) = (&features[index], images[index]);
+                let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
+                    continue;
+                };
+                let margin = image.noise_px;
+                let ends = |part: [f64; 2]| part.map(|place| (image.at(place), image.key(place)));
+                for part in image.parts(range, side / PARTS_OF_PICTURE) {
+                    let is_hidden = LazyCell::new(|| pyramid.is_some_and(|pyramid| pyramid.hides_line(ends(part))));
+                    // What is hidden for sure changes nothing where anything is seen; but for the outline at any depth.
+                    let is_rim = feature.occludes && (finds_outline || !*is_hidden);
+                    let is_beside = feature.class.is_some() && (finds_hidden || !*is_hidden);
+                    for part in image.parts(part, rim_px).filter(|_| is_rim) {
+                        let around = image.part_box(part, margin, part.map(|place| image.key(place)));
+                        rims.add_of_groups(around, index, feature.plane, vertex_of(&high_valence, feature.own));
+                    }
+                    if is_beside {
+                        for directions in image.directions(image.touch_px(space)) {
+                            overlapping.add(image.part_box(part, margin, directions), index);
+                        }
+                    }
+                }
+            }
+            (rims, overlapping)
+        });
+        let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
+        for (some_rims, some_overlapping) in parts {
+            rims.append(some_rims);
+            overlapping.append(some_overlapping);
+        }
+        progress.go_on()?;
+        memory::check_lines((rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
+        let is_wanted = |index: usize| features[index].class.is_some();
+        let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * TOUCH * side);
+        let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
+        for piercing in piercings {
+            pierced.entry(piercing.edge).or_default().push(piercing.point);
+        }
+        Ok(Self {
+            space,
+            faces,
+            features,
+            images,
+            piercings: pierced,
+            rims: rims.tree(progress),
+            pyramid,
+            occluders,
+            nearest_faces,
+            overlapping: overlapping.tree(progress),
+            bundles,
+            shortest_px: SHORTEST_LINE * side,
+            finds_outline,
+            finds_hidden,
+        })
+    }
+
+    /// Where a part of a line begins, is cut and ends. A piece shorter than the shortest line belongs to its neighbour.
+    pub(in crate::lines) fn places(&self, image: &Image, [from, to]: [f64; 2], mut cuts: Vec<f64>) -> Vec<f64> {
+        cuts.sort_unstable_by(f64::total_cmp);
+        let shortest = self.shortest_px / image.length();
+        let mut places = vec![from];
+        places.extend(cuts.into_iter().filter(|cut| *cut > from + shortest && *cut < to - shortest));
+        places.dedup_by(|next, kept| *next - *kept <= shortest);
+        places.push(to);
+        places
+    }
+
+    /// Calls `visit` with each face that may hide something and whose box overlaps, perhaps several times, until it returns true;
+    /// without those in these planes, as far as whole groups are.
+    pub(in crate::lines) fn any_occluder(
+        &self,
+        query: &Box3,
+        planes: [u32; 2],
+        visit: impl FnMut(u32) -> bool,
+    ) -> bool {
+        self.any_but(query, Exclusion::planes(planes), visit)
+    }
+
+    pub(in crate::lines) fn any_but(&self, query: &Box3, excluded: Exclusion, visit: impl FnMut(u32) -> bool) -> bool {
+        match &self.occluders {
+            Some(occluders) => occluders.any_but(query, excluded, visit),
+            None => self.faces.tree.any_but(query, excluded, visit),
+        }
+    }
+
+    /// A place of a line as the faces are asked about it.
+    pub(in crate::lines) fn probe(&self, index: usize, image: &Image, place: f64) -> Probe {
+        let (px, key) = (image.at(place), image.key(place));
+        let feature = &self.features[index];
+        let along = (image.b - image.a).normalize();
+        Probe {
+            view: self.space.point(px, key),
+            px,
+            key,
+            // Down in the picture is up in the eye's space.
+            aside: DVec3::new(along.y, along.x, 0.0),
+            line_length: feature.ends[0].distance(feature.ends[1]),
+            weld: feature.weld,
+            own: feature.own,
+            own_ends: feature.own.corners(self.faces),
+        }
+    }
+}
+
+/// Rims that end in one position from which on they are told apart from others: below, comparing all costs less.
+const HIGH_VALENCE: u32 = 64;
+
+/// How many rims end in each position, as far as these are more than [`HIGH_VALENCE`].
+fn high_valence(features: &[Feature]) -> HashMap<u32, u32> {
+    let mut counts: HashMap<u32, u32> = HashMap::new();
+    for feature in features.iter().filter(|feature| feature.occludes) {
+        if let Own::Edge(ends) = feature.own {
+            ends.into_iter().for_each(|end| *counts.entry(end).or_default() += 1);
+        }
+    }
+    counts.retain(|_, count| *count > HIGH_VALENCE);
+    counts
+}
+
+/// The high-valence vertex in which an edge ends, if it does in one; of two that with more rims.
+fn vertex_of(high_valence: &HashMap<u32, u32>, own: Own) -> u32 {
+    let Own::Edge(ends) = own else { return NO_GROUP };
+    let known = ends.into_iter().filter_map(|end| Some((*high_valence.get(&end)?, end)));
+    known.max().map_or(NO_GROUP, |(_, end)| end)
+}

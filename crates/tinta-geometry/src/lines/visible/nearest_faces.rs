@@ -1,0 +1,259 @@
+//! Which face is the nearest at samples of the picture, for scenes in which much lies in front of one another.
+//!
+//! Of all that hides a place the nearest face is the likeliest to hide what is around it, too, and a depth buffer of numbers finds it
+//! at once, where a hierarchy of boxes gives one after the other. It decides nothing: whether the face hides something is asked by the
+//! rule that is sure.
+
+use crate::bvh::NO_GROUP;
+use crate::lines::progress::Progress;
+use crate::lines::visible::face_image::FaceImage;
+use crate::lines::visible::faces::Faces;
+use crate::lines::visible::image::Image;
+use crate::lines::visible::occluder_probe::{OccluderProbe, ProbedLine, SearchDepth};
+use crate::lines::visible::pyramid::layers;
+use crate::lines::visible::ranges::{gaps, united};
+use crate::lines::visible::space::Space;
+use crate::threads::{cores, in_chunks};
+use glam::DVec2;
+use std::borrow::Cow;
+
+/// How often the boxes of all faces cover the picture from which on the nearest is known at samples.
+const LAYERS: f64 = 24.0;
+
+/// Samples along the picture's larger side.
+const SAMPLES: f64 = 512.0;
+
+/// Rows of samples that a thread fills at once.
+const ROWS_AT_ONCE: usize = 32;
+
+/// Faces between two looks at the time.
+const FACES_A_GLANCE: u32 = 1024;
+
+/// The nearest faces, and the images of all.
+pub(in crate::lines) struct NearestFaces {
+    /// By their places; of none where these are too many to keep.
+    images: Vec<FaceImage>,
+    sample_px: f64,
+    columns: usize,
+    /// Row by row; [`NO_GROUP`] where there is none.
+    nearest: Vec<u32>,
+}
+
+impl NearestFaces {
+    /// Faces that are asked about one part of a line, and about a line that is left out as a whole or not at all.
+    pub(in crate::lines) const ASKED: usize = 16;
+    const ASKED_OF_WHOLE: usize = 4;
+
+    /// `None` where little lies in front of one another; of some faces where the time is over before.
+    pub(in crate::lines) fn new(space: &Space, faces: &Faces, progress: &Progress) -> Option<Self> {
+        if layers(space, faces.tree.boxes().iter()) < LAYERS {
+            return None;
+        }
+        let images = FaceImage::of_all(space, faces);
+        let sample_px = space.size.max_element() / SAMPLES;
+        let [columns, rows] = (space.size / sample_px).ceil().to_array().map(|count| count as usize);
+        let nearest_faces = Self { images, sample_px, columns, nearest: Vec::new() };
+        let bands = in_chunks(rows, ROWS_AT_ONCE, cores(), |rows| nearest_faces.band(space, faces, rows, progress));
+        Some(Self { nearest: bands.concat(), ..nearest_faces })
+    }
+
+    /// Some rows of samples.
+    fn band(&self, space: &Space, faces: &Faces, rows: std::ops::Range<usize>, progress: &Progress) -> Vec<u32> {
+        let mut nearest = vec![(f64::INFINITY, NO_GROUP); rows.len() * self.columns];
+        let [top_px, bottom_px] = [rows.start, rows.end].map(|row| row as f64 * self.sample_px);
+        let is_cut = |face: u32| !faces.cut_by_near.is_empty() && faces.cut_by_near.binary_search(&face).is_ok();
+        for (face, around) in (0..).zip(faces.tree.boxes()) {
+            if face % FACES_A_GLANCE == 0 && progress.is_over() {
+                break;
+            }
+            let [low, high] = around.corners();
+            if high.y < top_px || low.y > bottom_px || is_cut(face) {
+                continue;
+            }
+            let image = self.image(space, faces, face);
+            let (key, growth) = faces.key_plane(space, face);
+            // The samples whose middles lie between two places.
+            let sample = |px: f64| (px / self.sample_px - 0.5).ceil().max(0.0) as usize;
+            for row in sample(low.y).max(rows.start)..sample(high.y).min(rows.end) {
+                let y = (row as f64 + 0.5) * self.sample_px;
+                let Some([left, right]) = image.inside_at(y) else { continue };
+                let row_key = key + growth.y * y;
+                let cells = &mut nearest[(row - rows.start) * self.columns..][..self.columns];
+                let range = sample(left)..sample(right).min(self.columns);
+                for (column, cell) in range.clone().zip(cells.get_mut(range).into_iter().flatten()) {
+                    let key = row_key + growth.x * ((column as f64 + 0.5) * self.sample_px);
+                    if key < cell.0 {
+                        *cell = (key, face);
+                    }
+                }
+            }
+        }
+        nearest.into_iter().map(|(_, face)| face).collect()
+    }
+
+    /// A face's image.
+    pub(in crate::lines) fn image(&self, space: &Space, faces: &Faces, face: u32) -> Cow<'_, FaceImage> {
+        match self.images.get(face as usize) {
+            Some(image) => Cow::Borrowed(image),
+            None => Cow::Owned(FaceImage::of(space, faces, face)),
+        }
+    }
+
+    /// The nearest face at a pixel, about.
+    fn at(&self, px: DVec2) -> Option<u32> {
+        let [column, row] = (px / self.sample_px).max(DVec2::ZERO).to_array().map(|at| at as usize);
+        let face = *self.nearest.get(row * self.columns + column.min(self.columns - 1))?;
+        (face != NO_GROUP).then_some(face)
+    }
+
+    /// What of a part of a line the nearest faces hide for sure, ascending: asked in the middle of the longest gap that is left, as long as
+    /// that finds something. `stretch` makes of a part what faces are asked about.
+    pub(in crate::lines) fn hidden(
+        &self,
+        space: &Space,
+        faces: &Faces,
+        part: [f64; 2],
+        probe: impl Fn([f64; 2]) -> OccluderProbe,
+        most: usize,
+    ) -> Vec<[f64; 2]> {
+        let mut hidden: Vec<[f64; 2]> = Vec::new();
+        let mut open = vec![part];
+        for _ in 0..most {
+            let length = |gap: &[f64; 2]| gap[1] - gap[0];
+            let Some(longest) = (0..open.len()).max_by(|a, b| length(&open[*a]).total_cmp(&length(&open[*b]))) else {
+                break;
+            };
+            let gap = open.swap_remove(longest);
+            let asked = probe(gap);
+            let (mut best, mut known) = (None, [NO_GROUP; 3]);
+            for (number, share) in [0.5, 1.0, 0.0].into_iter().enumerate() {
+                let Some(face) = self.at(asked.px[0].lerp(asked.px[1], share)).filter(|face| !known.contains(face))
+                else {
+                    continue;
+                };
+                known[number] = face;
+                let sure = faces.hidden_ranges(space, face, &self.image(space, faces, face), &asked)[0];
+                if sure.is_some_and(|sure| best.is_none_or(|best| length(&sure) > length(&best))) {
+                    best = sure;
+                }
+                if best == Some(gap) {
+                    break;
+                }
+            }
+            if let Some(sure) = best {
+                open.extend(gaps(gap, &[sure]));
+                hidden.push(sure);
+            }
+        }
+        united(hidden)
+    }
+
+    /// Whether the nearest faces hide all of an intersection.
+    pub(in crate::lines) fn hide(&self, space: &Space, faces: &Faces, line: ProbedLine) -> bool {
+        const WHOLE: [f64; 2] = [0.0, 1.0];
+        let Some(image) = Image::of(space, line.ends) else { return false };
+        let probe = |part: [f64; 2]| OccluderProbe::new(space, faces, line, &image, part, SearchDepth::Nearer);
+        self.hidden(space, faces, WHOLE, probe, Self::ASKED_OF_WHOLE) == [WHOLE]
+    }
+}
+
+impl FaceImage {
+    /// From where to where a level line is inside.
+    fn inside_at(&self, y: f64) -> Option<[f64; 2]> {
+        let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+        for (inwards, start) in self.sides() {
+            let at_zero = start - inwards.y * y;
+            match inwards.x {
+                x if x > 0.0 => range[0] = range[0].max(at_zero / x),
+                x if x < 0.0 => range[1] = range[1].min(at_zero / x),
+                _ if at_zero > 0.0 => return None,
+                // Level, or without length.
+                _ => {}
+            }
+        }
+        (range[0] < range[1] && range[0].is_finite() && range[1].is_finite()).then_some(range)
+    }
+}
+
+impl Faces {
+    /// The key of a face's plane at the picture's corner, and how it grows.
+    fn key_plane(&self, space: &Space, face: u32) -> (f64, DVec2) {
+        let [(a, key), (b, key_b), (c, key_c)] = self.corners(face).map(|corner| space.project(corner));
+        let (u, v) = (b - a, c - a);
+        let (up, on) = (key_b - key, key_c - key);
+        let growth = DVec2::new(up * v.y - on * u.y, on * u.x - up * v.x) / u.perp_dot(v);
+        (key - growth.dot(a), growth)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lines::visible::cast::{first_hit, first_hits};
+    use crate::lines::visible::faces::Own;
+    use crate::lines::visible::intersections::intersections;
+    use crate::mesh::Mesh;
+    use crate::scene::{Scene, SceneSettings};
+    use glam::DVec3;
+    use std::sync::Arc;
+
+    /// Random triangles as large as the scene, about sixty behind one another.
+    fn soup() -> Scene {
+        let mut state = 7u64;
+        let mut number = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 40) as f64 / f64::from(1 << 23) - 1.0
+        };
+        let positions: Vec<DVec3> = (0..900).map(|_| DVec3::new(number(), number(), number())).collect();
+        let triangles = (0..300).map(|face| [face * 3, face * 3 + 1, face * 3 + 2]).collect();
+        let file_vertices = (0..900).collect();
+        let (normals, triangle_normals) = (Vec::new(), Vec::new());
+        let mesh = Mesh { positions, triangles, file_vertices, normals, triangle_normals, ..Mesh::triangle() };
+        Scene::new(vec![Arc::new(mesh)], &SceneSettings::default()).unwrap()
+    }
+
+    #[test]
+    fn the_nearest_face_is_what_a_ray_meets_first() {
+        let scene = soup();
+        let space = Space::of(&scene);
+        let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
+        let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default()).unwrap();
+        assert_eq!((nearest_faces.sample_px, nearest_faces.columns), (1.0, 512), "samples are the pixels' middles");
+        let hits = first_hits(&scene);
+        assert_eq!(hits.len(), nearest_faces.nearest.len());
+        let by_samples =
+            nearest_faces.nearest.iter().map(|face| (*face != NO_GROUP).then(|| faces.numbers[*face as usize]));
+        let differing = hits.iter().zip(by_samples).filter(|(hit, face)| hit.map(|hit| hit.face) != *face).count();
+        assert_eq!(differing, 0);
+        assert!(hits.iter().flatten().count() > 50_000, "hardly anything is covered");
+    }
+
+    #[test]
+    fn an_intersection_that_the_nearest_faces_hide_lies_behind_a_face_everywhere() {
+        let scene = soup();
+        let space = Space::of(&scene);
+        let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
+        let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default()).unwrap();
+        let parts = crate::lines::input::object_edges::object_edges(&scene);
+        let all = intersections(&space, &faces, &parts, (None, None), &Progress::default()).lines;
+        let (mut hidden, mut points) = (0, 0);
+        for line in &all {
+            let own = Own::Faces(line.faces);
+            if !nearest_faces.hide(&space, &faces, ProbedLine { own, ends: line.ends, weld: 1e-7 }) {
+                continue;
+            }
+            hidden += 1;
+            for step in 0..=20 {
+                let view = line.ends[0].lerp(line.ends[1], f64::from(step) / 20.0);
+                let px = space.project(view).0;
+                if px.cmpge(DVec2::ZERO).all() && px.cmplt(space.size).all() {
+                    let hit = first_hit(&space, &faces, &[0], px).unwrap();
+                    // Up to the tip, where an edge passes through a face.
+                    assert!(hit.depth < -view.z + 1e-9, "{line:?} at {step}: {} of {}", hit.depth, -view.z);
+                    points += 1;
+                }
+            }
+        }
+        assert!(hidden * 4 > all.len() * 3 && points > 50_000, "{hidden} of {}, {points} points", all.len());
+    }
+}

@@ -1,0 +1,188 @@
+//! What single faces hide of a part of a line for sure, and what they may hide.
+//!
+//! Both are decided by plain linear equations; all that is not sure is left to the exact rules, which would say the same.
+
+use crate::lines::visible::face_image::FaceImage;
+use crate::lines::visible::faces::{Faces, Own};
+use crate::lines::visible::image::Image;
+use crate::lines::visible::ranges::{above_zero, clipped, common};
+use crate::lines::visible::space::Space;
+use crate::tolerances::{CONTACT, NEAR_CORNER, TIP};
+use glam::{DVec2, DVec3};
+
+/// What a search looks for.
+#[derive(Clone, Copy, PartialEq)]
+pub(in crate::lines) enum SearchDepth {
+    /// What is nearer to the eye.
+    Nearer,
+    /// What is there at any depth.
+    Any,
+}
+
+/// A line of which it is asked what hides it.
+#[derive(Clone, Copy)]
+pub(in crate::lines) struct ProbedLine {
+    pub own: Own,
+    /// In the eye's space.
+    pub ends: [DVec3; 2],
+    /// The distance below which positions of its object count as one, file units.
+    pub weld: f64,
+}
+
+/// A part of such a line.
+pub(in crate::lines) struct OccluderProbe {
+    part: [f64; 2],
+    pub px: [DVec2; 2],
+    /// In the eye's space.
+    view: [DVec3; 2],
+    own: Own,
+    /// The positions in which the line ends, as far as it ends in some.
+    own_ends: [u32; 2],
+    /// The positions in which the part begins and ends, as far as it ends in some.
+    corners: [u32; 2],
+    /// So near to such a corner what faces around it hide is hidden up to there, shares of the line.
+    near_corner: f64,
+    /// So near to where the part begins and ends what any face hides is hidden up to there, shares of the line.
+    tips: [f64; 2],
+    line_length: f64,
+    weld: f64,
+    touch_px: f64,
+    /// What rounding may move a point by, pixels.
+    noise_px: f64,
+    is_nearer_sought: bool,
+}
+
+impl Own {
+    /// So near to its end what a face hides of a line is hidden up to there, a share of its length. An intersection ends where an edge passes
+    /// through a face, often in a plane in which others lie, too, and behind none of these for sure.
+    pub(in crate::lines) fn tip(self, space: &Space, length_px: f64) -> f64 {
+        match self {
+            Self::Edge(_) => 0.0,
+            Self::Faces(_) => TIP * space.size.max_element() / length_px,
+        }
+    }
+}
+
+impl OccluderProbe {
+    /// The part between two places of the line's image.
+    pub(in crate::lines) fn new(
+        space: &Space,
+        faces: &Faces,
+        line: ProbedLine,
+        image: &Image,
+        part: [f64; 2],
+        search_depth: SearchDepth,
+    ) -> Self {
+        let ProbedLine { own, ends, weld } = line;
+        let (corners, length_px) = (own.corners(faces), image.length());
+        let is_at = |end: usize, px: DVec2| space.project(ends[end]).0 == px;
+        let is_at_end = [part[0] == 0.0 && is_at(0, image.a), part[1] == 1.0 && is_at(1, image.b)];
+        Self {
+            part,
+            corners: [0, 1].map(|end| if is_at_end[end] { corners[end] } else { u32::MAX }),
+            near_corner: NEAR_CORNER * space.size.max_element() / length_px,
+            tips: is_at_end.map(|is_at_end| if is_at_end { own.tip(space, length_px) } else { 0.0 }),
+            px: part.map(|place| image.at(place)),
+            view: part.map(|place| space.point(image.at(place), image.key(place))),
+            own,
+            own_ends: corners,
+            line_length: ends[0].distance(ends[1]),
+            weld,
+            touch_px: image.touch_px(space),
+            noise_px: image.noise_px,
+            is_nearer_sought: search_depth == SearchDepth::Nearer,
+        }
+    }
+
+    /// A range that a face hides, up to where the line ends in one of its corners, for there both touch, and nothing comes between; and up
+    /// to any end that is very near.
+    pub(in crate::lines) fn up_to_ends(&self, mut range: [f64; 2], corners: [u32; 3]) -> [f64; 2] {
+        for (end, place) in range.iter_mut().enumerate() {
+            let left = (*place - self.part[end]).abs();
+            if left <= self.tips[end] || left <= self.near_corner && corners.contains(&self.corners[end]) {
+                *place = self.part[end];
+            }
+        }
+        range
+    }
+}
+
+impl Faces {
+    pub(in crate::lines) fn hidden_ranges(
+        &self,
+        space: &Space,
+        face: u32,
+        image: &FaceImage,
+        probe: &OccluderProbe,
+    ) -> [Option<[f64; 2]>; 2] {
+        const NOTHING: [Option<[f64; 2]>; 2] = [None; 2];
+        let is_cut = !self.cut_by_near.is_empty() && self.cut_by_near.binary_search(&face).is_ok();
+        // How far inside of each side both ends are; most faces in the box of a part lie beside it.
+        let [from, to] = probe.px;
+        let of_side = |side: usize| [image.inside(side, from), image.inside(side, to)];
+        let inside = [of_side(0), of_side(1), of_side(2)];
+        let outside = -2.0 * probe.touch_px - image.rounding_px;
+        let is_side = |side: usize| image.lengths_px[side] > 2.0 * probe.touch_px;
+        if !is_cut && (0..3).any(|side| is_side(side) && inside[side][0].max(inside[side][1]) < outside) {
+            return NOTHING;
+        }
+        if matches!(probe.own, Own::Faces(own) if own.contains(&face)) {
+            return NOTHING;
+        }
+        let numbers = self.triangles[face as usize];
+        let is_own_end = |number: u32| probe.own_ends.contains(&number);
+        let is_own = [is_own_end(numbers[0]), is_own_end(numbers[1]), is_own_end(numbers[2])];
+        if is_own.iter().filter(|is_own| **is_own).count() == 2 {
+            return NOTHING;
+        }
+        if is_cut {
+            return [None, Some(probe.part)];
+        }
+        let [mut sure, mut may] = [Some(probe.part); 2];
+        for side in 0..3 {
+            if !is_side(side) {
+                // No direction to speak of.
+                sure = None;
+                continue;
+            }
+            // A side that begins where the line ends runs beside it as near as one likes.
+            let is_beside = probe.is_nearer_sought && (is_own[side] || is_own[(side + 1) % 3]);
+            let margin = if is_beside { 8.0 * probe.noise_px } else { 2.0 * probe.touch_px } + image.rounding_px;
+            let [start, end] = inside[side];
+            sure = clipped(sure, probe.part, [start - margin, end - margin]);
+            may = clipped(may, probe.part, [start - outside, end - outside]);
+            if may.is_none() {
+                return NOTHING;
+            }
+        }
+        if !probe.is_nearer_sought {
+            return [sure, may];
+        }
+        let [a, b, c] = self.corners(face);
+        let normal = (b - a).cross(c - a);
+        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
+        let touching = CONTACT * longest.min(probe.line_length) + self.weld(numbers[0]).min(probe.weld);
+        // As in the exact rule, the less the nearer to a corner that both have.
+        let corner = (0..3).find(|corner| is_own[*corner]).map(|corner| [a, b, c][corner]);
+        let contacts = probe.view.map(|view| {
+            let share = corner.map_or(1.0, |corner| (view.distance(corner) / probe.line_length).min(1.0));
+            (touching * share + 4.0 * space.noise) * normal.length()
+        });
+        let away = -normal.dot(space.to_eye(a)).signum();
+        let behind = probe.view.map(|view| normal.dot(view - a) * away);
+        // Places along the line as places along its image.
+        let depths = probe.view.map(|view| if space.is_perspective() { -view.z } else { 1.0 });
+        let place = |share: f64| {
+            if share == 1.0 {
+                return probe.part[1];
+            }
+            let far = share * depths[1];
+            probe.part[0] + (probe.part[1] - probe.part[0]) * (far / ((1.0 - share) * depths[0] + far))
+        };
+        let clip = |range: Option<[f64; 2]>, times: f64| {
+            let behind = [0, 1].map(|end| behind[end] - times * contacts[end]);
+            common(range?, above_zero([0.0, 1.0], behind)?.map(place))
+        };
+        [clip(sure, 2.0).map(|sure| probe.up_to_ends(sure, numbers)), clip(may, 0.5)]
+    }
+}

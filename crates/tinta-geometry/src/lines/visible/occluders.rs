@@ -1,0 +1,113 @@
+//! What hides others in scenes in which much lies in front of one another: the faces in small parts.
+//!
+//! The box of a large face seen aslant, or of a long thin one, holds much that the face does not: whoever asks what is in front of
+//! a point would look at most of the scene. So faces are halved across their longest sides until their parts are short, and parts
+//! that the [pyramid](crate::lines::visible::pyramid) hides are left out, for what they hide is hidden anyway.
+//!
+//! And what hides others where many faces are seen edge-on: all but those. They have no image that could hide anything, and the lines in
+//! them lie on one another, where the nearest is asked for.
+
+use crate::bvh::{Box3, BoxTree, Exclusion};
+use crate::lines::visible::faces::Faces;
+use crate::lines::visible::pyramid::Pyramid;
+use crate::lines::visible::space::Space;
+use crate::threads::{cores, in_chunks};
+use glam::DVec3;
+
+/// Parts of faces with the faces' places.
+pub(in crate::lines) struct Occluders {
+    tree: BoxTree,
+    places: Vec<u32>,
+}
+
+/// Share of the picture's larger side that a part may be long.
+const LONGEST: f64 = 1.0 / 24.0;
+
+/// Most halvings of a face, and most parts in all, about.
+const HALVINGS: u32 = 8;
+const MOST_PARTS: usize = 600_000;
+
+/// So many faces seen edge-on, and such a share of all, are worth a hierarchy of the others.
+const MANY_EDGE_ON: usize = 64;
+const SHARE_EDGE_ON: usize = 8;
+
+impl Occluders {
+    /// The faces that are not edge-on, in parts where much lies in front of one another; `None` where that spares nothing.
+    pub(in crate::lines) fn new(
+        space: &Space,
+        faces: &Faces,
+        pyramid: Option<&Pyramid>,
+        are_many_layers: bool,
+    ) -> Option<Self> {
+        let boxes = faces.tree.boxes();
+        let edge_on = faces.edge_on_for_sure.len();
+        if !are_many_layers && (edge_on < MANY_EDGE_ON || edge_on * SHARE_EDGE_ON < boxes.len()) {
+            return None;
+        }
+        let longest = space.size.max_element() * LONGEST;
+        let halvings = match are_many_layers {
+            true => HALVINGS.min((MOST_PARTS / boxes.len().max(1)).max(1).ilog2()),
+            false => 0,
+        };
+        let is_edge_on =
+            |place: usize| edge_on > 0 && faces.edge_on_for_sure.binary_search(&faces.numbers[place]).is_ok();
+        let parts = in_chunks(boxes.len(), 256, cores(), |range| {
+            let mut parts: Vec<(Box3, u32)> = Vec::new();
+            for place in range.filter(|place| !is_edge_on(*place)) {
+                if faces.cut_by_near.binary_search(&(place as u32)).is_ok() {
+                    parts.push((boxes[place], place as u32));
+                    continue;
+                }
+                let corners = faces.corners(place as u32).map(|corner| {
+                    let (px, key) = space.project(corner);
+                    px.extend(key)
+                });
+                let mut open = vec![(corners, 0)];
+                while let Some((corners, count)) = open.pop() {
+                    let (low, high) = crate::mesh::bounds(&corners);
+                    if pyramid.is_some_and(|pyramid| pyramid.hides(low.truncate(), high.truncate(), low.z)) {
+                        continue;
+                    }
+                    let is_outside = low.truncate().cmpgt(space.size + 1.0).any()
+                        || high.truncate().cmplt(glam::DVec2::splat(-1.0)).any();
+                    if is_outside {
+                        continue;
+                    }
+                    let lengths = [0, 1, 2].map(|side| corners[side].distance_squared(corners[(side + 1) % 3]));
+                    let side = DVec3::from_array(lengths).max_position();
+                    if count >= halvings || lengths[side] <= longest * longest {
+                        parts.push((Box3::new(low, high), place as u32));
+                        continue;
+                    }
+                    let [a, b, c] = [0, 1, 2].map(|step| corners[(side + step) % 3]);
+                    let middle = (a + b) * 0.5;
+                    open.extend([([a, middle, c], count + 1), ([middle, b, c], count + 1)]);
+                }
+            }
+            parts
+        })
+        .concat();
+        let (mut tree, order) = BoxTree::new(&parts.iter().map(|(around, _)| *around).collect::<Vec<Box3>>());
+        let places: Vec<u32> = order.iter().map(|index| parts[*index as usize].1).collect();
+        if !faces.planes.is_empty() {
+            let planes: Vec<u32> = places.iter().map(|place| faces.plane(faces.numbers[*place as usize])).collect();
+            tree.set_planes(&planes);
+        }
+        if !faces.high_valence.is_empty() {
+            tree.set_high_valence(
+                &places.iter().map(|place| faces.high_valence[*place as usize]).collect::<Vec<u32>>(),
+            );
+        }
+        Some(Self { tree, places })
+    }
+
+    /// As [`BoxTree::any_but`] of the faces' tree; a face may come several times.
+    pub(in crate::lines) fn any_but(
+        &self,
+        query: &Box3,
+        excluded: Exclusion,
+        mut visit: impl FnMut(u32) -> bool,
+    ) -> bool {
+        self.tree.any_but(query, excluded, |part| visit(self.places[part as usize]))
+    }
+}

@@ -1,0 +1,170 @@
+//! Which visible lines are outline: nothing but background lies beside them in the picture.
+//!
+//! OverlappingLines is [`BESIDE`] away, on either side: a parallel of the line is laid there, cut wherever the image of a place at which a surface
+//! ends or turns away crosses it, however far away that is, and each part is decided in its middle by all faces there, whatever
+//! their depth. So lines that lie on one another, up to a small share of that distance, are outline together, whichever of them is the nearest;
+//! a face seen nearly edge-on is no surface between a line and the background; and a slit narrower than that is none.
+
+mod runs;
+
+pub(in crate::lines) use runs::readable;
+
+use crate::bvh::Box3;
+use crate::lines::visible::faces::{Faces, Own, Probe};
+use crate::lines::visible::image::Image;
+use crate::lines::visible::interval::Interval;
+use crate::lines::visible::line_index::LineIndex;
+use crate::lines::visible::occluder_probe::SearchDepth;
+use crate::lines::visible::overlapping_lines::OverlappingLines;
+use crate::lines::visible::ranges::hold;
+use crate::lines::visible::search::OccluderCache;
+use crate::lines::visible::space::Space;
+use crate::tolerances::BESIDE;
+use glam::DVec2;
+
+/// Of boxes whose depth does not matter.
+const ANY_KEY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// How long a part is at least that is outline or not, in distances of background that makes it so: at an acute corner the parallel of a
+/// line reaches over the other's, for no more than that from eleven degrees on.
+const SHORTEST_PART: f64 = 5.0;
+
+/// Adds a part to the longer one of those beside it.
+fn absorb(parts: &mut Vec<Interval>, part: usize) {
+    let Interval { from, to, .. } = parts.remove(part);
+    let length = |part: Option<&Interval>| part.map_or(0.0, Interval::length);
+    let (before, after) = (part.checked_sub(1), part);
+    let is_after = length(parts.get(after)) > length(before.and_then(|before| parts.get(before)));
+    match before.filter(|_| !is_after) {
+        Some(before) => parts[before].to = to,
+        None => parts[after].from = from,
+    }
+    parts.dedup_by(|next, kept| {
+        let is_same = next.background == kept.background;
+        if is_same {
+            kept.to = next.to;
+        }
+        is_same
+    });
+}
+
+impl Interval {
+    fn length(&self) -> f64 {
+        self.to - self.from
+    }
+}
+
+impl LineIndex<'_> {
+    /// The parts of a visible piece, told apart by where there is background beside them.
+    pub(in crate::lines) fn with_outline(&self, index: usize, image: &Image, piece: Interval) -> Vec<Interval> {
+        let aside = (image.b - image.a).perp().normalize() * self.beside_px();
+        let background = [aside, -aside].map(|aside| self.background(index, image, [piece.from, piece.to], aside));
+        let cuts = background.iter().flatten().flatten().copied().collect();
+        let mut parts: Vec<Interval> = Vec::new();
+        for place in self.places(image, [piece.from, piece.to], cuts).windows(2) {
+            let middle = (place[0] + place[1]) * 0.5;
+            let background = [0, 1].map(|side| hold(&background[side], middle));
+            match parts.last_mut() {
+                Some(last) if last.background == background => last.to = place[1],
+                _ => parts.push(Interval { from: place[0], to: place[1], background, ..piece }),
+            }
+        }
+        let least = SHORTEST_PART * self.beside_px() / image.length();
+        while let Some(part) = (0..parts.len()).filter(|_| parts.len() > 1).find(|part| parts[*part].length() < least) {
+            absorb(&mut parts, part);
+        }
+        parts
+    }
+
+    /// How far beside a line background makes it outline, pixels.
+    pub(in crate::lines) fn beside_px(&self) -> f64 {
+        BESIDE * self.space.size.max_element()
+    }
+
+    /// From where to where between two places of a line there is background at a distance from it; ascending.
+    fn background(&self, index: usize, line: &Image, range: [f64; 2], aside: DVec2) -> Vec<[f64; 2]> {
+        let image = &Image { a: line.a + aside, b: line.b + aside, ..*line };
+        let touch_px = image.touch_px(self.space);
+        let add = |part, most, cuts: &mut Vec<f64>| {
+            let mut count = 0;
+            self.rims.any(&image.part_box(part, touch_px, ANY_KEY), |other_index| {
+                if let Some(other) = self.images[other_index] {
+                    cuts.extend(image.meetings(&other, touch_px.max(other.touch_px(self.space))));
+                }
+                count += 1;
+                count > most
+            })
+        };
+        let open_parts = self.look(index, image, range, Vec::new(), SearchDepth::Any, &OccluderCache::default());
+        let mut cuts = self.search(index, image, open_parts, SearchDepth::Any, &OverlappingLines::none(), add);
+        let mut background: Vec<[f64; 2]> = Vec::new();
+        for place in self.places(image, range, std::mem::take(&mut cuts.places)).windows(2) {
+            let middle = (place[0] + place[1]) * 0.5;
+            if cuts.hides(middle) || self.faces.is_covered(self.space, &self.probe(index, image, middle), touch_px) {
+                continue;
+            }
+            match background.last_mut() {
+                Some(last) if last[1] == place[0] => last[1] = place[1],
+                _ => background.push([place[0], place[1]]),
+            }
+        }
+        background
+    }
+}
+
+impl Image {
+    /// Where another line's image crosses or touches this one, or lies on it and ends, in places of this one.
+    pub(in crate::lines) fn meetings(&self, other: &Self, touch_px: f64) -> impl Iterator<Item = f64> + use<> {
+        let along = self.b - self.a;
+        let length = along.length();
+        let (c, d) = (along.perp_dot(other.a - self.a) / length, along.perp_dot(other.b - self.a) / length);
+        let is_beside = (c > touch_px && d > touch_px) || (c < -touch_px && d < -touch_px);
+        let crossing = (!is_beside && c != d).then(|| self.place_of(other.at((c / (c - d)).clamp(0.0, 1.0))));
+        let overlap = if is_beside { None } else { self.overlap(other, touch_px) };
+        overlap.into_iter().flatten().chain(crossing)
+    }
+}
+
+impl Faces {
+    /// Whether something is drawn around a point, at any depth, whichever way the point moves aside by as little as one likes. A side of a
+    /// face within `touch_px` of the point counts as going through it. Faces seen edge-on cover nothing.
+    pub(in crate::lines) fn is_covered(&self, space: &Space, probe: &Probe, touch_px: f64) -> bool {
+        let column =
+            Box3::new((probe.px - touch_px).extend(f64::NEG_INFINITY), (probe.px + touch_px).extend(f64::INFINITY));
+        let touch = touch_px / space.px_per_unit(-probe.view.z);
+        // The point lies on no line.
+        let probe = &Probe { own: Own::Faces([u32::MAX; 2]), ..*probe };
+        let mut covered = [false; 2];
+        self.tree.any(&column, |face| {
+            let by_this = self.covers(space, face, probe, touch);
+            covered = [covered[0] || by_this[0], covered[1] || by_this[1]];
+            covered == [true; 2]
+        })
+    }
+
+    fn covers(&self, space: &Space, face: u32, probe: &Probe, touch: f64) -> [bool; 2] {
+        const NEITHER: [bool; 2] = [false; 2];
+        if self.edge_on.binary_search(&self.numbers[face as usize]).is_ok() {
+            return NEITHER;
+        }
+        let corners = self.corners(face);
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a);
+        // Counter-clockwise, seen from the front.
+        let sign = if normal.dot(space.to_eye(a)) > 0.0 { 1.0 } else { -1.0 };
+        let mut is_inside = [true; 2];
+        for side in 0..3 {
+            let (from, to) = (corners[side], corners[(side + 1) % 3]);
+            let (turn, length) = space.turn(from, to, probe.view);
+            if sign * turn < -touch * length {
+                return NEITHER;
+            }
+            if sign * turn <= touch * length {
+                let inward = sign * space.turn_aside(from, to, probe.aside);
+                is_inside = [is_inside[0] && inward > 0.0, is_inside[1] && -inward > 0.0];
+            }
+        }
+        let is_cut = is_inside != NEITHER && self.cut_by_near.binary_search(&face).is_ok();
+        if is_cut && self.hit_depth(space, [a, normal], probe) < space.near { NEITHER } else { is_inside }
+    }
+}

@@ -1,0 +1,260 @@
+//! What of the outline is drawn as outline: what can be read as one.
+//!
+//! In: pieces of lines and how wide the outline is drawn. Out: the same pieces, cut where they change. Two things make the picture's
+//! outline what a reader takes for it:
+//!
+//! - *Slits.* Background between two lines of the outline that are nearer than [`SLIT`] widths would be filled by their ink: there both
+//!   are inner lines. Along the outline what is shorter than [`SHORT_RUN`] widths, slit or not, is as what it borders on.
+//! - *Short runs.* Shorter than that, a run of inner line between two of outline becomes outline, and one of outline between two of inner
+//!   line becomes inner line; the shortest first.
+//!
+//! Runs are told along chains, pieces that go on in one another whatever their classes and objects: where pieces meet, two of the outline
+//! before others, and of the rest those that go straightest.
+
+use crate::lines::LineSegment;
+use crate::lines::progress::Progress;
+use crate::lines::visible::image::{Image, LineParts};
+use crate::lines::visible::ranges::{gaps, united};
+use crate::tolerances::JOINED_PX;
+use glam::DVec2;
+use std::collections::HashMap;
+
+/// Widths of the outline between two lines of it, from middle to middle: a third of what lies between is free then.
+const SLIT: f64 = 1.5;
+
+/// Widths of the outline that a run of it, or a gap in it, is long at least.
+const SHORT_RUN: f64 = 4.0;
+
+/// Pixels: the box of a longer part that is aslant holds much else.
+const LONGEST_PART: f64 = 8.0;
+
+/// Visible pieces as they are drawn where the outline is so wide, pixels; hidden ones stay as they are.
+pub(in crate::lines) fn readable(segments: &[LineSegment], width_px: f64, progress: &Progress) -> Vec<LineSegment> {
+    let (mut pieces, mut is_outline) = cut_at_slits(segments, SLIT * width_px, progress);
+    let least_px = SHORT_RUN * width_px;
+    for chain in chains(&pieces, |piece| piece.is_outline) {
+        settle(&pieces, &mut is_outline, &chain, least_px, 1);
+    }
+    pieces.iter_mut().zip(&is_outline).for_each(|(piece, is_outline)| piece.is_outline = *is_outline);
+    for chain in chains(&pieces, |piece| piece.is_visible) {
+        settle(&pieces, &mut is_outline, &chain, least_px, 2);
+    }
+    pieces.iter_mut().zip(is_outline).for_each(|(piece, is_outline)| piece.is_outline = is_outline);
+    pieces
+}
+
+/// The pieces cut where a slit begins or ends beside them, and of each whether it is outline and borders on none.
+fn cut_at_slits(segments: &[LineSegment], slit_px: f64, progress: &Progress) -> (Vec<LineSegment>, Vec<bool>) {
+    let image = |segment: &LineSegment| {
+        let [a, b] = segment.ends_px;
+        Image { a, b, keys: [0.0; 2], noise_px: 0.0 }
+    };
+    let mut parts = LineParts::default();
+    for (number, segment) in segments.iter().enumerate().filter(|(_, segment)| segment.is_outline) {
+        let image = image(segment);
+        image.parts([0.0, 1.0], LONGEST_PART).for_each(|part| parts.add(image.part_box(part, 0.0, [0.0; 2]), number));
+    }
+    let tree = parts.tree(progress);
+    let (mut pieces, mut is_outline) = (Vec::with_capacity(segments.len()), Vec::with_capacity(segments.len()));
+    for (number, segment) in segments.iter().enumerate() {
+        let has_no_side = segment.background == [false; 2] || segment.ends_px[0] == segment.ends_px[1];
+        if !segment.is_outline || has_no_side {
+            pieces.push(segment.clone());
+            is_outline.push(segment.is_outline);
+            continue;
+        }
+        let image = image(segment);
+        let mut wide: Vec<[f64; 2]> = Vec::new();
+        for side in [0, 1].into_iter().filter(|side| segment.background[*side]) {
+            let mut narrow: Vec<[f64; 2]> = Vec::new();
+            for part in image.parts([0.0, 1.0], LONGEST_PART) {
+                tree.any(&image.part_box(part, slit_px, [0.0; 2]), |other| {
+                    let range = (other != number).then(|| before(&image, side, &segments[other], slit_px)).flatten();
+                    narrow.extend(range);
+                    false
+                });
+            }
+            wide.extend(gaps([0.0, 1.0], &united(narrow)));
+        }
+        // Between two lines on the other side nothing is left free.
+        wide.retain(|range| (range[1] - range[0]) * image.length() > 4.0 * JOINED_PX || *range == [0.0, 1.0]);
+        let wide = united(wide);
+        let part = |range: [f64; 2]| {
+            // On the line, in perspective not quite at the place: the eye is not known here.
+            let world = |place: f64| segment.ends_world[0].lerp(segment.ends_world[1], place);
+            let ends_px = range.map(|place| image.at(place));
+            LineSegment { ends_px, ends_world: range.map(world), ..segment.clone() }
+        };
+        let mut told: Vec<([f64; 2], bool)> = wide.iter().map(|range| (*range, true)).collect();
+        told.extend(gaps([0.0, 1.0], &wide).into_iter().map(|range| (range, false)));
+        told.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        pieces.extend(told.iter().map(|(range, _)| part(*range)));
+        is_outline.extend(told.iter().map(|(_, is_wide)| *is_wide));
+    }
+    (pieces, is_outline)
+}
+
+/// From where to where another line lies before one on its right (0) or left (1), nearer than so much.
+fn before(image: &Image, side: usize, other: &LineSegment, distance_px: f64) -> Option<[f64; 2]> {
+    let along = (image.b - image.a) / image.length();
+    let aside = if side == 0 { along.perp() } else { -along.perp() };
+    let [first, second] = other.ends_px.map(|end| DVec2::new(along.dot(end - image.a), aside.dot(end - image.a)));
+    // What of it lies in the strip beside the line.
+    let mut range = [0.0f64, 1.0f64];
+    for (start, end) in [(first.y - JOINED_PX, second.y - JOINED_PX), (distance_px - first.y, distance_px - second.y)] {
+        if start < 0.0 && end < 0.0 {
+            return None;
+        }
+        if start < 0.0 {
+            range[0] = range[0].max(start / (start - end));
+        } else if end < 0.0 {
+            range[1] = range[1].min(start / (start - end));
+        }
+    }
+    let places = range.map(|share| (first.x + (second.x - first.x) * share) / image.length());
+    let places = [places[0].min(places[1]).max(0.0), places[0].max(places[1]).min(1.0)];
+    ((places[1] - places[0]) * image.length() > JOINED_PX && range[0] < range[1]).then_some(places)
+}
+
+/// Pieces in the order in which they go on in one another.
+struct Chain {
+    pieces: Vec<usize>,
+    is_closed: bool,
+}
+
+/// More ends than these that meet in one place go on in nothing.
+const MOST_ENDS: usize = 16;
+
+/// The chains of some pieces. Ends are numbered: piece `k` has ends `2k` and `2k + 1`.
+fn chains(pieces: &[LineSegment], is_meant: fn(&LineSegment) -> bool) -> Vec<Chain> {
+    let partners = partners(pieces, is_meant);
+    let mut is_known = vec![false; pieces.len()];
+    let mut chains = Vec::new();
+    for first in (0..pieces.len()).filter(|piece| is_meant(&pieces[*piece])) {
+        if is_known[first] {
+            continue;
+        }
+        let mut begin = first * 2;
+        let mut is_closed = false;
+        while let Some(partner) = partners[begin] {
+            begin = partner ^ 1;
+            is_closed = begin == first * 2;
+            if is_closed {
+                break;
+            }
+        }
+        let mut chain = Chain { pieces: Vec::new(), is_closed };
+        let mut next = Some(begin);
+        while let Some(end) = next.filter(|end| !is_known[end / 2]) {
+            is_known[end / 2] = true;
+            chain.pieces.push(end / 2);
+            next = partners[end ^ 1];
+        }
+        chains.push(chain);
+    }
+    chains
+}
+
+/// The end in which each end goes on.
+fn partners(pieces: &[LineSegment], is_meant: fn(&LineSegment) -> bool) -> Vec<Option<usize>> {
+    let position = |end: usize| pieces[end / 2].ends_px[end % 2];
+    let mut partners = vec![None; pieces.len() * 2];
+    let ends = (0..pieces.len() * 2).filter(|end| is_meant(&pieces[end / 2]));
+    for meeting in meetings(ends, position) {
+        if meeting.len() > MOST_ENDS {
+            continue;
+        }
+        let away = |end: usize| (position(end ^ 1) - position(end)).normalize_or_zero();
+        let mut pairs: Vec<(bool, f64, usize, usize)> = Vec::new();
+        for (index, first) in meeting.iter().enumerate() {
+            for second in meeting[index + 1..].iter().filter(|second| **second / 2 != first / 2) {
+                let are_outline = pieces[first / 2].is_outline && pieces[second / 2].is_outline;
+                pairs.push((!are_outline, away(*first).dot(away(*second)), *first, *second));
+            }
+        }
+        pairs.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then((a.2, a.3).cmp(&(b.2, b.3))));
+        for (_, _, first, second) in pairs {
+            if partners[first].is_none() && partners[second].is_none() {
+                (partners[first], partners[second]) = (Some(second), Some(first));
+            }
+        }
+    }
+    partners
+}
+
+/// The ends that lie in one place, nearer than [`JOINED_PX`]: a rim goes on in another edge at the same place.
+fn meetings(ends: impl Iterator<Item = usize>, position: impl Fn(usize) -> DVec2) -> Vec<Vec<usize>> {
+    let cell = |px: DVec2| (px / JOINED_PX).floor().as_i64vec2().to_array();
+    let mut places: Vec<(DVec2, Vec<usize>)> = Vec::new();
+    let mut cells: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
+    for end in ends {
+        let px = position(end);
+        let [x, y] = cell(px);
+        let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
+        let mut known = around.filter_map(|cell| cells.get(&cell)).flatten();
+        match known.find(|place| places[**place].0.distance(px) <= JOINED_PX) {
+            Some(place) => places[*place].1.push(end),
+            None => {
+                cells.entry([x, y]).or_default().push(places.len());
+                places.push((px, vec![end]));
+            }
+        }
+    }
+    places.into_iter().map(|(_, ends)| ends).collect()
+}
+
+/// A part of a chain that is outline or not.
+struct Run {
+    pieces: Vec<usize>,
+    length: f64,
+    is_outline: bool,
+}
+
+/// Lets runs that are too short be what those beside them are, if there are so many beside them.
+fn settle(pieces: &[LineSegment], of_pieces: &mut [bool], chain: &Chain, least_px: f64, least_beside: usize) {
+    let mut runs: Vec<Run> = Vec::new();
+    for &number in &chain.pieces {
+        let (is_outline, [a, b]) = (of_pieces[number], pieces[number].ends_px);
+        match runs.last_mut() {
+            Some(run) if run.is_outline == is_outline => {
+                run.pieces.push(number);
+                run.length += a.distance(b);
+            }
+            _ => runs.push(Run { pieces: vec![number], length: a.distance(b), is_outline }),
+        }
+    }
+    if chain.is_closed && runs.len() > 1 && runs[0].is_outline == runs[runs.len() - 1].is_outline {
+        let first = runs.remove(0);
+        if let Some(last) = runs.last_mut() {
+            last.length += first.length;
+            last.pieces.extend(first.pieces);
+        }
+    }
+    loop {
+        let count = runs.len();
+        let beside = |index: usize| match (count, chain.is_closed) {
+            (1, _) => 0,
+            (_, true) => 2,
+            (_, false) => usize::from(index > 0) + usize::from(index + 1 < count),
+        };
+        let may_change = |index: &usize| runs[*index].length < least_px && beside(*index) >= least_beside;
+        let shortest = (0..count).filter(may_change);
+        let Some(index) = shortest.min_by(|a, b| runs[*a].length.total_cmp(&runs[*b].length)) else { break };
+        // It and what is beside it become one, in a ring around its end, too.
+        if chain.is_closed {
+            runs.rotate_left((index + count - 1) % count);
+        }
+        let index = if chain.is_closed { 1 } else { index };
+        let joined = index.saturating_sub(1)..(index + 2).min(count);
+        let is_outline = !runs[index].is_outline;
+        let mut run = Run { pieces: Vec::new(), length: 0.0, is_outline };
+        for other in runs.drain(joined.clone()) {
+            run.length += other.length;
+            run.pieces.extend(other.pieces);
+        }
+        runs.insert(joined.start, run);
+    }
+    for run in runs {
+        run.pieces.iter().for_each(|piece| of_pieces[*piece] = run.is_outline);
+    }
+}

@@ -1,0 +1,232 @@
+//! Which other lines lie on one in the picture: mostly none, so that they are looked for once and not piece by piece. Of lines on one
+//! another the nearest is seen, and of equally near ones one stands for all.
+
+use crate::lines::input::feature::Feature;
+use crate::lines::visible::image::Image;
+use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
+use crate::lines::visible::ranges::{above_zero, united};
+use crate::tolerances::CONTACT;
+use glam::DVec2;
+use std::cell::OnceCell;
+
+/// The lines that lie on one somewhere, looked for when somebody asks: of most hidden lines nobody does.
+pub(in crate::lines) struct OverlappingLines {
+    /// The line with its image, and between which of its places they matter; `None` where nobody's do.
+    asked: Option<(usize, Image, [f64; 2])>,
+    found: OnceCell<Overlaps>,
+}
+
+/// What was found.
+enum Overlaps {
+    /// These.
+    Few(Vec<usize>),
+    /// So many that they are looked for where they matter.
+    Many,
+}
+
+/// From how many on there are many.
+const MANY: usize = 12;
+
+impl OverlappingLines {
+    pub(in crate::lines) fn new(index: usize, image: &Image, inside: [f64; 2]) -> Self {
+        Self { asked: Some((index, *image, inside)), found: OnceCell::new() }
+    }
+
+    /// No lines.
+    pub(in crate::lines) fn none() -> Self {
+        Self { asked: None, found: OnceCell::new() }
+    }
+
+    fn found(&self, lines: &LineIndex) -> &Overlaps {
+        self.found.get_or_init(|| match &self.asked {
+            Some((index, image, inside)) => lines.lying_on(*index, image, *inside),
+            None => Overlaps::Few(Vec::new()),
+        })
+    }
+
+    pub(in crate::lines) fn are_none(&self, lines: &LineIndex) -> bool {
+        matches!(self.found(lines), Overlaps::Few(lines) if lines.is_empty())
+    }
+}
+
+impl LineIndex<'_> {
+    /// The wanted lines that lie on one in what of it is between two places.
+    fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2]) -> Overlaps {
+        let touch_px = image.touch_px(self.space);
+        let mut found: Vec<usize> = Vec::new();
+        for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
+            let are_many = self.any_of_its_direction(image, part, |other_index| {
+                let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
+                let lies_on_it = || image.overlap(&other, touch_px.max(other.touch_px(self.space))).is_some();
+                if !found.contains(&other_index) && lies_on_it() {
+                    found.push(other_index);
+                }
+                found.len() >= MANY
+            });
+            if are_many {
+                return Overlaps::Many;
+            }
+        }
+        Overlaps::Few(found)
+    }
+
+    /// Calls `visit` with each line that may lie on a part of one, perhaps several times, until it returns true; returns whether
+    /// it did.
+    fn any_overlapping(
+        &self,
+        image: &Image,
+        overlapping: &OverlappingLines,
+        part: [f64; 2],
+        mut visit: impl FnMut(usize) -> bool,
+    ) -> bool {
+        match overlapping.found(self) {
+            Overlaps::Few(lines) => lines.iter().any(|line| visit(*line)),
+            Overlaps::Many => self.any_of_its_direction(image, part, visit),
+        }
+    }
+
+    /// The same of all lines that have its direction where it is, as those that lie on it have.
+    fn any_of_its_direction(&self, image: &Image, part: [f64; 2], mut visit: impl FnMut(usize) -> bool) -> bool {
+        let touch_px = image.touch_px(self.space);
+        let mut directions = image.directions(touch_px);
+        directions.any(|directions| self.overlapping.any(&image.part_box(part, touch_px, directions), &mut visit))
+    }
+
+    /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
+    /// lies in space on another of an earlier class, or of the same and a lower number.
+    pub(in crate::lines) fn is_nearest(
+        &self,
+        index: usize,
+        image: &Image,
+        overlapping: &OverlappingLines,
+        px: DVec2,
+        depth: f64,
+    ) -> Option<bool> {
+        let touch_px = image.touch_px(self.space);
+        let (place, own_key) = (image.place_of(px), image.key(image.place_of(px)));
+        let mut others: Vec<(f64, usize)> = Vec::new();
+        let is_behind = self.any_overlapping(image, overlapping, [place; 2], |other_index| {
+            let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
+            let lies_on_it = image
+                .overlap(&other, touch_px.max(other.touch_px(self.space)))
+                .is_some_and(|range| (range[0]..=range[1]).contains(&place));
+            if lies_on_it {
+                let key = other.key(other.place_of(px).clamp(0.0, 1.0));
+                // Where only what is seen counts, nothing else does.
+                if !self.finds_hidden && own_key - key > self.clearly_behind(index, &other) {
+                    return true;
+                }
+                others.push((self.space.depth_of_key(key), other_index));
+            }
+            false
+        });
+        if is_behind {
+            return Some(false);
+        }
+        if others.is_empty() {
+            return Some(true);
+        }
+        others.push((depth, index));
+        others.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        others.dedup();
+        // From the nearest on, those that touch the first of a group are in its place.
+        let mut start = 0;
+        loop {
+            let (first_depth, first) = others[start];
+            let is_of_group = |(depth, other): &(f64, usize)| depth - first_depth <= self.contact(first, *other);
+            let end = start + others[start..].iter().take_while(|other| is_of_group(other)).count();
+            let group = &others[start..end];
+            if group.iter().any(|(_, other)| *other == index) {
+                let stands_for_all = group.iter().map(|(_, other)| (self.features[*other].class, *other)).min();
+                return (stands_for_all.map(|(_, other)| other) == Some(index)).then_some(start == 0);
+            }
+            start = end;
+        }
+    }
+
+    /// The distance below which two lines touch, file units.
+    fn contact(&self, first: usize, second: usize) -> f64 {
+        let [first, second] = [first, second].map(|index| &self.features[index]);
+        let length = |feature: &Feature| feature.ends[0].distance(feature.ends[1]);
+        CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise
+    }
+
+    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many. Where only
+    /// what is seen counts, not of those that are farther away for sure.
+    pub(in crate::lines) fn add_overlaps(
+        &self,
+        index: usize,
+        image: &Image,
+        overlapping: &OverlappingLines,
+        part: [f64; 2],
+        most: usize,
+        cuts: &mut Vec<f64>,
+    ) -> bool {
+        let touch_px = image.touch_px(self.space);
+        let mut count = 0;
+        self.any_overlapping(image, overlapping, part, |other_index| {
+            let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
+            if let Some(other) =
+                self.images[other_index].filter(|other| other_index != index && !changes_nothing(other))
+            {
+                self.add_crossings(image, &other, touch_px.max(other.touch_px(self.space)), false, cuts);
+                count += 1;
+            }
+            count > most
+        })
+    }
+
+    /// What of a line between two places is hidden for sure by those that are nearest among many lines on which it lies; ascending.
+    pub(in crate::lines) fn behind_nearest(&self, index: usize, image: &Image, inside: [f64; 2]) -> Vec<[f64; 2]> {
+        let nearest = self.bundles.nearest_along(index, image);
+        united(nearest.filter_map(|other| self.behind_overlapping_line(index, image, other, inside)).collect())
+    }
+
+    /// Adds what of a part lies in the picture on another line that is nearer for sure.
+    pub(in crate::lines) fn behind_overlapping_lines(
+        &self,
+        index: usize,
+        image: &Image,
+        overlapping: &OverlappingLines,
+        part: [f64; 2],
+        hidden: &mut Vec<[f64; 2]>,
+    ) {
+        self.any_overlapping(image, overlapping, part, |other| {
+            hidden.extend(self.behind_overlapping_line(index, image, other, part));
+            false
+        });
+    }
+
+    /// What of a part lies in the picture on a certain other line that is nearer for sure.
+    fn behind_overlapping_line(
+        &self,
+        index: usize,
+        image: &Image,
+        other_index: usize,
+        part: [f64; 2],
+    ) -> Option<[f64; 2]> {
+        let other = self.images[other_index].filter(|_| other_index != index)?;
+        let range = image.overlap(&other, image.touch_px(self.space).max(other.touch_px(self.space)))?;
+        let range = [range[0].max(part[0]), range[1].min(part[1])];
+        let least = self.clearly_behind(index, &other);
+        let behind = |place: f64| image.key(place) - other.key(other.place_of(image.at(place))) - least;
+        if range[0] < range[1] { above_zero(range, range.map(behind)) } else { None }
+    }
+
+    /// Whether a line that lies in the picture on another is farther away than that for sure, wherever it lies on it.
+    fn is_farther(&self, index: usize, image: &Image, nearer: &Image) -> bool {
+        let touch_px = nearer.touch_px(self.space).max(image.touch_px(self.space));
+        let Some(range) = nearer.overlap(image, touch_px) else { return false };
+        let least = self.clearly_behind(index, nearer);
+        range.into_iter().all(|place| image.key(image.place_of(nearer.at(place))) - nearer.key(place) > least)
+    }
+
+    /// By how much a line's key must be larger than another's for it not to touch it, nor anything that is nearer still.
+    pub(in crate::lines) fn clearly_behind(&self, index: usize, other: &Image) -> f64 {
+        let feature = &self.features[index];
+        let length = feature.ends[0].distance(feature.ends[1]);
+        let depths = other.keys.map(|key| self.space.depth_of_key(key));
+        let touching = CONTACT * length + feature.weld + 4.0 * self.space.noise;
+        self.space.key_step(depths[0].min(depths[1]), 2.0 * touching)
+    }
+}

@@ -1,0 +1,56 @@
+//! Ranges along a line, each from one share of it to another.
+
+/// Whether any of ascending ranges apart from one another holds a place.
+pub(in crate::lines) fn hold(ranges: &[[f64; 2]], place: f64) -> bool {
+    let next = ranges.partition_point(|range| range[1] <= place);
+    ranges.get(next).is_some_and(|range| range[0] <= place)
+}
+
+/// Ranges in any order as ascending ones apart from one another.
+pub(in crate::lines) fn united(mut ranges: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    ranges.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut united: Vec<[f64; 2]> = Vec::with_capacity(ranges.len());
+    for range in ranges {
+        match united.last_mut() {
+            Some(last) if range[0] <= last[1] => last[1] = last[1].max(range[1]),
+            _ => united.push(range),
+        }
+    }
+    united
+}
+
+/// What ascending ranges, and others before, leave of a part.
+pub(in crate::lines) fn gaps(part: [f64; 2], ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut gaps = Vec::new();
+    let mut from = part[0];
+    for range in ranges.iter().filter(|range| range[1] > part[0] && range[0] < part[1]) {
+        if range[0] > from {
+            gaps.push([from, range[0]]);
+        }
+        from = from.max(range[1]);
+    }
+    if from < part[1] {
+        gaps.push([from, part[1]]);
+    }
+    gaps
+}
+
+/// The part of a range in which what is linear along it, and has these values at its ends, is not negative.
+pub(in crate::lines) fn above_zero([from, to]: [f64; 2], [start, end]: [f64; 2]) -> Option<[f64; 2]> {
+    match (start >= 0.0, end >= 0.0) {
+        (true, true) => Some([from, to]),
+        (true, false) => Some([from, from + (to - from) * (start / (start - end))]),
+        (false, true) => Some([from + (to - from) * (start / (start - end)), to]),
+        (false, false) => None,
+    }
+}
+
+/// What a range has in common with that part of a whole in which what is linear along it is not negative.
+pub(in crate::lines) fn clipped(range: Option<[f64; 2]>, whole: [f64; 2], at_ends: [f64; 2]) -> Option<[f64; 2]> {
+    common(range?, above_zero(whole, at_ends)?)
+}
+
+pub(in crate::lines) fn common(first: [f64; 2], second: [f64; 2]) -> Option<[f64; 2]> {
+    let common = [first[0].max(second[0]), first[1].min(second[1])];
+    (common[0] < common[1]).then_some(common)
+}

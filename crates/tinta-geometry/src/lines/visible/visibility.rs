@@ -1,0 +1,143 @@
+//! Which parts of the lines are seen: cuts wherever that can change, then one ray for each piece.
+//!
+//! Three questions use one rule, [`Image::overlap`]: which lines lie on one another in the picture. They are cut where one of
+//! them ends and where both are equally near; the nearest is drawn; of equally near ones, one.
+
+use crate::bvh::{counting_steps, steps};
+use crate::lines::progress::{Phase, Progress};
+use crate::lines::segment::LineSegment;
+use crate::lines::visible::image::Image;
+use crate::lines::visible::interval::Interval;
+use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
+use crate::lines::visible::occluder_probe::SearchDepth;
+use crate::lines::visible::overlapping_lines::OverlappingLines;
+use crate::lines::visible::search::{Cuts, OccluderCache};
+use crate::threads::{cores, spread_chunks};
+use std::cell::LazyCell;
+
+/// Pieces of one line between two looks at the time.
+const PIECES_A_GLANCE: usize = 64;
+
+impl LineIndex<'_> {
+    /// The wanted lines' pieces, in the lines' order; with how many boxes were looked at. Of all lines, unless the time is over
+    /// before: then of some, each as a whole.
+    pub(in crate::lines) fn segments(&self, progress: &Progress) -> (Vec<LineSegment>, u64) {
+        const LINES: usize = 64;
+        progress.begin(Phase::Lines, self.features.len());
+        // Not one after the other: what is left then takes as long as what is done, and a part is one of the whole picture.
+        let parts = spread_chunks(self.features.len(), LINES, cores(), |range| {
+            counting_steps(|| {
+                let (mut segments, last) = (Vec::new(), OccluderCache::default());
+                for index in range {
+                    if progress.is_over() {
+                        break;
+                    }
+                    let before = steps();
+                    if self.add_segments(index, &last, progress, &mut segments).is_none() {
+                        break;
+                    }
+                    progress.advance(1, steps().wrapping_sub(before));
+                }
+                segments
+            })
+        });
+        let compared = parts.iter().map(|(_, steps)| steps).sum();
+        let mut segments = Vec::with_capacity(parts.iter().map(|(segments, _)| segments.len()).sum());
+        parts.into_iter().for_each(|(some, _)| segments.extend(some));
+        (segments, compared)
+    }
+
+    /// Adds the pieces of a line; `None`, and nothing, where the time is over before all are decided.
+    fn add_segments(
+        &self,
+        index: usize,
+        last: &OccluderCache,
+        progress: &Progress,
+        segments: &mut Vec<LineSegment>,
+    ) -> Option<()> {
+        let feature = &self.features[index];
+        let (Some(class), Some(image)) = (feature.class, self.images[index]) else { return Some(()) };
+        let Some(inside) = image.inside(self.space.size, 0.0) else { return Some(()) };
+        if image.length() * (inside[1] - inside[0]) <= self.shortest_px {
+            return Some(());
+        }
+        let behind = self.behind_nearest(index, &image, inside);
+        let open_parts = self.look(index, &image, inside, behind, SearchDepth::Nearer, last);
+        if !self.finds_hidden && open_parts.open.is_empty() {
+            return Some(());
+        }
+        let overlapping = OverlappingLines::new(index, &image, inside);
+        let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, &overlapping, part, most, cuts);
+        let mut cuts = self.search(index, &image, open_parts, SearchDepth::Nearer, &overlapping, add);
+        self.add_piercings(index, &image, &mut cuts.places);
+        if self.finds_hidden {
+            // The box of one that is upright or level holds no other.
+            let is_thin = (image.b - image.a).abs().min_element() < 1.0;
+            let longest = if is_thin { f64::INFINITY } else { self.space.size.max_element() / PARTS_OF_PICTURE };
+            for part in image.parts(inside, longest) {
+                self.add_overlaps(index, &image, &overlapping, part, usize::MAX, &mut cuts.places);
+            }
+        }
+        let mut pieces: Vec<Interval> = Vec::new();
+        let places = self.places(&image, inside, std::mem::take(&mut cuts.places));
+        for (number, place) in places.windows(2).enumerate() {
+            if number % PIECES_A_GLANCE == PIECES_A_GLANCE - 1 && progress.is_over() {
+                return None;
+            }
+            let [from, to] = [place[0], place[1]];
+            let place = (from + to) * 0.5;
+            let is_hidden = cuts.hides(place);
+            if is_hidden && !self.finds_hidden {
+                continue;
+            }
+            let Some(is_visible) = self.state(index, &image, &overlapping, place, is_hidden, &cuts) else { continue };
+            match pieces.last_mut() {
+                Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
+                _ => pieces.push(Interval { from, to, is_visible, background: [false; 2] }),
+            }
+        }
+        pieces.retain(|piece| piece.is_visible || self.finds_hidden);
+        let mut add = |piece: Interval| {
+            segments.push(LineSegment {
+                class,
+                is_visible: piece.is_visible,
+                is_outline: piece.background != [false; 2],
+                background: piece.background,
+                is_covered: false,
+                ends_px: [image.at(piece.from), image.at(piece.to)],
+                ends_world: image.ends_world(self.space, [piece.from, piece.to]),
+                edge: feature.edge,
+                angle_degrees: feature.angle_degrees,
+                object: feature.object,
+            });
+        };
+        for piece in pieces {
+            match self.finds_outline && piece.is_visible {
+                true => self.with_outline(index, &image, piece).into_iter().for_each(&mut add),
+                false => add(piece),
+            }
+        }
+        Some(())
+    }
+
+    /// Whether a line is seen at a place; `None` where it lies in space on another line that stands for both. Where faces hide it
+    /// for sure only the latter is asked.
+    fn state(
+        &self,
+        index: usize,
+        image: &Image,
+        overlapping: &OverlappingLines,
+        place: f64,
+        is_hidden: bool,
+        cuts: &Cuts,
+    ) -> Option<bool> {
+        let probe = LazyCell::new(|| self.probe(index, image, place));
+        let is_nearest =
+            overlapping.are_none(self) || self.is_nearest(index, image, overlapping, probe.px, -probe.view.z)?;
+        let leave_open = || {
+            let planes = self.features[index].planes;
+            self.faces.leave_open(self.space, &probe, |column, visit| self.any_occluder(column, planes, visit))
+        };
+        Some(is_nearest && !is_hidden && (cuts.leave_open(place) || leave_open()))
+    }
+}

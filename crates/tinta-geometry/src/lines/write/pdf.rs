@@ -1,0 +1,172 @@
+//! Lines as PDF: one page of their true size, with the layers, paths and coordinates of the SVG.
+//!
+//! In: [`VisibleLines`] and [`SvgSettings`]. Out: bytes that are the same for the same input: no time stamps, no identifiers. A
+//! matrix takes the picture's pixels, y down, to points, so that the paths have the numbers that the SVG has. Layers are
+//! optional content (PDF 1.5), which viewers show as such. Ghosts have the colour that their opacity gives on plain paper.
+
+use crate::error::{Error, Result};
+use crate::lines::VisibleLines;
+use crate::lines::drawing::chain::{LinePath, chain};
+use crate::lines::drawing::curves::{Step, fitted};
+use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
+use crate::lines::drawing::settings::{SvgSettings, mixed};
+use crate::lines::drawing::text::{written_point, written_points};
+use crate::scene::{Background, Color};
+use glam::DVec2;
+use pdf_writer::types::{LineCapStyle, LineJoinStyle};
+use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, TextStr};
+
+/// The lines as a PDF file, without spurs and specks.
+///
+/// # Errors
+///
+/// As [`crate::lines::svg`], and [`Error::Setting`] for a page larger than PDF knows.
+pub fn pdf(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<u8>> {
+    let lines = lines.without_specks(settings)?;
+    pdf_of_paths(&lines, chain(&lines.segments), settings)
+}
+
+/// The lines as they are, for which [`chain`] has made `paths`.
+///
+/// # Errors
+///
+/// As [`pdf`].
+pub fn pdf_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSettings) -> Result<Vec<u8>> {
+    let drawing = Drawing::new(lines, paths, settings)?;
+    let scale = drawing.page.points_per_px();
+    let page_points = drawing.page.extent_px * scale;
+    if page_points.max_element() > LARGEST_PAGE || page_points.min_element() < SMALLEST_PAGE {
+        let problem = "a page of a PDF is 3 to 14,400 points (5 metres) long on each side; choose another --page, \
+                       --width-mm, --dpi or --size";
+        return Err(Error::setting("page", problem));
+    }
+    Ok(written(&drawing, scale))
+}
+
+/// Sides of a page, points (ISO 32000-1, annex C).
+const LARGEST_PAGE: f64 = 14_400.0;
+const SMALLEST_PAGE: f64 = 3.0;
+
+const CATALOG: Ref = Ref::new(1);
+const PAGES: Ref = Ref::new(2);
+const PAGE: Ref = Ref::new(3);
+const CONTENT: Ref = Ref::new(4);
+const INFORMATION: Ref = Ref::new(5);
+const FIRST_LAYER: i32 = 6;
+
+fn written(drawing: &Drawing<'_>, scale: f64) -> Vec<u8> {
+    let (settings, page) = (drawing.settings, &drawing.page);
+    let [width, height] = (page.extent_px * scale).to_array().map(|side| side as f32);
+    let layers: Vec<Ref> = (FIRST_LAYER..).map(Ref::new).take(drawing.layers.len()).collect();
+    let mut pdf = Pdf::new();
+    let mut catalog = pdf.catalog(CATALOG);
+    catalog.pages(PAGES);
+    if !layers.is_empty() {
+        let mut content = catalog.insert(Name(b"OCProperties")).dict();
+        content.insert(Name(b"OCGs")).array().items(layers.iter().copied());
+        // A viewer lists them as they lie, the highest first.
+        let mut shown = content.insert(Name(b"D")).dict();
+        shown.insert(Name(b"Order")).array().items(layers.iter().rev().copied());
+    }
+    catalog.finish();
+    pdf.pages(PAGES).kids([PAGE]).count(1);
+    let mut sheet = pdf.page(PAGE);
+    sheet.parent(PAGES).media_box(Rect::new(0.0, 0.0, width, height)).contents(CONTENT);
+    let mut resources = sheet.resources();
+    let mut properties = resources.insert(Name(b"Properties")).dict();
+    for (number, layer) in layers.iter().enumerate() {
+        properties.pair(Name(layer_name(number).as_bytes()), *layer);
+    }
+    properties.finish();
+    resources.finish();
+    sheet.finish();
+
+    let mut content = Content::new();
+    if let (Background::Color(Color([red, green, blue])), false) = (settings.background, settings.is_for_pen) {
+        content.set_fill_rgb(red, green, blue).rect(0.0, 0.0, width, height).fill_nonzero();
+    }
+    let origin = page.origin_px;
+    let matrix = [scale, 0.0, 0.0, -scale, -origin.x * scale, (origin.y + page.extent_px.y) * scale];
+    content.transform(matrix.map(|number| number as f32));
+    content.set_line_cap(LineCapStyle::RoundCap).set_line_join(LineJoinStyle::RoundJoin);
+    for (number, layer) in drawing.layers.iter().enumerate() {
+        write_layer(drawing, layer, number, &mut content);
+    }
+    pdf.stream(CONTENT, &content.finish());
+
+    for (layer, drawn) in layers.iter().zip(&drawing.layers) {
+        let words = drawn.layer.words().join(" ");
+        pdf.indirect(*layer).dict().pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(&words));
+    }
+    let mut information = pdf.document_info(INFORMATION);
+    information.creator(TextStr("tinta"));
+    if !settings.title.is_empty() {
+        information.title(TextStr(&settings.title));
+    }
+    if !settings.command.is_empty() {
+        information.subject(TextStr(&settings.command));
+    }
+    if let Some(note) = &drawing.note {
+        information.keywords(TextStr(note));
+    }
+    information.finish();
+    pdf.finish()
+}
+
+/// What the page calls a layer.
+fn layer_name(number: usize) -> String {
+    format!("L{number}")
+}
+
+fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, number: usize, content: &mut Content) {
+    content.begin_marked_content_with_properties(Name(b"OC")).properties_named(Name(layer_name(number).as_bytes()));
+    let color = match drawn.is_ghost {
+        true => mixed(drawn.color, drawing.settings.paper_color(), GHOST_OPACITY),
+        false => drawn.color,
+    };
+    let [red, green, blue] = color.0;
+    content.set_stroke_rgb(red, green, blue).set_line_width(drawn.width_px as f32);
+    let dash = drawn.dash_px.map(|dash| dash.map(|length| length as f32));
+    content.set_dash_pattern(dash.into_iter().flatten(), 0.0);
+    for path in &drawn.paths {
+        write_path(drawing.settings, path, content);
+    }
+    content.end_marked_content();
+}
+
+fn write_path(settings: &SvgSettings, path: &LinePath, content: &mut Content) {
+    // The very numbers of the SVG.
+    let numbers = |point: &[String; 2]| [0, 1].map(|axis| point[axis].parse::<f32>().unwrap_or(0.0));
+    if let Some(error_px) = settings.fit_px {
+        let (first, steps) = fitted(path, error_px);
+        let at = |point: DVec2| numbers(&written_point(point));
+        let [x, y] = at(first);
+        content.move_to(x, y);
+        for step in steps {
+            match step {
+                Step::Line(to) => {
+                    let [x, y] = at(to);
+                    content.line_to(x, y)
+                }
+                Step::Curve(points) => {
+                    let [[x1, y1], [x2, y2], [x3, y3]] = points.map(at);
+                    content.cubic_to(x1, y1, x2, y2, x3, y3)
+                }
+            };
+        }
+    } else {
+        let points = written_points(&settings.points_of(path), path.is_closed, settings.has_provenance);
+        for (index, point) in points.iter().enumerate() {
+            let [x, y] = numbers(point);
+            match index {
+                0 => content.move_to(x, y),
+                _ => content.line_to(x, y),
+            };
+        }
+    }
+    if path.is_closed {
+        content.close_and_stroke()
+    } else {
+        content.stroke()
+    };
+}

@@ -1,0 +1,171 @@
+//! Lines as pixels: what the SVG shows, drawn here, without a rasteriser of others and of any size.
+//!
+//! In: [`VisibleLines`] and [`SvgSettings`]. Out: [`Raster`]. All that is drawn is lines with round ends and corners, so that a pixel is
+//! covered by how far its middle lies from the nearest line of a layer. Within a layer the nearest counts, as in the SVG, where lines
+//! of one colour cross without adding up; layers lie over one another.
+
+use crate::error::{Error, Result};
+use crate::lines::VisibleLines;
+use crate::lines::drawing::chain::{LinePath, chain};
+use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
+use crate::lines::drawing::pen::dashes;
+use crate::lines::drawing::settings::SvgSettings;
+use crate::scene::{Background, Color, Size};
+use glam::DVec2;
+
+/// A drawing's pixels.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Raster {
+    /// Width and height.
+    pub size: Size,
+    /// Red, green, blue, alpha, not multiplied by it, row by row from the top.
+    pub pixels: Vec<u8>,
+}
+
+/// The lines as pixels, without spurs and specks.
+///
+/// # Errors
+///
+/// As [`crate::lines::svg`], and [`Error::Setting`] for a page that is not the picture.
+pub fn raster(lines: &VisibleLines, settings: &SvgSettings) -> Result<Raster> {
+    let lines = lines.without_specks(settings)?;
+    raster_of_paths(&lines, chain(&lines.segments), settings)
+}
+
+/// The lines as they are, for which [`chain`] has made `paths`.
+///
+/// # Errors
+///
+/// As [`raster`].
+pub fn raster_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSettings) -> Result<Raster> {
+    let drawing = Drawing::new(lines, paths, settings)?;
+    let size = lines.size;
+    let [width, height] = [size.width, size.height].map(f64::from);
+    if drawing.page.extent_px != DVec2::new(width, height) || drawing.page.origin_px != DVec2::ZERO {
+        return Err(Error::setting("page", "a picture is as large as --size; leave it out, or write a .svg or .pdf"));
+    }
+    let ground = match settings.background {
+        Background::Color(Color(color)) => color.map(byte),
+        Background::Transparent => [0; 3],
+    };
+    let alpha = if settings.background == Background::Transparent { 0 } else { u8::MAX };
+    let pixel = [ground[0], ground[1], ground[2], alpha];
+    let mut pixels = pixel.repeat(size.pixel_count());
+    let mut cover = vec![0.0f32; size.pixel_count()];
+    for layer in &drawing.layers {
+        cover.fill(0.0);
+        cover_layer(layer, settings, size, &mut cover);
+        let opacity = if layer.is_ghost { GHOST_OPACITY } else { 1.0 };
+        for (pixel, cover) in pixels.chunks_exact_mut(4).zip(&cover).filter(|(_, cover)| **cover > 0.0) {
+            lay_over(pixel, layer.color, cover * opacity);
+        }
+    }
+    Ok(Raster { size, pixels })
+}
+
+fn byte(channel: f32) -> u8 {
+    (channel * 255.0).round() as u8
+}
+
+/// A colour of this opacity over a pixel.
+fn lay_over(pixel: &mut [u8], Color(color): Color, opacity: f32) {
+    let below = f32::from(pixel[3]) / 255.0 * (1.0 - opacity);
+    let alpha = opacity + below;
+    for (channel, color) in pixel.iter_mut().zip(color) {
+        *channel = byte((color * opacity + f32::from(*channel) / 255.0 * below) / alpha);
+    }
+    pixel[3] = byte(alpha);
+}
+
+/// How much of each pixel a layer covers.
+fn cover_layer(layer: &DrawnLayer, settings: &SvgSettings, size: Size, cover: &mut [f32]) {
+    let mut polyline = |points: &[DVec2], is_closed: bool| {
+        let closing = is_closed.then(|| [points[points.len() - 1], points[0]]);
+        let pairs = points.windows(2).map(|pair| [pair[0], pair[1]]);
+        pairs.chain(closing).for_each(|ends| cover_line(ends, layer.width_px, size, cover));
+    };
+    for path in &layer.paths {
+        match layer.dash_px {
+            None => polyline(&settings.points_of(path), path.is_closed),
+            Some([dash, gap]) => {
+                dashes(path, dash, gap).iter().for_each(|dash| polyline(&dash.points_px, dash.is_closed));
+            }
+        }
+    }
+}
+
+/// How much of each pixel a line with round ends covers, where that is more than what covers it already.
+fn cover_line([a, b]: [DVec2; 2], width_px: f64, size: Size, cover: &mut [f32]) {
+    // Half a pixel's width beyond its edge a line covers nothing.
+    let (radius, reach) = (width_px * 0.5, width_px * 0.5 + 0.5);
+    let along = b - a;
+    let squared = along.length_squared();
+    let pixels = |low: f64, high: f64, side: u32| {
+        let first = (low - 0.5).ceil().max(0.0) as usize;
+        first..((high - 0.5).floor() + 1.0).clamp(0.0, f64::from(side)) as usize
+    };
+    for row in pixels(a.y.min(b.y) - reach, a.y.max(b.y) + reach, size.height) {
+        let y = row as f64 + 0.5;
+        // The stretch of the line that is not too far above or below.
+        let at = |y: f64| if along.y == 0.0 { 0.0 } else { ((y - a.y) / along.y).clamp(0.0, 1.0) };
+        let ends = match along.y == 0.0 {
+            true => [a.x, b.x],
+            false => [at(y - reach), at(y + reach)].map(|share| a.x + along.x * share),
+        };
+        for column in pixels(ends[0].min(ends[1]) - reach, ends[0].max(ends[1]) + reach, size.width) {
+            let from_a = DVec2::new(column as f64 + 0.5, y) - a;
+            let share = if squared > 0.0 { (from_a.dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+            let distance = (from_a - along * share).length();
+            let covered = (reach - distance).min(2.0 * radius).clamp(0.0, 1.0) as f32;
+            let before = &mut cover[row * size.width as usize + column];
+            *before = before.max(covered);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: Size = Size { width: 40, height: 30 };
+
+    fn covered(ends: [[f64; 2]; 2], width_px: f64) -> Vec<f32> {
+        let mut cover = vec![0.0; SIZE.pixel_count()];
+        cover_line(ends.map(DVec2::from_array), width_px, SIZE, &mut cover);
+        cover
+    }
+
+    #[test]
+    fn a_line_covers_its_area_whatever_its_direction() {
+        for ends in [[[10.0, 15.0], [30.0, 15.0]], [[20.0, 6.0], [20.0, 24.0]], [[9.0, 8.0], [29.0, 22.0]]] {
+            for width_px in [1.0, 2.0, 5.0] {
+                let length = DVec2::from_array(ends[0]).distance(DVec2::from_array(ends[1]));
+                // The ends are half disks.
+                let area = length * width_px + std::f64::consts::PI * width_px * width_px / 4.0;
+                let sum: f64 = covered(ends, width_px).iter().map(|cover| f64::from(*cover)).sum();
+                assert!((sum / area - 1.0).abs() < 0.06, "{ends:?} {width_px}: {sum} {area}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_on_rows_of_pixels_covers_them_and_no_others() {
+        let cover = covered([[10.0, 15.0], [30.0, 15.0]], 2.0);
+        let at = |x: usize, y: usize| cover[y * SIZE.width as usize + x];
+        assert_eq!([at(20, 13), at(20, 14), at(20, 15), at(20, 16)], [0.0, 1.0, 1.0, 0.0]);
+        // Beyond the picture nothing happens.
+        assert!(covered([[-50.0, -60.0], [-5.0, -9.0]], 3.0).iter().all(|cover| *cover == 0.0));
+        assert_eq!(covered([[5.5, 5.5], [5.5, 5.5]], 1.0)[5 * 40 + 5], 1.0, "a point is a dot");
+    }
+
+    #[test]
+    fn a_colour_lies_over_another_and_over_nothing() {
+        let red = Color([1.0, 0.0, 0.0]);
+        let mut white = [255; 4];
+        lay_over(&mut white, red, 0.5);
+        assert_eq!(white, [255, 128, 128, 255]);
+        let mut nothing = [0; 4];
+        lay_over(&mut nothing, red, 0.25);
+        assert_eq!(nothing, [255, 0, 0, 64]);
+    }
+}

@@ -1,0 +1,149 @@
+//! A drawing as strokes, for whoever paints it without a file: a window.
+//!
+//! In: [`VisibleLines`] and [`SvgSettings`]. Out: what [`crate::lines::svg`] writes of them, layer by layer, with dashes as polylines of
+//! their own.
+
+use crate::error::Result;
+use crate::lines::VisibleLines;
+use crate::lines::drawing::chain::{LinePath, chain};
+use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
+use crate::lines::drawing::layers::Layer;
+use crate::lines::drawing::length::Units;
+use crate::lines::drawing::pen::dashes;
+use crate::lines::drawing::settings::SvgSettings;
+use crate::scene::Color;
+use glam::DVec2;
+
+/// The strokes of a layer: round at ends and joins, and painted as a whole, so that opacity does not add up where they cross.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strokes {
+    /// The layer.
+    pub layer: Layer,
+    /// Its colour.
+    pub color: Color,
+    /// How wide they are, pixels.
+    pub width_px: f64,
+    /// The same in millimetres; `None` where the drawing has no size on paper.
+    pub width_mm: Option<f64>,
+    /// 1 is opaque.
+    pub opacity: f32,
+    /// The strokes.
+    pub polylines: Vec<Polyline>,
+}
+
+/// A stroke.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polyline {
+    /// Pixels from the picture's upper left corner, y down; a closed one's first point is not repeated.
+    pub points_px: Vec<DVec2>,
+    /// Whether the last point is joined to the first.
+    pub is_closed: bool,
+}
+
+impl Polyline {
+    /// How long it is, pixels.
+    pub fn length_px(&self) -> f64 {
+        let closing = self.points_px.first().zip(self.points_px.last()).filter(|_| self.is_closed);
+        let along = self.points_px.windows(2).map(|pair| pair[0].distance(pair[1]));
+        along.sum::<f64>() + closing.map_or(0.0, |(first, last)| first.distance(*last))
+    }
+}
+
+/// The strokes of a drawing from the lowest layer to the highest, without spurs and specks.
+///
+/// # Errors
+///
+/// As [`crate::lines::svg`].
+pub fn strokes(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<Strokes>> {
+    let lines = lines.without_specks(settings)?;
+    strokes_of_paths(&lines, chain(&lines.segments), settings)
+}
+
+/// The strokes of lines as they are, for which [`chain`] has made `paths`.
+///
+/// # Errors
+///
+/// As [`crate::lines::svg`].
+pub fn strokes_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSettings) -> Result<Vec<Strokes>> {
+    let drawing = Drawing::new(lines, paths, settings)?;
+    Ok(drawing.layers.iter().map(|layer| of_layer(layer, settings, drawing.page.units)).collect())
+}
+
+fn of_layer(drawn: &DrawnLayer, settings: &SvgSettings, units: Units) -> Strokes {
+    let polylines = drawn.paths.iter().flat_map(|path| match drawn.dash_px {
+        Some([dash, gap]) => dashes(path, dash, gap)
+            .into_iter()
+            .map(|dash| Polyline { points_px: dash.points_px, is_closed: false })
+            .collect(),
+        None => vec![Polyline { points_px: settings.points_of(path), is_closed: path.is_closed }],
+    });
+    Strokes {
+        layer: drawn.layer,
+        color: drawn.color,
+        width_px: drawn.width_px,
+        width_mm: units.px_per_mm.map(|px| drawn.width_px / px),
+        opacity: if drawn.is_ghost { GHOST_OPACITY } else { 1.0 },
+        polylines: polylines.collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::edges::Class;
+    use crate::lines::{Hidden, LineSegment, LineTimes};
+    use crate::scene::Size;
+
+    /// A crease of 90 pixels that is seen, and one below it that is not.
+    fn lines() -> VisibleLines {
+        let segment = |y: f64, is_visible: bool| LineSegment {
+            class: Class::Crease,
+            is_visible,
+            is_outline: false,
+            background: [false; 2],
+            is_covered: false,
+            ends_px: [DVec2::new(5.0, y), DVec2::new(95.0, y)],
+            ends_world: [5.0, 95.0].map(|x| glam::DVec3::new(x, y, 0.0)),
+            edge: Some([0, 1]),
+            angle_degrees: Some(90.0),
+            object: 0,
+        };
+        VisibleLines {
+            size: Size { width: 100, height: 100 },
+            segments: vec![segment(20.0, true), segment(60.0, false)],
+            edges: Default::default(),
+            changes: None,
+            covered_triangles: 0,
+            undecided: 0,
+            has_specks: false,
+            times: LineTimes::default(),
+        }
+    }
+
+    fn of(hidden: Hidden) -> Vec<Strokes> {
+        strokes(&lines(), &SvgSettings { hidden, ..SvgSettings::default() }).unwrap()
+    }
+
+    #[test]
+    fn hidden_lines_are_strokes_only_where_they_are_asked_for_and_lie_below() {
+        let [visible] = &of(Hidden::None)[..] else { panic!("one layer") };
+        assert_eq!((visible.layer, visible.width_px, visible.opacity), (Layer::Visible(Class::Crease), 2.0, 1.0));
+        assert_eq!(visible.polylines[0].points_px, [DVec2::new(5.0, 20.0), DVec2::new(95.0, 20.0)]);
+        let [hidden, above] = &of(Hidden::Ghost)[..] else { panic!("two layers") };
+        assert_eq!((hidden.layer, hidden.opacity), (Layer::Hidden(Class::Crease), GHOST_OPACITY));
+        assert_eq!(above, visible);
+    }
+
+    #[test]
+    fn dashes_are_strokes_of_their_own_as_long_as_the_file_says() {
+        let [hidden, _] = &of(Hidden::Dashed)[..] else { panic!("two layers") };
+        // One pixel wide: dashes of 6 pixels and gaps of 5 over 90 pixels are eight whole dashes and one of 2.
+        assert_eq!(hidden.width_px, 1.0);
+        let ends = hidden.polylines.iter().map(|dash| [dash.points_px[0].x, dash.points_px[1].x]);
+        let expected = (0..9).map(|dash| 5.0 + 11.0 * f64::from(dash)).map(|start| [start, (start + 6.0).min(95.0)]);
+        for ([a, b], [from, to]) in ends.clone().zip(expected.clone()) {
+            assert!((a - from).abs() < 1e-9 && (b - to).abs() < 1e-9, "{a} to {b} instead of {from} to {to}");
+        }
+        assert_eq!(ends.count(), expected.count());
+    }
+}

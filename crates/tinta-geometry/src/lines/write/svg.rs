@@ -1,0 +1,134 @@
+//! Lines as SVG 1.1: a layer for each class and visibility, polylines in them, nothing else.
+//!
+//! In: [`VisibleLines`] and [`SvgSettings`]. Out: a text that is the same, byte for byte, for the same input: coordinates in
+//! pixels with three decimals, y down, in the order of the pieces. The layers are groups that Inkscape shows as such, hidden
+//! ones below visible ones.
+
+use crate::error::Result;
+use crate::lines::VisibleLines;
+use crate::lines::drawing::chain::{LinePath, chain};
+use crate::lines::drawing::curves::fitted;
+use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
+use crate::lines::drawing::page::PAGE_DECIMALS;
+use crate::lines::drawing::settings::SvgSettings;
+use crate::lines::drawing::text::{curve_data, decimal, hexadecimal, number, path_data};
+use crate::markup::escaped;
+use crate::markup::recipe_element;
+use crate::scene::Background;
+use std::fmt::Write;
+
+/// The lines as an SVG file, without spurs and specks.
+///
+/// # Errors
+///
+/// [`crate::Error::Setting`] for settings that [`SvgSettings::check`] refuses, [`crate::Error::Lines`] for lines that are not
+/// finite or leave the picture.
+pub fn svg(lines: &VisibleLines, settings: &SvgSettings) -> Result<String> {
+    let lines = lines.without_specks(settings)?;
+    svg_of_paths(&lines, chain(&lines.segments), settings)
+}
+
+/// The lines as they are, for which [`chain`] has made `paths`.
+///
+/// # Errors
+///
+/// As [`svg`].
+pub fn svg_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSettings) -> Result<String> {
+    let drawing = Drawing::new(lines, paths, settings)?;
+    let mut out = String::new();
+    begin(&drawing, &mut out);
+    for layer in &drawing.layers {
+        write_layer(&drawing, layer, &mut out);
+    }
+    out.push_str("</svg>\n");
+    Ok(out)
+}
+
+/// Everything before the layers.
+fn begin(drawing: &Drawing<'_>, out: &mut String) {
+    let (settings, page) = (drawing.settings, &drawing.page);
+    let [width, height] = page.lengths();
+    let page_number = |value| decimal(value, PAGE_DECIMALS);
+    let [x, y] = page.origin_px.to_array().map(page_number);
+    let [width_px, height_px] = page.extent_px.to_array().map(page_number);
+    let element = |name: &str, text: &str| match text {
+        "" => String::new(),
+        text => format!("<{name}>{}</{name}>\n", escaped(text)),
+    };
+    let [title, title_again] = ["title", "dc:title"].map(|name| element(name, &settings.title));
+    let command = element("dc:description", &settings.command);
+    let note = element("dc:coverage", drawing.note.as_deref().unwrap_or_default());
+    let recipe = recipe_element(&settings.recipe);
+    let _ = write!(
+        out,
+        r#"<?xml version="1.0" encoding="UTF-8"?>
+<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" version="1.1" width="{width}" height="{height}" viewBox="{x} {y} {width_px} {height_px}">
+{title}<metadata>
+<rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#" xmlns:cc="http://creativecommons.org/ns#" xmlns:dc="http://purl.org/dc/elements/1.1/">
+<cc:Work rdf:about="">
+<dc:format>image/svg+xml</dc:format>
+{title_again}{command}{note}</cc:Work>
+</rdf:RDF>
+{recipe}</metadata>
+"#
+    );
+    if let (Background::Color(color), false) = (settings.background, settings.is_for_pen) {
+        let fill = hexadecimal(color);
+        let place = if [&x, &y] == ["0"; 2] { String::new() } else { format!(r#"x="{x}" y="{y}" "#) };
+        let _ =
+            writeln!(out, r#"<rect id="background" {place}width="{width_px}" height="{height_px}" fill="{fill}"/>"#);
+    }
+}
+
+fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, out: &mut String) {
+    let [visibility, name] = drawn.layer.words();
+    let _ = write!(
+        out,
+        r#"<g id="{visibility}-{name}" inkscape:groupmode="layer" inkscape:label="{visibility} {name}" fill="none" stroke="{}" stroke-width="{}" stroke-linecap="round" stroke-linejoin="round""#,
+        hexadecimal(drawn.color),
+        number(drawn.width_px)
+    );
+    if let Some(dash) = drawn.dash_px {
+        let [dash, gap] = dash.map(number);
+        let _ = write!(out, r#" stroke-dasharray="{dash} {gap}""#);
+    }
+    if drawn.is_ghost {
+        let _ = write!(out, r#" opacity="{GHOST_OPACITY}""#);
+    }
+    out.push_str(">\n");
+    for path in &drawn.paths {
+        write_path(drawing, name, path, out);
+    }
+    out.push_str("</g>\n");
+}
+
+fn write_path(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut String) {
+    out.push_str("<path");
+    if let Some(stroke) = path.stroke {
+        let _ = write!(out, r#" id="stroke-{stroke}""#);
+    }
+    if drawing.settings.has_provenance {
+        write_provenance(drawing, class, path, out);
+    }
+    let data = match drawing.settings.fit_px {
+        Some(error_px) => curve_data(&fitted(path, error_px), path.is_closed),
+        None => path_data(&drawing.settings.points_of(path), path.is_closed, drawing.settings.has_provenance),
+    };
+    let _ = writeln!(out, r#" d="{data}"/>"#);
+}
+
+/// Class, object, and for each piece of the path its mesh edge and angle, or `-`.
+fn write_provenance(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut String) {
+    let _ = write!(out, r#" data-class="{class}" data-object="{}" data-edges=""#, path.object);
+    let pieces = || path.segments.iter().map(|piece| &drawing.segments[*piece]);
+    for (index, piece) in pieces().enumerate() {
+        out.push_str(if index > 0 { " " } else { "" });
+        out.push_str(&piece.edge.map_or_else(|| "-".to_owned(), |[a, b]| format!("{a}-{b}")));
+    }
+    out.push_str(r#"" data-angles=""#);
+    for (index, piece) in pieces().enumerate() {
+        out.push_str(if index > 0 { " " } else { "" });
+        out.push_str(&piece.angle_degrees.map_or_else(|| "-".to_owned(), number));
+    }
+    out.push('"');
+}

@@ -1,0 +1,312 @@
+//! From a [`Soup`] to a [`Mesh`]: the one place where all formats are treated alike.
+//!
+//! Bad faces are dropped and counted, vertices welded, polygons cut into triangles, missing normals computed, unused vertices left out.
+
+use super::normals::Splitting;
+use super::pieces::Pieces;
+use super::soup::{Corner, Soup};
+use super::{Defects, LoadOptions, LoadStage, Mesh, NONE, Normals, normals, options, weld};
+use crate::error::{Error, Result};
+use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS};
+use crate::tolerances::LARGEST_COORDINATE;
+use glam::{DVec3, Vec3};
+use std::borrow::Cow;
+
+impl Mesh {
+    /// A mesh of a program's own: triangles, counter-clockwise seen from outside, over positions in units of your choice.
+    ///
+    /// It goes the way of a file's: vertices are welded, triangles without area dropped and counted, normals computed.
+    ///
+    /// # Errors
+    ///
+    /// [`crate::Error::File`] when a triangle names a position that there is not, coordinates are too large, or nothing is
+    /// left to draw; [`crate::Error::Strict`] and [`crate::Error::Setting`] as [`load()`](super::load()) has them.
+    pub fn of_triangles(
+        name: &str,
+        positions: Vec<DVec3>,
+        triangles: &[[u32; 3]],
+        options: &LoadOptions,
+    ) -> crate::Result<Self> {
+        Self::of_polygons(name, positions, triangles.as_flattened(), Vec::new(), options)
+    }
+
+    /// The same of polygons, which are cut into triangles as a file's are: all their corners one after the other, and how many
+    /// each of them has, at least 3; where no sizes are given, all are triangles.
+    ///
+    /// ```
+    /// # fn main() -> tinta_geometry::Result<()> {
+    /// use glam::DVec3;
+    /// use tinta_geometry::{LoadOptions, Mesh};
+    ///
+    /// let corners = vec![DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y];
+    /// let square = Mesh::of_polygons("a square", corners, &[0, 1, 2, 3], vec![4], &LoadOptions::default())?;
+    /// assert_eq!(square.triangles.len(), 2);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`Mesh::of_triangles`], and [`crate::Error::File`] for sizes that are not those of the corners.
+    pub fn of_polygons(
+        name: &str,
+        positions: Vec<DVec3>,
+        corners: &[u32],
+        sizes: Vec<u32>,
+        options: &LoadOptions,
+    ) -> crate::Result<Self> {
+        options::check(options)?;
+        if corners.iter().any(|index| *index as usize >= positions.len()) {
+            let problem = format!("a face uses a position that does not exist; there are {}", positions.len());
+            return Err(crate::Error::model(name, problem));
+        }
+        let counted: u64 = sizes.iter().map(|size| u64::from(*size)).sum();
+        let is_even = if sizes.is_empty() { corners.len().is_multiple_of(3) } else { counted == corners.len() as u64 };
+        if !is_even || sizes.iter().any(|size| *size < 3) {
+            let problem = format!("its faces do not have {} corners together, and 3 or more each", corners.len());
+            return Err(crate::Error::model(name, problem));
+        }
+        let corners = corners.iter().map(|index| Corner::at(*index)).collect();
+        let soup = Soup { positions, corners, polygon_sizes: sizes, ..Soup::default() };
+        soup.into_mesh(name, options)
+    }
+}
+
+impl Soup {
+    /// Makes the mesh. Fails if nothing is left to draw, or with `options.strict` if anything was wrong.
+    pub(super) fn into_mesh(self, name: &str, options: &LoadOptions) -> Result<Mesh> {
+        self.into_mesh_watched(name, options, &|_| {})
+    }
+
+    /// The same, for whoever wants to know when only the normals are left to be made.
+    pub(super) fn into_mesh_watched(
+        mut self,
+        name: &str,
+        options: &LoadOptions,
+        watch: &dyn Fn(LoadStage),
+    ) -> Result<Mesh> {
+        for position in &mut self.positions {
+            *position = options.up_axis.to_y_up(*position);
+        }
+        let finite: Vec<bool> = self.positions.iter().map(|position| position.is_finite()).collect();
+        let mut defects = std::mem::take(&mut self.defects);
+        defects.non_finite_vertices += finite.iter().filter(|finite| !**finite).count();
+
+        self.drop_unusable(&mut defects);
+        let used = self.used(&finite);
+        let welded = self.welded(&used, options.weld, name)?;
+        let mut pieces = Pieces::of(&self, &finite, &welded);
+        pieces.drop_duplicates(self.positions.len());
+        defects.degenerate_triangles += pieces.degenerate;
+        defects.long_polygons += pieces.too_long;
+        defects.repeated_corners += pieces.repeated_corners;
+        defects.duplicate_triangles += pieces.duplicate;
+        if pieces.triangles.is_empty() {
+            return Err(nothing_to_draw(name, &self, &defects));
+        }
+        // A large model's corners are most of its soup.
+        self.corners = Vec::new();
+        defects.unused_vertices += finite.iter().zip(&used).filter(|(finite, used)| **finite && !**used).count();
+
+        let (positions, file_vertices) = compact(&self.positions, &mut pieces.triangles);
+        let color = |vertex: &u32| self.colors.get(*vertex as usize).copied();
+        let mut mesh = Mesh {
+            name: name.to_owned(),
+            position_colors: file_vertices.iter().filter_map(color).collect(),
+            positions,
+            file_vertices,
+            triangles: pieces.triangles,
+            normals: Vec::new(),
+            triangle_normals: pieces.normals,
+            texture_coordinates: std::mem::take(&mut self.texture_coordinates),
+            triangle_texture_coordinates: pieces.texture_coordinates,
+            materials: std::mem::take(&mut self.materials),
+            triangle_materials: pieces.materials,
+            defects,
+        };
+        if mesh.triangle_texture_coordinates.as_flattened().iter().all(|index| *index == NONE) {
+            mesh.triangle_texture_coordinates.clear();
+        }
+        if mesh.triangle_materials.iter().all(|index| *index == NONE) {
+            mesh.triangle_materials.clear();
+        }
+        if mesh.position_colors.len() != mesh.positions.len() {
+            mesh.position_colors.clear();
+        }
+        watch(LoadStage::Normals);
+        mesh.take_normals(&self.normals, &pieces.face_normals, options);
+        if options.strict && !mesh.defects.is_empty() {
+            return Err(Error::Strict { path: name.into(), defects: mesh.defects.to_string() });
+        }
+        Ok(mesh)
+    }
+
+    /// For each vertex the one it is welded to, by a tolerance relative to the used vertices' bounding-box diagonal; vertices
+    /// that nobody uses stay alone and do not count.
+    fn welded(&self, used: &[bool], tolerance: f64, name: &str) -> Result<Vec<u32>> {
+        let alone = DVec3::NAN;
+        let points: Cow<'_, [DVec3]> = match used.contains(&false) {
+            false => Cow::Borrowed(&self.positions),
+            true => {
+                let points = self.positions.iter().zip(used);
+                points.map(|(point, used)| if *used { *point } else { alone }).collect()
+            }
+        };
+        let (low, high) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| {
+            if point.is_nan() { (low, high) } else { (low.min(*point), high.max(*point)) }
+        });
+        if low.abs().max(high.abs()).max_element() > LARGEST_COORDINATE && low.cmple(high).all() {
+            let problem = format!("its coordinates reach beyond {LARGEST_COORDINATE:e}; scale it down");
+            return Err(Error::model(name, problem));
+        }
+        let diagonal = if low.cmple(high).all() { (high - low).length() } else { 0.0 };
+        Ok(weld::weld(&points, tolerance * diagonal))
+    }
+
+    /// Takes normals without a direction and texture coordinates that are not finite from the corners that have them.
+    fn drop_unusable(&mut self, defects: &mut Defects) {
+        let has_direction = |normal: &Vec3| normal.is_finite() && *normal != Vec3::ZERO;
+        if !self.normals.iter().all(has_direction) {
+            for corner in &mut self.corners {
+                if self.normals.get(corner.normal as usize).is_some_and(|normal| !has_direction(normal)) {
+                    corner.normal = NONE;
+                    defects.unusable_normals += 1;
+                }
+            }
+        }
+        if !self.texture_coordinates.iter().all(|pair| pair.is_finite()) {
+            for corner in &mut self.corners {
+                if self.texture_coordinates.get(corner.texture as usize).is_some_and(|pair| !pair.is_finite()) {
+                    corner.texture = NONE;
+                    defects.unusable_texture_coordinates += 1;
+                }
+            }
+        }
+    }
+
+    /// Which vertices are finite and named by a polygon.
+    fn used(&self, finite: &[bool]) -> Vec<bool> {
+        let mut used = vec![false; self.positions.len()];
+        for corner in &self.corners {
+            used[corner.position as usize] = finite[corner.position as usize];
+        }
+        used
+    }
+}
+
+/// Renumbers the triangles to the positions they use, in the file's order; returns those and their file vertices.
+fn compact(all: &[DVec3], triangles: &mut [[u32; 3]]) -> (Vec<DVec3>, Vec<u32>) {
+    let mut number = vec![NONE; all.len()];
+    for index in triangles.as_flattened() {
+        number[*index as usize] = 0;
+    }
+    let count = number.iter().filter(|slot| **slot == 0).count();
+    let (mut positions, mut file_vertices) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    for (index, slot) in number.iter_mut().enumerate().filter(|(_, slot)| **slot == 0) {
+        *slot = positions.len() as u32;
+        positions.push(all[index]);
+        file_vertices.push(index as u32);
+    }
+    for index in triangles.as_flattened_mut() {
+        *index = number[*index as usize];
+    }
+    (positions, file_vertices)
+}
+
+/// From which share of the smoothing angle an edge carries a crease on that ends at it: chamfers of 30 degrees beside one of 45.
+const NEARLY: f64 = 2.0 / 3.0;
+
+/// The least cosine between a face's own normal and what a file has for it, of few digits or of a polygon that is not flat: 5 degrees.
+const OWN: f64 = 0.996;
+
+impl Mesh {
+    /// Takes over the file's normals as far as asked for and usable, and computes the rest.
+    fn take_normals(&mut self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) {
+        let angle = options.smooth_angle_degrees.to_radians();
+        let all = Splitting { cos_smooth: angle.cos(), cos_beside: None };
+        let lasting = Splitting { cos_beside: Some((angle * NEARLY).cos()), ..all };
+        let (file_normals, splitting): (&[Vec3], Splitting) = match options.normals {
+            Normals::File => (file_normals, all),
+            Normals::Smooth => (&[], all),
+            Normals::Lasting if self.repeats_faces(file_normals, face_normals, options) => (&[], lasting),
+            Normals::Lasting => (file_normals, lasting),
+            Normals::Flat => (&[], Splitting { cos_smooth: 2.0, ..all }),
+            Normals::Dachsbacher => {
+                self.normals = normals::one_a_position(self.positions.len(), &self.triangles, face_normals);
+                self.triangle_normals.clone_from(&self.triangles);
+                return;
+            }
+        };
+        let mut number = vec![NONE; file_normals.len()];
+        for slot in self.triangle_normals.as_flattened_mut() {
+            let Some(normal) = file_normals.get(*slot as usize).and_then(|normal| normal.try_normalize()) else {
+                *slot = NONE;
+                continue;
+            };
+            let file_index = std::mem::replace(slot, number[*slot as usize]) as usize;
+            if *slot == NONE {
+                *slot = self.normals.len() as u32;
+                number[file_index] = *slot;
+                self.normals.push(options.up_axis.to_y_up(normal.as_dvec3()).as_vec3());
+            }
+        }
+        let (normals, triangle_normals) = (&mut self.normals, &mut self.triangle_normals);
+        normals::fill_missing(&self.positions, &self.triangles, face_normals, splitting, normals, triangle_normals);
+    }
+}
+
+impl Mesh {
+    /// Whether a file's normals are the faces' own, nearly everywhere: then it says nothing of what is smooth.
+    fn repeats_faces(&self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) -> bool {
+        let corners =
+            self.triangle_normals.iter().zip(face_normals).flat_map(|(corners, face)| corners.map(|it| (it, face)));
+        let (mut own, mut given) = (0usize, 0usize);
+        for (corner, face) in corners {
+            let Some(normal) = file_normals.get(corner as usize).and_then(|normal| normal.try_normalize()) else {
+                continue;
+            };
+            given += 1;
+            own += usize::from(options.up_axis.to_y_up(normal.as_dvec3()).dot(*face) > OWN);
+        }
+        own * 100 > given * 95
+    }
+}
+
+fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
+    // What else may be wrong is not why no face is left.
+    let of_faces = Defects {
+        unused_vertices: 0,
+        missing_materials: 0,
+        unusable_normals: 0,
+        unusable_texture_coordinates: 0,
+        ..defects.clone()
+    };
+    let others = match soup.points_and_lines {
+        0 => "",
+        _ => " but points or lines, which are not drawn",
+    };
+    let problem = if !of_faces.is_empty() {
+        let wanted = if defects.long_polygons > 0 {
+            format!(
+                "its faces cut into triangles, for one that is not convex may have {CONCAVE_CORNERS} corners, and                  {CROSSING_CORNERS} if it crosses itself"
+            )
+        } else if defects.degenerate_triangles > 0 {
+            "faces that have area".to_owned()
+        } else {
+            "faces whose vertices it holds, all of them finite".to_owned()
+        };
+        format!("nothing is left to draw ({of_faces}){others}; export it again with {wanted}")
+    } else if soup.positions.is_empty() && others.is_empty() {
+        "it holds no vertices and no faces; is it the right file?".to_owned()
+    } else if soup.positions.is_empty() {
+        format!("it holds no faces{others}; export it with its faces")
+    } else {
+        let vertices = if soup.positions.len() == 1 { "vertex" } else { "vertices" };
+        let joined = if others.is_empty() { "but" } else { "and" };
+        format!("it holds {} {vertices} {joined} no faces{others}; export it with its faces", soup.positions.len())
+    };
+    Error::model(name, problem)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,233 @@
+//! Soups made by hand, and the meshes that come of them.
+
+use super::*;
+use crate::mesh::UpAxis;
+use crate::mesh::soup::direction;
+use glam::Vec2;
+
+fn square() -> Soup {
+    let positions = vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
+    let corners = (0..4).map(Corner::at).collect();
+    Soup { positions, corners, polygon_sizes: vec![4], ..Soup::default() }
+}
+
+fn mesh(soup: Soup) -> Mesh {
+    soup.into_mesh("test", &LoadOptions::default()).unwrap()
+}
+
+#[test]
+fn a_square_becomes_two_triangles_over_four_positions() {
+    let mesh = mesh(square());
+    assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(mesh.normals, [Vec3::Z; 4]);
+    assert!(mesh.defects.is_empty());
+}
+
+#[test]
+fn defects_are_counted_and_left_out() {
+    let mut soup = square();
+    soup.positions.extend([DVec3::splat(9.0), DVec3::new(f64::NAN, 0.0, 0.0), DVec3::X * 2.0]);
+    let mut face = |indices: &[u32]| {
+        soup.corners.extend(indices.iter().map(|index| Corner::at(*index)));
+        soup.polygon_sizes.push(indices.len() as u32);
+    };
+    face(&[1, 2, 0]); // repeats half of the square, turned
+    face(&[2, 1, 0]); // its other side
+    face(&[0, 1, 1]);
+    face(&[0, 1, 6]); // on one line
+    face(&[0, 1, 5]); // not finite
+    let mesh = mesh(soup);
+    assert_eq!(mesh.triangles.len(), 3);
+    let expected = Defects {
+        degenerate_triangles: 2,
+        duplicate_triangles: 1,
+        non_finite_vertices: 1,
+        unused_vertices: 1,
+        ..Defects::default()
+    };
+    assert_eq!(mesh.defects, expected);
+    assert_eq!(mesh.file_vertices, [0, 1, 2, 3]);
+}
+
+#[test]
+fn normals_of_any_length_have_their_direction_and_others_are_computed_and_counted() {
+    let expected = Vec3::new(0.6, 0.0, 0.8);
+    for length in [1e-320, 1e-100, 1e-30, 1e-3, 1.0, 1e20, 1e38, 1e100, 1e307] {
+        let mut soup = square();
+        soup.normals = vec![direction(DVec3::new(0.6, 0.0, 0.8) * length)];
+        soup.corners.iter_mut().for_each(|corner| corner.normal = 0);
+        let mesh = mesh(soup);
+        // Of 1e-320 a few digits are left.
+        assert!(mesh.normals[0].distance(expected) < if length < 1e-300 { 1e-3 } else { 1e-6 }, "{length}");
+        assert!(mesh.defects.is_empty(), "{length}");
+    }
+    for normal in [DVec3::ZERO, DVec3::NAN, DVec3::new(0.0, f64::INFINITY, 1.0)] {
+        let mut soup = square();
+        soup.normals = vec![direction(normal), Vec3::Z];
+        for (number, corner) in soup.corners.iter_mut().enumerate() {
+            corner.normal = u32::from(number > 1);
+        }
+        let mesh = mesh(soup);
+        assert_eq!((mesh.defects.unusable_normals, mesh.defects.unusable_texture_coordinates), (2, 0));
+        assert!(mesh.normals.iter().all(|normal| *normal == Vec3::Z));
+    }
+}
+
+#[test]
+fn scaling_a_normal_rounds_nothing() {
+    for normal in [Vec3::new(0.1, -0.7, 0.3), Vec3::new(3.0, 1e-3, 200.0), Vec3::new(1.0, 1.0, 1.0)] {
+        assert_eq!(direction(normal.as_dvec3()).normalize(), normal.normalize());
+    }
+}
+
+#[test]
+fn texture_coordinates_that_are_no_numbers_are_left_out_and_counted() {
+    for wrong in [f32::NAN, f32::INFINITY] {
+        let mut soup = square();
+        soup.texture_coordinates = vec![Vec2::new(0.5, wrong), Vec2::ONE];
+        for (number, corner) in soup.corners.iter_mut().enumerate() {
+            corner.texture = u32::from(number > 0);
+        }
+        let mesh = mesh(soup);
+        assert_eq!(mesh.triangle_texture_coordinates, [[NONE, 1, 1], [NONE, 1, 1]]);
+        assert_eq!(mesh.defects.to_string(), "1 corner without usable texture coordinates");
+    }
+}
+
+#[test]
+fn a_corner_twice_in_a_row_is_said_and_no_reason_to_refuse() {
+    let corners = [[2.0, 4.0], [2.0, 2.0], [4.0, 2.0], [4.0, 0.0], [0.0, 0.0], [0.0, 4.0]];
+    let positions: Vec<DVec3> = corners.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).collect();
+    let strict = LoadOptions { strict: true, ..LoadOptions::default() };
+    for (polygon, triangles) in
+        [(vec![0, 1, 2, 3, 4, 5, 0], 4), (vec![0, 0, 1, 2, 2, 3, 4, 5], 4), (vec![0, 1, 2, 2], 1)]
+    {
+        let soup = Soup {
+            positions: positions[..polygon.iter().max().map_or(0, |last| *last as usize + 1)].to_vec(),
+            polygon_sizes: vec![polygon.len() as u32],
+            corners: polygon.into_iter().map(Corner::at).collect(),
+            ..Soup::default()
+        };
+        let mesh = soup.into_mesh("test", &strict).unwrap();
+        assert_eq!((mesh.triangles.len(), mesh.defects.degenerate_triangles), (triangles, 0));
+        assert_eq!(mesh.defects.to_string(), "1 polygon that names a corner twice in a row (harmless)");
+        assert!(mesh.defects.is_empty() && mesh.defects != Defects::default());
+    }
+    let soup = Soup { positions, corners: [0, 1, 1].map(Corner::at).to_vec(), ..Soup::default() };
+    assert!(soup.into_mesh("test", &strict).is_err(), "a triangle of two corners");
+}
+
+#[test]
+fn why_nothing_is_left_is_said_and_no_other_defect() {
+    let message = |soup: Soup| soup.into_mesh("a", &LoadOptions::default()).unwrap_err().to_string();
+    let lines = Soup { points_and_lines: 2, ..Soup::default() };
+    assert_eq!(
+        message(lines),
+        "a: it holds no faces but points or lines, which are not drawn; export it with its faces"
+    );
+    let (mut soup, mut empty) = (square(), square());
+    soup.corners.clear();
+    soup.polygon_sizes.clear();
+    soup.points_and_lines = 1;
+    soup.defects.missing_materials = 1;
+    let sentence =
+        "a: it holds 4 vertices and no faces but points or lines, which are not drawn; export it with its faces";
+    assert_eq!(message(soup), sentence);
+    empty.positions = vec![DVec3::ZERO; 4];
+    empty.defects.missing_materials = 1;
+    let sentence = "a: nothing is left to draw (2 degenerate triangles); export it again with faces that have area";
+    assert_eq!(message(empty), sentence);
+}
+
+#[test]
+fn strict_makes_a_defect_an_error_that_counts_it() {
+    let mut soup = square();
+    soup.positions.push(DVec3::splat(9.0));
+    let error = soup.into_mesh("a.obj", &LoadOptions { strict: true, ..LoadOptions::default() }).unwrap_err();
+    assert!(error.to_string().starts_with("a.obj: 1 unused vertex;"), "{error}");
+}
+
+#[test]
+fn a_tiny_triangle_has_area_and_a_huge_one_too() {
+    for size in [1e-160, 1e-30, 1.0, 1e30, 1e59] {
+        let positions = [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p * size).to_vec();
+        let soup = Soup { positions, corners: (0..3).map(Corner::at).collect(), ..Soup::default() };
+        assert_eq!(mesh(soup).normals, [Vec3::Z; 3], "size {size}");
+    }
+}
+
+#[test]
+fn a_stray_vertex_does_not_weld_a_far_away_model_together() {
+    let mut soup = square();
+    soup.positions.iter_mut().for_each(|position| *position += DVec3::new(5e5, 4.6e6, 0.0));
+    soup.positions.push(DVec3::ZERO);
+    let mesh = mesh(soup);
+    assert_eq!((mesh.triangles.len(), mesh.defects.unused_vertices), (2, 1));
+}
+
+#[test]
+fn needles_have_unit_normals_and_coordinates_beyond_reason_are_refused() {
+    let soup = |points: [DVec3; 3]| Soup {
+        positions: points.to_vec(),
+        corners: (0..3).map(Corner::at).collect(),
+        ..Soup::default()
+    };
+    let needle = mesh(soup([DVec3::ZERO, DVec3::X, DVec3::new(0.5, 1e-200, 0.0)]));
+    assert_eq!(needle.normals, [Vec3::Z; 3]);
+    let huge = soup([DVec3::ZERO, DVec3::X * 1e200, DVec3::Y]);
+    let message = huge.into_mesh("huge.obj", &LoadOptions::default()).unwrap_err().to_string();
+    assert!(message.starts_with("huge.obj: its coordinates reach beyond"), "{message}");
+}
+
+#[test]
+fn by_the_articles_rule_there_is_one_normal_a_vertex_whatever_the_file_says() {
+    let options = LoadOptions { normals: Normals::Dachsbacher, ..LoadOptions::default() };
+    let mut soup = square();
+    soup.normals = vec![Vec3::X];
+    soup.corners.iter_mut().for_each(|corner| corner.normal = 0);
+    // A wall along one side, its two corners given again, and a face without area.
+    soup.positions.extend([DVec3::ZERO, DVec3::Y, DVec3::Z]);
+    soup.corners.extend([4, 5, 6, 0, 1, 1].map(Corner::at));
+    soup.polygon_sizes.extend([3, 3]);
+    let mesh = soup.into_mesh("test", &options).unwrap();
+    assert_eq!((mesh.positions.len(), mesh.normals.len()), (5, 5));
+    assert_eq!(mesh.triangle_normals, mesh.triangles);
+    assert_eq!((mesh.defects.degenerate_triangles, mesh.normals[1]), (1, Vec3::Z));
+    // The square is cut from the first corner, so that two of its triangles meet the wall's there, and one at the other.
+    assert!(mesh.normals[0].distance(Vec3::new(1.0, 0.0, 2.0).normalize()) < 1e-6, "{}", mesh.normals[0]);
+    assert!(mesh.normals[3].distance(Vec3::new(1.0, 0.0, 1.0).normalize()) < 1e-6, "{}", mesh.normals[3]);
+}
+
+#[test]
+fn a_model_that_is_z_up_is_turned_to_stand_with_its_front_towards_z() {
+    let options = LoadOptions { up_axis: UpAxis::Z, ..LoadOptions::default() };
+    let mut soup = square();
+    soup.normals = vec![Vec3::Z];
+    soup.corners.iter_mut().for_each(|corner| corner.normal = 0);
+    let mesh = soup.into_mesh("test", &options).unwrap();
+    assert_eq!(mesh.normals, [Vec3::Y]);
+    assert_eq!(mesh.positions[3], DVec3::NEG_Z, "the model's back, +y, is away from the front view");
+}
+
+#[test]
+fn normals_that_only_repeat_the_faces_are_computed_where_creases_are_to_last() {
+    // Two triangles that meet at 20 degrees, each with its own normal in the file; then with one that leans.
+    let tilt = 20f64.to_radians();
+    let normals = [DVec3::Z, DVec3::new(tilt.sin(), 0.0, tilt.cos())].map(|normal| normal.as_vec3());
+    let shared = |normals: [Vec3; 2]| {
+        let mut soup = Soup {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(-tilt.cos(), 0.0, tilt.sin())],
+            normals: normals.to_vec(),
+            ..Soup::default()
+        };
+        for (normal, face) in [[0, 1, 2], [0, 2, 3]].into_iter().enumerate() {
+            let corner = |position| Corner { normal: normal as u32, ..Corner::at(position) };
+            soup.corners.extend(face.map(corner));
+        }
+        let options = LoadOptions { normals: Normals::Lasting, ..LoadOptions::default() };
+        let mesh = soup.into_mesh("test", &options).unwrap();
+        mesh.triangle_normals[0][0] == mesh.triangle_normals[1][0]
+    };
+    assert!(shared(normals), "computed, smooth at 20 degrees");
+    assert!(!shared([Vec3::Z, Vec3::new(0.5, 0.0, 1.0)]), "the file's own");
+}

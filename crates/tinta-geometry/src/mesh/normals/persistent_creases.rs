@@ -1,0 +1,138 @@
+//! Creases that last: chains of edges at which faces differ by more than the smoothing angle and that go on for a while. On scans
+//! and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks.
+//!
+//! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, the faces' normals without a scan's
+//! noise (`denoise_normals.rs`), and for each triangle the area of the flat face it is part of. By it a face counts more than the chamfer beside
+//! it, which so bends from face to face and leaves them flat.
+
+use super::curved::{Edge, curved};
+use super::denoise_normals::{DenoisedNormals, Faces, denoised};
+use super::incidence::Incidence;
+use super::patches::{Neighbours, gathered};
+use crate::disjoint_sets::DisjointSets;
+use crate::threads::{filled, in_parallel, threads_for};
+use glam::DVec3;
+
+/// How far a chain must reach to last, in shares of the diagonal of the model's box: farther than single edges of the scans and low
+/// models looked at, less far than the edges of their shortest chamfers.
+const LEAST_REACH: f64 = 0.04;
+
+/// The same for a chain where there is noise only: scans have folds that lead nowhere and are longer.
+const LEAST_REACH_IN_NOISE: f64 = 0.15;
+
+/// The least cosine between triangles of one flat face: half a degree, as exported planes keep.
+const FLAT: f64 = 0.99996;
+
+/// Where normals may be split, and how much faces weigh in.
+pub(super) struct PersistentCreases {
+    /// For each vertex whether it lies on a crease that lasts.
+    pub vertices: Vec<bool>,
+    /// For each triangle the area of its flat face, in units of the model's own.
+    pub areas: Vec<f64>,
+    /// For each triangle whether its facets stand for a surface that bends both ways.
+    pub is_curved: Vec<bool>,
+    /// Each triangle's unit normal, evened out with its neighbours' where there is noise.
+    pub face_normals: Vec<DVec3>,
+}
+
+impl PersistentCreases {
+    pub(super) fn find(
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        given: &[DVec3],
+        incidence: &Incidence,
+        cos_smooth: f64,
+    ) -> Self {
+        let found = in_parallel(positions.len(), threads_for(triangles.len()), |vertices| {
+            let (mut edges, mut spokes) = (Vec::new(), Vec::new());
+            for vertex in vertices {
+                spokes.clear();
+                for &corner in incidence.corners(vertex) {
+                    let triangle = triangles[corner as usize / 3];
+                    let far = [1, 2].map(|step| triangle[(corner as usize % 3 + step) % 3]);
+                    // Each edge once, by its lower end.
+                    spokes.extend(far.into_iter().filter(|far| *far as usize > vertex).map(|far| (far, corner / 3)));
+                }
+                spokes.sort_unstable();
+                for pair in spokes.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+                    let [(far, face), (_, other)] = [pair[0], pair[1]];
+                    edges.push(Edge { ends: [vertex as u32, far], faces: [face, other] });
+                }
+            }
+            edges
+        });
+        let edges = || found.iter().flatten();
+        let cosine = |normals: &[DVec3], edge: &Edge| {
+            let [face, other] = edge.faces.map(|face| normals[face as usize]);
+            face.dot(other)
+        };
+        let neighbours = Neighbours::new(triangles.len(), edges().map(|edge| edge.faces));
+        let corners = |face: usize| triangles[face].map(|vertex| positions[vertex as usize]);
+        let threads = threads_for(triangles.len());
+        let own_areas = filled(triangles.len(), threads, 0.0, |face| {
+            let [a, b, c] = corners(face);
+            (b - a).cross(c - a).length() * 0.5
+        });
+        let (flat, flat_areas) = gathered(
+            &neighbours,
+            triangles.len(),
+            |first| own_areas[first as usize],
+            |_, face, other, _| {
+                (given[face as usize].dot(given[other as usize]) > FLAT).then(|| own_areas[other as usize])
+            },
+        );
+        let areas: Vec<f64> = flat.iter().map(|face| flat_areas[*face as usize]).collect();
+        let mut whole = Span::NONE;
+        positions.iter().for_each(|position| whole.take(*position));
+        let faces = Faces {
+            positions,
+            triangles,
+            normals: given,
+            areas: &own_areas,
+            flat: &flat,
+            flat_areas: &flat_areas,
+            neighbours: &neighbours,
+        };
+        let DenoisedNormals { normals: face_normals, is_noisy } = denoised(&faces, whole.diagonal(), cos_smooth);
+        // Evening out also sharpens rounded rims, in zigzags: a crease is one before and after it.
+        let is_sharp = |edge: &&Edge| [&face_normals, given].iter().all(|of| cosine(of, edge) < cos_smooth);
+        let sharp: Vec<&Edge> = edges().filter(is_sharp).collect();
+        let mut chains = DisjointSets::new(positions.len());
+        sharp.iter().for_each(|edge| chains.join(edge.ends));
+        let mut boxes = vec![Span::NONE; positions.len()];
+        let mut least = vec![LEAST_REACH_IN_NOISE; positions.len()];
+        for edge in &sharp {
+            let chain = chains.root(edge.ends[0]) as usize;
+            edge.ends.iter().for_each(|end| boxes[chain].take(positions[*end as usize]));
+            if edge.faces.iter().any(|face| !is_noisy[*face as usize]) {
+                least[chain] = LEAST_REACH;
+            }
+        }
+        let mut vertices = vec![false; positions.len()];
+        for end in sharp.iter().flat_map(|edge| edge.ends) {
+            let chain = chains.root(end) as usize;
+            vertices[end as usize] = boxes[chain].diagonal() >= least[chain] * whole.diagonal();
+        }
+        let is_curved = curved(&faces, edges, incidence, whole.diagonal(), cos_smooth);
+        Self { vertices, areas, is_curved, face_normals }
+    }
+}
+
+/// A box around points.
+#[derive(Clone, Copy)]
+struct Span {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Span {
+    const NONE: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+
+    fn take(&mut self, point: DVec3) {
+        (self.low, self.high) = (self.low.min(point), self.high.max(point));
+    }
+
+    fn diagonal(&self) -> f64 {
+        (self.high - self.low).length()
+    }
+}

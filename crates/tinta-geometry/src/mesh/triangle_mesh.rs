@@ -1,0 +1,154 @@
+//! Triangles over shared positions, with their normals, texture coordinates and materials.
+
+use super::Defects;
+use glam::{DVec3, Vec2, Vec3};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Stands in index arrays for "this corner has none".
+pub const NONE: u32 = u32::MAX;
+
+/// A triangle mesh with shared positions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// How the user named it: a path or `builtin:…`.
+    pub name: String,
+    /// Welded positions in world space, file units, f64; each is used by at least one triangle.
+    pub positions: Vec<DVec3>,
+    /// For each position the lowest 0-based vertex number of the file that was welded into it.
+    pub file_vertices: Vec<u32>,
+    /// Colours at the positions, red, green, blue in [0, 1]; empty where the model has none.
+    pub position_colors: Vec<[f32; 3]>,
+    /// Each triangle's three positions, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Unit normals, world space.
+    pub normals: Vec<Vec3>,
+    /// Each triangle corner's normal; as long as `triangles`.
+    pub triangle_normals: Vec<[u32; 3]>,
+    /// Texture coordinates, origin at the lower left; empty when the model has none.
+    pub texture_coordinates: Vec<Vec2>,
+    /// Each triangle corner's texture coordinate or [`NONE`]; empty or as long as `triangles`.
+    pub triangle_texture_coordinates: Vec<[u32; 3]>,
+    /// The model's materials; may be empty.
+    pub materials: Vec<Material>,
+    /// Each triangle's material or [`NONE`]; empty or as long as `triangles`.
+    pub triangle_materials: Vec<u32>,
+    /// What was wrong with the file.
+    pub defects: Defects,
+}
+
+/// What a file says about a surface; the styles of the three texts use colour and texture only.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Material {
+    /// Its name in the file.
+    pub name: String,
+    /// Diffuse colour, red, green, blue in [0, 1] (MTL `Kd`, glTF's base colour as sRGB); `None` where the file gives none.
+    pub color: Option<[f32; 3]>,
+    /// The colour texture's file (MTL `map_Kd`, an MD2 model's skin, glTF's base colour) where it was found; not opened until a style needs it.
+    pub texture: Option<PathBuf>,
+    /// The folder, by its real path, that the texture must still lie in when it is opened; `None`: anywhere.
+    #[serde(skip)]
+    pub texture_within: Option<PathBuf>,
+    /// The colour texture where the model's own file holds it (glTF); then `texture` is `None`.
+    #[serde(skip)]
+    pub embedded: Option<Arc<EmbeddedPicture>>,
+    /// What the colour texture is multiplied with, red, green, blue in [0, 1]: glTF's base colour, MTL's `Kd`; `None` for white.
+    #[serde(skip)]
+    pub texture_color: Option<[f32; 3]>,
+    /// What the texture's alpha means.
+    #[serde(skip)]
+    pub texture_alpha: TextureAlpha,
+}
+
+/// What the alpha of a material's texture means. Nothing is drawn transparent: what would show through is white, as paper.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub enum TextureAlpha {
+    /// Nothing: colours count as they are.
+    #[default]
+    Ignored,
+    /// Texels of less alpha, of 255, are not there; others count as they are.
+    Cutoff(u8),
+    /// Colours are mixed by it.
+    Blended,
+}
+
+impl Material {
+    /// Whether it has a colour texture, in a file or in the model's own.
+    pub fn has_texture(&self) -> bool {
+        self.texture.is_some() || self.embedded.is_some()
+    }
+}
+
+/// A picture file inside a model file; not decoded until a style needs it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct EmbeddedPicture {
+    /// The model and which of its pictures, for messages.
+    pub name: String,
+    /// The file's bytes: in a glTF model PNG or JPEG.
+    pub bytes: Vec<u8>,
+}
+
+impl Mesh {
+    /// One triangle in the plane z = 0, facing +z.
+    pub fn triangle() -> Self {
+        Self {
+            name: "a triangle".to_owned(),
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            file_vertices: vec![0, 1, 2],
+            position_colors: Vec::new(),
+            triangles: vec![[0, 1, 2]],
+            normals: vec![Vec3::Z],
+            triangle_normals: vec![[0; 3]],
+            texture_coordinates: Vec::new(),
+            triangle_texture_coordinates: Vec::new(),
+            materials: Vec::new(),
+            triangle_materials: Vec::new(),
+            defects: Defects::default(),
+        }
+    }
+
+    /// Bytes of main memory the mesh takes, materials' names aside.
+    pub fn memory_bytes(&self) -> usize {
+        bytes_of(&self.positions)
+            + bytes_of(&self.file_vertices)
+            + bytes_of(&self.position_colors)
+            + bytes_of(&self.triangles)
+            + bytes_of(&self.normals)
+            + bytes_of(&self.triangle_normals)
+            + bytes_of(&self.texture_coordinates)
+            + bytes_of(&self.triangle_texture_coordinates)
+            + bytes_of(&self.triangle_materials)
+    }
+
+    /// A triangle's corners; `None` where one does not exist.
+    pub(crate) fn corners(&self, triangle: &[u32; 3]) -> Option<[DVec3; 3]> {
+        let corner = |position: u32| self.positions.get(position as usize).copied();
+        Some([corner(triangle[0])?, corner(triangle[1])?, corner(triangle[2])?])
+    }
+
+    /// Smallest and largest corner of the axis-aligned bounding box, world space, file units.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        bounds(&self.positions)
+    }
+}
+
+/// The unit normal of a triangle, counter-clockwise seen from its tip; `None` if it has no area.
+///
+/// Scaled before and after the product, so that neither tiny nor huge nor needle-thin triangles lose it to rounding alone.
+pub(crate) fn triangle_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+    let (first, second) = (b - a, c - a);
+    let scale = first.abs().max(second.abs()).max_element();
+    let product = (first / scale).cross(second / scale);
+    (product / product.abs().max_element()).try_normalize()
+}
+
+/// Bytes set aside for a list.
+pub(super) fn bytes_of<T>(list: &Vec<T>) -> usize {
+    list.capacity() * size_of::<T>()
+}
+
+/// Smallest and largest corner of some points' bounding box; infinities, inverted, for no points.
+pub fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
+    points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(*point), high.max(*point)))
+}

@@ -1,0 +1,47 @@
+//! The ways to a context, and what came of those tried.
+
+use super::ContextInfo;
+use serde::Serialize;
+
+tinta_geometry::choices! {
+    /// Which way to take. Those of other systems are refused with a sentence when they are asked for: a recipe or a script that
+    /// names one is understood everywhere.
+    #[derive(Default)]
+    #[non_exhaustive]
+    pub enum Backend {
+        /// Those of this system, in this order: WGL, CGL, EGL, OSMesa, EGL's surfaceless platform. The first that works; for pictures
+        /// too large for it the next that draws them.
+        #[default]
+        Auto = "auto",
+        /// EGL on a device, without a window system; hardware first.
+        Egl = "egl",
+        /// EGL on Mesa's surfaceless platform: another screen of the same driver, so that two contexts need not take turns.
+        Surfaceless = "surfaceless",
+        /// Mesa's off-screen library, which Mesa has no more since 25.1.
+        OsMesa = "osmesa",
+        /// Windows' own, beside a window that is never shown.
+        Wgl = "wgl",
+        /// That of macOS.
+        Cgl = "cgl",
+    }
+}
+
+/// One way that was tried.
+#[derive(Debug, Clone, Serialize)]
+pub struct Attempt {
+    /// The library, and the device where there is a choice.
+    pub device: String,
+    /// What came of it: the context, or why there is none.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+/// What came of an attempt.
+#[derive(Debug, Clone, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// It works.
+    Context(Box<ContextInfo>),
+    /// Why it does not.
+    Error(String),
+}

@@ -1,0 +1,95 @@
+//! Shaders that a draw runs, and what they read.
+
+use super::target::Drawn;
+use crate::picture::Picture;
+use crate::scene::Size;
+use std::sync::Arc;
+
+/// A vertex shader and the fragment shaders linked with it, by their paths below `glsl/`.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Program {
+    /// The vertex shader.
+    pub vertex: &'static str,
+    /// The fragment shaders: one with `main`, the others with the functions it declares; none for fixed-function fragments.
+    pub fragments: Vec<&'static str>,
+}
+
+/// A value for a shader.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Uniform {
+    /// Its name in the shader.
+    pub name: &'static str,
+    /// Its value.
+    pub value: Value,
+}
+
+/// A uniform's value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// float
+    Float(f32),
+    /// vec2
+    Vec2([f32; 2]),
+    /// vec3
+    Vec3([f32; 3]),
+    /// int
+    Int(i32),
+    /// vec2: how far apart the texels of what a pass leaves are, 1 / its size in pixels. That of a tile is a tile's.
+    TexelSize([f32; 2]),
+    /// vec2: a place on what is drawn, in pixels from its lower left corner. In a tile it is counted from the tile's.
+    PixelPlace([f32; 2]),
+}
+
+impl Value {
+    /// [`Value::TexelSize`] of what is this large.
+    pub fn texel_size(size: Size) -> Self {
+        Self::TexelSize([1.0 / size.width as f32, 1.0 / size.height as f32])
+    }
+}
+
+/// The textures a plan can read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Texture {
+    /// The framebuffer as the last [`Step::CopyFramebuffer`] left it; NEAREST, CLAMP_TO_EDGE (errata E12).
+    BorderMap,
+    /// What passes into [`Target::Textures`] drew there; NEAREST, CLAMP_TO_EDGE.
+    Drawn(Drawn),
+    /// The depth buffer as the last [`Step::CopyDepth`] left it, window z in red; NEAREST, CLAMP_TO_EDGE.
+    DepthMap,
+    /// The plan's table of this number, one-dimensional; NEAREST, CLAMP_TO_EDGE.
+    Table(usize),
+    /// The plan's picture of this number.
+    Picture(usize),
+    /// The texture of each material, by the model's own texture coordinates, LINEAR, GL_REPEAT; white where it has none.
+    Material,
+}
+
+impl Program {
+    /// Whether this is one of its shaders.
+    pub fn has_shader(&self, path: &str) -> bool {
+        self.vertex == path || self.fragments.contains(&path)
+    }
+}
+
+/// A picture as a texture, its lowest row at coordinate 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanPicture {
+    /// What it is, for those who read the plan.
+    pub name: &'static str,
+    /// The picture.
+    pub picture: Arc<Picture>,
+    /// How it is read.
+    pub sampling: Sampling,
+}
+
+/// How a texture is read between and beyond its texels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sampling {
+    /// NEAREST, CLAMP_TO_EDGE.
+    NearestClamped,
+    /// LINEAR, GL_REPEAT.
+    LinearRepeated,
+    /// LINEAR_MIPMAP_LINEAR where smaller, LINEAR where larger, GL_REPEAT.
+    MipmapRepeated,
+}

@@ -1,0 +1,68 @@
+//! Which exact lines are wanted, and those found: values that the viewer and its thread of lines exchange.
+
+use super::job::Job;
+use super::paint::over;
+use crate::picture::Picture;
+use crate::scene::{SceneSettings, Size};
+use crate::styles::LineStyle;
+
+/// Whose lines are wanted, drawn how.
+#[derive(Debug, Clone)]
+pub struct LineJob {
+    /// The view; what else is drawn of it does not matter.
+    pub view: Job,
+    /// Which lines, and how they look.
+    pub style: LineStyle,
+}
+
+/// How the strokes of a view are those of the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stayed {
+    /// Strokes in this view.
+    pub count: usize,
+    /// Of these not in the one before; all in a first view.
+    pub new: usize,
+    /// Those of the one before that are not in this one.
+    pub gone: usize,
+}
+
+impl Stayed {
+    /// For the panel.
+    pub(super) fn text(self) -> String {
+        let Self { count, new, gone } = self;
+        format!("{count} strokes, {new} new, {gone} gone")
+    }
+}
+
+/// Lines that were found.
+#[derive(Debug)]
+pub struct Found {
+    /// Whose they are.
+    pub job: LineJob,
+    /// They on nothing.
+    pub ink: Picture,
+    /// How many of their strokes are those of the view before.
+    pub stayed: Stayed,
+    /// What that took, milliseconds.
+    pub ms: f64,
+}
+
+impl Found {
+    /// They as a picture by themselves.
+    pub fn alone(&self) -> Picture {
+        over(&self.ink, &ground(self.ink.size, &self.job.view.settings))
+    }
+}
+
+/// What is behind lines that are a picture by themselves.
+pub(super) fn ground(size: Size, settings: &SceneSettings) -> Picture {
+    let pixel = settings.background.clear_color().map(|channel| (channel * 255.0).round() as u8);
+    Picture { size, pixels: pixel.repeat(size.pixel_count()) }
+}
+
+impl LineJob {
+    /// Whether it would draw the same as another.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.style == other.style && self.view.is_of_same_picture(&other.view)
+    }
+}
