@@ -11,6 +11,7 @@ mod again;
 mod bare;
 pub mod batch;
 pub mod camera_file;
+mod command;
 pub mod completions;
 mod edges;
 mod help;
@@ -25,6 +26,7 @@ pub mod options;
 pub mod progress;
 mod program;
 pub mod render;
+mod selection;
 mod signals;
 mod standard_input;
 mod standard_output;
@@ -32,9 +34,8 @@ mod textures;
 #[cfg(feature = "window")]
 mod view;
 
-pub use messages::{plain, print, say};
-pub use program::{Call, Command, Program, Task, given};
-use std::path::Path;
+pub use command::{Call, Command, Program, Task, Verdict, given};
+pub use messages::{json_text, make_folder, plain, print, print_json, say};
 use std::process::ExitCode;
 use std::time::Instant;
 use tinta::{Error, Result};
@@ -54,18 +55,10 @@ const COMMANDS: &[Command] = &[
     man::COMMAND,
 ];
 
-/// How something that was done came out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// Well.
-    Good,
-    /// Two pictures that should be equal differ, a case did not end as it must, or a job of a batch failed.
-    Different,
-    /// A signal ended a batch before its last job.
-    Stopped {
-        /// Its number.
-        signal: u8,
-    },
+impl Default for Program {
+    fn default() -> Self {
+        Self::of(COMMANDS.to_vec())
+    }
 }
 
 /// Carries out the command line of the process, prints the error and chooses the exit code.
@@ -97,38 +90,4 @@ fn run(program: &Program) -> Result<Verdict> {
     let (words, picture) = bare::with_command(std::env::args_os().collect(), bare::has_window());
     let verdict = program.carry_out(words, started)?;
     picture.map_or(Ok(()), |picture| print(&bare::said(&picture))).map(|()| verdict)
-}
-
-/// Why a command line is not carried out.
-#[derive(Debug)]
-pub(crate) enum Stop {
-    /// Help or the version was asked for: this is it.
-    Help(clap::Error),
-    /// It is wrong.
-    Wrong(Error),
-}
-
-/// Makes the folder that `-o` names, if it is not there.
-pub fn make_folder(folder: &Path) -> Result<()> {
-    std::fs::create_dir_all(folder).map_err(|error| {
-        let problem = if folder.is_file() {
-            "this is a file; name a folder".to_owned()
-        } else {
-            format!("the folder cannot be created ({error}); choose another")
-        };
-        Error::output(format!("-o {}", folder.display()), problem).because(&error)
-    })
-}
-
-/// Writes a value as JSON to standard output.
-pub fn print_json(value: &impl serde::Serialize) -> Result<()> {
-    print(&json_text(value)?)
-}
-
-/// A value as JSON, a line to each of its parts.
-pub fn json_text(value: &impl serde::Serialize) -> Result<String> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| {
-        Error::output("-", format!("the record cannot be written as JSON ({error}); leave out --json and report this"))
-    })?;
-    Ok(text + "\n")
 }

@@ -4,7 +4,7 @@
 //! and models: a job that brings the driver down takes one worker with it and no other job. What a worker tells of a job is
 //! written down at once.
 
-mod job_options;
+pub(super) mod job_options;
 mod staging;
 #[cfg(test)]
 mod tests;

@@ -2,6 +2,7 @@
 
 use super::standard_output;
 use std::io::Write;
+use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use tinta::{Error, Result};
 
@@ -93,4 +94,29 @@ fn printed(result: std::io::Result<()>) -> Result<()> {
         .because(&error)),
         _ => Ok(()),
     }
+}
+
+/// Makes the folder that `-o` names, if it is not there.
+pub fn make_folder(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let problem = if folder.is_file() {
+            "this is a file; name a folder".to_owned()
+        } else {
+            format!("the folder cannot be created ({error}); choose another")
+        };
+        Error::output(format!("-o {}", folder.display()), problem).because(&error)
+    })
+}
+
+/// Writes a value as JSON to standard output.
+pub fn print_json(value: &impl serde::Serialize) -> Result<()> {
+    print(&json_text(value)?)
+}
+
+/// A value as JSON, a line to each of its parts.
+pub fn json_text(value: &impl serde::Serialize) -> Result<String> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| {
+        Error::output("-", format!("the record cannot be written as JSON ({error}); leave out --json and report this"))
+    })?;
+    Ok(text + "\n")
 }

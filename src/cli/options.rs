@@ -7,6 +7,7 @@
 mod tests;
 
 use super::camera_file;
+pub use super::selection::Selection;
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches, parser::ValueSource};
 use std::ffi::OsString;
 use std::marker::PhantomData;
@@ -16,20 +17,6 @@ use tinta::preset::{LOOKS, Look, Preset};
 use tinta::request::{Layer, Request, layers};
 use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
 use tinta::{LoadOptions, Result};
-
-/// Some of a table's settings as options.
-pub trait Selection {
-    /// Whose settings.
-    type Of: HasSettings;
-
-    /// Whether they are listed under headings of their own.
-    const HAS_HEADINGS: bool = true;
-
-    /// Whether this is one of them.
-    fn has(_setting: &Setting<Self::Of>) -> bool {
-        true
-    }
-}
 
 /// What is given of a selection on the command line.
 #[derive(Debug)]

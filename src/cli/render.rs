@@ -6,6 +6,7 @@ mod format;
 mod keep;
 mod lines;
 mod prune;
+mod rendering;
 #[cfg(test)]
 mod round_trip;
 mod settings;
@@ -20,13 +21,14 @@ use super::inputs::Inputs;
 use super::options::{Below, CameraFile, Chosen, NamedLook, OfRequest, PresetFile};
 use super::{Command, given};
 use format::Format;
+use rendering::{Rendering, pictures_of};
 use std::path::Path;
 use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
-use tinta::record::{CameraRecord, Made, ModelRecord, PictureMade, Record, Summary};
+use tinta::record::{Made, PictureMade, Summary};
 use tinta::request::{Drawn, DrawnPicture, Request, Session, Times};
 use tinta::settings::refuse_exclusive;
-use tinta::{Error, Result, Scene, Target};
+use tinta::{Error, Result, Target};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -102,40 +104,6 @@ impl Arguments {
             command: "render",
         };
         self.options.request(&self.models, &below)
-    }
-}
-
-/// A rendering on its way.
-struct Rendering<'a> {
-    request: &'a Request,
-    run: &'a RunSettings,
-    output: &'a str,
-}
-
-impl Rendering<'_> {
-    /// What is said of the models.
-    fn model_records(&self, scene: &Scene) -> Vec<ModelRecord> {
-        scene.objects[..self.request.models.len()].iter().map(|object| ModelRecord::new(&object.mesh)).collect()
-    }
-
-    /// The record of this drawing.
-    fn record(&self, scene: &Scene, load_ms: f64, remarks: Vec<String>, made: Made) -> Record {
-        let models = self.model_records(scene);
-        Record {
-            version: env!("CARGO_PKG_VERSION"),
-            model: ModelRecord::together(&models),
-            models,
-            load: self.request.read.clone(),
-            copies: self.request.scene.copies,
-            triangles: scene.triangle_count(),
-            style: self.request.style.clone(),
-            size: scene.size,
-            background: scene.background,
-            camera: CameraRecord::new(scene),
-            remarks,
-            load_ms,
-            made,
-        }
     }
 }
 
@@ -273,12 +241,6 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
         frame_ms: times,
     }));
     super::print_json(&rendering.record(&scene, load_ms, remarks, made)).map(|()| verdict)
-}
-
-/// The pictures on the models of a scene.
-fn pictures_of(scene: &Scene) -> Inputs {
-    let materials = scene.objects.iter().flat_map(|object| &object.mesh.materials);
-    Inputs::of_pictures(materials.filter_map(|material| material.texture.clone()))
 }
 
 fn make_dump_folder(folder: Option<&Path>, output: &str) -> Result<()> {

@@ -1,8 +1,10 @@
 //! `tinta render` with an animation for its output: a turn around the models, or an animated model's frames.
 
+use super::super::Verdict;
 use super::super::models::read;
 use super::super::progress::Progress;
-use super::{Rendering, Verdict, pictures_of, prune};
+use super::prune;
+use super::rendering::{Rendering, pictures_of};
 use serde_json::json;
 use std::sync::Arc;
 use std::time::Instant;

@@ -2,7 +2,7 @@
 
 use super::super::inputs::Inputs;
 use super::super::standard_input;
-use super::Rendering;
+use super::rendering::Rendering;
 use std::path::{Path, PathBuf};
 use tinta::gl::ContextInfo;
 use tinta::preset::{Options, to_toml};

@@ -1,27 +1,25 @@
 //! `tinta render` of exact lines, into an SVG, PDF, JSON or picture's file. No OpenGL is opened.
 
 mod turn;
+mod writing;
 
 use super::super::messages::is_captured;
-use super::super::progress::Progress;
 use super::super::signals::Stop;
 use super::super::{Verdict, say};
 use super::format::Format;
-use super::{Rendering, explain, keep};
+use super::rendering::Rendering;
+use super::{explain, keep};
 use std::path::Path;
-use std::sync::mpsc::RecvTimeoutError;
-use std::time::{Duration, Instant};
-use tinta::lines::{
-    Hidden, LinePath, Phase, Progress as LineProgress, Raster, chain, pdf_of_paths, raster_of_paths, strokes_of_paths,
-    svg_of_paths,
-};
-use tinta::picture::{Note, PictureFormat};
-use tinta::record::{LineCounts, LinesMade, Made, lines_json};
+use std::time::Instant;
+use tinta::lines::{Hidden, chain, strokes_of_paths};
+use tinta::picture::PictureFormat;
+use tinta::record::{LineCounts, LinesMade, Made};
 use tinta::renderer::milliseconds_since;
 use tinta::request::{Drawn, DrawnLines, OF_PAPER, Session, pixels_on_paper};
 use tinta::settings::HasSettings;
 use tinta::styles::is_of_lines_alone;
-use tinta::{Error, Picture, Recipe, Result, Scene, Show, SvgSettings, Target, TextTarget, VisibleLines};
+use tinta::{Error, Recipe, Result, Show, SvgSettings, Target, TextTarget};
+use writing::{comment, is_stopped, progress, watched, write};
 
 /// Finds the lines and writes them.
 pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Session) -> Result<Verdict> {
@@ -99,44 +97,6 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     super::super::print_json(&record).map(|()| Verdict::Good)
 }
 
-/// Writes a drawing; a picture with what is said in it.
-fn write(
-    format: Format,
-    output: &str,
-    scene: &Scene,
-    (lines, paths): (&VisibleLines, Vec<LinePath>),
-    drawn: &SvgSettings,
-    said: Option<&Note>,
-) -> Result<()> {
-    let write = |bytes: Vec<u8>| TextTarget::check(output)?.write_bytes(&bytes);
-    match format {
-        Format::Svg => write(svg_of_paths(lines, paths, drawn)?.into_bytes()),
-        Format::Pdf => write(pdf_of_paths(lines, paths, drawn)?),
-        Format::Json => write(lines_json(lines, scene)?.into_bytes()),
-        Format::Picture => {
-            let Raster { size, pixels } = raster_of_paths(lines, paths, drawn)?;
-            let is_transparent = scene.background == tinta::Background::Transparent;
-            Target::check(output, is_transparent)?.write_with(&Picture { size, pixels }, said)
-        }
-    }
-}
-
-/// What a picture says of lines that are a part.
-fn comment(text: String) -> Note {
-    Note { keyword: "Comment", text }
-}
-
-fn is_stopped(stop: Option<&Stop>) -> bool {
-    stop.is_some_and(Stop::is_asked)
-}
-
-/// The time that the lines may take, from now on.
-fn progress(rendering: &Rendering<'_>) -> LineProgress {
-    let Some(seconds) = rendering.run.within else { return LineProgress::default() };
-    let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
-    if rendering.run.partial { LineProgress::within_or_part(limit) } else { LineProgress::within(limit) }
-}
-
 /// What a signal has ended.
 fn stopped(stop: Option<&Stop>) -> Verdict {
     say("tinta: stopped by a signal; nothing was written");
@@ -148,48 +108,6 @@ fn check_output(output: &str, format: Format, is_transparent: bool) -> Result<()
     match format {
         Format::Picture => Target::check(output, is_transparent).map(drop),
         Format::Svg | Format::Pdf | Format::Json => TextTarget::check(output).map(drop),
-    }
-}
-
-/// How often the progress bar is looked after, and how long work takes before it gets one.
-const GLANCE: Duration = Duration::from_millis(200);
-
-/// Work on lines; a thread beside it says how far it is and looks after signals.
-fn watched<T>(progress: &LineProgress, stop: Option<&Stop>, work: impl FnOnce() -> T) -> T {
-    let (done, is_done) = std::sync::mpsc::channel::<()>();
-    std::thread::scope(|scope| {
-        let watch = move || {
-            let mut bar: Option<(Phase, Progress)> = None;
-            // Until the other end is gone.
-            while is_done.recv_timeout(GLANCE) == Err(RecvTimeoutError::Timeout) {
-                if stop.is_some_and(Stop::is_asked) {
-                    progress.cancel();
-                }
-                let (phase, (done, total)) = (progress.phase(), progress.state());
-                // Of each phase the time left is that of its own steps.
-                let (_, bar) = match bar.take().filter(|(known, _)| *known == phase) {
-                    Some(known) => bar.insert(known),
-                    None => bar.insert((phase, Progress::new(word(phase), 0))),
-                };
-                if total == 0 { bar.wait() } else { bar.set(done as u64, total as u64) }
-            }
-        };
-        // Without a thread nobody says how far it is.
-        let _ = std::thread::Builder::new().spawn_scoped(scope, watch);
-        // Also where the work panics.
-        let _done = done;
-        work()
-    })
-}
-
-/// What is done in a phase.
-fn word(phase: Phase) -> &'static str {
-    match phase {
-        Phase::Preparing => "preparing lines",
-        Phase::Intersections => "finding intersections",
-        Phase::Lines => "finding lines",
-        Phase::Contours => "finding smooth silhouettes",
-        Phase::TooShort => "leaving out specks",
     }
 }
 

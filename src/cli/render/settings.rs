@@ -1,6 +1,6 @@
 //! The options of `tinta render` that say what is done with a drawing, not which it is: they are in no preset and no recipe.
 
-use super::super::options::Selection;
+use super::super::selection::Selection;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 use tinta::plan::Submission;

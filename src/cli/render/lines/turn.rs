@@ -2,8 +2,9 @@
 
 use super::super::super::signals::Stop;
 use super::super::super::{Verdict, print_json, say};
-use super::super::Rendering;
-use super::{Format, comment, is_stopped, progress, watched, write};
+use super::super::format::Format;
+use super::super::rendering::Rendering;
+use super::writing::{comment, is_stopped, progress, watched, write};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;

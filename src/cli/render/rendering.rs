@@ -1,0 +1,47 @@
+//! A drawing under way: what was asked, and where it goes.
+
+use super::super::inputs::Inputs;
+use super::settings::RunSettings;
+use tinta::Scene;
+use tinta::record::{CameraRecord, Made, ModelRecord, Record};
+use tinta::request::Request;
+
+/// A rendering on its way.
+pub(super) struct Rendering<'a> {
+    pub(super) request: &'a Request,
+    pub(super) run: &'a RunSettings,
+    pub(super) output: &'a str,
+}
+
+impl Rendering<'_> {
+    /// What is said of the models.
+    pub(super) fn model_records(&self, scene: &Scene) -> Vec<ModelRecord> {
+        scene.objects[..self.request.models.len()].iter().map(|object| ModelRecord::new(&object.mesh)).collect()
+    }
+
+    /// The record of this drawing.
+    pub(super) fn record(&self, scene: &Scene, load_ms: f64, remarks: Vec<String>, made: Made) -> Record {
+        let models = self.model_records(scene);
+        Record {
+            version: env!("CARGO_PKG_VERSION"),
+            model: ModelRecord::together(&models),
+            models,
+            load: self.request.read.clone(),
+            copies: self.request.scene.copies,
+            triangles: scene.triangle_count(),
+            style: self.request.style.clone(),
+            size: scene.size,
+            background: scene.background,
+            camera: CameraRecord::new(scene),
+            remarks,
+            load_ms,
+            made,
+        }
+    }
+}
+
+/// The pictures on the models of a scene.
+pub(super) fn pictures_of(scene: &Scene) -> Inputs {
+    let materials = scene.objects.iter().flat_map(|object| &object.mesh.materials);
+    Inputs::of_pictures(materials.filter_map(|material| material.texture.clone()))
+}

@@ -1,0 +1,17 @@
+//! Some of a table's settings, which a command has as options.
+
+use tinta::settings::{HasSettings, Setting};
+
+/// Some of a table's settings as options.
+pub trait Selection {
+    /// Whose settings.
+    type Of: HasSettings;
+
+    /// Whether they are listed under headings of their own.
+    const HAS_HEADINGS: bool = true;
+
+    /// Whether this is one of them.
+    fn has(_setting: &Setting<Self::Of>) -> bool {
+        true
+    }
+}
