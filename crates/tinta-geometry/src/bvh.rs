@@ -63,7 +63,7 @@ pub(crate) struct BoxTree {
     /// The boxes, leaf by leaf.
     boxes: Vec<Box3>,
     leaves: Vec<u32>,
-    /// Each node's high-valence vertex, if all things below it have the same one, else [`NO_GROUP`]; empty where there are no high-valence vertices.
+    /// Each node's high-valence vertex, if all things below it have the same one, else [`NO_GROUP`]; empty without such vertices.
     high_valence: Vec<u32>,
     /// Likewise the plane in which all things below it lie.
     planes: Vec<u32>,
@@ -138,8 +138,8 @@ impl BoxTree {
         &self.boxes
     }
 
-    /// Says of the thing at each place which high-valence vertex it is around: [`BoxTree::pairs`] then leaves out pairs of one high-valence vertex, and takes no
-    /// time over them.
+    /// Tells which high-valence vertex the thing at each place is around: [`BoxTree::pairs`] then leaves out pairs around one such
+    /// vertex, and takes no time over them.
     pub(crate) fn set_high_valence(&mut self, vertex_of: &[u32]) {
         self.high_valence = self.of_nodes(vertex_of);
     }
@@ -211,8 +211,8 @@ impl BoxTree {
     }
 
     /// Calls `visit` with each pair of things whose boxes overlap, one of them in one of these batches, until it returns true;
-    /// over all batches each pair comes once. Returns whether it did. Pairs of one high-valence vertex or plane are left out as far as whole
-    /// leaves are of it.
+    /// over all batches each pair comes once. Returns whether it did. Pairs around one high-valence
+    /// vertex, or in one plane, are left out as far as whole leaves are.
     pub(crate) fn pairs(&self, batches: std::ops::Range<usize>, visit: impl FnMut(u32, u32) -> bool) -> bool {
         self.selected_pairs(batches, &NodeSelection::default(), visit)
     }

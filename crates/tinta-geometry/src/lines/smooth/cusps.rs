@@ -1,7 +1,7 @@
 //! On which side of the surface a smooth contour bends away, told by more than one face; and where that changes, at its cusps.
 //!
-//! In: the pieces of [`Contours`](crate::lines::smooth::contours::Contours), each with what its own face says. Out: the same, each with what the contour says in the mean within
-//! two edges of it, along it and either way; faces weigh in by their area. Between the middles of two pieces the mean is taken to be linear, so that a cusp has a
+//! In: the pieces of [`Contours`], each with what its own face says. Out: the same, each with what the contour says in the mean
+//! within two edges of it, along it and either way; faces weigh in by their area. Between the middles of two pieces the mean is taken to be linear, so that a cusp has a
 //! place inside a piece, which is cut in two there. Linear n . v has slopes that are right only on average: where the contour runs along the
 //! view, single faces say now this, now that. What lasts for less than two edges is no cusp.
 

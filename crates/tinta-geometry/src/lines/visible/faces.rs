@@ -57,6 +57,12 @@ pub(in crate::lines) struct Probe {
     pub own_ends: [u32; 2],
 }
 
+/// Stands for a position where a line ends in none.
+pub(in crate::lines) const NO_POSITION: u32 = u32::MAX;
+
+/// Stands for a face where a line belongs to none.
+pub(in crate::lines) const NO_FACE: u32 = u32::MAX;
+
 /// What a line belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::lines) enum Own {
@@ -74,7 +80,7 @@ impl Own {
             Self::Faces([first, second]) => {
                 let [first, second] = [first, second].map(|face| faces.triangles[face as usize]);
                 let common = first.into_iter().find(|corner| second.contains(corner) && first != second);
-                [common.unwrap_or(u32::MAX), u32::MAX]
+                [common.unwrap_or(NO_POSITION), NO_POSITION]
             }
         }
     }

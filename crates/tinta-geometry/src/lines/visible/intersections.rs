@@ -173,8 +173,8 @@ fn without_repeated(space: &Space, faces: &Faces, mut lines: Vec<Intersection>) 
     lines
 }
 
-/// What faces around one high-valence vertex that may be seen have in common but for it: from the high-valence vertex on, until a side opposite to it passes
-/// through a face. With how many boxes were looked at.
+/// Intersections of faces around one high-valence vertex that may be seen: they begin at that vertex and end where the side opposite
+/// to it passes through a face. With the number of boxes compared.
 fn around_high_valence(
     meeting: &Meeting,
     is_seen: impl Fn(u32) -> bool + Sync,

@@ -3,7 +3,7 @@
 //! Both are decided by plain linear equations; all that is not sure is left to the exact rules, which would say the same.
 
 use crate::lines::visible::face_image::FaceImage;
-use crate::lines::visible::faces::{Faces, Own};
+use crate::lines::visible::faces::{Faces, NO_POSITION, Own};
 use crate::lines::visible::image::Image;
 use crate::lines::visible::ranges::{above_zero, clipped, common};
 use crate::lines::visible::space::Space;
@@ -79,7 +79,7 @@ impl OccluderProbe {
         let is_at_end = [part[0] == 0.0 && is_at(0, image.a), part[1] == 1.0 && is_at(1, image.b)];
         Self {
             part,
-            corners: [0, 1].map(|end| if is_at_end[end] { corners[end] } else { u32::MAX }),
+            corners: [0, 1].map(|end| if is_at_end[end] { corners[end] } else { NO_POSITION }),
             near_corner: NEAR_CORNER * space.size.max_element() / length_px,
             tips: is_at_end.map(|is_at_end| if is_at_end { own.tip(space, length_px) } else { 0.0 }),
             px: part.map(|place| image.at(place)),
