@@ -56,7 +56,7 @@ fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
         styles.push(Style::named(StyleName::Sand));
     }
     styles.push(cartoon(|cartoon| (cartoon.cull_back_faces, cartoon.tones.count) = (true, 2)));
-    let pruning = Pruning { pictures: u32::MAX, ..renderer.pruning(1) };
+    let pruning = renderer.pruning();
     let mut dice = Dice(mesh.triangles.len() as u64);
     for number in 0..views {
         let view = random_view(&scene, &mut dice);
@@ -138,7 +138,7 @@ fn verify_settings(backends: &[Backend], backgrounds: &[Background], shows: &[Sh
     let styles = many_styles();
     for &backend in backends {
         let mut renderer = renderer(backend);
-        let pruning = Pruning { pictures: u32::MAX, ..renderer.pruning(1) };
+        let pruning = renderer.pruning();
         for &background in backgrounds {
             let settings =
                 SceneSettings { background, copies: 2, size: Size { width: 150, height: 90 }, ..Default::default() };

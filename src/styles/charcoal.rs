@@ -18,7 +18,7 @@ use self::layout::Layout;
 use super::textured::textured;
 use super::{Show, Supersample};
 use crate::error::{Error, Result};
-use crate::hiding::doubled_faces;
+use crate::doubled::doubled_faces;
 use crate::mesh::Mesh;
 use crate::plan::{
     Depth, Draw, Facts, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
