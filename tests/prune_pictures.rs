@@ -4,7 +4,7 @@ use crate::prune::{beside, cartoon, many_styles};
 use crate::support::{BACKENDS, public_models, renderer, scene_with, skip, styles};
 use glam::DVec3;
 use std::sync::Arc;
-use tinta::plan::prune::{Pruning, prune};
+use tinta::plan::prune::prune;
 use tinta::{
     Backend, Background, CameraSettings, Color, LoadOptions, Mesh, Renderer, Scene, SceneSettings, Show, Size, Style,
     StyleName, View, load,

@@ -17,8 +17,8 @@ pub use pictures::{CharcoalPictures, TextureSource};
 use self::layout::Layout;
 use super::textured::textured;
 use super::{Show, Supersample};
-use crate::error::{Error, Result};
 use crate::doubled::doubled_faces;
+use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::plan::{
     Depth, Draw, Facts, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
