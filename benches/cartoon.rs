@@ -107,9 +107,8 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
     let scenes: Vec<Scene> = (0..settings.frames).map(|frame| turned(&base, frame)).collect();
     let start = Instant::now();
     base.make_arrays();
-    let counts = base.hiding(&base.objects[0]).counts();
-    println!("  once, not in the frames: what hides what, {:.1} ms; {counts:?}", milliseconds_since(start));
-    let pruning = renderer.pruning(u32::MAX);
+    println!("  once, not in the frames: vertex arrays, {:.1} ms", milliseconds_since(start));
+    let pruning = renderer.pruning();
     for _ in 0..settings.rounds {
         for ((_, style, is_pruned), series) in styles.iter().zip(&mut series) {
             // The plan of a view, and what can be left out of it, are part of its frame.

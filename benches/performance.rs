@@ -87,7 +87,7 @@ enum Contestant {
 impl Contestant {
     /// The milliseconds of one frame, its plan included.
     fn frame_ms(&self, renderer: &mut Renderer, scene: &Scene) -> f64 {
-        let pruning = renderer.pruning(u32::MAX);
+        let pruning = renderer.pruning();
         let start = Instant::now();
         let made;
         let plan = match self {
@@ -156,15 +156,11 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
     let tables = scenes.iter().map(|(name, scene)| {
         let view = turned(scene, 0.0);
         let extent = view.extent_px(view.objects.iter(), view.size).map_or(0, |extent| extent.pixel_count());
-        let start = Instant::now();
-        let hideable: usize = scene.objects.iter().map(|object| scene.hiding(object).counts().hideable_faces).sum();
         println!(
-            "\n{name}: {} triangles, {hideable} of them sometimes hidden, their box covers {} % of {}; what holds for every view was \
-             found in {:.1} ms",
+            "\n{name}: {} triangles, their box covers {} % of {}",
             scene.triangle_count(),
             extent * 100 / view.size.pixel_count(),
-            view.size,
-            milliseconds_since(start)
+            view.size
         );
         let names = StyleName::of_passes().filter(|(name, _)| *name != "sand");
         let tables: Vec<Value> = names
@@ -291,18 +287,11 @@ fn by_triangles(renderer: &mut Renderer, settings: &Settings) -> Value {
             let start = Instant::now();
             scene.make_arrays();
             let arrays_ms = milliseconds_since(start);
-            let start = Instant::now();
-            let counts = scene.hiding(&scene.objects[0]).counts();
-            let hiding_ms = milliseconds_since(start);
-            println!(
-                "\n  {} triangles; arrays {arrays_ms:.1} ms, what hides what {hiding_ms:.1} ms",
-                mesh.triangles.len()
-            );
+            println!("\n  {} triangles; arrays {arrays_ms:.1} ms", mesh.triangles.len());
             let series = race(renderer, &scene, &contestants(&scene), settings.rounds.min(4_000_000_000 / size / 500));
             print_table(&series, "three-pass --full");
             add(&mut curves, &series, mesh.triangles.len() as f64);
-            json!({ "triangles": mesh.triangles.len(), "arrays_ms": arrays_ms, "hiding_ms": hiding_ms, "hiding": counts,
-                "series": rows(&series) })
+            json!({ "triangles": mesh.triangles.len(), "arrays_ms": arrays_ms, "series": rows(&series) })
         })
         .collect();
     finish(&curves, "Frames of a sphere with bumps, 512 x 512", "triangles", "frame-triangles.svg");

@@ -21,7 +21,7 @@ const USAGE: &str = "cargo bench --bench window -- --model FILE [--large FILE] [
 /// Frames of a drag.
 const DRAG_FRAMES: usize = 150;
 
-/// Pictures at a drag's beginning that are not counted: shaders are compiled, hidden faces found, a second thread started.
+/// Pictures at a drag's beginning that are not counted: shaders are compiled, a second thread started.
 const WARM_UP: usize = 30;
 
 /// What is turned: a name, and options.

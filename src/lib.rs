@@ -103,7 +103,7 @@ use tinta_geometry::markup;
 #[cfg(feature = "window")]
 use tinta_geometry::threads;
 use tinta_geometry::{bytes, clock, files, values};
-pub use tinta_geometry::{camera, choice, edges, error, hiding, limits, lines, scene, settings, tolerances};
+pub use tinta_geometry::{camera, choice, culling, doubled, edges, error, limits, lines, scene, settings, tolerances};
 
 pub mod random;
 pub mod output;

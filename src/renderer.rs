@@ -241,13 +241,12 @@ impl Renderer {
         remarks
     }
 
-    /// How to prune plans of which this renderer draws so many pictures: everything that pays by this context. Nothing is
-    /// assumed of shaders it has in place of built-in ones, so ask again after [`Renderer::replace_shaders`].
-    pub fn pruning(&self, pictures: u32) -> Pruning {
+    /// How to prune plans that this renderer draws: everything that pays by this context. Nothing is assumed of shaders it has
+    /// in place of built-in ones, so ask again after [`Renderer::replace_shaders`].
+    pub fn pruning(&self) -> Pruning {
         let info = self.context();
         Pruning {
             keep: Vec::new(),
-            pictures,
             is_software: info.is_software(),
             subpixel_bits: info.subpixel_bits,
             replaced_shaders: self.drawers[self.used].resources.replaced_shaders(),
@@ -286,7 +285,7 @@ impl Renderer {
     pub fn render(&mut self, scene: &Scene, style: &Style) -> Result<Picture> {
         let plan = style.plan(scene, Show::Final)?;
         self.choose_context(scene, &plan)?;
-        self.draw(scene, &prune(&plan, scene, &self.pruning(1)).plan)
+        self.draw(scene, &prune(&plan, scene, &self.pruning()).plan)
     }
 
     /// Carries out a plan made for this scene.

@@ -107,9 +107,9 @@ pub struct PruneSettings {
 }
 
 impl PruneSettings {
-    /// How to prune for so many pictures; `None` for not at all.
-    pub fn pruning(&self, renderer: &Renderer, pictures: u32) -> Option<Pruning> {
-        (!self.is_full).then(|| Pruning { keep: self.keep.clone(), ..renderer.pruning(pictures) })
+    /// How to prune what this renderer draws; `None` for not at all.
+    pub fn pruning(&self, renderer: &Renderer) -> Option<Pruning> {
+        (!self.is_full).then(|| Pruning { keep: self.keep.clone(), ..renderer.pruning() })
     }
 }
 

@@ -32,7 +32,6 @@ mod goldens;
 mod goldens_looks;
 #[cfg(feature = "window")]
 mod goldens_window;
-mod hiding;
 mod hostile;
 mod improved;
 mod ink_creases;

@@ -1,11 +1,11 @@
 //! What plans state of their draws: the pruner goes by that alone, of anybody's shaders, and by nothing once one is replaced.
 
 use crate::prune::{beside, every_rule};
-use crate::support::{BACKENDS, ball, renderer, root, scene};
+use crate::support::{BACKENDS, renderer, root, scene};
 use std::collections::{HashMap, HashSet};
 use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
 use tinta::plan::{Draw, Facts, Plan, Program, Step, Target};
-use tinta::styles::{Cartoon, Charcoal, Dietrich, Ink, MapEncoding, Mrt, Phong};
+use tinta::styles::{Cartoon, Charcoal, Dietrich, Ink, MapEncoding, Mrt};
 use tinta::{Error, Renderer, Scene, Show, Style, StyleName};
 
 const ALL_INK: &str = "#version 120\nvoid main() { gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0); }\n";
@@ -43,15 +43,15 @@ fn a_border_shader_replaced_by_one_that_inks_all_of_the_picture_inks_all_of_it()
         let full = renderer.draw(&scene, &plan).unwrap();
         assert!(full.pixels.chunks_exact(4).all(|pixel| *pixel == [0, 0, 0, u8::MAX]));
         assert!(renderer.render(&scene, &style).unwrap() == full, "{backend:?}: confined to the objects");
-        let unaware = Pruning { replaced_shaders: Vec::new(), ..renderer.pruning(1) };
+        let unaware = Pruning { replaced_shaders: Vec::new(), ..renderer.pruning() };
         let confined = prune(&plan, &scene, &unaware).plan;
         assert!(renderer.draw(&scene, &confined).unwrap() != full, "else this test would see nothing");
-        let short = prune(&plan, &scene, &renderer.pruning(u32::MAX));
+        let short = prune(&plan, &scene, &renderer.pruning());
         assert!(!left_out(&short).contains(&Rule::EmptyPixels));
         assert!(left_out(&short).contains(&Rule::BackgroundSquare), "the other shaders are as they were");
         // Given back, it is confined again.
         renderer.replace_shaders(HashMap::new()).unwrap();
-        assert!(left_out(&prune(&plan, &scene, &renderer.pruning(1))).contains(&Rule::EmptyPixels));
+        assert!(left_out(&prune(&plan, &scene, &renderer.pruning())).contains(&Rule::EmptyPixels));
         assert!(renderer.render(&scene, &style).unwrap() == published);
     }
 }
@@ -81,8 +81,6 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
     let holed =
         "#version 120\nvoid main() { if (mod(gl_FragCoord.x, 4.0) < 2.0) discard; gl_FragColor = vec4(0.5); }\n";
     let dark = "#version 120\nfloat toneOf(float diffuse, float specular) { return 0.25; }\n";
-    let front_away = source("phong/phong.frag").replace("void main() {", "void main() { if (gl_FrontFacing) discard;");
-    assert!(front_away.contains("discard"));
     let cases = [
         // The map is no longer even.
         replaced("evangelista/map.frag", in_stripes, three.clone()),
@@ -97,9 +95,8 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
         replaced("improved/plane-ink.frag", ALL_INK, Style::Ink(Ink::default())),
         // A part of the shorter program only: the longer one is as it was.
         replaced("improved/tone-one.frag", dark, Style::ThreePass(one_tone)),
-        // Through holes one sees what was cleared, or the faces behind.
+        // Through holes one sees what was cleared.
         replaced("valente/paper.frag", holed, Style::Charcoal(Charcoal::default())),
-        Replaced { scene: ball(4), ..replaced("phong/phong.frag", &front_away, Style::Phong(Phong::default())) },
     ];
     let mut renderer = renderer(BACKENDS[0]);
     for Replaced { path, text, style, scene } in cases {
@@ -119,7 +116,7 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
             would_differ |= draw(&Pruning { replaced_shaders: Vec::new(), ..pruning }) != full;
         }
         assert!(would_differ, "{path} in {} shows nothing", style.name());
-        assert_eq!(renderer.pruning(1).replaced_shaders, [path]);
+        assert_eq!(renderer.pruning().replaced_shaders, [path]);
     }
 }
 
@@ -167,7 +164,7 @@ fn a_style_of_ones_own_that_states_facts_is_pruned_like_the_built_in_ones() {
         renderer.replace_shaders(texts).unwrap();
         let picture = renderer.draw(&scene, &plan).unwrap();
         for is_software in [true, false] {
-            let pruning = Pruning { is_software, ..renderer.pruning(u32::MAX) };
+            let pruning = Pruning { is_software, ..renderer.pruning() };
             let (short, own_short) = (prune(&plan, &scene, &pruning), prune(&own, &scene, &pruning));
             assert_eq!(short.omissions, own_short.omissions, "{own}");
             assert_eq!(own_short.plan.to_string().replace("own/", ""), short.plan.to_string());

@@ -4,7 +4,7 @@ use crate::prune::{beside, cartoon, many_styles};
 use crate::support::{BACKENDS, public_models, renderer, scene_with, skip, styles};
 use glam::DVec3;
 use std::sync::Arc;
-use tinta::plan::prune::{Pruning, prune};
+use tinta::plan::prune::prune;
 use tinta::{
     Backend, Background, CameraSettings, Color, LoadOptions, Mesh, Renderer, Scene, SceneSettings, Show, Size, Style,
     StyleName, View, load,
@@ -56,7 +56,7 @@ fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
         styles.push(Style::named(StyleName::Sand));
     }
     styles.push(cartoon(|cartoon| (cartoon.cull_back_faces, cartoon.tones.count) = (true, 2)));
-    let pruning = Pruning { pictures: u32::MAX, ..renderer.pruning(1) };
+    let pruning = renderer.pruning();
     let mut dice = Dice(mesh.triangles.len() as u64);
     for number in 0..views {
         let view = random_view(&scene, &mut dice);
@@ -138,7 +138,7 @@ fn verify_settings(backends: &[Backend], backgrounds: &[Background], shows: &[Sh
     let styles = many_styles();
     for &backend in backends {
         let mut renderer = renderer(backend);
-        let pruning = Pruning { pictures: u32::MAX, ..renderer.pruning(1) };
+        let pruning = renderer.pruning();
         for &background in backgrounds {
             let settings =
                 SceneSettings { background, copies: 2, size: Size { width: 150, height: 90 }, ..Default::default() };

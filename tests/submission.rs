@@ -45,12 +45,12 @@ fn ink_and_paint_are_the_same_bytes_by_every_way_to_hand_vertices_over() {
                 let plan = Style::Inking(inking.clone()).plan(&scene, Show::Final).unwrap();
                 check(&mut renderer, &scene, &plan, &format!("{backend:?}: {model}, {inking:?}"));
                 // Lists of some of the faces, too.
-                let short = prune(&plan, &scene, &renderer.pruning(u32::MAX)).plan;
+                let short = prune(&plan, &scene, &renderer.pruning()).plan;
                 check(
                     &mut renderer,
                     &scene,
                     &short,
-                    &format!("{backend:?}: {model} without what is hidden, {inking:?}"),
+                    &format!("{backend:?}: {model} without what is culled, {inking:?}"),
                 );
             }
         }

@@ -46,7 +46,7 @@ pub(crate) fn render(
     let scene = drawable(py, meshes, &asked.request.scene)?;
     let (picture, recipe, remarks) = drawn(py, asked.request.backend, move |renderer| {
         let request = &asked.request;
-        let (_, pruned) = request.plans(&scene, renderer, 1)?;
+        let (_, pruned) = request.plans(&scene, renderer)?;
         let remarks = [request.style.remarks(&scene), renderer.remarks(&pruned.plan)].concat();
         let picture = renderer.draw(&scene, &pruned.plan)?;
         let recipe = asked.recipe(&scene, Some(renderer.context()));

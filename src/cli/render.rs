@@ -181,7 +181,6 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
     }
     make_dump_folder(run.dump.as_deref(), output)?;
     session.submission = run.submission;
-    session.pictures = run.pictures();
     let Drawn::Picture(drawn) = request.draw(session, &Default::default())? else { return Ok(Verdict::Good) };
     let DrawnPicture { scene, files, published, plan, omissions, kept, remarks, picture, times } = *drawn;
     let Times { load_ms, stages, arrays_ms, plan_ms, context_ms, warm_up_ms, first_frame_ms } = times;
@@ -209,7 +208,7 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
     let passes = renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?;
     if run.explain {
         let mut text = explain::frames(&plan, &passes, &times, frames);
-        if let Some(pruning) = request.pruning.pruning(renderer, run.pictures()) {
+        if let Some(pruning) = request.pruning.pruning(renderer) {
             text.push_str(&prune::explanation(renderer, &scene, &published, &pruning, frames)?);
         }
         let start = [

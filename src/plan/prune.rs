@@ -4,8 +4,7 @@
 //! byte of the picture, and of each [`Rule`] either the [`Omission`] it led to, with its reason and the facts it rests on,
 //! or why it left everything in. What shaders do is known from what the plan states of its draws ([`super::Facts`]), so that
 //! plans of anybody's making are shortened, and none by a shader that was replaced meanwhile. Every rule has to be exact on every driver, not nearly so; what is only nearly exact is an
-//! option of a style. `Pruning::default` is for one picture: what takes longer to find out than one picture takes to draw is
-//! then left in.
+//! option of a style.
 
 mod background;
 mod dead;
@@ -85,7 +84,6 @@ impl Rule {
             Self::Border => dead::border(plan),
             Self::OutsideObjects => objects::outside(plan, situation),
             Self::CulledFaces => objects::culled_faces(plan, situation),
-            Self::HiddenFaces => objects::hidden_faces(plan, situation),
             Self::UnusedLight => shaders::unused_light(plan),
             Self::BackgroundSquare => background::square(plan),
             Self::EmptyPixels => background::empty_pixels(plan, situation),

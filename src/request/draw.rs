@@ -194,21 +194,21 @@ impl Request {
         }
     }
 
-    /// What the style does for a scene, as published and without what cannot change so many pictures.
+    /// What the style does for a scene, as published and without what cannot change the picture.
     ///
     /// # Errors
     ///
     /// Those of [`crate::Style::plan`] and [`Renderer::choose_context`].
-    pub fn plans(&self, scene: &Scene, renderer: &mut Renderer, pictures: u32) -> Result<(Plan, Pruned)> {
+    pub fn plans(&self, scene: &Scene, renderer: &mut Renderer) -> Result<(Plan, Pruned)> {
         let published = self.style.plan(scene, self.show)?;
-        let pruned = self.pruned(&published, scene, renderer, pictures)?;
+        let pruned = self.pruned(&published, scene, renderer)?;
         Ok((published, pruned))
     }
 
-    /// A plan without what cannot change so many pictures.
-    fn pruned(&self, published: &Plan, scene: &Scene, renderer: &mut Renderer, pictures: u32) -> Result<Pruned> {
+    /// A plan without what cannot change the picture.
+    fn pruned(&self, published: &Plan, scene: &Scene, renderer: &mut Renderer) -> Result<Pruned> {
         renderer.choose_context(scene, published)?;
-        Ok(match self.pruning.pruning(renderer, pictures) {
+        Ok(match self.pruning.pruning(renderer) {
             Some(pruning) => prune(published, scene, &pruning),
             None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
         })
@@ -220,17 +220,16 @@ impl Request {
     ///
     /// Those of [`Request::plans`] and [`Renderer::draw`].
     pub fn picture_of(&self, scene: &Scene, renderer: &mut Renderer) -> Result<Picture> {
-        let (_, Pruned { plan, .. }) = self.plans(scene, renderer, 1)?;
+        let (_, Pruned { plan, .. }) = self.plans(scene, renderer)?;
         renderer.draw(scene, &plan)
     }
 
     fn picture(&self, session: &mut Session) -> Result<DrawnPicture> {
         let (mut times, loaded) = self.ready(session);
         let Planned { scene, files, published, times: of_loading } = loaded?;
-        let pictures = session.pictures;
         let renderer = session.renderer(self.backend)?;
         let start = Instant::now();
-        let Pruned { plan, omissions, kept } = self.pruned(&published, &scene, renderer, pictures)?;
+        let Pruned { plan, omissions, kept } = self.pruned(&published, &scene, renderer)?;
         times.plan_ms = of_loading.plan_ms + milliseconds_since(start);
         let remarks = [self.style.remarks(&scene), renderer.remarks(&plan)].concat();
         let start = Instant::now();
@@ -280,7 +279,7 @@ impl Request {
         let mut times = Times { context_ms: milliseconds_since(start), ..Times::default() };
         if !models_are_read() {
             let start = Instant::now();
-            let pruning = self.pruning.pruning(&renderer, session.pictures);
+            let pruning = self.pruning.pruning(&renderer);
             renderer.warm_up(&self.scene, &self.style, self.show, pruning.as_ref())?;
             times.warm_up_ms = Some(milliseconds_since(start));
         }

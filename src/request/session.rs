@@ -21,8 +21,6 @@ pub struct Session {
     pub models: ModelCache,
     /// How vertices are handed to GL. Default in buffers.
     pub submission: Submission,
-    /// How many pictures of the models will be drawn: more are worth more finding out of what may be left out. Default 1.
-    pub pictures: u32,
 }
 
 impl Default for Session {
@@ -43,7 +41,7 @@ impl Session {
     }
 
     fn new(open: fn(Backend) -> Result<Renderer>, models: ModelCache) -> Self {
-        Self { open, renderers: Vec::new(), used: None, models, submission: Submission::default(), pictures: 1 }
+        Self { open, renderers: Vec::new(), used: None, models, submission: Submission::default() }
     }
 
     /// With another way to read models, and somebody who is told what is to be said of them.

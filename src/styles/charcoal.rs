@@ -18,8 +18,8 @@ use self::layout::Layout;
 use self::pictures::{Made, TextureSettings};
 use super::textured::textured;
 use super::{Show, Supersample};
+use crate::doubled::doubled_faces;
 use crate::error::{Error, Result};
-use crate::hiding::doubled_faces;
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::{

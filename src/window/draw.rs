@@ -141,7 +141,7 @@ impl Drawer {
         let scene = job.scene()?;
         let mut costs = Vec::new();
         for (side, style, _) in &job.drawings {
-            let (_, pruned) = Request::of_picture(style, Show::Final).plans(&scene, &mut self.renderer, 1)?;
+            let (_, pruned) = Request::of_picture(style, Show::Final).plans(&scene, &mut self.renderer)?;
             let passes = self.renderer.time_passes(&scene, &pruned.plan, TIMED_FRAMES)?;
             let frames: Result<Vec<f64>> = (0..TIMED_FRAMES).map(|_| self.frame_ms(&scene, style)).collect();
             let frame_ms = median(frames?).unwrap_or_default();

@@ -12,13 +12,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(super) struct Loader {
     reporter: Reporter,
     /// The number of the last load.
-    last: Arc<AtomicU64>,
+    last: AtomicU64,
 }
 
 impl Loader {
     /// Tells this reporter.
     pub(super) fn new(reporter: Reporter) -> Self {
-        Self { reporter, last: Arc::default() }
+        Self { reporter, last: AtomicU64::default() }
     }
 
     /// Whether this load is the last one asked for.
@@ -33,23 +33,12 @@ impl Loader {
     /// When there is no thread to be had.
     pub(super) fn start(&self, models: Vec<String>, options: LoadOptions) -> std::io::Result<()> {
         let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
-        let (reporter, last) = (self.reporter.clone(), self.last.clone());
+        let reporter = self.reporter.clone();
         let work = move || {
             let stage = |stage: Stage| reporter.say(Report::Stage(number, stage));
             match scene_of(&models, &options, &stage) {
                 Err(error) => reporter.say(Report::NotLoaded(number, error)),
-                Ok(loaded) => {
-                    let scene = loaded.scene.clone();
-                    reporter.say(Report::Loaded(number, Box::new(loaded)));
-                    // What makes later frames faster; of no use to a scene that is no longer shown.
-                    for object in &scene.objects {
-                        if last.load(Ordering::Relaxed) != number {
-                            return;
-                        }
-                        scene.hiding(object);
-                    }
-                    reporter.say(Report::Prepared);
-                }
+                Ok(loaded) => reporter.say(Report::Loaded(number, Box::new(loaded))),
             }
         };
         std::thread::Builder::new().name("loading".to_owned()).spawn(work).map(drop)

@@ -50,8 +50,6 @@ pub enum Report {
     Loaded(u64, Box<LoadedModels>),
     /// Models cannot be loaded.
     NotLoaded(u64, Error),
-    /// Hidden faces are known now: frames are faster from here on.
-    Prepared,
     /// The error of a side's lines against the exact ones.
     Measured(u64, Vec<(Side, LineScore)>),
     /// The exact lines of a view, or why there are none.

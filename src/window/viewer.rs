@@ -460,8 +460,6 @@ impl Viewer {
                     self.problem = Some(error.to_string());
                 }
             }
-            // The picture is the same; only the next ones are faster.
-            Report::Prepared => {}
             Report::Measured(number, errors) => self.costs.measured(number, errors),
             Report::Lines(found) => self.lines.take(*found),
             #[cfg(feature = "file-dialogue")]

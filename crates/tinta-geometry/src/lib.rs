@@ -53,7 +53,8 @@ pub mod mesh;
 pub mod edges;
 pub mod curvature;
 mod bvh;
-pub mod hiding;
+pub mod culling;
+pub mod doubled;
 pub mod scene;
 pub mod lines;
 

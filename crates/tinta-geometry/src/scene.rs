@@ -33,7 +33,6 @@ use crate::camera::{Camera, CameraSettings, Projection};
 use crate::curvature::{Curvatures, KeptCurvatures};
 use crate::edges::{CreaseAngle, Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
-use crate::hiding::{Hiding, ObjectView};
 use crate::mesh::{Material, Mesh, VertexArrays, bounds};
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
 use crate::tolerances::SCENE_RADIUS;
@@ -51,8 +50,6 @@ pub struct Object {
     arrays: Arc<OnceLock<VertexArrays>>,
     /// Boxes around them, likewise.
     boxes: Arc<OnceLock<Vec<[Vec3; 2]>>>,
-    /// Which of its faces hide which, likewise.
-    hiding: Arc<OnceLock<Hiding>>,
     /// Its edges, likewise.
     edges: Arc<OnceLock<MeshEdges>>,
     /// The curvature of its surface, likewise.
@@ -301,30 +298,6 @@ impl Scene {
         });
     }
 
-    /// What holds for every view of an object's faces; made when first asked for, which takes as long as drawing it some
-    /// dozen times.
-    pub fn hiding<'a>(&self, object: &'a Object) -> &'a Hiding {
-        object.hiding.get_or_init(|| Hiding::new(&object.mesh, self.arrays(object)))
-    }
-
-    /// What [`Scene::hiding`] is asked with.
-    pub fn view_of<'a>(&'a self, object: &'a Object) -> ObjectView<'a> {
-        let arrays = self.arrays(object);
-        ObjectView {
-            arrays,
-            camera: &self.camera,
-            offset: object.offset,
-            scene_radius: self.radius,
-            aspect: self.size.aspect(),
-            clip_from_object: self.clip_from_view() * self.view_from_object(object, arrays.centre),
-        }
-    }
-
-    /// Whether [`Scene::hiding`] has been made.
-    pub fn has_hiding(&self, object: &Object) -> bool {
-        object.hiding.get().is_some()
-    }
-
     /// The edges of an object's mesh.
     pub fn edges<'a>(&self, object: &'a Object) -> &'a MeshEdges {
         object.edges.get_or_init(|| MeshEdges::new(object.mesh.clone()))
@@ -442,7 +415,6 @@ impl Object {
             offset: DVec3::ZERO,
             arrays: Arc::default(),
             boxes: Arc::default(),
-            hiding: Arc::default(),
             edges: Arc::default(),
             curvatures: Arc::default(),
         }

@@ -137,29 +137,9 @@ pub const UNREACHED_LIGHT: f32 = 1.001;
 /// How far from the middle between two steps of 8 bits a colour must be, steps, before every driver rounds it to the same one.
 pub const EIGHT_BIT_TIE: f64 = 0.02;
 
-/// Least distance of a face from its own shell's other faces for it to be left out where it cannot be seen, as a share of the
-/// mesh's mean edge length: less flags fewer faces, more asks of fewer faces that they are seen steeply.
-pub const SHELL_THICKNESS: f64 = 0.2;
-
-/// Most of that distance, in the mesh's radii: in a picture of 512 pixels half of one, which is enough.
-pub const LARGEST_THICKNESS: f64 = 3e-3;
-
-/// Share of that distance by which what hides a face is nearer than it; the rest is room for what moves sideways.
-pub const HIDING_DEPTH: f64 = 0.5;
-
 /// How far GL may move a vertex sideways before it fills a face, in steps of its sub-pixel grid: half a step by rounding, as
 /// much again for safety and for f32.
 pub const SUBPIXEL_STEPS: f64 = 1.0;
-
-/// Cosines between a face and the view between which it is asked for the angle from which on it is surely a back face: the
-/// first is far above what f32 is off by, beyond the second too few faces are left to be worth asking.
-pub const SURELY_BACK: std::ops::RangeInclusive<f64> = 1e-3..=0.5;
-
-/// Steps of a 24-bit depth buffer by which what hides a face must be nearer: rounding is off by a handful of them.
-pub const HIDING_DEPTH_STEPS: f64 = 256.0;
-
-/// What f32 may be off by in the depth of a point, as a share of its largest possible distance from the eye.
-pub const NEAR_PLANE_NOISE: f64 = 1e-5;
 
 /// Length of a sum of unit normals up to which its direction is nothing but rounding: a million of them lose less.
 pub const CANCELLED_NORMALS: f64 = 1e-9;

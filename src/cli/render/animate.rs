@@ -54,10 +54,9 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
     let mut writer = AnimationWriter::new(target.clone(), scenes.len() as u32, delay_ms)?;
     let mut frame_ms = Vec::new();
     let mut verdict = Verdict::Good;
-    let pictures = if run.verify { u32::MAX } else { scenes.len() as u32 };
     for (number, scene) in scenes.iter().enumerate() {
         let frame = Instant::now();
-        let (published, Pruned { mut plan, .. }) = request.plans(scene, renderer, pictures)?;
+        let (published, Pruned { mut plan, .. }) = request.plans(scene, renderer)?;
         plan.submission = run.submission;
         if number == 0 {
             let remarks = [request.style.remarks(scene), renderer.remarks(&plan)].concat();

@@ -155,11 +155,6 @@ impl RunSettings {
         self.json || self.explain
     }
 
-    /// How many pictures are drawn; to verify, so many that every rule is worth its time.
-    pub(super) fn pictures(&self) -> u32 {
-        if self.verify { u32::MAX } else { self.frames }
-    }
-
     /// The first of these that is given.
     fn refuse(given: &[(&str, bool)], problem: &str) -> Result<()> {
         match given.iter().find(|(_, is_given)| *is_given) {

@@ -1,9 +1,9 @@
-//! Objects outside the picture, and faces that a view cannot show.
+//! Objects outside the picture, and faces that the driver would cull.
 
 use super::ground::stays_in_objects;
 use super::rule::{Omission, Rule, Situation, counted};
-use crate::hiding::{DrawnFaces, faces_not_culled};
-use crate::plan::{Blend, Depth, Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
+use crate::culling::{DrawnFaces, faces_not_culled};
+use crate::plan::{Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
 use crate::scene::{Object, Scene};
 use std::sync::Arc;
 
@@ -71,7 +71,11 @@ pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     if !pruning.is_software {
         return Err("the device culls faster than they are found here".to_owned());
     }
-    let lists = |object: &Object| faces_not_culled(&scene.view_of(object), surface, pruning.subpixel_bits);
+    let lists = |object: &Object| {
+        let arrays = scene.arrays(object);
+        let clip_from_object = scene.clip_from_view() * scene.view_from_object(object, arrays.centre);
+        faces_not_culled(arrays, clip_from_object, surface, pruning.subpixel_bits)
+    };
     let left_out = choose(plan, scene, is_culled, lists);
     if left_out == 0 {
         return Err("no face is surely turned away".to_owned());
@@ -84,80 +88,6 @@ pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
             "their corners run clockwise in the picture, wherever on its sub-pixels the driver places them".to_owned(),
         ],
     })
-}
-
-/// Pictures from which on finding hidden faces takes less time than drawing them does.
-const WORTH_HIDING: u32 = 16;
-
-/// Share of faces, percent, below which leaving them out saves less time than looking for them takes.
-const LEAST_PERCENT: usize = 16;
-
-/// Leaves out faces that are turned away and behind others of their own closed surface.
-pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
-    let Situation { scene, surface, pruning, .. } = *situation;
-    if !plan.draws().any(is_hiding) {
-        return Err(
-            "faces pushed back by polygon offset, or culled already, need not hide what is behind them".to_owned()
-        );
-    }
-    if !pruning.is_software {
-        return Err("the device draws faster than they are found here".to_owned());
-    }
-    let is_known = scene.objects.iter().all(|object| scene.has_hiding(object));
-    if !is_known && pruning.pictures < WORTH_HIDING {
-        return Err(format!(
-            "finding them takes longer than a picture saves; it pays from {WORTH_HIDING} pictures on (--frames, --turntable)"
-        ));
-    }
-    let usual: usize = scene
-        .objects
-        .iter()
-        .map(|object| scene.hiding(object).counts().usual_percent * object.mesh.triangles.len())
-        .sum();
-    let usual_percent = usual / scene.triangle_count().max(1);
-    if usual_percent < LEAST_PERCENT {
-        return Err(format!(
-            "looking for them in every view costs more than it saves: from most sides {usual_percent} % of the faces \
-             could be skipped"
-        ));
-    }
-    let is_outside = |object: &Object| scene.is_outside(object, 0.0);
-    let lists = |object: &Object| match is_outside(object) {
-        true => None,
-        false => scene.hiding(object).faces_to_draw(&scene.view_of(object), surface, pruning.subpixel_bits),
-    };
-    let left_out = choose(plan, scene, is_hiding, lists);
-    let counts = scene.objects.iter().map(|object| scene.hiding(object).counts());
-    let (sound, shells, holes) = counts.fold((0, 0, 0), |(sound, shells, holes), counts| {
-        (sound + counts.sound_shells, shells + counts.shells, holes + counts.capped_holes)
-    });
-    let facts = format!(
-        "{sound} of {} closed, with {} capped",
-        counted(shells, "surface is", "surfaces are"),
-        counted(holes, "hole", "holes")
-    );
-    match left_out {
-        0 => Err(format!("from here none is surely hidden ({facts})")),
-        left_out => Ok(Omission {
-            rule: Rule::HiddenFaces,
-            what: format!("{left_out} of {} faces", scene.triangle_count()),
-            reason:
-                "each lies behind a face of its own closed surface in every pixel, by more than rounding can confuse"
-                    .to_owned(),
-            facts: vec![facts],
-        }),
-    }
-}
-
-/// Whether the nearest face is what this draw leaves of several in a pixel.
-fn is_hiding(draw: &Draw) -> bool {
-    draw.is_of_objects()
-        && draw.depth == Depth::TestAndWrite
-        && draw.polygon_offset.is_none()
-        && draw.blend == Blend::Replace
-        && !draw.cull_back_faces
-        && draw.keeps_places()
-        && draw.keeps_pixels()
 }
 
 /// Which faces of each object a draw draws.

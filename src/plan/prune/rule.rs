@@ -16,8 +16,6 @@ tinta_geometry::choices! {
         OutsideObjects = "outside-objects",
         /// Faces that the driver would cull anyway.
         CulledFaces = "culled-faces",
-        /// Faces of closed surfaces, turned away and behind faces that are not.
-        HiddenFaces = "hidden-faces",
         /// Light that no tone depends on: highlights below three tones, all of it with one.
         UnusedLight = "unused-light",
         /// The background square where clearing does the same.
@@ -46,8 +44,6 @@ impl Rule {
 pub struct Pruning {
     /// Rules that are not to be applied. Default none.
     pub keep: Vec<Rule>,
-    /// How many pictures of these models will be drawn, from any view: more are worth more finding out. Default 1.
-    pub pictures: u32,
     /// Whether GL draws on the processor, where faces left out here are worth the search for them. Default yes.
     pub is_software: bool,
     /// Bits to which GL places a vertex within a pixel. Default 4, as many as every driver has.
@@ -59,7 +55,7 @@ pub struct Pruning {
 
 impl Default for Pruning {
     fn default() -> Self {
-        Self { keep: Vec::new(), pictures: 1, is_software: true, subpixel_bits: 4, replaced_shaders: Vec::new() }
+        Self { keep: Vec::new(), is_software: true, subpixel_bits: 4, replaced_shaders: Vec::new() }
     }
 }
 

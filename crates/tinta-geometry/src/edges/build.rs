@@ -39,11 +39,6 @@ impl EdgeList {
     pub fn with_threads(mesh: &Mesh, threads: usize) -> Self {
         edge_list(&mesh.triangles, mesh.positions.len() as u32, threads.max(1))
     }
-
-    /// The list of triangles that belong to no [`Mesh`], over this many positions, as [`EdgeList::with_threads`] makes it.
-    pub(crate) fn of_triangles(triangles: &[[u32; 3]], positions: u32, threads: usize) -> Self {
-        edge_list(triangles, positions, threads.max(1))
-    }
 }
 
 fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) -> EdgeList {

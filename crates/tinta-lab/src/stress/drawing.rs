@@ -18,9 +18,6 @@ use tinta::renderer::Renderer;
 use tinta::scene::{Scene, SceneSettings, Size};
 use tinta::styles::Show;
 
-/// Pictures for which omissions are chosen: so many that every one pays.
-const MANY_PICTURES: u32 = 1000;
-
 /// Steps of a turn, and how many of them a full turn has: one degree in sixty.
 const STEPS: usize = 60;
 const STEPS_AROUND: u32 = 360 * 60;
@@ -89,7 +86,7 @@ impl Subject {
     pub(super) fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<Drawn> {
         let style = &variant.style;
         let plan = style.plan(&self.scene, Show::Final)?;
-        let pruning = renderer.pruning(MANY_PICTURES);
+        let pruning = renderer.pruning();
         let picture = renderer.draw(&self.scene, &prune(&plan, &self.scene, &pruning).plan)?;
         let full = renderer.draw(&self.scene, &plan)?;
         let mut figures = self.figures.clone();

@@ -24,7 +24,7 @@ struct Face {
 /// matter in a picture, and those of meshes of more than [`DOUBLED_FACES`] faces, where nobody looks.
 ///
 /// ```
-/// use tinta_geometry::{LoadOptions, Mesh, hiding::doubled_faces, glam::DVec3};
+/// use tinta_geometry::{LoadOptions, Mesh, doubled::doubled_faces, glam::DVec3};
 ///
 /// let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
 /// let leaf = Mesh::of_triangles("a leaf", corners, &[[0, 1, 2], [2, 1, 0]], &LoadOptions::default())?;
