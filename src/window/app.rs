@@ -172,8 +172,8 @@ impl ApplicationHandler<News> for App {
 #[cfg(test)]
 mod tests {
     use super::reason;
-    use crate::window::shown::dress;
     use crate::window::panel::{CHANGED, FAITHFUL, HINT};
+    use crate::window::shown::dress;
     use egui::Color32;
 
     /// Contrast of two colours as WCAG 2 defines it: from 1 to 21.
