@@ -51,11 +51,11 @@ impl Value {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Texture {
-    /// The framebuffer as the last [`Step::CopyFramebuffer`] left it; NEAREST, CLAMP_TO_EDGE (errata E12).
+    /// The framebuffer as the last [`Step::CopyFramebuffer`](super::Step::CopyFramebuffer) left it; NEAREST, CLAMP_TO_EDGE (errata E12).
     BorderMap,
-    /// What passes into [`Target::Textures`] drew there; NEAREST, CLAMP_TO_EDGE.
+    /// What passes into [`Target::Textures`](super::Target::Textures) drew there; NEAREST, CLAMP_TO_EDGE.
     Drawn(Drawn),
-    /// The depth buffer as the last [`Step::CopyDepth`] left it, window z in red; NEAREST, CLAMP_TO_EDGE.
+    /// The depth buffer as the last [`Step::CopyDepth`](super::Step::CopyDepth) left it, window z in red; NEAREST, CLAMP_TO_EDGE.
     DepthMap,
     /// The plan's table of this number, one-dimensional; NEAREST, CLAMP_TO_EDGE.
     Table(usize),

@@ -14,7 +14,7 @@ mod parts;
 mod uri;
 
 use super::folder::Folder;
-use super::load::LoadOptions;
+use super::options::LoadOptions;
 use super::skin;
 use super::soup::{Soup, is_too_much};
 use crate::error::{Error, Result};

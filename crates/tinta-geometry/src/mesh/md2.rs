@@ -8,7 +8,7 @@
 
 use super::folder::{Folder, Lookup};
 use super::frame::Between;
-use super::load::{LoadOptions, UpAxis};
+use super::options::{LoadOptions, UpAxis};
 use super::soup::{Corner, Soup};
 use super::{Material, skin};
 use crate::bytes::{Bytes, name};

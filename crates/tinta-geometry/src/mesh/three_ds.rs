@@ -6,7 +6,7 @@
 //! computed. In the file z is up and -y the front, which is turned to y up (unless `--up-axis` says otherwise).
 
 use super::folder::Folder;
-use super::load::{LoadOptions, UpAxis};
+use super::options::{LoadOptions, UpAxis};
 use super::soup::{Corner, Soup};
 use super::{Material, NONE, skin};
 use crate::bytes::Bytes;
