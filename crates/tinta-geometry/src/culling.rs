@@ -3,6 +3,18 @@
 //! In: an object's arrays and how a view projects them. Out: the arrays' indices without those faces. GL decides by the sign
 //! of a face's area in window coordinates, after it has moved the vertices to sub-pixels. A face is left out only where that
 //! sign is certain, so the picture stays the same byte for byte.
+//!
+//! ```
+//! use tinta_geometry::{LoadOptions, Scene, SceneSettings, culling::faces_not_culled, load};
+//!
+//! let mesh = load("../../models/gear.obj", &LoadOptions::default())?.mesh;
+//! let scene = Scene::new([mesh], &SceneSettings::default())?;
+//! let arrays = scene.arrays(&scene.objects[0]);
+//! let clip_from_object = scene.clip_from_view() * scene.view_from_object(&scene.objects[0], arrays.centre);
+//! let drawn = faces_not_culled(arrays, clip_from_object, scene.size, 8).unwrap();
+//! assert_eq!(drawn.indices.len() + drawn.left_out * 3, arrays.indices.len());
+//! # Ok::<(), tinta_geometry::Error>(())
+//! ```
 
 use crate::mesh::{Part, VertexArrays};
 use crate::threads::{filled, threads_for};
@@ -25,18 +37,6 @@ pub struct DrawnFaces {
 ///
 /// `clip_from_object` takes the arrays' coordinates to clip space, `surface` is the size drawn into, pixels (the picture's times
 /// its supersampling), and GL places vertices to 2^-`subpixel_bits` of a pixel (GL_SUBPIXEL_BITS; 8 on Mesa, 4 at least).
-///
-/// ```
-/// use tinta_geometry::{LoadOptions, Scene, SceneSettings, culling::faces_not_culled, load};
-///
-/// let mesh = load("../../models/gear.obj", &LoadOptions::default())?.mesh;
-/// let scene = Scene::new([mesh], &SceneSettings::default())?;
-/// let arrays = scene.arrays(&scene.objects[0]);
-/// let clip_from_object = scene.clip_from_view() * scene.view_from_object(&scene.objects[0], arrays.centre);
-/// let drawn = faces_not_culled(arrays, clip_from_object, scene.size, 8).unwrap();
-/// assert_eq!(drawn.indices.len() + drawn.left_out * 3, arrays.indices.len());
-/// # Ok::<(), tinta_geometry::Error>(())
-/// ```
 pub fn faces_not_culled(
     arrays: &VertexArrays,
     clip_from_object: Mat4,

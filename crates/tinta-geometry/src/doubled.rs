@@ -3,6 +3,15 @@
 //! In: a mesh. Out: how many pairs there are of which a picture may show the side that is turned away. Where both sheets have
 //! the same corners chance decides, and where the file's coarse coordinates have moved one through the other the wrong side
 //! is nearer. A plate that is thin but whole is no such pair: each of its faces lies behind the other's back.
+//!
+//! ```
+//! use tinta_geometry::{LoadOptions, Mesh, doubled::doubled_faces, glam::DVec3};
+//!
+//! let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+//! let leaf = Mesh::of_triangles("a leaf", corners, &[[0, 1, 2], [2, 1, 0]], &LoadOptions::default())?;
+//! assert_eq!(doubled_faces(&leaf), 1);
+//! # Ok::<(), tinta_geometry::Error>(())
+//! ```
 
 use crate::bvh::{Box3, BoxTree};
 use crate::limits::DOUBLED_FACES;
@@ -22,15 +31,6 @@ struct Face {
 
 /// How many pairs of faces lie on each other, one each way, and do not keep their sides apart. Not counted are faces too small to
 /// matter in a picture, and those of meshes of more than [`DOUBLED_FACES`] faces, where nobody looks.
-///
-/// ```
-/// use tinta_geometry::{LoadOptions, Mesh, doubled::doubled_faces, glam::DVec3};
-///
-/// let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
-/// let leaf = Mesh::of_triangles("a leaf", corners, &[[0, 1, 2], [2, 1, 0]], &LoadOptions::default())?;
-/// assert_eq!(doubled_faces(&leaf), 1);
-/// # Ok::<(), tinta_geometry::Error>(())
-/// ```
 pub fn doubled_faces(mesh: &Mesh) -> usize {
     if mesh.triangles.len() > DOUBLED_FACES {
         return 0;
