@@ -22,7 +22,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tinta::lines::{LineSettings, Progress, VisibleLines, svg};
 use tinta::renderer::milliseconds_since;
-use tinta::{CameraSettings, Error, Mesh, Scene, SceneSettings, SvgSettings};
+use tinta::{CameraSettings, DrawingSettings, Error, Mesh, Scene, SceneSettings};
 
 struct Settings {
     sizes: Vec<usize>,
@@ -112,7 +112,7 @@ fn measured(family: &Family, size: usize, settings: &Settings) -> Option<(Value,
     };
     let lines_ms = milliseconds_since(start);
     let start = Instant::now();
-    let bytes = svg(&lines, &SvgSettings::default()).expect("an SVG").len();
+    let bytes = svg(&lines, &DrawingSettings::default()).expect("an SVG").len();
     let svg_ms = milliseconds_since(start);
     let pieces = lines.segments.len();
     let each = lines.times.compared as f64 / (triangles + pieces) as f64;

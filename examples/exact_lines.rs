@@ -5,7 +5,7 @@
 use std::sync::Arc;
 use tinta::edges::Class;
 use tinta::lines::{Hidden, Length, svg};
-use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, TextTarget, VisibleLines, load};
+use tinta::{DrawingSettings, LineSettings, LoadOptions, Scene, SceneSettings, TextTarget, VisibleLines, load};
 
 fn main() -> tinta::Result<()> {
     let mut words = std::env::args().skip(1);
@@ -23,11 +23,11 @@ pub fn draw(model: &str, output: &str) -> tinta::Result<(usize, usize)> {
     let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
     let lines = VisibleLines::of(&scene, &LineSettings::default())?;
     let creases = lines.segments.iter().filter(|segment| segment.class == Class::Crease).count();
-    let settings = SvgSettings {
+    let settings = DrawingSettings {
         title: format!("{model}, {creases} pieces of creases"),
         hidden: Hidden::Dashed,
         line_width: Some(Length::Px(1.5)),
-        ..SvgSettings::default()
+        ..DrawingSettings::default()
     };
     target.write(&svg(&lines, &settings)?)?;
     let visible = lines.segments.iter().filter(|segment| segment.is_visible).count();

@@ -24,13 +24,13 @@
 //! The visible lines of a scene, computed in f64 without OpenGL, as SVG. The crate [`tinta_geometry`] has this part alone:
 //!
 //! ```
-//! use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, VisibleLines, lines, load};
+//! use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, DrawingSettings, VisibleLines, lines, load};
 //!
 //! # fn main() -> tinta::Result<()> {
 //! let gear = load("builtin:gear", &LoadOptions::default())?.mesh;
 //! let scene = Scene::new([gear], &SceneSettings::default())?;
 //! let visible = VisibleLines::of(&scene, &LineSettings::default())?;
-//! let svg = lines::svg(&visible, &SvgSettings::default())?;
+//! let svg = lines::svg(&visible, &DrawingSettings::default())?;
 //! assert!(svg.contains("<path"));
 //! # Ok(())
 //! # }
@@ -159,7 +159,7 @@ pub use error::{Error, FileKind, ParseError, Result};
 pub use gl::Backend;
 /// The vectors and matrices that the public types are made of.
 pub use glam;
-pub use lines::{LineSettings, SvgSettings, VisibleLines};
+pub use lines::{DrawingSettings, LineSettings, VisibleLines};
 pub use mesh::{LoadOptions, Mesh, load};
 pub use output::TextTarget;
 pub use picture::{Picture, Target};

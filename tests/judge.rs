@@ -4,7 +4,7 @@ use crate::cli::{Folder, refused_in_one_line, tinta};
 use crate::support::{renderer, scene};
 use glam::DVec2;
 use serde_json::Value;
-use tinta::{Backend, LineSettings, Picture, Scene, Size, Style, StyleName, SvgSettings, lines};
+use tinta::{Backend, DrawingSettings, LineSettings, Picture, Scene, Size, Style, StyleName, lines};
 use tinta_lab::judge::{InkColor, JudgeSettings, Judgement, drawing, judge};
 use tinta_lab::measure::{Ink, Reference, Row};
 
@@ -17,7 +17,7 @@ fn subject(model: &str) -> (Scene, Reference) {
 }
 
 fn svg(reference: &Reference) -> String {
-    lines::svg(&reference.lines, &SvgSettings::default()).unwrap()
+    lines::svg(&reference.lines, &DrawingSettings::default()).unwrap()
 }
 
 fn picture(svg: &str) -> Picture {
@@ -66,7 +66,7 @@ fn the_exact_lines_are_right_and_what_is_done_to_them_shows_in_the_number_it_bel
     // With hidden lines as well.
     let mut all = reference.lines.clone();
     all.segments.iter_mut().for_each(|segment| segment.is_visible = true);
-    let hidden = judged(&picture(&lines::svg(&all, &SvgSettings::default()).unwrap()), &reference, false);
+    let hidden = judged(&picture(&lines::svg(&all, &DrawingSettings::default()).unwrap()), &reference, false);
     assert!(hidden.hidden.length_px > 50.0 && hidden.hidden.drawn_px > 0.9 * hidden.hidden.length_px, "{hidden:?}");
     assert!(hidden.lines.recall > 0.9999 && hidden.lines.precision < 0.8);
 

@@ -11,7 +11,7 @@ use glam::DVec3;
 use std::collections::HashSet;
 use std::time::Duration;
 use tinta::edges::Class;
-use tinta::lines::{LineSegment, LineSettings, Phase, Progress, SvgSettings, VisibleLines};
+use tinta::lines::{DrawingSettings, LineSegment, LineSettings, Phase, Progress, VisibleLines};
 use tinta::record::lines_json;
 use tinta::{Error, Scene, Size};
 
@@ -196,7 +196,7 @@ fn a_part_is_marked_in_every_file_and_a_whole_is_not() {
     assert_eq!((part.partial_note().as_deref(), whole.partial_note()), (Some(note), None));
     let with_specks = VisibleLines { has_specks: true, ..part.clone() };
     assert_eq!(with_specks.partial_note(), Some(format!("{note} and specks were left out")));
-    let settings = SvgSettings::default();
+    let settings = DrawingSettings::default();
     let texts = |lines: &VisibleLines| {
         let pdf = tinta::lines::pdf(lines, &settings).unwrap();
         [
@@ -264,7 +264,7 @@ fn planes_through_one_axis_have_one_line_there() {
 #[test]
 fn leaving_out_specks_ends_when_asked_and_goes_on_a_little_where_a_part_is_wanted() {
     let found = seen(&scene(family("hair"), 200));
-    let settings = SvgSettings::default();
+    let settings = DrawingSettings::default();
     let ended = |progress: &Progress| found.without_specks_with_progress(&settings, progress);
     let cancelled = Progress::default();
     cancelled.cancel();
@@ -300,7 +300,7 @@ fn specks_are_looked_for_in_time_that_follows_the_lines() {
     let compared = |count: usize| {
         let lines = lattice_with_long_lines(count);
         let progress = Progress::default();
-        lines.without_specks_with_progress(&SvgSettings::default(), &progress).unwrap();
+        lines.without_specks_with_progress(&DrawingSettings::default(), &progress).unwrap();
         assert_eq!(progress.phase(), Phase::TooShort);
         let (done, total) = progress.state();
         assert_eq!(done, total, "all that counts is done");

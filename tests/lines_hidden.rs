@@ -6,7 +6,7 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use tinta::edges::Class;
 use tinta::lines::{Hidden, Layer, VisibleLines, chain, drawn_layers, svg};
-use tinta::{Mesh, Scene, SvgSettings};
+use tinta::{DrawingSettings, Mesh, Scene};
 
 const NEAR: f64 = 1e-6;
 
@@ -64,7 +64,7 @@ fn a_hidden_line_is_drawn_from_where_no_other_lies_on_it() {
     // of the wide one likewise; they cross, and neither lies on the other.
     let unit = unit(&scene, DVec3::X);
     assert_near(hidden(&found)[0], (3.0 + 2.0 + 2.0 + 5.0) * unit, NEAR, "drawn");
-    let drawn: f64 = drawn_layers(&found, &SvgSettings { hidden: Hidden::Dashed, ..SvgSettings::default() })
+    let drawn: f64 = drawn_layers(&found, &DrawingSettings { hidden: Hidden::Dashed, ..DrawingSettings::default() })
         .unwrap()
         .iter()
         .filter(|layer| !layer.layer.is_visible())
@@ -108,7 +108,7 @@ fn what_is_covered_is_in_no_path_and_no_file() {
     assert!(chain(&found.segments).iter().all(|path| path.is_visible));
     for hidden in [Hidden::Dashed, Hidden::Ghost] {
         for is_for_pen in [false, true] {
-            let settings = SvgSettings { hidden, is_for_pen, ..SvgSettings::default() };
+            let settings = DrawingSettings { hidden, is_for_pen, ..DrawingSettings::default() };
             let layers = drawn_layers(&found, &settings).unwrap();
             assert_eq!(layers.iter().map(|layer| layer.layer).collect::<Vec<_>>(), [Layer::Visible(Class::Silhouette)]);
             assert!(!svg(&found, &settings).unwrap().contains("hidden-"));

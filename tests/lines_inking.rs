@@ -11,8 +11,8 @@ use tinta::lines::closed_forms::ClosedForm;
 use tinta::lines::{Length, svg};
 use tinta::styles::{Inking, PaintMode};
 use tinta::{
-    LineSettings, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Size, Style, SvgSettings, VisibleLines,
-    load,
+    DrawingSettings, LineSettings, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Size, Style,
+    VisibleLines, load,
 };
 use tinta_lab::compare::{Agreement, InkMask};
 
@@ -125,7 +125,7 @@ fn shares_by(renderer: &mut Renderer, scene: &Scene, name: &str, silhouette: Sil
     let settings = LineSettings { classes: CLASSES, silhouette, ..LineSettings::as_published() };
     let lines = VisibleLines::of(scene, &settings).unwrap();
     // GL leaves nothing out.
-    let all = SvgSettings { min_length: Some(Length::Px(0.0)), ..SvgSettings::default() };
+    let all = DrawingSettings { min_length: Some(Length::Px(0.0)), ..DrawingSettings::default() };
     let pixels = rendered(&svg(&lines, &all).unwrap());
     let size = Size { width: pixels.width(), height: pixels.height() };
     let of_svg = Picture { size, pixels: pixels.data().to_vec() };

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use tinta::edges::Class;
 use tinta::lines::{ClassWidths, LineSegment, LineSettings, VisibleLines};
-use tinta::{Mesh, Scene, SvgSettings};
+use tinta::{DrawingSettings, Mesh, Scene};
 
 const NEAR: f64 = 1e-6;
 
@@ -281,7 +281,7 @@ fn distance(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
 fn drawn(lines: &VisibleLines, width: &str) -> VisibleLines {
     let class_widths: ClassWidths = format!("outline={width}").parse().unwrap();
     let min_length = Some("0".parse().unwrap());
-    lines.without_specks(&SvgSettings { class_widths, min_length, ..SvgSettings::default() }).unwrap()
+    lines.without_specks(&DrawingSettings { class_widths, min_length, ..DrawingSettings::default() }).unwrap()
 }
 
 /// Upright boxes in a row, 4 units high and 2 wide, with so many units of background between them.
@@ -398,7 +398,7 @@ fn a_corner_of_the_outline_that_is_nearly_closed_stays_outline() {
 #[test]
 fn a_drawing_without_a_word_on_its_outline_keeps_all_of_it() {
     let found = outlined(&scene_of(row(&[0.05]), view("front", true)));
-    let settings = SvgSettings { min_length: Some("0".parse().unwrap()), ..SvgSettings::default() };
+    let settings = DrawingSettings { min_length: Some("0".parse().unwrap()), ..DrawingSettings::default() };
     assert_eq!(found.without_specks(&settings).unwrap().segments, found.segments);
 }
 

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, HashSet};
 use std::f64::consts::TAU;
 use tinta::edges::{Class, CreaseAngle};
 use tinta::lines::{LineSegment, LineSettings, VisibleLines};
-use tinta::{Mesh, SvgSettings};
+use tinta::{DrawingSettings, Mesh};
 
 /// A solid of rings of points, each joined to the next by quads, with the edges that are drawn.
 struct Solid {
@@ -177,7 +177,8 @@ fn of_parts_as_from_cad_the_defaults_draw_every_edge_and_no_other() {
                 segment.class == Class::Silhouette || drawn.contains(&edge(a as usize, b as usize))
             };
             let truth = by_edge(&lines_with(&scene, &every), is_true);
-            let kept = lines_with(&scene, &LineSettings::default()).without_specks(&SvgSettings::default()).unwrap();
+            let kept =
+                lines_with(&scene, &LineSettings::default()).without_specks(&DrawingSettings::default()).unwrap();
             let new = shares(&by_edge(&kept, |_| true), &truth);
             let old = shares(&by_edge(&lines_with(&scene, &LineSettings::as_published()), |_| true), &truth);
             assert!(f1(new) >= f1(old) - 1e-9, "{name} from {from}: {new:?} before {old:?}");

@@ -8,16 +8,16 @@ use glam::DVec2;
 use std::path::Path;
 use tinta::edges::Class::{Boundary, Crease, Material, Silhouette};
 use tinta::lines::{Length, LineSegment, LineSettings};
-use tinta::{LoadOptions, Scene, SvgSettings, VisibleLines, load};
+use tinta::{DrawingSettings, LoadOptions, Scene, VisibleLines, load};
 
 /// The ends of the pieces that stay; lines are 2 pixels wide.
-fn kept_with(segments: &[LineSegment], settings: &SvgSettings) -> Vec<[DVec2; 2]> {
+fn kept_with(segments: &[LineSegment], settings: &DrawingSettings) -> Vec<[DVec2; 2]> {
     let kept = lines(segments.to_vec()).without_specks(settings).unwrap().segments;
     kept.iter().map(|segment| segment.ends_px).collect()
 }
 
 fn kept(segments: &[LineSegment]) -> Vec<[DVec2; 2]> {
-    kept_with(segments, &SvgSettings::default())
+    kept_with(segments, &DrawingSettings::default())
 }
 
 /// The sides of a square from 20, 20 to 60, 60.
@@ -121,12 +121,12 @@ fn of_a_slivers_two_sides_one_stays() {
 #[test]
 fn min_length_is_in_pixels_or_millimetres_and_nothing_goes_at_0() {
     let speck = |length: f64| with(&[segment(Silhouette, true, [30.0, 30.0], [30.0 + length, 30.0])]);
-    let of = |text: &str| SvgSettings { min_length: Some(text.parse().unwrap()), ..SvgSettings::default() };
+    let of = |text: &str| DrawingSettings { min_length: Some(text.parse().unwrap()), ..DrawingSettings::default() };
     assert_eq!(kept_with(&speck(0.1), &of("0")).len(), 5);
     assert_eq!(kept_with(&speck(9.0), &of("8")).len(), 5);
     assert_eq!(kept_with(&speck(7.0), &of("8")).len(), 4);
     // The picture is 120 pixels wide: two pixels a millimetre.
-    let on_paper = SvgSettings { page_size: tinta::lines::PageSize::WidthMm(60.0), ..of("4mm") };
+    let on_paper = DrawingSettings { page_size: tinta::lines::PageSize::WidthMm(60.0), ..of("4mm") };
     assert_eq!((kept_with(&speck(7.9), &on_paper).len(), kept_with(&speck(8.1), &on_paper).len()), (4, 5));
     // Creases: eight times that up to a width, and no more than asked beyond eight widths; polygons smaller than it stay closed.
     let fold = |length: f64| with(&[segment(Crease, true, [30.0, 30.0], [30.0 + length, 30.0])]);
@@ -137,7 +137,7 @@ fn min_length_is_in_pixels_or_millimetres_and_nothing_goes_at_0() {
     assert_eq!(kept_with(&fold(0.1), &of("0")).len(), 5);
     assert_eq!(kept_with(&square(), &of("50")).len(), 4);
     // Wider lines, longer specks.
-    let wide = SvgSettings { line_width: Some(Length::Px(6.0)), ..SvgSettings::default() };
+    let wide = DrawingSettings { line_width: Some(Length::Px(6.0)), ..DrawingSettings::default() };
     assert_eq!((kept_with(&speck(5.9), &wide).len(), kept_with(&speck(6.1), &wide).len()), (4, 5));
 }
 
@@ -165,7 +165,7 @@ fn is_held(pieces: &[LineSegment], number: usize, end: DVec2, size: f64, reach: 
 }
 
 /// Asserts that no end of an outline is free that was not before.
-fn assert_outlines_stay_closed(found: &VisibleLines, settings: &SvgSettings, what: &str) -> (f64, f64) {
+fn assert_outlines_stay_closed(found: &VisibleLines, settings: &DrawingSettings, what: &str) -> (f64, f64) {
     let visible = |lines: &VisibleLines| -> Vec<LineSegment> {
         lines.segments.iter().filter(|segment| segment.is_visible).cloned().collect()
     };
@@ -189,8 +189,8 @@ fn outlined(scene: &Scene) -> VisibleLines {
 
 #[test]
 fn nothing_that_closes_an_outline_goes() {
-    let settings = SvgSettings::default();
-    let long = SvgSettings { min_length: Some(Length::Px(12.0)), ..SvgSettings::default() };
+    let settings = DrawingSettings::default();
+    let long = DrawingSettings { min_length: Some(Length::Px(12.0)), ..DrawingSettings::default() };
     for name in ["builtin:ant", "builtin:gear", "builtin:open-box", "builtin:bust"] {
         let mesh = load(name, &LoadOptions::default()).unwrap().mesh;
         let found = outlined(&scene_of(vec![mesh], view("iso", false)));
@@ -213,7 +213,7 @@ fn of_public_models_specks_go_and_outlines_stay() {
         }
         let mesh = load(path.to_str().unwrap(), &LoadOptions::default()).unwrap().mesh;
         let found = outlined(&scene_of(vec![mesh], view("iso", false)));
-        let (before, after) = assert_outlines_stay_closed(&found, &SvgSettings::default(), file);
+        let (before, after) = assert_outlines_stay_closed(&found, &DrawingSettings::default(), file);
         println!("{file}: {:.2} % of the visible length stays", after / before * 100.0);
         assert!(after < before && after > least * before, "{file}: {after} of {before}");
     }

@@ -2,7 +2,7 @@
 
 use crate::svg::{data, drawing, names, points};
 use glam::DVec2;
-use tinta::SvgSettings;
+use tinta::DrawingSettings;
 use tinta::lines::{Hidden, PageSize, pdf, svg};
 
 /// The file as text, a byte a letter, and its page's content.
@@ -31,8 +31,8 @@ fn paths(content: &str) -> Vec<(Vec<DVec2>, bool)> {
     paths
 }
 
-fn settings() -> SvgSettings {
-    SvgSettings { title: "A é (drawing)".to_owned(), hidden: Hidden::Dashed, ..SvgSettings::default() }
+fn settings() -> DrawingSettings {
+    DrawingSettings { title: "A é (drawing)".to_owned(), hidden: Hidden::Dashed, ..DrawingSettings::default() }
 }
 
 fn media_box(text: &str) -> Vec<f64> {
@@ -45,7 +45,7 @@ fn a_pdf_has_the_coordinates_of_the_svg_in_the_same_layers_and_order() {
     let paper = PageSize::Paper("A4".parse().unwrap());
     for page_size in [PageSize::Unset, PageSize::WidthMm(180.0), paper] {
         for is_for_pen in [false, true] {
-            let settings = SvgSettings { page_size, is_for_pen, ..settings() };
+            let settings = DrawingSettings { page_size, is_for_pen, ..settings() };
             let drawn = svg(&drawing(), &settings).unwrap();
             let (text, content) = read(&pdf(&drawing(), &settings).unwrap());
             let layers = names(&drawn);
@@ -73,7 +73,7 @@ fn a_pdf_has_the_coordinates_of_the_svg_in_the_same_layers_and_order() {
 fn its_page_has_the_true_size_in_points_and_the_lines_lie_on_it() {
     // The picture is 120 x 80 pixels; its lines from 20, 10 to 100, 70.
     let page = |page_size| {
-        let (text, content) = read(&pdf(&drawing(), &SvgSettings { page_size, ..settings() }).unwrap());
+        let (text, content) = read(&pdf(&drawing(), &DrawingSettings { page_size, ..settings() }).unwrap());
         let matrix = content.split(" cm\n").next().unwrap().lines().last().unwrap().to_owned();
         let matrix: Vec<f64> = matrix.split_whitespace().map(|number| number.parse().unwrap()).collect();
         (media_box(&text), matrix)
@@ -112,9 +112,9 @@ fn the_same_lines_are_the_same_bytes_without_times() {
 #[test]
 fn a_page_beyond_what_pdf_knows_is_refused() {
     for (page_size, name) in [(PageSize::WidthMm(6000.0), "14,400"), (PageSize::Dpi(1e6), "3 to")] {
-        let message = pdf(&drawing(), &SvgSettings { page_size, ..settings() }).unwrap_err().to_string();
+        let message = pdf(&drawing(), &DrawingSettings { page_size, ..settings() }).unwrap_err().to_string();
         assert!(message.contains(name), "{message}");
-        assert!(svg(&drawing(), &SvgSettings { page_size, ..settings() }).is_ok());
+        assert!(svg(&drawing(), &DrawingSettings { page_size, ..settings() }).is_ok());
     }
 }
 

@@ -5,7 +5,7 @@ use resvg::{tiny_skia, usvg};
 use roxmltree::{Document, Node};
 use tinta::edges::{Class, ClassCounts};
 use tinta::lines::{Hidden, Length, LineSegment, LineTimes, PageSize, raster, svg};
-use tinta::{Background, Color, Size, SvgSettings, VisibleLines};
+use tinta::{Background, Color, DrawingSettings, Size, VisibleLines};
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
@@ -91,10 +91,11 @@ fn rgba(pixels: &tiny_skia::Pixmap, x: u32, y: u32) -> [u8; 4] {
 
 #[test]
 fn pixels_of_lines_are_those_that_another_renderer_makes_of_their_svg() {
-    let settings = SvgSettings::default();
+    let settings = DrawingSettings::default();
     for hidden in [Hidden::None, Hidden::Dashed, Hidden::Ghost] {
         for background in [Background::Color(Color([1.0; 3])), Background::Transparent] {
-            let settings = SvgSettings { hidden, background, line_width: Some(Length::Px(3.0)), ..settings.clone() };
+            let settings =
+                DrawingSettings { hidden, background, line_width: Some(Length::Px(3.0)), ..settings.clone() };
             let ours = raster(&drawing(), &settings).unwrap();
             let theirs = rendered(&svg(&drawing(), &settings).unwrap());
             assert_eq!((ours.size.width, ours.size.height), (theirs.width(), theirs.height()));
@@ -117,7 +118,7 @@ fn pixels_of_lines_are_those_that_another_renderer_makes_of_their_svg() {
 
 #[test]
 fn layers_are_groups_by_class_and_visibility_with_the_hidden_ones_below() {
-    let text = svg(&drawing(), &SvgSettings { hidden: Hidden::Dashed, ..SvgSettings::default() }).unwrap();
+    let text = svg(&drawing(), &DrawingSettings { hidden: Hidden::Dashed, ..DrawingSettings::default() }).unwrap();
     let document = Document::parse(&text).unwrap();
     let root = document.root_element();
     assert_eq!(root.attribute("viewBox"), Some("0 0 120 80"));
@@ -131,13 +132,13 @@ fn layers_are_groups_by_class_and_visibility_with_the_hidden_ones_below() {
         assert_eq!(layer.attribute("stroke-dasharray"), is_hidden.then_some("6 5"));
     }
     assert!(document.descendants().all(|node| !node.has_tag_name("image")));
-    let without = svg(&drawing(), &SvgSettings::default()).unwrap();
+    let without = svg(&drawing(), &DrawingSettings::default()).unwrap();
     assert_eq!(names(&without), ["visible-intersection", "visible-crease", "visible-silhouette"]);
 }
 
 #[test]
 fn pieces_are_chained_and_written_short() {
-    let text = svg(&drawing(), &SvgSettings::default()).unwrap();
+    let text = svg(&drawing(), &DrawingSettings::default()).unwrap();
     assert_eq!(data(&text, "visible-silhouette"), ["M100 10L100 70 20 70 20 10Z"]);
     assert_eq!(data(&text, "visible-crease"), ["M20 40L50 40"]);
     assert_eq!(data(&text, "visible-intersection"), ["M30 20.123L90 60"]);
@@ -147,17 +148,17 @@ fn pieces_are_chained_and_written_short() {
             segment(Class::Crease, true, at(k), at(k + 1))
         })
         .collect();
-    let text = svg(&lines(straight.clone()), &SvgSettings::default()).unwrap();
+    let text = svg(&lines(straight.clone()), &DrawingSettings::default()).unwrap();
     assert_eq!(data(&text, "visible-crease"), ["M10 5L26.667 12.143"]);
-    let text = svg(&lines(straight), &SvgSettings { has_provenance: true, ..SvgSettings::default() }).unwrap();
+    let text = svg(&lines(straight), &DrawingSettings { has_provenance: true, ..DrawingSettings::default() }).unwrap();
     assert_eq!(points(&data(&text, "visible-crease")[0]).len(), 51);
 }
 
 #[test]
 fn the_same_lines_are_the_same_bytes() {
-    let settings = SvgSettings { hidden: Hidden::Ghost, has_provenance: true, ..SvgSettings::default() };
+    let settings = DrawingSettings { hidden: Hidden::Ghost, has_provenance: true, ..DrawingSettings::default() };
     for is_for_pen in [false, true] {
-        let settings = SvgSettings { is_for_pen, ..settings.clone() };
+        let settings = DrawingSettings { is_for_pen, ..settings.clone() };
         assert_eq!(svg(&drawing(), &settings).unwrap(), svg(&drawing(), &settings).unwrap());
     }
 }
@@ -169,7 +170,7 @@ fn every_number_is_finite_and_inside_the_picture() {
     edge_cases.segments.push(segment(Class::Boundary, true, [-0.0, -1e-9], [120.0, border]));
     edge_cases.segments.push(segment(Class::Boundary, true, [60.0, 1e-300], [60.0, 2e-300]));
     for is_for_pen in [false, true] {
-        let settings = SvgSettings { hidden: Hidden::Dashed, is_for_pen, ..SvgSettings::default() };
+        let settings = DrawingSettings { hidden: Hidden::Dashed, is_for_pen, ..DrawingSettings::default() };
         let text = svg(&edge_cases, &settings).unwrap();
         assert!(!text.contains("NaN") && !text.contains("inf") && !text.contains("-0"), "{text}");
         for layer in names(&text) {
@@ -180,14 +181,14 @@ fn every_number_is_finite_and_inside_the_picture() {
     }
     for bad in [[f64::NAN, 1.0], [f64::INFINITY, 1.0], [121.0, 1.0], [1.0, -1.0]] {
         let broken = lines(vec![segment(Class::Crease, true, [1.0, 1.0], bad)]);
-        let message = svg(&broken, &SvgSettings::default()).unwrap_err().to_string();
+        let message = svg(&broken, &DrawingSettings::default()).unwrap_err().to_string();
         assert!(message.starts_with("line 0 from"), "{message}");
     }
 }
 
 #[test]
 fn an_empty_drawing_is_a_sound_file() {
-    let text = svg(&lines(Vec::new()), &SvgSettings::default()).unwrap();
+    let text = svg(&lines(Vec::new()), &DrawingSettings::default()).unwrap();
     assert!(names(&text).is_empty());
     assert_eq!(rgba(&rendered(&text), 60, 40), [255; 4]);
 }
@@ -195,7 +196,7 @@ fn an_empty_drawing_is_a_sound_file() {
 #[test]
 fn any_command_and_title_can_be_read_back() {
     let nasty = "tinta render 'a<b>&\"c\"]]>.obj' --\u{1}\u{0}\u{1b}[31m é→🖋\u{ffff} <!-- \n\t";
-    let settings = SvgSettings { title: nasty.to_owned(), command: nasty.to_owned(), ..SvgSettings::default() };
+    let settings = DrawingSettings { title: nasty.to_owned(), command: nasty.to_owned(), ..DrawingSettings::default() };
     let text = svg(&drawing(), &settings).unwrap();
     let document = Document::parse(&text).unwrap();
     let mended: String =
@@ -210,7 +211,7 @@ fn any_command_and_title_can_be_read_back() {
 
 #[test]
 fn provenance_names_a_paths_edges_and_angles() {
-    let text = svg(&drawing(), &SvgSettings { has_provenance: true, ..SvgSettings::default() }).unwrap();
+    let text = svg(&drawing(), &DrawingSettings { has_provenance: true, ..DrawingSettings::default() }).unwrap();
     let document = Document::parse(&text).unwrap();
     let path = |class: &str| {
         let of_class = |node: &Node| node.attribute("data-class") == Some(class);
@@ -222,7 +223,7 @@ fn provenance_names_a_paths_edges_and_angles() {
     assert_eq!(silhouette.attribute("data-angles"), Some("45.25 45.25 45.25 45.25"));
     assert_eq!(path("intersection").attribute("data-edges"), Some("-"));
     assert_eq!(path("intersection").attribute("data-angles"), Some("-"));
-    assert!(!svg(&drawing(), &SvgSettings::default()).unwrap().contains("data-"));
+    assert!(!svg(&drawing(), &DrawingSettings::default()).unwrap().contains("data-"));
 }
 
 #[test]
@@ -230,7 +231,7 @@ fn another_renderer_draws_the_lines_where_they_are() {
     let mut colors = tinta::styles::ClassColors::default();
     colors.0.set_class(Class::Crease, Color([1.0, 0.0, 0.0]));
     colors.0.set_hidden(Color([1.0, 0.0, 0.0]));
-    let mut settings = SvgSettings { class_colors: colors, hidden: Hidden::Ghost, ..SvgSettings::default() };
+    let mut settings = DrawingSettings { class_colors: colors, hidden: Hidden::Ghost, ..DrawingSettings::default() };
     settings.class_widths.0.set_class(Class::Silhouette, Length::Px(6.0));
     settings.class_widths.0.set_hidden(Length::Px(2.0));
     let pixels = rendered(&svg(&drawing(), &settings).unwrap());
@@ -242,7 +243,7 @@ fn another_renderer_draws_the_lines_where_they_are() {
     assert_eq!(rgba(&pixels, 35, 40), [255, 0, 0, 255], "crease, seen");
     let [red, green, _, _] = rgba(&pixels, 80, 40);
     assert!(red == 255 && (170..190).contains(&green), "crease, hidden: {red} {green}");
-    let transparent = SvgSettings { background: Background::Transparent, ..settings.clone() };
+    let transparent = DrawingSettings { background: Background::Transparent, ..settings.clone() };
     assert_eq!(rgba(&rendered(&svg(&drawing(), &transparent).unwrap()), 5, 5)[3], 0);
     settings.hidden = Hidden::Dashed;
     let pixels = rendered(&svg(&drawing(), &settings).unwrap());
@@ -256,7 +257,7 @@ fn a_pens_lines_come_in_an_order_that_spares_the_way() {
     let scattered: Vec<LineSegment> =
         (0..300).map(|k| segment(Class::Crease, true, at(k), [at(k)[0] + 3.0, at(k)[1] + 0.25])).collect();
     let travel = |is_for_pen: bool| {
-        let settings = SvgSettings { is_for_pen, min_length: Some(Length::Px(0.0)), ..SvgSettings::default() };
+        let settings = DrawingSettings { is_for_pen, min_length: Some(Length::Px(0.0)), ..DrawingSettings::default() };
         let text = svg(&lines(scattered.clone()), &settings).unwrap();
         assert_eq!(text.contains("<rect"), !is_for_pen);
         let paths: Vec<Vec<DVec2>> = data(&text, "visible-crease").iter().map(|data| points(data)).collect();
@@ -266,7 +267,7 @@ fn a_pens_lines_come_in_an_order_that_spares_the_way() {
     let ((count, unsorted), (sorted_count, sorted)) = (travel(false), travel(true));
     assert_eq!(count, sorted_count);
     assert!(sorted < unsorted * 0.3, "{sorted} {unsorted}");
-    let hidden = SvgSettings { is_for_pen: true, hidden: Hidden::Dashed, ..SvgSettings::default() };
+    let hidden = DrawingSettings { is_for_pen: true, hidden: Hidden::Dashed, ..DrawingSettings::default() };
     let text = svg(&drawing(), &hidden).unwrap();
     assert!(data(&text, "hidden-crease").len() > 20 && !text.contains("stroke-dasharray"));
 }
@@ -274,7 +275,7 @@ fn a_pens_lines_come_in_an_order_that_spares_the_way() {
 #[test]
 fn sizes_on_paper_are_millimetres_or_inches() {
     let size = |page_size| {
-        let text = svg(&drawing(), &SvgSettings { page_size, ..SvgSettings::default() }).unwrap();
+        let text = svg(&drawing(), &DrawingSettings { page_size, ..DrawingSettings::default() }).unwrap();
         let document = Document::parse(&text).unwrap();
         let attribute = |name| document.root_element().attribute(name).unwrap().to_owned();
         assert_eq!(attribute("viewBox"), "0 0 120 80");
@@ -288,13 +289,13 @@ fn sizes_on_paper_are_millimetres_or_inches() {
 
 #[test]
 fn nonsense_settings_are_refused_by_name() {
-    let message = |settings: SvgSettings| svg(&drawing(), &settings).unwrap_err().to_string();
+    let message = |settings: DrawingSettings| svg(&drawing(), &settings).unwrap_err().to_string();
     assert!(
-        message(SvgSettings { line_width: Some(Length::Px(0.0)), ..SvgSettings::default() })
+        message(DrawingSettings { line_width: Some(Length::Px(0.0)), ..DrawingSettings::default() })
             .starts_with("line-width 0")
     );
     let page_size = PageSize::WidthMm(f64::NAN);
-    assert!(message(SvgSettings { page_size, ..SvgSettings::default() }).starts_with("width-mm NaN"));
+    assert!(message(DrawingSettings { page_size, ..DrawingSettings::default() }).starts_with("width-mm NaN"));
 }
 
 #[test]
@@ -306,7 +307,7 @@ fn an_outline_is_a_layer_of_its_own_above_the_others_whatever_its_classes() {
     outlined.segments[0].class = Class::Boundary;
     let class_widths = "outline=3,silhouette=2.5".parse().unwrap();
     let class_colors = "outline=navy".parse().unwrap();
-    let settings = SvgSettings { class_widths, class_colors, has_provenance: true, ..SvgSettings::default() };
+    let settings = DrawingSettings { class_widths, class_colors, has_provenance: true, ..DrawingSettings::default() };
     let text = svg(&outlined, &settings).unwrap();
     assert_eq!(names(&text), ["visible-intersection", "visible-crease", "visible-outline"]);
     assert_eq!(data(&text, "visible-outline"), ["M100 10L100 70 20 70 20 10Z"]);
@@ -321,7 +322,7 @@ fn an_outline_is_a_layer_of_its_own_above_the_others_whatever_its_classes() {
 fn on_paper_the_viewbox_is_the_sheet_and_widths_are_millimetres() {
     let page_size = PageSize::Paper("A4-portrait".parse().unwrap());
     let class_widths = "crease=0.25mm,hidden=0.1mm".parse().unwrap();
-    let settings = SvgSettings { page_size, class_widths, hidden: Hidden::Ghost, ..SvgSettings::default() };
+    let settings = DrawingSettings { page_size, class_widths, hidden: Hidden::Ghost, ..DrawingSettings::default() };
     let text = svg(&drawing(), &settings).unwrap();
     let document = Document::parse(&text).unwrap();
     let root = document.root_element();

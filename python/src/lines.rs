@@ -12,7 +12,7 @@ use pyo3::types::{PyBytes, PyDict};
 use std::sync::{Arc, OnceLock};
 use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, drawn_layers, pdf, svg};
 use tinta::record::lines_json;
-use tinta::{Recipe, Request, Result, Scene, SvgSettings, VisibleLines};
+use tinta::{DrawingSettings, Recipe, Request, Result, Scene, VisibleLines};
 
 /// The lines of a scene, as they were found.
 #[pyclass(frozen, module = "tinta_npr._native")]
@@ -81,7 +81,7 @@ impl Lines {
         py: Python<'_>,
         given: &Bound<'_, PyDict>,
         file: Option<(&'static str, Option<String>)>,
-        work: impl FnOnce(&VisibleLines, &SvgSettings) -> Result<T> + Send + 'static,
+        work: impl FnOnce(&VisibleLines, &DrawingSettings) -> Result<T> + Send + 'static,
     ) -> PyResult<T> {
         let asked = self.asked.with(options("Lines.svg", given)?).map_err(raised)?;
         let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
@@ -92,7 +92,7 @@ impl Lines {
                 let lines = found(lines, &scene, &before, &asked.request)?;
                 let recipe = file.as_ref().and_then(|_| asked.recipe(&scene, None));
                 let (name, title) = file.unwrap_or_default();
-                let settings = SvgSettings {
+                let settings = DrawingSettings {
                     title: title.unwrap_or(asked.title),
                     command: recipe.as_ref().map(|recipe| recipe.command_line(name)).unwrap_or_default(),
                     recipe: recipe.as_ref().and_then(Recipe::json).unwrap_or_default(),

@@ -10,7 +10,7 @@ use tinta::camera;
 use tinta::choice::{nearest, no_option};
 use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, names_of, refuse_exclusive};
 use tinta::styles::{StyleName, is_of_lines_alone};
-use tinta::{Backend, Error, LineSettings, LoadOptions, Request, SceneSettings, Show, Style, SvgSettings};
+use tinta::{Backend, DrawingSettings, Error, LineSettings, LoadOptions, Request, SceneSettings, Show, Style};
 
 /// Which settings of a drawing a function takes.
 #[derive(Clone, Copy)]
@@ -27,7 +27,7 @@ const FUNCTIONS: [(&str, Taken); 8] = {
     const ALL: Taken = Taken { style: None, of_style: |_| true, has_scene: true, has_reading: true };
     const NONE: fn(&str) -> bool = |_| false;
     const LINES: Taken = Taken { style: Some(StyleName::Lines), ..ALL };
-    let drawing: fn(&str) -> bool = |name| SvgSettings::table().has(name);
+    let drawing: fn(&str) -> bool = |name| DrawingSettings::table().has(name);
     let finding: fn(&str) -> bool = |name| LineSettings::table().has(name);
     let reading = Taken { of_style: NONE, has_scene: false, ..ALL };
     [

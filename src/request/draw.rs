@@ -4,7 +4,7 @@ use super::{ModelCache, Request, Session};
 use crate::clock::Instant;
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
-use crate::lines::{LineSettings, Progress, SvgSettings, VisibleLines};
+use crate::lines::{DrawingSettings, LineSettings, Progress, VisibleLines};
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
 use crate::plan::Plan;
@@ -146,7 +146,7 @@ impl Request {
     /// passes.
     pub fn line_style(&self) -> Option<LineStyle> {
         let LineStyle { lines, drawing } = self.style.lines()?;
-        let drawing = SvgSettings { title: self.title(), background: self.scene.background, ..drawing };
+        let drawing = DrawingSettings { title: self.title(), background: self.scene.background, ..drawing };
         Some(LineStyle { lines, drawing })
     }
 

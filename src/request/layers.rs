@@ -4,7 +4,7 @@ use super::{Request, Source};
 use crate::camera;
 use crate::choice::meant_or;
 use crate::error::{Error, Result};
-use crate::lines::SvgSettings;
+use crate::lines::DrawingSettings;
 use crate::preset::{LOOKS, Look, Preset};
 use crate::scene::SceneSettings;
 use crate::settings::{EXCLUSIVE, HasSettings, OptionValue, Options, refuse_exclusive};
@@ -185,7 +185,7 @@ pub const OF_PAPER: [&str; 4] = ["page", "width-mm", "dpi", "margin"];
 pub fn pixels_on_paper(options: &Options) -> String {
     /// Dots an inch of a print.
     const DPI: f64 = 300.0;
-    match SvgSettings::from_options(options).ok().and_then(|drawing| drawing.page_size.pixels(DPI)) {
+    match DrawingSettings::from_options(options).ok().and_then(|drawing| drawing.page_size.pixels(DPI)) {
         Some(size) => format!("a picture has pixels and no paper; for {DPI} dpi say --size {size}, or write a .svg"),
         None => "a picture has pixels and no paper; say --size, or write a .svg".to_owned(),
     }

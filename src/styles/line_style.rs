@@ -1,6 +1,6 @@
 //! Exact visible lines as a style: which lines are found and how they are drawn.
 
-use crate::lines::{Hidden, LineSettings, SvgSettings};
+use crate::lines::{DrawingSettings, Hidden, LineSettings};
 use crate::settings::{Setting, within};
 
 /// What settings of edges are listed under.
@@ -12,7 +12,7 @@ pub struct LineStyle {
     /// Which lines there are. What is found of them besides follows from `drawing`: see [`LineStyle::wanted`].
     pub lines: LineSettings,
     /// How they are drawn.
-    pub drawing: SvgSettings,
+    pub drawing: DrawingSettings,
 }
 
 impl LineStyle {
@@ -24,7 +24,7 @@ impl LineStyle {
             setting.heading = if setting.heading.is_empty() { LINES } else { setting.heading };
             setting
         });
-        lines.chain(within(SvgSettings::settings(), |style: &mut Self| Some(&mut style.drawing))).collect()
+        lines.chain(within(DrawingSettings::settings(), |style: &mut Self| Some(&mut style.drawing))).collect()
     }
 
     /// What is to be found for this drawing: outlines and hidden lines only where they show.

@@ -3,7 +3,7 @@
 use super::{Charcoal, CharcoalRecipe, Inking, Ramp, Style, StyleName, TextureSource};
 use crate::camera::CameraSettings;
 use crate::edges::ClassSet;
-use crate::lines::{LineSettings, SvgSettings};
+use crate::lines::{DrawingSettings, LineSettings};
 use crate::mesh::LoadOptions;
 use crate::scene::SceneSettings;
 use crate::settings::*;
@@ -55,7 +55,7 @@ fn every_setting_goes_there_and_back() {
         there_and_back::<SceneSettings>(json),
         there_and_back::<LoadOptions>(json),
         there_and_back::<LineSettings>(json),
-        there_and_back::<SvgSettings>(json),
+        there_and_back::<DrawingSettings>(json),
     ];
     assert!(counts.iter().sum::<usize>() > 350, "{counts:?}");
 }

@@ -12,7 +12,7 @@ use super::state::ViewerState;
 use crate::animation::{AnimationTarget, AnimationWriter};
 use crate::error::Result;
 use crate::gl::{Backend, ContextInfo};
-use crate::lines::{Progress, SvgSettings, VisibleLines, svg};
+use crate::lines::{DrawingSettings, Progress, VisibleLines, svg};
 use crate::mesh::LoadOptions;
 use crate::output::TextTarget;
 use crate::picture::{Picture, Target};
@@ -176,7 +176,7 @@ fn save_of(
             let lines = VisibleLines::of(&job.scene()?, &style.wanted())?;
             let recipe = whole_recipe(state, job, surroundings, save, side)?;
             // Byte for byte what the command writes.
-            let settings = SvgSettings {
+            let settings = DrawingSettings {
                 title: state.model_names().join(", "),
                 command: recipe.command_line("drawing.svg"),
                 recipe: recipe.json().unwrap_or_default(),

@@ -8,7 +8,7 @@ use tinta::mesh::{Loaded, load, read_bytes};
 use tinta::recipe::{Driver, FileRecord};
 use tinta::request::{Layer, Request};
 use tinta::settings::Options;
-use tinta::{LineSettings, LoadOptions, Mesh, Recipe, Scene, SceneSettings, Size, StyleName, SvgSettings};
+use tinta::{DrawingSettings, LineSettings, LoadOptions, Mesh, Recipe, Scene, SceneSettings, Size, StyleName};
 use tinta_lab::measure::{Ink, Reference};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -90,7 +90,7 @@ impl Model {
         let request = self.request(StyleName::Lines, options)?;
         let scene = self.scene(&request.scene)?;
         let recipe = has_recipe.then(|| self.recipe(&request, scene.size, None));
-        let drawing = SvgSettings {
+        let drawing = DrawingSettings {
             command: recipe.as_ref().map(|recipe| recipe.command_line("drawing.svg")).unwrap_or_default(),
             recipe: recipe.as_ref().and_then(Recipe::json).unwrap_or_default(),
             ..request.line_style().unwrap_or_default().drawing

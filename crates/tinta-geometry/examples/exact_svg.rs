@@ -3,7 +3,7 @@
 //! `cargo run -p tinta-geometry --example exact_svg -- cow.obj cow.svg`
 
 use tinta_geometry::lines::svg;
-use tinta_geometry::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, VisibleLines, load};
+use tinta_geometry::{DrawingSettings, LineSettings, LoadOptions, Scene, SceneSettings, VisibleLines, load};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut words = std::env::args().skip(1);
@@ -17,5 +17,5 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 pub fn draw(model: &str) -> tinta_geometry::Result<String> {
     let mesh = load(model, &LoadOptions::default())?.mesh;
     let scene = Scene::new([mesh], &SceneSettings::default())?;
-    svg(&VisibleLines::of(&scene, &LineSettings::default())?, &SvgSettings::default())
+    svg(&VisibleLines::of(&scene, &LineSettings::default())?, &DrawingSettings::default())
 }

@@ -8,13 +8,13 @@
 //! The settings of everything are declared here as well, each once, beside the struct it sets: see [`settings`].
 //!
 //! ```
-//! use tinta_geometry::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, VisibleLines, lines, load};
+//! use tinta_geometry::{LineSettings, LoadOptions, Scene, SceneSettings, DrawingSettings, VisibleLines, lines, load};
 //!
 //! # fn main() -> tinta_geometry::Result<()> {
 //! let gear = load("../../models/gear.obj", &LoadOptions::default())?.mesh;
 //! let scene = Scene::new([gear], &SceneSettings::default())?;
 //! let visible = VisibleLines::of(&scene, &LineSettings::default())?;
-//! let svg = lines::svg(&visible, &SvgSettings::default())?;
+//! let svg = lines::svg(&visible, &DrawingSettings::default())?;
 //! assert!(svg.starts_with("<?xml") && svg.contains("<path"));
 //! # Ok(())
 //! # }
@@ -63,6 +63,6 @@ pub use edges::EdgeList;
 pub use error::{Error, FileKind, ParseError, Result};
 /// The vectors and matrices that the public types are made of.
 pub use glam;
-pub use lines::{LineSettings, SvgSettings, VisibleLines};
+pub use lines::{DrawingSettings, LineSettings, VisibleLines};
 pub use mesh::{LoadOptions, Mesh, load};
 pub use scene::{Background, Color, Scene, SceneSettings, Size};

@@ -12,14 +12,14 @@
 //! # fn main() -> tinta_geometry::Result<()> {
 //! use std::sync::{Arc, LazyLock};
 //! use tinta_geometry::lines::svg;
-//! use tinta_geometry::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, VisibleLines, load};
+//! use tinta_geometry::{LineSettings, LoadOptions, Scene, SceneSettings, DrawingSettings, VisibleLines, load};
 //!
 //! let mesh = load("../../models/open-box.obj", &LoadOptions::default())?.mesh;
 //! let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())?;
 //!
 //! let lines = VisibleLines::of(&scene, &LineSettings::default())?;
 //! assert!(lines.segments.iter().any(|segment| segment.is_visible) && lines.segments.iter().any(|segment| !segment.is_visible));
-//! assert!(svg(&lines, &SvgSettings::default())?.contains("<svg"));
+//! assert!(svg(&lines, &DrawingSettings::default())?.contains("<svg"));
 //! # Ok(())
 //! # }
 //! ```
@@ -45,7 +45,7 @@ pub use drawing::drawn_layers::{DrawnLayer, GHOST_OPACITY, drawn_layers};
 pub use drawing::layers::{ClassColors, ClassWidths, Layer, OfLayers};
 pub use drawing::length::{Length, Millimetres, Units, line_width};
 pub use drawing::page::{PageSize, Paper, Sheet, Turn};
-pub use drawing::settings::{Hidden, SvgSettings};
+pub use drawing::settings::{DrawingSettings, Hidden};
 pub use identity::StrokeIds;
 pub use progress::{Phase, Progress};
 pub use segment::LineSegment;

@@ -8,14 +8,14 @@
 //! # fn main() -> tinta::Result<()> {
 //! use tinta_lab::judge::{InkColor, JudgeSettings, drawing, judge};
 //! use tinta_lab::measure::Reference;
-//! use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, SvgSettings, VisibleLines, lines, load};
+//! use tinta::{LineSettings, LoadOptions, Scene, SceneSettings, DrawingSettings, VisibleLines, lines, load};
 //!
 //! let gear = load("builtin:gear", &LoadOptions::default())?.mesh;
 //! let scene = Scene::new([gear], &SceneSettings::default())?;
 //! let reference = Reference::with_hidden(&scene, &LineSettings::as_published())?;
 //!
 //! // The exact lines themselves, as an SVG that could be anyone's.
-//! let svg = lines::svg(&reference.lines, &SvgSettings::default())?;
+//! let svg = lines::svg(&reference.lines, &DrawingSettings::default())?;
 //! let picture = drawing::of_bytes(svg.as_bytes(), "gear.svg", None)?;
 //! let ink = InkColor::Dark.of(&picture);
 //! let judgement = judge(&ink, &reference, &JudgeSettings::default())?;

@@ -18,7 +18,7 @@ use tinta::renderer::milliseconds_since;
 use tinta::request::{Drawn, DrawnLines, OF_PAPER, Session, pixels_on_paper};
 use tinta::settings::HasSettings;
 use tinta::styles::is_of_lines_alone;
-use tinta::{Error, Recipe, Result, Show, SvgSettings, Target, TextTarget};
+use tinta::{DrawingSettings, Error, Recipe, Result, Show, Target, TextTarget};
 use writing::{comment, is_stopped, progress, watched, write};
 
 /// Finds the lines and writes them.
@@ -113,9 +113,9 @@ fn check_output(output: &str, format: Format, is_transparent: bool) -> Result<()
 
 /// How the drawing is written, with its recipe. Its command has a name of its own for the output: the same drawing is the same bytes
 /// wherever it is written.
-fn with_recipe(drawing: SvgSettings, output: &str, recipe: Option<&Recipe>) -> SvgSettings {
+fn with_recipe(drawing: DrawingSettings, output: &str, recipe: Option<&Recipe>) -> DrawingSettings {
     let name = if output.to_ascii_lowercase().ends_with(".pdf") { "drawing.pdf" } else { "drawing.svg" };
-    SvgSettings {
+    DrawingSettings {
         command: recipe.map(|recipe| recipe.command_line(name)).unwrap_or_default(),
         recipe: recipe.and_then(Recipe::json).unwrap_or_default(),
         ..drawing
@@ -160,7 +160,7 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
             refuse(&OF_PAPER, &pixels_on_paper(&request.options))
         }
         Format::Json => {
-            let drawing = SvgSettings::table().of(None).into_iter().map(|setting| setting.name);
+            let drawing = DrawingSettings::table().of(None).into_iter().map(|setting| setting.name);
             let options: Vec<&str> = drawing.filter(|name| *name != "min-length" && is_of_lines_alone(name)).collect();
             refuse(&options, "a .json file holds all lines but no appearance; leave it out, or write a .svg")
         }

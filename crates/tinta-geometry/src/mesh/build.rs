@@ -288,7 +288,7 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
     let problem = if !of_faces.is_empty() {
         let wanted = if defects.long_polygons > 0 {
             format!(
-                "its faces cut into triangles, for one that is not convex may have {CONCAVE_CORNERS} corners, and                  {CROSSING_CORNERS} if it crosses itself"
+                "its faces cut into triangles, for one that is not convex may have {CONCAVE_CORNERS} corners, and {CROSSING_CORNERS} if it crosses itself"
             )
         } else if defects.degenerate_triangles > 0 {
             "faces that have area".to_owned()

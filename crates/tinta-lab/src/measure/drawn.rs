@@ -7,7 +7,7 @@ use super::{LineError, MeasureSettings, Measured, Row, RunTime, Subject, error_p
 use std::time::Instant;
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
 use tinta::error::Result;
-use tinta::lines::{LineSettings, Raster, SvgSettings, VisibleLines, raster};
+use tinta::lines::{DrawingSettings, LineSettings, Raster, VisibleLines, raster};
 use tinta::picture::Picture;
 use tinta::renderer::{median, milliseconds_since};
 use tinta::scene::{Scene, Size};
@@ -43,7 +43,7 @@ pub fn measure_lines(
         VisibleLines::of(&subject.scene, &settings)?;
         frames_ms.push(milliseconds_since(start));
     }
-    let Raster { size, pixels } = raster(&lines, &SvgSettings::default())?;
+    let Raster { size, pixels } = raster(&lines, &DrawingSettings::default())?;
     let drawing = Picture { size, pixels };
     let error_picture = error_picture(&Ink::on_white(&drawing), &subject.reference, how.tolerance_px);
     let Size { width, height } = subject.scene.size;

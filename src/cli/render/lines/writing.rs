@@ -9,7 +9,7 @@ use std::time::Duration;
 use tinta::lines::{LinePath, Phase, Progress as LineProgress, Raster, pdf_of_paths, raster_of_paths, svg_of_paths};
 use tinta::picture::Note;
 use tinta::record::lines_json;
-use tinta::{Picture, Result, Scene, SvgSettings, Target, TextTarget, VisibleLines};
+use tinta::{DrawingSettings, Picture, Result, Scene, Target, TextTarget, VisibleLines};
 
 /// Writes a drawing; a picture with what is said in it.
 pub(super) fn write(
@@ -17,7 +17,7 @@ pub(super) fn write(
     output: &str,
     scene: &Scene,
     (lines, paths): (&VisibleLines, Vec<LinePath>),
-    drawn: &SvgSettings,
+    drawn: &DrawingSettings,
     said: Option<&Note>,
 ) -> Result<()> {
     let write = |bytes: Vec<u8>| TextTarget::check(output)?.write_bytes(&bytes);

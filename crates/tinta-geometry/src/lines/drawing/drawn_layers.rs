@@ -7,7 +7,7 @@ use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::page::Page;
 use crate::lines::drawing::pen::{dashes, in_pen_order};
-use crate::lines::drawing::settings::{Hidden, SvgSettings};
+use crate::lines::drawing::settings::{DrawingSettings, Hidden};
 use crate::lines::drawing::simplify::simplified;
 use crate::lines::{LineSegment, VisibleLines};
 use crate::scene::{Color, Size};
@@ -30,7 +30,7 @@ pub(in crate::lines) struct Drawing<'a> {
     pub segments: &'a [LineSegment],
     /// What is said of lines that are a part.
     pub note: Option<String>,
-    pub settings: &'a SvgSettings,
+    pub settings: &'a DrawingSettings,
     pub page: Page,
     /// From the lowest to the highest, without those that have no lines.
     pub layers: Vec<DrawnLayer>,
@@ -59,7 +59,7 @@ pub struct DrawnLayer {
 /// # Errors
 ///
 /// As [`crate::lines::svg()`].
-pub fn drawn_layers(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<DrawnLayer>> {
+pub fn drawn_layers(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<DrawnLayer>> {
     let lines = lines.without_specks(settings)?;
     let mut layers = Drawing::new(&lines, chain(&lines.segments), settings)?.layers;
     for path in layers.iter_mut().flat_map(|layer| &mut layer.paths) {
@@ -73,11 +73,11 @@ impl<'a> Drawing<'a> {
     ///
     /// # Errors
     ///
-    /// As [`SvgSettings::check`] and [`VisibleLines::check`].
+    /// As [`DrawingSettings::check`] and [`VisibleLines::check`].
     pub(in crate::lines) fn new(
         lines: &'a VisibleLines,
         paths: Vec<LinePath>,
-        settings: &'a SvgSettings,
+        settings: &'a DrawingSettings,
     ) -> Result<Self> {
         settings.check()?;
         lines.check()?;
@@ -94,13 +94,13 @@ impl<'a> Drawing<'a> {
 }
 
 /// The page of a drawing: its lines fill a sheet.
-pub(in crate::lines) fn page(lines: &VisibleLines, settings: &SvgSettings) -> Page {
+pub(in crate::lines) fn page(lines: &VisibleLines, settings: &DrawingSettings) -> Page {
     let is_drawn = |segment: &LineSegment| settings.draws(segment.is_visible) && !segment.is_covered;
     Page::new(lines, is_drawn, settings.page_size, settings.margin.0)
 }
 
 impl DrawnLayer {
-    fn new(layer: Layer, mut paths: Vec<LinePath>, page: &Page, settings: &SvgSettings, size: Size) -> Self {
+    fn new(layer: Layer, mut paths: Vec<LinePath>, page: &Page, settings: &DrawingSettings, size: Size) -> Self {
         let is_pens_own = settings.is_for_pen && !settings.says_width(layer);
         let width_px = if is_pens_own { PEN_WIDTH_PX } else { settings.width_px(layer, page.units) };
         let is_dashed = !layer.is_visible() && settings.hidden == Hidden::Dashed;
@@ -122,7 +122,7 @@ impl DrawnLayer {
     }
 }
 
-impl SvgSettings {
+impl DrawingSettings {
     /// The points of a path as they are written.
     pub(in crate::lines) fn points_of(&self, path: &LinePath) -> Vec<DVec2> {
         if self.has_provenance { path.points_px.clone() } else { simplified(path) }

@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 
 /// How a drawing is written.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SvgSettings {
+pub struct DrawingSettings {
     /// Its title. Default none.
     pub title: String,
     /// The command that made it, kept in its metadata. Default none.
@@ -46,7 +46,7 @@ pub struct SvgSettings {
     pub is_for_pen: bool,
 }
 
-impl Default for SvgSettings {
+impl Default for DrawingSettings {
     fn default() -> Self {
         Self {
             title: String::new(),
@@ -69,10 +69,12 @@ impl Default for SvgSettings {
 
 const WHITE: Color = Color([1.0; 3]);
 
-impl HasSettings for SvgSettings {
+impl HasSettings for DrawingSettings {
     fn table() -> &'static Table<Self> {
-        static TABLE: LazyLock<Table<SvgSettings>> =
-            LazyLock::new(|| Table { settings: SvgSettings::settings(), defaults: vec![SvgSettings::default()] });
+        static TABLE: LazyLock<Table<DrawingSettings>> = LazyLock::new(|| Table {
+            settings: DrawingSettings::settings(),
+            defaults: vec![DrawingSettings::default()],
+        });
         &TABLE
     }
 }
@@ -87,7 +89,7 @@ const AUTO: &str = "auto";
 const WIDTH: Length = Length::Px(2.0);
 const WIDTH_ON_PAPER: Length = Length::Mm(0.5);
 
-impl SvgSettings {
+impl DrawingSettings {
     /// The settings, also for a table of something that has a drawing in it; title, recipe and background come from elsewhere.
     pub fn settings() -> Vec<Setting<Self>> {
         let number = |low: f64, high: f64| Kind::Numbers { count: 1, range: [low, high], decimals: 1 };
@@ -210,7 +212,7 @@ crate::choices! {
 /// Widest and thinnest line, pixels or millimetres; the widest as in the style inking, the thinnest still written as more than 0.
 const WIDTHS: std::ops::RangeInclusive<f64> = 1e-3..=16_384.0;
 
-impl SvgSettings {
+impl DrawingSettings {
     /// Refuses nonsense, before any work.
     ///
     /// # Errors
@@ -351,30 +353,30 @@ mod tests {
         Units { px_per_mm, height_px: 512.0 }
     }
 
-    fn base() -> SvgSettings {
-        SvgSettings::default()
+    fn base() -> DrawingSettings {
+        DrawingSettings::default()
     }
 
     #[test]
     fn nonsense_is_refused_by_name() {
-        let message = |settings: SvgSettings| settings.check().unwrap_err().to_string();
+        let message = |settings: DrawingSettings| settings.check().unwrap_err().to_string();
         for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let line_width = Some(Length::Px(width));
-            assert!(message(SvgSettings { line_width, ..base() }).starts_with("line-width"));
+            assert!(message(DrawingSettings { line_width, ..base() }).starts_with("line-width"));
             let mut class_widths = ClassWidths::default();
             class_widths.0.set_class(Class::Boundary, Length::Px(width));
-            assert!(message(SvgSettings { class_widths, ..base() }).starts_with("class-widths boundary="));
+            assert!(message(DrawingSettings { class_widths, ..base() }).starts_with("class-widths boundary="));
         }
         for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let with = |page_size| message(SvgSettings { page_size, ..base() });
+            let with = |page_size| message(DrawingSettings { page_size, ..base() });
             assert!(with(PageSize::WidthMm(value)).starts_with("width-mm"));
             assert!(with(PageSize::Dpi(value)).starts_with("dpi"));
         }
         for length in [-1.0, f64::NAN, f64::INFINITY] {
             let min_length = Some(Length::Px(length));
-            assert!(message(SvgSettings { min_length, ..base() }).starts_with("min-length"));
+            assert!(message(DrawingSettings { min_length, ..base() }).starts_with("min-length"));
         }
-        assert!(message(SvgSettings { margin: Millimetres(3.0), ..base() }).starts_with("margin: only"));
+        assert!(message(DrawingSettings { margin: Millimetres(3.0), ..base() }).starts_with("margin: only"));
         assert!(base().check().is_ok());
     }
 
@@ -383,14 +385,14 @@ mod tests {
         let mm = Some(Length::Mm(0.5));
         let class_widths: ClassWidths = "hidden=0.2mm".parse().unwrap();
         let on_screen = [
-            SvgSettings { line_width: mm, ..base() },
-            SvgSettings { min_length: mm, ..base() },
-            SvgSettings { class_widths, ..base() },
+            DrawingSettings { line_width: mm, ..base() },
+            DrawingSettings { min_length: mm, ..base() },
+            DrawingSettings { class_widths, ..base() },
         ];
         for settings in on_screen {
             assert!(settings.check().unwrap_err().to_string().contains("--page A4"));
             for page_size in [PageSize::WidthMm(90.0), PageSize::Dpi(96.0), PageSize::Paper("A4".parse().unwrap())] {
-                assert!(SvgSettings { page_size, ..settings.clone() }.check().is_ok());
+                assert!(DrawingSettings { page_size, ..settings.clone() }.check().is_ok());
             }
         }
     }
@@ -398,7 +400,7 @@ mod tests {
     #[test]
     fn hidden_lines_are_half_as_wide_and_grey_unless_said_otherwise() {
         let hidden = Layer::Hidden(Class::Crease);
-        let dashed = SvgSettings { hidden: Hidden::Dashed, ..base() };
+        let dashed = DrawingSettings { hidden: Hidden::Dashed, ..base() };
         assert_eq!((dashed.width_px(hidden, units(None)), dashed.color(hidden)), (1.0, Color([0.5; 3])));
         let red = Color([1.0, 0.0, 0.0]);
         let mut told = dashed.clone();
@@ -408,9 +410,9 @@ mod tests {
         told.class_widths.0.set_hidden(Length::Px(0.25));
         told.class_colors.0.set_hidden(red);
         assert_eq!((told.width_px(hidden, units(Some(2.0))), told.color(hidden)), (0.25, red));
-        let pen = SvgSettings { is_for_pen: true, ..dashed.clone() };
+        let pen = DrawingSettings { is_for_pen: true, ..dashed.clone() };
         assert_eq!(pen.color(hidden), Color([0.0; 3]), "a pen's ink does not thin");
-        let on_black = SvgSettings { background: Background::Color(Color([0.0; 3])), ..told };
+        let on_black = DrawingSettings { background: Background::Color(Color([0.0; 3])), ..told };
         assert_eq!(on_black.paper_color(), Color([0.0; 3]));
     }
 
@@ -418,17 +420,18 @@ mod tests {
     fn widths_of_classes_may_be_multiples_of_all_lines_width() {
         let class_widths = "outline=2x,hidden=1x".parse().unwrap();
         let line_width = Some(Length::ScreenOrPaper { percent: 0.5, mm: 0.35 });
-        let settings = SvgSettings { class_widths, line_width, page_size: PageSize::Dpi(96.0), ..base() };
+        let settings = DrawingSettings { class_widths, line_width, page_size: PageSize::Dpi(96.0), ..base() };
         let layers = [Layer::Outline, Layer::Visible(Class::Crease), Layer::Hidden(Class::Crease)];
-        let widths = |settings: &SvgSettings, px_per_mm| layers.map(|layer| settings.width_px(layer, units(px_per_mm)));
+        let widths =
+            |settings: &DrawingSettings, px_per_mm| layers.map(|layer| settings.width_px(layer, units(px_per_mm)));
         assert_eq!(widths(&settings, Some(10.0)), [7.0, 3.5, 3.5]);
         assert_eq!(widths(&settings, None), [5.12, 2.56, 2.56]);
-        let told = SvgSettings { line_width: Some(Length::Mm(0.25)), ..settings.clone() };
+        let told = DrawingSettings { line_width: Some(Length::Mm(0.25)), ..settings.clone() };
         assert_eq!(widths(&told, Some(10.0)), [5.0, 2.5, 2.5]);
         assert!(settings.check().is_ok() && told.check().is_ok());
-        let itself = SvgSettings { line_width: Some(Length::Times(2.0)), ..settings.clone() };
+        let itself = DrawingSettings { line_width: Some(Length::Times(2.0)), ..settings.clone() };
         assert!(itself.check().unwrap_err().to_string().contains("line-width 2x"));
-        let nothing = SvgSettings { class_widths: "outline=0x".parse().unwrap(), ..settings };
+        let nothing = DrawingSettings { class_widths: "outline=0x".parse().unwrap(), ..settings };
         assert!(nothing.check().unwrap_err().to_string().contains("outline=0x"));
     }
 
@@ -436,17 +439,20 @@ mod tests {
     fn lines_are_half_a_millimetre_wide_on_a_sheet() {
         let layer = Layer::Visible(Class::Silhouette);
         assert_eq!(base().width_px(layer, units(None)), 2.0);
-        let paper = SvgSettings { page_size: PageSize::Paper("A4".parse().unwrap()), ..base() };
+        let paper = DrawingSettings { page_size: PageSize::Paper("A4".parse().unwrap()), ..base() };
         assert_eq!(paper.width_px(layer, units(Some(3.0))), 1.5);
         assert_eq!(paper.min_length_px(layer, units(Some(3.0))), 1.5);
         assert_eq!(paper.min_length_px(Layer::Visible(Class::Crease), units(Some(3.0))), 12.0);
-        assert_eq!(SvgSettings { line_width: Some(Length::Px(4.0)), ..paper }.width_px(layer, units(Some(3.0))), 4.0);
+        assert_eq!(
+            DrawingSettings { line_width: Some(Length::Px(4.0)), ..paper }.width_px(layer, units(Some(3.0))),
+            4.0
+        );
     }
 
     #[test]
     fn silhouettes_within_an_outline_that_is_told_apart_are_as_long_as_creases() {
-        let length = |settings: &SvgSettings, layer| settings.min_length_px(layer, units(None));
-        let told = SvgSettings { class_widths: "outline=2x".parse().unwrap(), ..base() };
+        let length = |settings: &DrawingSettings, layer| settings.min_length_px(layer, units(None));
+        let told = DrawingSettings { class_widths: "outline=2x".parse().unwrap(), ..base() };
         assert_eq!(length(&base(), Layer::Visible(Class::Silhouette)), 2.0);
         assert_eq!(length(&told, Layer::Visible(Class::Silhouette)), 16.0);
         assert_eq!(length(&told, Layer::Outline), 4.0);

@@ -19,7 +19,7 @@ use crate::bvh::steps;
 use crate::error::{Error, Result};
 use crate::lines::VisibleLines;
 use crate::lines::drawing::layers::Layer;
-use crate::lines::drawing::settings::SvgSettings;
+use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::visible::outline::readable;
 use crate::threads::{cores, in_chunks};
@@ -28,14 +28,14 @@ use shortest_path::ShortestPaths;
 use strokes::{Branch, Stroke, Strokes};
 
 impl VisibleLines {
-    /// The lines without spurs and specks as a drawing's settings ask: what is shorter than [`SvgSettings::min_length`]. Where settings say
+    /// The lines without spurs and specks as a drawing's settings ask: what is shorter than [`DrawingSettings::min_length`]. Where settings say
     /// something of the outline, what cannot be read as outline is none: beside slits narrower than it, and in runs shorter than four
     /// of its widths.
     ///
     /// # Errors
     ///
-    /// As [`SvgSettings::check`] and [`VisibleLines::check`].
-    pub fn without_specks(&self, settings: &SvgSettings) -> Result<Self> {
+    /// As [`DrawingSettings::check`] and [`VisibleLines::check`].
+    pub fn without_specks(&self, settings: &DrawingSettings) -> Result<Self> {
         self.without_specks_with_progress(settings, &Progress::default())
     }
 
@@ -44,7 +44,7 @@ impl VisibleLines {
     /// # Errors
     ///
     /// Also [`Error::Cancelled`] and, but where a part is asked for, [`Error::OutOfTime`].
-    pub fn without_specks_with_progress(&self, settings: &SvgSettings, progress: &Progress) -> Result<Self> {
+    pub fn without_specks_with_progress(&self, settings: &DrawingSettings, progress: &Progress) -> Result<Self> {
         settings.check()?;
         self.check()?;
         let units = crate::lines::drawing::drawn_layers::page(self, settings).units;
@@ -162,7 +162,7 @@ mod tests {
     fn where_a_part_is_wanted_and_the_time_is_over_specks_stay_and_that_is_said() {
         let scene = Scene::new(vec![Mesh::triangle()], &SceneSettings::default()).unwrap();
         let whole = VisibleLines::of(&scene, &LineSettings::default()).unwrap();
-        let settings = SvgSettings { min_length: Some("2000".parse().unwrap()), ..SvgSettings::default() };
+        let settings = DrawingSettings { min_length: Some("2000".parse().unwrap()), ..DrawingSettings::default() };
         let ended = |progress: &Progress| whole.without_specks_with_progress(&settings, progress);
         let part = ended(&Progress::exactly_within_or_part(Duration::ZERO)).unwrap();
         assert_eq!(part, VisibleLines { has_specks: true, ..whole.clone() });

@@ -2,7 +2,7 @@ use super::*;
 use crate::camera::CameraSettings;
 use crate::edges::{ClassCounts, SilhouetteRule};
 use crate::lines::smooth::closed_forms::ClosedForm;
-use crate::lines::{LineTimes, SvgSettings, svg_of_paths};
+use crate::lines::{DrawingSettings, LineTimes, svg_of_paths};
 use crate::mesh::{LoadOptions, Mesh};
 use crate::scene::{SceneSettings, Size};
 use glam::DVec2;
@@ -102,7 +102,7 @@ fn a_stroke_that_splits_keeps_its_number_in_the_longer_part_and_a_hidden_one_com
     let mut next = |of: &[[f64; 2]]| -> Vec<u32> {
         let lines = creases(of);
         let paths = ids.next(&scene, &lines);
-        let text = svg_of_paths(&lines, paths.clone(), &SvgSettings::default()).unwrap();
+        let text = svg_of_paths(&lines, paths.clone(), &DrawingSettings::default()).unwrap();
         let strokes: Vec<u32> = paths.iter().filter_map(|path| path.stroke).collect();
         assert!(strokes.iter().all(|id| text.contains(&format!(r#"id="stroke-{id}""#))), "{text}");
         strokes

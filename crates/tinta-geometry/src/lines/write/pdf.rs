@@ -1,6 +1,6 @@
 //! Lines as PDF: one page of their true size, with the layers, paths and coordinates of the SVG.
 //!
-//! In: [`VisibleLines`] and [`SvgSettings`]. Out: bytes that are the same for the same input: no time stamps, no identifiers. A
+//! In: [`VisibleLines`] and [`DrawingSettings`]. Out: bytes that are the same for the same input: no time stamps, no identifiers. A
 //! matrix takes the picture's pixels, y down, to points, so that the paths have the numbers that the SVG has. Layers are
 //! optional content (PDF 1.5), which viewers show as such. Ghosts have the colour that their opacity gives on plain paper.
 
@@ -9,7 +9,7 @@ use crate::lines::VisibleLines;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::{Step, fitted};
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
-use crate::lines::drawing::settings::{SvgSettings, mixed};
+use crate::lines::drawing::settings::{DrawingSettings, mixed};
 use crate::lines::drawing::text::{written_point, written_points};
 use crate::scene::{Background, Color};
 use glam::DVec2;
@@ -21,7 +21,7 @@ use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, TextStr};
 /// # Errors
 ///
 /// As [`crate::lines::svg`], and [`Error::Setting`] for a page larger than PDF knows.
-pub fn pdf(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<u8>> {
+pub fn pdf(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<u8>> {
     let lines = lines.without_specks(settings)?;
     pdf_of_paths(&lines, chain(&lines.segments), settings)
 }
@@ -31,7 +31,7 @@ pub fn pdf(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<u8>> {
 /// # Errors
 ///
 /// As [`pdf`].
-pub fn pdf_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSettings) -> Result<Vec<u8>> {
+pub fn pdf_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &DrawingSettings) -> Result<Vec<u8>> {
     let drawing = Drawing::new(lines, paths, settings)?;
     let scale = drawing.page.points_per_px();
     let page_points = drawing.page.extent_px * scale;
@@ -134,7 +134,7 @@ fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, number: usize, content
     content.end_marked_content();
 }
 
-fn write_path(settings: &SvgSettings, path: &LinePath, content: &mut Content) {
+fn write_path(settings: &DrawingSettings, path: &LinePath, content: &mut Content) {
     // The very numbers of the SVG.
     let numbers = |point: &[String; 2]| [0, 1].map(|axis| point[axis].parse::<f32>().unwrap_or(0.0));
     if let Some(error_px) = settings.fit_px {

@@ -1,6 +1,6 @@
 //! Lines as pixels: what the SVG shows, drawn here, without a rasteriser of others and of any size.
 //!
-//! In: [`VisibleLines`] and [`SvgSettings`]. Out: [`Raster`]. All that is drawn is lines with round ends and corners, so that a pixel is
+//! In: [`VisibleLines`] and [`DrawingSettings`]. Out: [`Raster`]. All that is drawn is lines with round ends and corners, so that a pixel is
 //! covered by how far its middle lies from the nearest line of a layer. Within a layer the nearest counts, as in the SVG, where lines
 //! of one colour cross without adding up; layers lie over one another.
 
@@ -9,7 +9,7 @@ use crate::lines::VisibleLines;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::pen::dashes;
-use crate::lines::drawing::settings::SvgSettings;
+use crate::lines::drawing::settings::DrawingSettings;
 use crate::scene::{Background, Color, Size};
 use glam::DVec2;
 
@@ -27,7 +27,7 @@ pub struct Raster {
 /// # Errors
 ///
 /// As [`crate::lines::svg`], and [`Error::Setting`] for a page that is not the picture.
-pub fn raster(lines: &VisibleLines, settings: &SvgSettings) -> Result<Raster> {
+pub fn raster(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Raster> {
     let lines = lines.without_specks(settings)?;
     raster_of_paths(&lines, chain(&lines.segments), settings)
 }
@@ -37,7 +37,7 @@ pub fn raster(lines: &VisibleLines, settings: &SvgSettings) -> Result<Raster> {
 /// # Errors
 ///
 /// As [`raster`].
-pub fn raster_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSettings) -> Result<Raster> {
+pub fn raster_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &DrawingSettings) -> Result<Raster> {
     let drawing = Drawing::new(lines, paths, settings)?;
     let size = lines.size;
     let [width, height] = [size.width, size.height].map(f64::from);
@@ -78,7 +78,7 @@ fn lay_over(pixel: &mut [u8], Color(color): Color, opacity: f32) {
 }
 
 /// How much of each pixel a layer covers.
-fn cover_layer(layer: &DrawnLayer, settings: &SvgSettings, size: Size, cover: &mut [f32]) {
+fn cover_layer(layer: &DrawnLayer, settings: &DrawingSettings, size: Size, cover: &mut [f32]) {
     let mut polyline = |points: &[DVec2], is_closed: bool| {
         let closing = is_closed.then(|| [points[points.len() - 1], points[0]]);
         let pairs = points.windows(2).map(|pair| [pair[0], pair[1]]);

@@ -1,6 +1,6 @@
 //! A drawing as strokes, for whoever paints it without a file: a window.
 //!
-//! In: [`VisibleLines`] and [`SvgSettings`]. Out: what [`crate::lines::svg`] writes of them, layer by layer, with dashes as polylines of
+//! In: [`VisibleLines`] and [`DrawingSettings`]. Out: what [`crate::lines::svg`] writes of them, layer by layer, with dashes as polylines of
 //! their own.
 
 use crate::error::Result;
@@ -10,7 +10,7 @@ use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::length::Units;
 use crate::lines::drawing::pen::dashes;
-use crate::lines::drawing::settings::SvgSettings;
+use crate::lines::drawing::settings::DrawingSettings;
 use crate::scene::Color;
 use glam::DVec2;
 
@@ -54,7 +54,7 @@ impl Polyline {
 /// # Errors
 ///
 /// As [`crate::lines::svg`].
-pub fn strokes(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<Strokes>> {
+pub fn strokes(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<Strokes>> {
     let lines = lines.without_specks(settings)?;
     strokes_of_paths(&lines, chain(&lines.segments), settings)
 }
@@ -64,12 +64,16 @@ pub fn strokes(lines: &VisibleLines, settings: &SvgSettings) -> Result<Vec<Strok
 /// # Errors
 ///
 /// As [`crate::lines::svg`].
-pub fn strokes_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSettings) -> Result<Vec<Strokes>> {
+pub fn strokes_of_paths(
+    lines: &VisibleLines,
+    paths: Vec<LinePath>,
+    settings: &DrawingSettings,
+) -> Result<Vec<Strokes>> {
     let drawing = Drawing::new(lines, paths, settings)?;
     Ok(drawing.layers.iter().map(|layer| of_layer(layer, settings, drawing.page.units)).collect())
 }
 
-fn of_layer(drawn: &DrawnLayer, settings: &SvgSettings, units: Units) -> Strokes {
+fn of_layer(drawn: &DrawnLayer, settings: &DrawingSettings, units: Units) -> Strokes {
     let polylines = drawn.paths.iter().flat_map(|path| match drawn.dash_px {
         Some([dash, gap]) => dashes(path, dash, gap)
             .into_iter()
@@ -121,7 +125,7 @@ mod tests {
     }
 
     fn of(hidden: Hidden) -> Vec<Strokes> {
-        strokes(&lines(), &SvgSettings { hidden, ..SvgSettings::default() }).unwrap()
+        strokes(&lines(), &DrawingSettings { hidden, ..DrawingSettings::default() }).unwrap()
     }
 
     #[test]

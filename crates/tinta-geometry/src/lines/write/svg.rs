@@ -1,6 +1,6 @@
 //! Lines as SVG 1.1: a layer for each class and visibility, polylines in them, nothing else.
 //!
-//! In: [`VisibleLines`] and [`SvgSettings`]. Out: a text that is the same, byte for byte, for the same input: coordinates in
+//! In: [`VisibleLines`] and [`DrawingSettings`]. Out: a text that is the same, byte for byte, for the same input: coordinates in
 //! pixels with three decimals, y down, in the order of the pieces. The layers are groups that Inkscape shows as such, hidden
 //! ones below visible ones.
 
@@ -10,7 +10,7 @@ use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::fitted;
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::page::PAGE_DECIMALS;
-use crate::lines::drawing::settings::SvgSettings;
+use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::drawing::text::{curve_data, decimal, hexadecimal, number, path_data};
 use crate::markup::escaped;
 use crate::markup::recipe_element;
@@ -21,9 +21,9 @@ use std::fmt::Write;
 ///
 /// # Errors
 ///
-/// [`crate::Error::Setting`] for settings that [`SvgSettings::check`] refuses, [`crate::Error::Lines`] for lines that are not
+/// [`crate::Error::Setting`] for settings that [`DrawingSettings::check`] refuses, [`crate::Error::Lines`] for lines that are not
 /// finite or leave the picture.
-pub fn svg(lines: &VisibleLines, settings: &SvgSettings) -> Result<String> {
+pub fn svg(lines: &VisibleLines, settings: &DrawingSettings) -> Result<String> {
     let lines = lines.without_specks(settings)?;
     svg_of_paths(&lines, chain(&lines.segments), settings)
 }
@@ -33,7 +33,7 @@ pub fn svg(lines: &VisibleLines, settings: &SvgSettings) -> Result<String> {
 /// # Errors
 ///
 /// As [`svg`].
-pub fn svg_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &SvgSettings) -> Result<String> {
+pub fn svg_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &DrawingSettings) -> Result<String> {
     let drawing = Drawing::new(lines, paths, settings)?;
     let mut out = String::new();
     begin(&drawing, &mut out);

@@ -4,7 +4,7 @@ use crate::bvh::{Box3, BoxTree};
 use crate::lines::LineSegment;
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::length::Units;
-use crate::lines::drawing::settings::SvgSettings;
+use crate::lines::drawing::settings::DrawingSettings;
 use crate::tolerances::JOINED_PX;
 use glam::DVec2;
 
@@ -22,7 +22,7 @@ pub(super) struct Stroke {
 }
 
 impl Stroke {
-    pub(super) fn new(number: usize, segment: &LineSegment, settings: &SvgSettings, units: Units) -> Self {
+    pub(super) fn new(number: usize, segment: &LineSegment, settings: &DrawingSettings, units: Units) -> Self {
         let layer: Layer = segment.layer();
         let ends = segment.ends_px;
         Self {
