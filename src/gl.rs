@@ -41,8 +41,9 @@ pub use context::{Attempt, Backend, ContextInfo, is_software};
 pub use faults::Fault;
 
 use crate::error::{Error, Result};
+use crate::plan::Submission;
 use glow::HasContext;
-use immediate::Immediate;
+use immediate::{Immediate, Vertices};
 use legacy::Legacy;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
@@ -75,6 +76,25 @@ impl Gl {
         return self.surface.as_ref().map(context::SurfaceFramebuffer::id);
         #[cfg(not(any(target_os = "macos", test)))]
         None
+    }
+
+    /// The functions of immediate mode, if the driver has them.
+    fn immediate(&self) -> Result<&Immediate> {
+        self.immediate.as_ref().map_err(|missing| {
+            let problem = format!(
+                "{} has no {missing}, by which programs of 2001 drew; leave this out, buffers draw the same picture",
+                self.info.renderer
+            );
+            Error::value("submission", Submission::Immediate, problem)
+        })
+    }
+
+    /// Draws vertices by glBegin and glEnd, if the driver has them.
+    fn draw_in_immediate_mode(&self, vertices: &Vertices<'_>) -> Result<()> {
+        let immediate = self.immediate()?;
+        // SAFETY: the context is current, and glBegin and glEnd are called in pairs and nowhere else.
+        unsafe { immediate.send(vertices) };
+        Ok(())
     }
 
     /// Refuses to go on with a context that is lost.

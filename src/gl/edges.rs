@@ -3,7 +3,7 @@
 use super::Gl;
 use super::buffers::EdgeIndices;
 use super::execute::Resources;
-use super::immediate::{self, Places, Vertices};
+use super::immediate::{Places, Vertices};
 use super::legacy::{self, MODELVIEW, PROJECTION};
 use super::meshes::of_another_scene;
 use super::objects::Buffer;
@@ -96,7 +96,7 @@ impl Resources {
                 }
             } else {
                 let places = Places::Positions(run.vertices(scene.arrays(object)));
-                immediate::draw(&self.gl, &Vertices::new(mode, places, indices))?;
+                self.gl.draw_in_immediate_mode(&Vertices::new(mode, places, indices))?;
             }
             first += indices.len();
         }
@@ -147,7 +147,7 @@ impl Resources {
             }
             if self.submission != Submission::Buffers {
                 let (indices, places) = ((0..quads.len() as u32).collect::<Vec<u32>>(), Places::Clip(&quads));
-                immediate::draw(&self.gl, &Vertices::new(legacy::QUADS, places, &indices))?;
+                self.gl.draw_in_immediate_mode(&Vertices::new(legacy::QUADS, places, &indices))?;
                 continue;
             }
             let buffer = Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&quads))?;

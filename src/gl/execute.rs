@@ -3,7 +3,6 @@
 use super::Gl;
 use super::buffers::{EdgeIndices, FaceIndices, MeshBuffers, OfVertices};
 use super::fixed_function;
-use super::immediate;
 use super::legacy;
 use super::objects::{Buffer, Program, Shader, TimerQuery};
 use super::sources;
@@ -80,7 +79,7 @@ impl Resources {
             gl.glow.color_mask(true, true, true, true);
         }
         if plan.submission != Submission::Buffers {
-            immediate::available(&gl)?;
+            gl.immediate()?;
         }
         self.submission = plan.submission;
         self.upload_meshes(scene)?;

@@ -3,10 +3,7 @@
 //! In: vertices on this side, in the order they are drawn. Out: the same picture as by buffers, by a call for each vertex and
 //! attribute. Only what a draw reads is sent: normals go to shaders, texture coordinates to the units that have them.
 
-use super::Gl;
 use super::legacy::FIXED_UNITS;
-use crate::error::{Error, Result};
-use crate::plan::Submission;
 use std::ffi::{CStr, c_void};
 
 type Mode = unsafe extern "system" fn(u32);
@@ -120,23 +117,4 @@ impl Immediate {
             (self.end)();
         }
     }
-}
-
-/// Draws vertices by glBegin and glEnd, if the driver has them.
-pub(super) fn draw(gl: &Gl, vertices: &Vertices<'_>) -> Result<()> {
-    let immediate = available(gl)?;
-    // SAFETY: the context is current, and glBegin and glEnd are called in pairs and nowhere else.
-    unsafe { immediate.send(vertices) };
-    Ok(())
-}
-
-/// The functions, if the driver has them.
-pub(super) fn available(gl: &Gl) -> Result<&Immediate> {
-    gl.immediate.as_ref().map_err(|missing| {
-        let problem = format!(
-            "{} has no {missing}, by which programs of 2001 drew; leave this out, buffers draw the same picture",
-            gl.info.renderer
-        );
-        Error::value("submission", Submission::Immediate, problem)
-    })
 }

@@ -3,7 +3,7 @@
 use super::Gl;
 use super::buffers::{FaceIndices, MeshBuffers, OfVertices};
 use super::execute::Resources;
-use super::immediate::{self, Places, Vertices};
+use super::immediate::{Places, Vertices};
 use super::legacy::{FIXED_UNITS, MODELVIEW, PROJECTION};
 use super::objects::Buffer;
 use crate::error::{Error, Result};
@@ -177,7 +177,7 @@ impl Resources {
             colors: lists.colors.map(|list| list.as_slice()),
             coordinates,
         };
-        immediate::draw(&self.gl, &vertices)
+        self.gl.draw_in_immediate_mode(&vertices)
     }
 }
 

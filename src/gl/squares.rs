@@ -1,7 +1,7 @@
 //! The squares that fill the picture, and what lies on their corners.
 
 use super::execute::Resources;
-use super::immediate::{self, Places, Vertices};
+use super::immediate::{Places, Vertices};
 use super::legacy::{self, MODELVIEW, PROJECTION};
 use super::objects::Buffer;
 use crate::error::Result;
@@ -51,7 +51,7 @@ impl Resources {
         if self.submission != Submission::Buffers {
             let indices: Vec<u32> = (first..first + count).collect();
             let places = Places::PositionsAndNormals(&SQUARES);
-            return immediate::draw(&self.gl, &Vertices::new(mode, places, &indices));
+            return self.gl.draw_in_immediate_mode(&Vertices::new(mode, places, &indices));
         }
         if let Some(squares) = &self.squares {
             squares.bind();

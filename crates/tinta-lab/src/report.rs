@@ -16,6 +16,7 @@ mod canvas;
 mod columns;
 mod convergence;
 mod html;
+mod info;
 mod labels;
 mod log;
 mod marks;
@@ -26,6 +27,7 @@ mod settings;
 pub use columns::{Column, columns};
 pub use convergence::{Curve, curves};
 pub use html::html;
+pub use info::{ReportInfo, ReportPicture};
 pub use log::{RowLog, read_rows, rows_of_bytes};
 pub use plot::{Shape, plot};
 pub use settings::{Machine, Measure, Point, Points, machines, pareto, points};
@@ -36,32 +38,6 @@ use columns::Value;
 use std::path::Path;
 use tinta::error::{Error, FileKind, Result};
 use tinta::output::Staged;
-
-/// What a report says besides its rows.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct ReportInfo {
-    /// The command that made it, as typed.
-    pub command: String,
-    /// tinta's version.
-    pub version: String,
-    /// What is known of the machine: a name and a value each, such as "Processor".
-    pub notes: Vec<(String, String)>,
-    /// Pictures of the errors, in the order in which they are shown.
-    pub pictures: Vec<ReportPicture>,
-}
-
-/// A picture on the page.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ReportPicture {
-    /// What is seen on it, besides the model.
-    pub caption: String,
-    /// The model it belongs to: shown when that model is chosen; `None`: always.
-    pub model: Option<String>,
-    /// The drawing that has these errors, a whole PNG file; `None` where it is not kept.
-    pub drawing: Option<Vec<u8>>,
-    /// The errors, a whole PNG file.
-    pub png: Vec<u8>,
-}
 
 /// All rows with all their columns but the times of single frames, which `results.jsonl` has.
 ///

@@ -20,6 +20,7 @@ mod drawing;
 mod failing;
 mod figures;
 mod jitter;
+mod outcome;
 mod reading;
 mod run;
 mod shapes;

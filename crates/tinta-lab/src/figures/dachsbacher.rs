@@ -3,7 +3,7 @@
 //!
 //! All are drawn by the article's own rules, its normals among them (`--normals dachsbacher`).
 
-use super::{Content, Drawing, Figure, Panel, Shot, Text, panel};
+use super::figure::{Content, Drawing, Figure, Panel, Shot, Text, panel};
 use tinta::mesh::Normals;
 use tinta::styles::{Inking, PaintMode, RampRow, Style};
 

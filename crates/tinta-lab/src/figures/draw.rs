@@ -1,6 +1,6 @@
 //! A figure's panels as pictures.
 
-use super::{Drawing, Model, Panel, SceneDrawing};
+use super::figure::{Drawing, Model, Panel, SceneDrawing};
 use std::collections::HashMap;
 use std::sync::Arc;
 use tinta::error::Result;

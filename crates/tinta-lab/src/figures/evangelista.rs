@@ -1,7 +1,7 @@
 //! The figures of Evangelista et al. 2005: all fourteen, and the numbers of section 5. Figures 2 and 3 are other authors' pictures
 //! and not drawn; figure 4 is one too, but the paper says which two tones it has.
 
-use super::{Content, Figure, Panel, Shot, Text, panel};
+use super::figure::{Content, Figure, Panel, Shot, Text, panel};
 use tinta::styles::{Border, Cartoon, ClassColors, Filter, Inking, PaintMode, Phong, Show, Style, Tones};
 
 const BUST: &str = "builtin:bust";

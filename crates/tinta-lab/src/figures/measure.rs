@@ -2,15 +2,15 @@
 //! square, the shaders' throughput. Settings take turns, so that a busy moment hits all of them; reported are medians, and
 //! every raw time is kept.
 
-use super::mix::{Kit, Mix, TRIANGLES};
-use super::reasons::{Host, reasons};
-use super::throughput::{self, COMPARED_FACTOR, ShaderRow};
-use serde::Serialize;
+use super::mix::{Kit, TRIANGLES};
+use super::numbers::{ARTICLE, BackgroundRow, FilterRow, FrameRow, Host, MixRow, Numbers};
+use super::reasons::reasons;
+use super::series::{Contestant, Series, take_turns};
+use super::throughput::{self, COMPARED_FACTOR};
 use std::sync::Arc;
 use tinta::error::Result;
 use tinta::mesh::{LoadOptions, load};
-use tinta::plan::Plan;
-use tinta::renderer::{Renderer, median};
+use tinta::renderer::Renderer;
 use tinta::scene::{Background, Scene, SceneSettings, Size};
 use tinta::styles::{Border, Cartoon, Filter, Show, Style, Tones};
 
@@ -23,182 +23,6 @@ pub struct HowToMeasure {
     pub frames: usize,
     /// How many of the six scenes, smallest first.
     pub scenes: usize,
-}
-
-/// What the article's text prints.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Article {
-    /// The card.
-    pub device: &'static str,
-    /// Picture size.
-    pub size: Size,
-    /// Triangles of the first and the last scene.
-    pub triangles: [usize; 2],
-    /// How much more frames a second the cheaper filter gives, percent.
-    pub filter_gain_percent: f64,
-    /// How much more frames a second two passes without the square give at most, percent.
-    pub background_gain_percent: f64,
-}
-
-/// The article's numbers; those of the shaders are in [`super::SHADERS`].
-pub const ARTICLE: Article = Article {
-    device: "GeForce FX 5200, processor of 1 GHz",
-    size: Size { width: 512, height: 512 },
-    triangles: [3_039, 122_646],
-    filter_gain_percent: 48.0,
-    background_gain_percent: 100.0,
-};
-
-/// Everything measured.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Numbers {
-    /// What drew.
-    pub host: Host,
-    /// Picture size of the frames.
-    pub size: Size,
-    /// A frame of nothing but a clear and the read-back.
-    pub empty: Series,
-    /// The scenes of figure 13.
-    pub scenes: Vec<MixRow>,
-    /// Their frames, scene by scene.
-    pub frames: Vec<FrameRow>,
-    /// The article's filter and the one it replaces.
-    pub filters: Vec<FilterRow>,
-    /// Two passes without the square, from near to far.
-    pub backgrounds: Vec<BackgroundRow>,
-    /// The shaders.
-    pub shaders: Vec<ShaderRow>,
-    /// What the article's text prints.
-    #[serde(rename = "paper")]
-    pub article: Article,
-    /// Why ours differ, a few sentences for each number.
-    pub reasons: Vec<Reason>,
-}
-
-/// A sentence about a measured number.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Reason {
-    /// `frames`, `filter`, `background` or `throughput`.
-    pub about: &'static str,
-    /// It.
-    pub sentence: String,
-}
-
-/// Measured frames.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Series {
-    /// Their median, milliseconds.
-    pub median_ms: f64,
-    /// All of them, in the order measured.
-    pub frames_ms: Vec<f64>,
-}
-
-impl Series {
-    pub(super) fn new(frames_ms: Vec<f64>) -> Self {
-        Self { median_ms: median(frames_ms.clone()).unwrap_or_default(), frames_ms }
-    }
-
-    /// Frames per second, by the median.
-    pub fn frames_per_second(&self) -> f64 {
-        1e3 / self.median_ms
-    }
-}
-
-/// A scene of figure 13.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct MixRow {
-    /// What it is made of.
-    #[serde(flatten)]
-    pub mix: Mix,
-    /// Share of the picture's pixels that its models cover, 0 to 1.
-    pub covered: f64,
-}
-
-/// A curve's point of figure 13.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FrameRow {
-    /// Triangles of its scene.
-    pub triangles: usize,
-    /// One to three.
-    pub tones: u8,
-    /// Two or three.
-    pub passes: u8,
-    /// Its frames.
-    #[serde(flatten)]
-    pub series: Series,
-}
-
-/// A filter in the first scene, three passes.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FilterRow {
-    /// Which.
-    pub filter: Filter,
-    /// Its frames.
-    #[serde(flatten)]
-    pub series: Series,
-}
-
-/// The bust from one distance.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BackgroundRow {
-    /// The eye's distance, of that at which the bust fills the picture.
-    pub distance: f64,
-    /// Share of the picture's pixels that it covers, 0 to 1.
-    pub covered: f64,
-    /// Three passes with the square.
-    pub three_pass: Series,
-    /// Two passes with the square.
-    pub two_pass: Series,
-    /// Two passes without it.
-    pub two_pass_without: Series,
-}
-
-impl BackgroundRow {
-    /// How much more frames a second two passes without the square give than three passes, percent.
-    pub fn gain_percent(&self) -> f64 {
-        gain_percent(&self.two_pass_without, &self.three_pass)
-    }
-}
-
-impl Numbers {
-    /// How much more frames a second the article's filter gives than the one it replaces, percent.
-    pub fn filter_gain_percent(&self) -> Option<f64> {
-        let of = |filter| self.filters.iter().find(|row| row.filter == filter);
-        Some(gain_percent(&of(Filter::Laplacian4)?.series, &of(Filter::Laplacian8)?.series))
-    }
-
-    /// The frames of these tones and passes, by triangles.
-    pub fn curve(&self, tones: u8, passes: u8) -> impl Iterator<Item = &FrameRow> {
-        self.frames.iter().filter(move |row| row.tones == tones && row.passes == passes)
-    }
-}
-
-/// How much more frames a second `one` gives than `other`, percent: the median of the ratios within a turn, which a busy
-/// moment's frames, slow for both, do not move.
-pub(super) fn gain_percent(one: &Series, other: &Series) -> f64 {
-    let ratios = other.frames_ms.iter().zip(&one.frames_ms).map(|(other, one)| other / one);
-    (median(ratios.collect()).unwrap_or(1.0) - 1.0) * 100.0
-}
-
-/// A plan that takes its turns.
-pub(super) struct Contestant {
-    pub(super) scene: Arc<Scene>,
-    pub(super) plan: Plan,
-    pub(super) times: Vec<f64>,
-}
-
-impl Contestant {
-    pub(super) fn new(scene: &Arc<Scene>, plan: Plan) -> Self {
-        Self { scene: scene.clone(), plan, times: Vec::new() }
-    }
-
-    fn styled(scene: &Arc<Scene>, style: &Style) -> Result<Self> {
-        Ok(Self::new(scene, style.plan(scene, Show::Final)?))
-    }
-
-    pub(super) fn series(&self) -> Series {
-        Series::new(self.times.clone())
-    }
 }
 
 /// Distances of the eye from the bust, of that at which it fills the picture.
@@ -305,24 +129,6 @@ pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut
     };
     numbers.reasons = reasons(&numbers);
     Ok(numbers)
-}
-
-/// All contestants' frames, one of each at a time.
-pub(super) fn take_turns(
-    renderer: &mut Renderer,
-    contestants: &mut [Contestant],
-    frames: usize,
-    step: &mut impl FnMut(),
-) -> Result<()> {
-    for _ in 0..frames {
-        for Contestant { scene, plan, times } in contestants.iter_mut() {
-            // A frame that follows one of another kind also clears up after that one: up to a fifth of a large scene's
-            // frame on a software renderer. So each is preceded by an untimed one of its own, as in an animation.
-            times.extend(renderer.time_frames(scene, plan, 1, 1)?);
-        }
-        step();
-    }
-    Ok(())
 }
 
 /// The scene from its own direction and so many times its own distance.

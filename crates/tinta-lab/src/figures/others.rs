@@ -1,6 +1,6 @@
 //! The figures that are not drawn, with the reason, and each text's claims at its end: what no list of drawn figures has.
 
-use super::{Content, Figure, Text};
+use super::figure::{Content, Figure, Text};
 
 /// Figures of other authors in Valente's report, each with the figure before which it stands.
 fn not_drawn() -> Vec<(&'static str, Figure)> {

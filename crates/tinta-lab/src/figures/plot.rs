@@ -1,6 +1,6 @@
 //! Figure 13 as SVG: frames per second over triangles, both axes logarithmic, two curves a plot.
 
-use super::measure::Numbers;
+use super::numbers::Numbers;
 use plotters::prelude::*;
 use tinta::error::{Error, Result};
 

@@ -1,34 +1,8 @@
 //! Why our numbers are not the article's: sentences that follow from what was measured and from what GL says it is.
 
-use super::measure::{FrameRow, Numbers, Reason, gain_percent};
+use super::numbers::{FrameRow, Host, Numbers, Reason};
+use super::series::{EQUAL_PERCENT, gain_percent};
 use super::throughput::ShaderRow;
-use serde::Serialize;
-use tinta::gl::ContextInfo;
-
-/// What drew.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Host {
-    /// GL_RENDERER
-    pub renderer: String,
-    /// GL_VERSION
-    pub version: String,
-    /// Threads of the processor.
-    pub threads: usize,
-    /// Whether the renderer is a program rather than a graphics device.
-    pub is_software: bool,
-}
-
-impl Host {
-    /// The machine this runs on.
-    pub fn new(context: &ContextInfo) -> Self {
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        let (renderer, version) = (context.renderer.clone(), context.version.clone());
-        Self { is_software: context.is_software(), renderer, version, threads }
-    }
-}
-
-/// Rates nearer to each other than this are called equal, percent: medians of a busy machine differ by as much.
-const EQUAL_PERCENT: f64 = 3.0;
 
 /// All sentences, by what they are about.
 pub(super) fn reasons(numbers: &Numbers) -> Vec<Reason> {

@@ -1,7 +1,7 @@
 //! How many pixels a fragment shader shades in a second: the time of a square over the whole picture, drawn as the style
 //! draws it, less that of the same frame without it.
 
-use super::measure::{Contestant, Series};
+use super::series::{Contestant, Series};
 use serde::Serialize;
 use std::sync::Arc;
 use tinta::error::Result;

@@ -2,7 +2,7 @@
 //!
 //! The originals' pictures were not at hand: what captions say of them is what the report's own text says.
 
-use super::{Content, Drawing, Figure, Panel, Shot, Text, panel};
+use super::figure::{Content, Drawing, Figure, Panel, Shot, Text, panel};
 use tinta::scene::Size;
 use tinta::styles::{CetCoordinate, Charcoal, CharcoalRecipe, Improvements, Show, Style};
 use tinta::textures::ContrastTexture;

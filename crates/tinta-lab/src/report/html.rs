@@ -3,10 +3,10 @@
 //! It is HTML that is well-formed XML too, so that an XML parser can check it, and it forbids itself the network. Without
 //! scripts everything is shown; `page.js` hides what was not chosen and sorts.
 
-use super::ReportInfo;
 use super::answer::answer;
 use super::columns::{Column, Value, columns};
 use super::convergence::{curves, plot as convergence_plot, surfaces};
+use super::info::ReportInfo;
 use super::plot::{Shape, plot, subtitle};
 use super::ratios::ratios;
 use super::settings::{Machine, Measure, machines, model_names, models, points};

@@ -3,7 +3,7 @@
 use super::cases::{Drawing, Study, side_px};
 use super::figures::{Exact, Figures, covered_px, differing_px, non_finite};
 use super::jitter::{Flips, Popped, flips, jittered};
-use super::run::Outcome;
+use super::outcome::Outcome;
 use super::variants::Variant;
 use crate::compare::InkMask;
 use crate::measure::{Ink, shading_of};

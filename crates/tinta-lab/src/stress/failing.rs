@@ -1,7 +1,7 @@
 //! Draws with a failing driver, and checks the program's state afterwards.
 
 use super::Shape;
-use super::run::Outcome;
+use super::outcome::Outcome;
 use super::variants::Variant;
 use glam::DVec3;
 use std::path::Path;

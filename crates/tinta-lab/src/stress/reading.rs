@@ -2,7 +2,7 @@
 
 use super::cases::Content;
 use super::figures::Figures;
-use super::run::Outcome;
+use super::outcome::Outcome;
 use std::io;
 use std::path::Path;
 use tinta::mesh::{LoadOptions, load};

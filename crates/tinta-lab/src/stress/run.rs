@@ -2,6 +2,7 @@
 
 use super::cases::{Case, Expected, Group, Work, cases};
 use super::figures::Figures;
+use super::outcome::Outcome;
 use super::{drawing, failing, reading};
 use serde::Serialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -114,27 +115,6 @@ impl Summary {
     /// Rows that did not end as their case says.
     pub fn failures(&self) -> impl Iterator<Item = &Row> {
         self.cases.iter().filter(|row| !row.passed)
-    }
-}
-
-/// What came of a drawing.
-pub(super) enum Outcome {
-    Rendered(Figures),
-    Refused { kind: &'static str, sentence: String },
-    Panicked,
-}
-
-impl Outcome {
-    pub(super) fn refused(error: &Error) -> Self {
-        Self::Refused { kind: error.kind(), sentence: error.with_dashes() }
-    }
-
-    fn verdict(&self) -> String {
-        match self {
-            Self::Rendered(_) => "rendered".to_owned(),
-            Self::Refused { kind, .. } => format!("refused ({kind})"),
-            Self::Panicked => "panicked".to_owned(),
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Pictures of what a row's setting draws and where its errors lie, beside the page that shows them.
 
-use super::make_folder;
+use super::folder::make_folder;
 use crate::measure::Row;
 use crate::report::ReportPicture;
 use std::path::{Path, PathBuf};

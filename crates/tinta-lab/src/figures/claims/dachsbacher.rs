@@ -4,8 +4,8 @@ mod edges;
 mod painting;
 mod pictures;
 
-use super::{Claim, Measure, of_text};
-use crate::figures::Text;
+use super::claim::{Claim, Measure, of_text};
+use crate::figures::figure::Text;
 use Measure::{Here, Nowhere};
 
 pub(super) fn claims() -> Vec<Claim> {

@@ -4,8 +4,8 @@ mod lines;
 mod maps;
 mod times;
 
-use super::{Claim, Measure, measured_by, of_text};
-use crate::figures::Text;
+use super::claim::{Claim, Measure, measured_by, of_text};
+use crate::figures::figure::Text;
 use Measure::{Here, Nowhere, Section5};
 
 const ALL: &str = measured_by!("evangelista");

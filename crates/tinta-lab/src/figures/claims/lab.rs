@@ -1,8 +1,9 @@
 //! What claims are measured with: scenes read once, pictures, ink against exact lines, frames that take turns, and a few
 //! numbers about pictures.
 
-use super::{EQUAL_PERCENT, Number};
-use crate::figures::measure::{Contestant, HowToMeasure, Series, gain_percent, take_turns};
+use super::finding::Number;
+use crate::figures::measure::HowToMeasure;
+use crate::figures::series::{Contestant, EQUAL_PERCENT, Series, gain_percent, take_turns};
 use crate::measure::{Ink, Reference};
 use std::collections::HashMap;
 use std::rc::Rc;

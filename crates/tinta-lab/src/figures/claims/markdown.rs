@@ -1,9 +1,9 @@
 //! The file claims.md: the claims with the numbers of one run.
 
 use super::{Claim, ClaimRecord, tally};
-use crate::figures::Text;
+use crate::figures::figure::Text;
 use crate::figures::measure::HowToMeasure;
-use crate::figures::reasons::Host;
+use crate::figures::numbers::Host;
 
 impl Text {
     /// The letter that errata and claims know it by.

@@ -3,8 +3,8 @@
 mod drawing;
 mod textures;
 
-use super::{Claim, Measure, measured_by, of_text};
-use crate::figures::Text;
+use super::claim::{Claim, Measure, measured_by, of_text};
+use crate::figures::figure::Text;
 use Measure::{Here, Nowhere};
 
 const ALL: &str = measured_by!("valente");

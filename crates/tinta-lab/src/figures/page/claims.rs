@@ -1,6 +1,6 @@
 //! The claims on the page: each a block with its verdict, its numbers, its pictures and its command.
 
-use super::{PictureRecord, pictures};
+use super::pictures::{PictureRecord, pictures};
 use crate::figures::claims::place;
 use crate::figures::{ClaimRecord, Text, Verdict, tally};
 use std::fmt::{Result, Write};

@@ -1,7 +1,8 @@
 //! The measured numbers as tables, the article's beside ours, and why they differ.
 
-use crate::figures::measure::{Numbers, Series};
+use crate::figures::numbers::Numbers;
 use crate::figures::reasons::signed;
+use crate::figures::series::Series;
 use std::fmt::{Result, Write};
 use tinta::styles::Filter;
 use tinta_geometry::markup::escaped;

@@ -1,8 +1,9 @@
 //! The sentences about made-up measurements.
 
 use super::*;
-use crate::figures::measure::{ARTICLE, BackgroundRow, FilterRow, MixRow, Series};
 use crate::figures::mix::Mix;
+use crate::figures::numbers::{ARTICLE, BackgroundRow, FilterRow, MixRow};
+use crate::figures::series::Series;
 use tinta::gl::is_software;
 use tinta::styles::Filter;
 

@@ -1,6 +1,6 @@
 //! Planes far apart, angles near their ends, eyes where no eye should be.
 
-use super::{Case, Drawing, Group};
+use super::case::{Case, Drawing, Group};
 use crate::stress::{Shape, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;

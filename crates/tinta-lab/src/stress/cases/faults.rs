@@ -1,6 +1,6 @@
 //! A driver that refuses, runs out of memory or loses its context: what src/gl/faults.rs puts in its place does so at will.
 
-use super::{Case, Expected, Group, Work};
+use super::case::{Case, Expected, Group, Work};
 use crate::stress::Variant;
 use tinta::gl::Fault;
 use tinta::styles::StyleName;

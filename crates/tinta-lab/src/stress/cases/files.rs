@@ -1,6 +1,6 @@
 //! Model files that lie, are something else, or are not there. What fuzzing found besides stands in docs/limits.md.
 
-use super::{Case, Content, Expected, Group, Work};
+use super::case::{Case, Content, Expected, Group, Work};
 
 pub(super) fn cases() -> Vec<Case> {
     let case = |name: &str, file, content, expected| Case {

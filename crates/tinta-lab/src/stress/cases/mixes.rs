@@ -1,6 +1,6 @@
 //! The worst of all groups together, drawn at random from a seed.
 
-use super::{Case, Drawing, Expected, Group};
+use super::case::{Case, Drawing, Expected, Group};
 use crate::stress::{Shape, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;

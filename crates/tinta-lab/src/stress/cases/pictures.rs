@@ -1,6 +1,6 @@
 //! Pictures of one pixel, of odd sizes, of the largest size that is drawn in one piece and one more.
 
-use super::{Case, Drawing, Group, Study};
+use super::case::{Case, Drawing, Group, LARGEST, Study};
 use crate::stress::{Shape, Variant};
 use tinta::scene::Size;
 use tinta::styles::StyleName;
@@ -8,9 +8,6 @@ use tinta::styles::StyleName;
 /// The longest side of a strip that Mesa's software renderer draws by every backend, pixels; which sizes a context can draw it
 /// says itself, and [`LARGEST`] stands for them.
 const STRIP: u32 = 4096;
-
-/// A side that stands for the largest one a backend draws, and that plus one for one more.
-pub(super) const LARGEST: u32 = u32::MAX - 1;
 
 pub(super) fn cases() -> Vec<Case> {
     let sized = |width, height| Drawing {

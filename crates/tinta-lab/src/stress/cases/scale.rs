@@ -1,6 +1,6 @@
 //! Models of any size anywhere: what counts is a model's shape.
 
-use super::{Case, Drawing, Group};
+use super::case::{Case, Drawing, Group};
 use crate::stress::{Shape, Study, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;

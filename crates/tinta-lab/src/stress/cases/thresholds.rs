@@ -1,6 +1,6 @@
 //! Settings and geometry at the very edge of a decision.
 
-use super::{Case, Drawing, Group, Study};
+use super::case::{Case, Drawing, Group, Study};
 use crate::stress::{Shape, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;

@@ -1,6 +1,6 @@
 //! Faces that meet in ways a textbook's do not.
 
-use super::{Case, Drawing, Group, Study};
+use super::case::{Case, Drawing, Group, Study};
 use crate::stress::{Shape, Variant};
 
 pub(super) fn cases() -> Vec<Case> {

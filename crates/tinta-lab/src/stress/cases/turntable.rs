@@ -1,6 +1,6 @@
 //! A turntable, by small steps: ink and tones may move, but not come and go.
 
-use super::{Case, Drawing, Group, Study};
+use super::case::{Case, Drawing, Group, Study};
 use crate::stress::Shape;
 
 pub(super) fn cases() -> Vec<Case> {

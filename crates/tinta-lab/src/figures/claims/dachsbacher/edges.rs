@@ -1,8 +1,8 @@
 //! The claims about edges: counts, silhouettes from many places, and the listing's own search, timed.
 
+use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, MODELS};
-use super::super::{Finding, Number};
-use crate::figures::{Panel, Shot, panel};
+use crate::figures::figure::{Panel, Shot, panel};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Instant;

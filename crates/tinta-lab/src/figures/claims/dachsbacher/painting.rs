@@ -1,7 +1,7 @@
 //! The claims about painting: the light of faces and of vertices, and the colours that come of it.
 
+use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, changed};
-use super::super::{Finding, Number};
 use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! The claims about lines in the picture, and about Dietrich's way beside the text's.
 
+use super::super::finding::{Finding, Number};
 use super::super::lab::{Error, Lab, MODELS, TOLERANCE_PX, is_slower};
-use super::super::{Finding, Number};
-use crate::figures::{Panel, Shot, panel};
+use crate::figures::figure::{Panel, Shot, panel};
 use crate::measure::INK_FROM;
 use tinta::camera::{CameraSettings, View};
 use tinta::edges::SilhouetteRule;

@@ -1,8 +1,8 @@
 //! The claims about which lines are found: ink against the exact visible lines.
 
+use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, MODELS, TOLERANCE_PX};
-use super::super::{Finding, Number};
-use crate::figures::{Panel, Shot, panel};
+use crate::figures::figure::{Panel, Shot, panel};
 use crate::measure::{Ink, Reference};
 use glam::DVec2;
 use tinta::error::Result;

@@ -1,9 +1,10 @@
 //! The claims about passes, maps and tones: pictures compared with pictures, and what stands in plans and shaders.
 
+use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, changed};
-use super::super::{Finding, Number};
+use crate::figures::figure::{Panel, Shot, panel};
+use crate::figures::kernels;
 use crate::figures::mix::{Kit, TRIANGLES};
-use crate::figures::{Panel, Shot, kernels, panel};
 use std::collections::BTreeSet;
 use std::time::Instant;
 use tinta::edges::{EdgeList, Incidence};

@@ -1,8 +1,10 @@
 //! The claims about time: rules on section 5's numbers, and frames timed for a claim.
 
+use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, is_slower};
-use super::super::{EQUAL_PERCENT, FOUND_AGAIN, Finding, Number};
-use crate::figures::measure::{BackgroundRow, Numbers, covered, from, gain_percent};
+use crate::figures::measure::{covered, from};
+use crate::figures::numbers::{BackgroundRow, Numbers};
+use crate::figures::series::{EQUAL_PERCENT, gain_percent};
 use glam::DVec3;
 use std::sync::Arc;
 use tinta::camera::{CameraSettings, View};
@@ -11,6 +13,9 @@ use tinta::mesh::Mesh;
 use tinta::plan::Plan;
 use tinta::scene::{Scene, SceneSettings};
 use tinta::styles::{Border, Cartoon, Filter, MapEncoding, Show, Style};
+
+/// A percentage that the text prints counts as found again from this share of it on.
+const FOUND_AGAIN: f64 = 0.5;
 
 /// Frames a second from which the eye sees motion, as in the cinema.
 const REAL_TIME: f64 = 24.0;

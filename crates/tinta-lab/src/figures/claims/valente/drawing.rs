@@ -1,8 +1,8 @@
 //! The claims about the drawing: charcoal on the model and along its outline, with one parameter changed at a time.
 
+use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, changed, greys, mean, roughness};
-use super::super::{Finding, Number};
-use crate::figures::{Panel, Shot, panel};
+use crate::figures::figure::{Panel, Shot, panel};
 use std::path::PathBuf;
 use std::sync::Arc;
 use tinta::error::Result;

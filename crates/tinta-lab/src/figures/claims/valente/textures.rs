@@ -1,7 +1,7 @@
 //! The claims about what is made before anything is drawn, and about GLSL's own noise.
 
+use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, roughness};
-use super::super::{Finding, Number};
 use tinta::error::Result;
 use tinta::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step};
 use tinta::scene::Size;

@@ -1,0 +1,119 @@
+//! Measures a group: references once, then the settings in turns, and the exact lines by their rules.
+
+use super::super::progress::TimedProgress;
+use super::super::say;
+use super::groups::{Group, KINDS};
+use super::results::Results;
+use super::settings::{HowMeasured, settings, smooth_inking};
+use crate::measure::{
+    Against, MeasureSettings, MeasureStep, Setting, Subject, line_options, measure, measure_lines, turns,
+};
+use tinta::edges::SilhouetteRule;
+use tinta::recipe::option_words;
+use tinta::settings::{HasSettings, Kind, OptionValue, Options};
+use tinta::{LoadOptions, Renderer, Result, Style};
+
+/// Timed frames of a setting.
+const FRAMES: [usize; 2] = [21, 7];
+
+/// Times that exact lines are found to be timed.
+const FRAMES_OF_LINES: usize = 3;
+
+/// Settings whose frames are timed in turns.
+const SETTINGS_IN_TURN: usize = 8;
+
+/// What is measured of every group.
+pub(super) struct Measuring {
+    pub(super) settings: Vec<Setting>,
+    pub(super) how: MeasureSettings,
+    pub(super) against: Against,
+    /// The options that every row of the run has.
+    of_scene: String,
+}
+
+impl Measuring {
+    /// As asked, with the options of the scene; `own_setting` is a preset's style.
+    pub(super) fn asked(asked: &HowMeasured, of_scene: &Options, own_setting: Option<Setting>) -> Result<Self> {
+        let how = MeasureSettings {
+            tolerance_px: asked.tolerance_px,
+            frames: asked.frames.map_or(FRAMES[usize::from(asked.quick)], |frames| frames as usize),
+            machine: asked
+                .machine
+                .clone()
+                .filter(|name| !name.trim().is_empty())
+                .unwrap_or_else(|| MeasureSettings::default().machine),
+        };
+        how.check()?;
+        let of_scene = scene_options(of_scene);
+        let against = asked.against.unwrap_or_default();
+        let mut settings = settings(&asked.styles, asked.quick)?;
+        if against == Against::Smooth && settings.iter().any(|setting| matches!(setting.style, Style::Inking(_))) {
+            settings.push(smooth_inking()?);
+        }
+        // A preset's style is measured beside the others, unless it is one of them.
+        if let Some(setting) = own_setting.filter(|own| settings.iter().all(|other| other.style != own.style)) {
+            settings.push(setting);
+        }
+        settings.iter_mut().for_each(|setting| setting.options.push_str(&of_scene));
+        Ok(Self { settings, how, against, of_scene })
+    }
+
+    /// Measures the group of this number, except what is in the results already.
+    pub(super) fn measure(
+        &self,
+        renderer: &mut Renderer,
+        number: usize,
+        group: Group,
+        results: &mut Results<'_>,
+        progress: &TimedProgress,
+    ) -> Result<()> {
+        let [reference, errors, turn] = KINDS.map(|kind| number * KINDS.len() + kind);
+        let subject = match &group.surface {
+            None => Subject::new(&group.model, group.scene, group.load_ms)?,
+            Some(surface) => Subject::of_surface(&group.model, group.scene, surface, group.load_ms)?,
+        };
+        progress.step(reference);
+        results.show_known(&subject, &self.how.machine);
+        let is_known = |options: &str| results.of(&subject, &self.how.machine).any(|row| row.options == options);
+        let left: Vec<Setting> = self.settings.iter().filter(|setting| !is_known(&setting.options)).cloned().collect();
+        let rules = self.rules().into_iter().filter(|(_, options)| !is_known(options));
+        let rules: Vec<(SilhouetteRule, String)> = rules.collect();
+        progress.skip(errors, self.settings.len() - left.len());
+        progress.skip(turn, (self.settings.len() - left.len()) * turns(self.how.frames));
+        // Settings take turns in groups, so that rows are on disk soon and an interruption costs little.
+        for some in left.chunks(SETTINGS_IN_TURN) {
+            let step = |step| progress.step(if step == MeasureStep::Errors { errors } else { turn });
+            let (measured, left_out) = measure(renderer, &subject, some, &self.how, step)?;
+            progress.skip(turn, left_out.len() * turns(self.how.frames));
+            left_out.iter().for_each(|reason| say(&format!("tinta: {reason}")));
+            measured.into_iter().try_for_each(|measured| results.keep(measured))?;
+        }
+        for (rule, options) in rules {
+            results.keep(measure_lines(&subject, rule, options, FRAMES_OF_LINES, &self.how)?)?;
+        }
+        Ok(())
+    }
+
+    /// The rules by which exact lines are measured too, each with its row's options.
+    fn rules(&self) -> Vec<(SilhouetteRule, String)> {
+        let rules: &[SilhouetteRule] = match self.against {
+            Against::Lines => &[],
+            Against::Smooth => &[SilhouetteRule::Exact, SilhouetteRule::Smooth],
+        };
+        rules.iter().map(|rule| (*rule, line_options(*rule, &self.of_scene))).collect()
+    }
+}
+
+/// Camera and model as the user asked for them: without these a row could not be drawn again.
+fn scene_options(options: &Options) -> String {
+    // Whether defects are refused is nothing of a picture, and what lies outside is for whoever has it.
+    let is_flag = |name: &str| {
+        LoadOptions::table().settings.iter().any(|setting| setting.name == name && setting.kind == Kind::Flag)
+    };
+    let kept = options.iter().filter(|(name, _)| !is_flag(name));
+    kept.flat_map(|(name, value)| match value {
+        OptionValue::Text(value) => vec![format!("--{name}={value}")],
+        switch => option_words(name, switch),
+    })
+    .fold(String::new(), |options, word| options + " " + &tinta::shell::quoted(&word))
+}

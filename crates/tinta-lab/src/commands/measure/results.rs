@@ -1,0 +1,129 @@
+//! What a measurement leaves in its folder: rows, pictures of errors, a report.
+
+use super::super::print;
+use super::errors::{error_page, is_shown, known_picture};
+use super::folder::make_folder;
+use super::words::counted;
+use crate::measure::{Against, MeasureSettings, Measured, Row, Subject};
+use crate::report::{ReportInfo, ReportPicture, RowLog, read_rows};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use tinta::{Error, Result, Size, StyleName};
+
+/// The rows of a folder so far, and the pictures that its report shows.
+pub(super) struct Results<'a> {
+    folder: &'a Path,
+    log: RowLog,
+    rows: Vec<Row>,
+    pictures: Vec<ReportPicture>,
+}
+
+impl<'a> Results<'a> {
+    /// None yet, or those of an earlier run that is resumed; the folder is made if it is not there.
+    pub(super) fn open(folder: &'a Path, is_resumed: bool) -> Result<Self> {
+        make_folder(folder)?;
+        let (log, rows) = match is_resumed {
+            true => RowLog::resume(folder)?,
+            false => (RowLog::create(folder)?, Vec::new()),
+        };
+        Ok(Self { folder, log, rows, pictures: Vec::new() })
+    }
+
+    /// The rows of several files together.
+    pub(super) fn merged(files: &[PathBuf], folder: &'a Path) -> Result<Self> {
+        let mut rows: Vec<Row> = Vec::new();
+        // Where the row of a key was first seen.
+        let mut places: HashMap<String, usize> = HashMap::new();
+        for path in files {
+            let of_file = read_rows(path)?;
+            if of_file.is_empty() {
+                return Err(Error::output(path, "it holds no row; name a results.jsonl of `tinta measure`"));
+            }
+            for row in of_file {
+                let place = *places.entry(row.key()).or_insert(rows.len());
+                if let Some(known) = rows.get(place).filter(|known| **known != row) {
+                    return Err(Error::output(
+                        path,
+                        format!(
+                            "{} was measured in another file on a machine of the same name; measure one of them with another \
+                             --machine",
+                            known.options
+                        ),
+                    ));
+                }
+                rows.push(row);
+            }
+        }
+        let mut results = Self::open(folder, false)?;
+        rows.iter().try_for_each(|row| results.log.append(row))?;
+        results.rows = rows;
+        Ok(results)
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// The rows of a subject on a machine.
+    pub(super) fn of<'r>(&'r self, subject: &'r Subject, machine: &'r str) -> impl Iterator<Item = &'r Row> {
+        let Size { width, height } = subject.scene.size;
+        self.rows
+            .iter()
+            .filter(move |row| row.machine == machine && row.model == subject.model && row.size == [width, height])
+    }
+
+    /// Shows the pictures of a subject's rows from an earlier run.
+    pub(super) fn show_known(&mut self, subject: &Subject, machine: &str) {
+        let shown = self.of(subject, machine).filter(|row| is_shown(row));
+        let pictures: Vec<ReportPicture> = shown.filter_map(|row| known_picture(self.folder, row)).collect();
+        self.pictures.extend(pictures);
+    }
+
+    /// Writes a row down, and its picture where it is shown.
+    pub(super) fn keep(&mut self, Measured { row, drawing, error_picture }: Measured) -> Result<()> {
+        self.log.append(&row)?;
+        if let Some(picture) = error_picture.filter(|_| is_shown(&row)) {
+            self.pictures.push(error_page(self.folder, &row, [&drawing, &picture])?);
+        }
+        self.rows.push(row);
+        Ok(())
+    }
+
+    /// Refuses rows that were measured otherwise: those of one folder have one yardstick.
+    pub(super) fn refuse_other_terms(&self, against: Against, how: &MeasureSettings) -> Result<()> {
+        let is_other = |row: &Row| row.lines.as_ref().is_some_and(|lines| lines.against != against);
+        if self.rows.iter().any(is_other) {
+            let problem =
+                "its rows were measured against something else; give the same --against, or name another folder";
+            return Err(Error::output(self.folder, problem));
+        }
+        let differs = |row: &Row| {
+            let tolerance = row.lines.as_ref().map(|lines| lines.tolerance_px);
+            let is_of_frames = row.style != StyleName::Lines.name() && row.time.frames_ms.len() != how.frames;
+            tolerance.is_some_and(|tolerance| tolerance != how.tolerance_px) || is_of_frames
+        };
+        match self.rows.iter().find(|row| differs(row)) {
+            None => Ok(()),
+            Some(row) => Err(Error::output(
+                self.folder,
+                format!(
+                    "its rows were measured with {} and perhaps another tolerance; give the same --frames, --quick and \
+                     --tolerance, or name another folder",
+                    counted(row.time.frames_ms.len(), "frame")
+                ),
+            )),
+        }
+    }
+
+    /// Writes the report, and prints where it lies; `command` is what it says it was made by.
+    pub(super) fn report(self, command: &str) -> Result<()> {
+        let info = ReportInfo {
+            command: command.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            notes: Vec::new(),
+            pictures: self.pictures,
+        };
+        crate::report::write(self.folder, &self.rows, &info)?;
+        print(&format!("{}\n", self.folder.join("report.html").display()))
+    }
+}

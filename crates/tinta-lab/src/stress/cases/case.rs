@@ -1,0 +1,205 @@
+//! A case: what is done, what must come of it, which figures must have which values.
+
+use crate::stress::{Shape, Variant};
+use glam::DVec3;
+use serde::Serialize;
+use tinta::camera::CameraSettings;
+use tinta::gl::Fault;
+use tinta::scene::Size;
+
+/// A side that stands for the largest one a backend draws, and that plus one for one more.
+pub(super) const LARGEST: u32 = u32::MAX - 1;
+
+/// What is extreme about a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Group {
+    /// Very small, very large, very far away.
+    Scale,
+    /// Planes, angles and places of the camera.
+    Depth,
+    /// Which faces meet where.
+    Topology,
+    /// Settings and geometry at the very edge of a decision.
+    Thresholds,
+    /// The picture's own size.
+    Pictures,
+    /// Some of all that together, by chance.
+    Mixes,
+    /// A turn by small steps.
+    Turns,
+    /// A file that lies.
+    Files,
+    /// A driver that fails.
+    Faults,
+}
+
+/// What must come of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Expected {
+    /// A picture, the same on every backend and with every omission, from finite numbers.
+    Rendered,
+    /// An error of this kind whose sentence has these words in it.
+    Refused {
+        /// As [`tinta::Error::kind`] says it.
+        kind: &'static str,
+        /// What it must name.
+        words: &'static str,
+    },
+    /// One or the other, but of these kinds only: for cases made by chance.
+    Either(&'static [&'static str]),
+}
+
+/// A figure and the values it may have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Check {
+    /// Its name in the row.
+    pub figure: &'static str,
+    /// Least value.
+    pub least: f64,
+    /// Largest value.
+    pub most: f64,
+}
+
+/// How much is found out about a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Study {
+    /// Only that it is drawn, the same everywhere: for scenes and pictures too large for more.
+    Picture,
+    /// Also its exact lines, its error, and what a jitter does to both.
+    Full,
+    /// Instead of a jitter a turn by small steps.
+    Turn,
+}
+
+/// A scene to draw. The camera is given around the shape as it is before it is scaled and moved.
+#[derive(Debug, Clone)]
+pub struct Drawing {
+    /// What is drawn.
+    pub shape: Shape,
+    /// How much larger than it is.
+    pub scale: f64,
+    /// Then moved by this, file units.
+    pub offset: DVec3,
+    /// From where: eye, target and planes in the shape's own units.
+    pub camera: CameraSettings,
+    /// The picture's size.
+    pub size: Size,
+    /// How often it is repeated.
+    pub copies: u32,
+    /// In which styles.
+    pub variants: Vec<Variant>,
+    /// How much is found out.
+    pub study: Study,
+    /// Whether its picture is compared with that of the shape as it is.
+    pub is_compared_with_unit: bool,
+}
+
+impl Drawing {
+    /// Whether its size follows from what a backend can draw.
+    pub fn is_of_largest(&self) -> bool {
+        self.size.width.max(self.size.height) >= LARGEST
+    }
+}
+
+/// A side in pixels; the one that stands for the largest becomes that, and one more than it one more.
+pub(in crate::stress) fn side_px(side: u32, largest: u32) -> u32 {
+    match side.checked_sub(LARGEST) {
+        None => side,
+        Some(more) => largest.saturating_add(more),
+    }
+}
+
+impl Default for Drawing {
+    /// The cube as it is, in all styles.
+    fn default() -> Self {
+        Self {
+            shape: Shape::Cube,
+            scale: 1.0,
+            offset: DVec3::ZERO,
+            camera: CameraSettings::default(),
+            size: Size { width: 128, height: 128 },
+            copies: 1,
+            variants: Variant::all(),
+            study: Study::Full,
+            is_compared_with_unit: false,
+        }
+    }
+}
+
+/// What a model file holds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Content {
+    /// These bytes.
+    Bytes(Vec<u8>),
+    /// As many zeros, which take no room on most disks.
+    Zeros(u64),
+    /// Nothing: it is a folder.
+    Folder,
+    /// Nothing: it is not there.
+    Missing,
+}
+
+/// What is done.
+#[derive(Debug, Clone)]
+pub enum Work {
+    /// A picture.
+    Draw(Box<Drawing>),
+    /// A model file of this name is read.
+    Read(&'static str, Content),
+    /// A cube in this style by a driver that fails, and once more by one that does not.
+    Fail(Fault, Box<Variant>),
+}
+
+/// A case.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Its name, unique.
+    pub name: String,
+    /// Its group.
+    pub group: Group,
+    /// What is done.
+    pub work: Work,
+    /// What must come of it.
+    pub expected: Expected,
+    /// Which figures must have which values.
+    pub checks: Vec<Check>,
+}
+
+impl Case {
+    pub(super) fn rendered(group: Group, name: impl Into<String>, drawing: Drawing) -> Self {
+        Self {
+            name: name.into(),
+            group,
+            work: Work::Draw(Box::new(drawing)),
+            expected: Expected::Rendered,
+            checks: Vec::new(),
+        }
+    }
+
+    pub(super) fn refused(
+        group: Group,
+        name: impl Into<String>,
+        drawing: Drawing,
+        kind: &'static str,
+        words: &'static str,
+    ) -> Self {
+        let expected = Expected::Refused { kind, words };
+        Self { expected, ..Self::rendered(group, name, Drawing { study: Study::Picture, ..drawing }) }
+    }
+
+    /// The same with one more figure that must lie between two values.
+    pub(super) fn with(mut self, figure: &'static str, least: f64, most: f64) -> Self {
+        self.checks.push(Check { figure, least, most });
+        self
+    }
+
+    /// The styles in which it is drawn.
+    pub fn variants(&self) -> &[Variant] {
+        match &self.work {
+            Work::Draw(drawing) => &drawing.variants,
+            Work::Read(..) => &[],
+            Work::Fail(_, variant) => std::slice::from_ref(variant.as_ref()),
+        }
+    }
+}
