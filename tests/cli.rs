@@ -347,14 +347,14 @@ fn without_any_driver_the_sentence_says_what_was_tried_and_what_to_install() {
 #[test]
 fn help_states_every_default() {
     for (command, least) in [("render", 50), ("again", 3), ("compare", 50), ("edges", 15), ("info", 2)] {
-        // A line of words that happens to begin with a dash, as in a narrow terminal, would be taken for an option.
         let mut program = Command::new(env!("CARGO_BIN_EXE_tinta"));
         let output = program.args([command, "--help"]).env_remove("COLUMNS").output().unwrap();
         let text = String::from_utf8(output.stdout).unwrap();
         // An option's description reaches to the next line that begins with a dash or ends a section.
         let mut options: Vec<String> = Vec::new();
         for line in text.lines() {
-            if line.trim_start().starts_with('-') {
+            // Words that begin with a dash stand farther in.
+            if line.starts_with("  -") || line.starts_with("      --") {
                 options.push(String::new());
             }
             if let Some(option) = options.last_mut() {

@@ -306,7 +306,7 @@ mod tests {
         };
         assert_eq!(found("").len(), SCENE_SETTINGS.len());
         assert_eq!(found("bare color"), ["bare-color"]);
-        assert_eq!(found("TEXTURES shading"), ["surface"], "words of its help, in either case");
+        assert_eq!(found("TEXTURES vertex"), ["surface"], "words of its help, in either case");
         assert_eq!(found("parallel projection"), ["parallel"]);
         assert_eq!(found("zebra"), [""; 0]);
     }

@@ -17,10 +17,7 @@ mod provenance;
 #[cfg(feature = "measuring")]
 mod stress;
 
-use tinta::cli::{
-    Command, Program, Verdict, batch, camera_file, completions, given, inputs, json_text, make_folder, messages,
-    models, options, print, print_json, progress, say,
-};
+use tinta::cli::{Command, Program};
 
 /// The commands of this package, as help lists them.
 const COMMANDS: &[Command] = &[

@@ -1,16 +1,16 @@
 //! `tinta compare`: draws one scene in two styles and overlays their lines.
 
-use super::batch::JobOptions;
-use super::completions::of_table;
-use super::inputs::Inputs;
-use super::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, Selection};
-use super::{Command, Verdict, given};
 use crate::compare::{Agreement, AgreementNumbers, BOTH_COLOR, InkMask, LEFT_COLOR, RIGHT_COLOR};
 use crate::contact_sheet::{Caption, Panel, sheet};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use std::time::Instant;
+use tinta::cli::batch::JobOptions;
+use tinta::cli::completions::of_table;
+use tinta::cli::inputs::Inputs;
+use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, Selection};
+use tinta::cli::{Command, Verdict, given};
 use tinta::gl::ContextInfo;
 use tinta::record::{CameraRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
@@ -213,7 +213,7 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
         how.left = request.style.style_name();
     }
     let left = if is_of_preset { "style" } else { "left" };
-    super::messages::check_output(&arguments.output)?;
+    tinta::cli::messages::check_output(&arguments.output)?;
     let inputs = Inputs::new(&request.models, &request.options, files);
     inputs.keep(&arguments.output)?;
     inputs.keep_in(Path::new(&arguments.output), NAMES)?;
@@ -243,7 +243,7 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
         let plan = style.plan(&scene, Show::Final)?;
         let plan_ms = milliseconds_since(start);
         let lines = style.plan(&scene, Show::Borders)?;
-        renderer.remarks(&plan).iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
+        renderer.remarks(&plan).iter().for_each(|remark| tinta::cli::say(&format!("tinta: {remark}")));
         let ink = InkMask::of(&renderer.draw(&scene, &lines)?);
         let picture = renderer.draw(&scene, &plan)?;
         renderer.time_frames(&scene, &plan, WARM_UP, 1)?;
@@ -282,8 +282,8 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
     let whole = sheet(&panels, &captions(&record, names, &arguments.models));
     output.write(&whole, panels)?;
     let given = arguments.options.options.keys().map(String::as_str);
-    ignored_remark(given, &names).iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
-    if how.json { super::print_json(&record) } else { Ok(()) }
+    ignored_remark(given, &names).iter().for_each(|remark| tinta::cli::say(&format!("tinta: {remark}")));
+    if how.json { tinta::cli::print_json(&record) } else { Ok(()) }
 }
 
 fn panel(name: &str, record: &DrawingRecord, picture: Picture) -> Panel {

@@ -1,8 +1,5 @@
 //! `tinta figures`: the three texts' figures as pictures and plots of ours, and their claims with what is measured, on a page.
 
-use super::models::load_meshes;
-use super::progress::{Steps, TimedProgress};
-use super::{Command, Verdict, given};
 use crate::figures::page::{FigureRecord, PictureRecord, Shown, page, png_source, svg_source};
 use crate::figures::plot::{PLOT_SIZE, plot, title};
 use crate::figures::{
@@ -12,6 +9,9 @@ use crate::figures::{
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tinta::cli::models::load_meshes;
+use tinta::cli::progress::{Steps, TimedProgress};
+use tinta::cli::{Command, Verdict, given};
 use tinta::shell::quoted;
 use tinta::{Backend, Error, LoadOptions, Mesh, Picture, Renderer, Result, Size, Target, TextTarget};
 
@@ -110,7 +110,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
             "this folder holds the figures of an earlier run; name another folder",
         ));
     }
-    super::make_folder(&arguments.output)?;
+    tinta::cli::make_folder(&arguments.output)?;
     let folder = Folder(&arguments.output);
     // A folder that cannot be written is found before the work.
     let (page_target, record_target) = (folder.text("index.html")?, folder.text("figures.json")?);
@@ -178,7 +178,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     }
     for record in &records {
         for line in &record.left_out {
-            super::say(&format!("tinta: {} ({}), left out: {line}", record.id, record.number));
+            tinta::cli::say(&format!("tinta: {} ({}), left out: {line}", record.id, record.number));
         }
     }
     Ok(())

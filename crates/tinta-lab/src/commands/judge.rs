@@ -1,18 +1,17 @@
 //! `tinta judge`: any program's drawing of a model against the model's exact lines.
 
-use super::Verdict;
-use super::camera_file;
-use super::inputs::Inputs;
 use super::measure::errors::{error_page, known_picture};
-use super::models::load_meshes;
-use super::options::{Below, CameraFile, Chosen, OfSubject, Selection};
-use super::{Command, given};
 use crate::judge::{Entry, InkColor, JudgeSettings, Judgement, OneToOne, drawing, judge};
 use crate::measure::{INK_FROM, MeasureSettings, Reference, error_picture};
 use crate::report::{ReportInfo, RowLog};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tinta::cli::camera_file;
+use tinta::cli::inputs::Inputs;
+use tinta::cli::models::load_meshes;
+use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, Selection};
+use tinta::cli::{Command, Verdict, given};
 use tinta::glam::DVec2;
 use tinta::recipe::{Recipe, option_words};
 use tinta::request::Request;
@@ -128,7 +127,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<Verdict> {
         Some(folder) => {
             let files: Vec<&str> = camera.and_then(Path::to_str).into_iter().collect();
             Inputs::new(&request.models, &request.options, &files).keep_in(folder, WRITTEN)?;
-            super::measure::make_folder(folder)?;
+            tinta::cli::make_folder(folder)?;
             Some(RowLog::resume(folder)?)
         }
     };
@@ -151,13 +150,13 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<Verdict> {
             let version = env!("CARGO_PKG_VERSION");
             let record =
                 Record { version, drawing: name, model: &arguments.model, size: scene.size, judgement: &judgement };
-            super::print_json(&record)?;
+            tinta::cli::print_json(&record)?;
         } else {
-            super::print(&in_words(name, scene.size, &judgement))?;
+            tinta::cli::print(&in_words(name, scene.size, &judgement))?;
         }
         if let Some(doubt) = &judgement.doubt {
             if !is_said {
-                super::say(&format!("tinta: {}: {doubt}", arguments.drawings[index].display()));
+                tinta::cli::say(&format!("tinta: {}: {doubt}", arguments.drawings[index].display()));
             }
             verdict = Verdict::Different;
         }
@@ -186,7 +185,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<Verdict> {
         pictures,
     };
     crate::report::write(folder, &rows, &info)?;
-    super::say(&format!("tinta: {}", folder.join("report.html").display()));
+    tinta::cli::say(&format!("tinta: {}", folder.join("report.html").display()));
     Ok(verdict)
 }
 
@@ -221,7 +220,9 @@ fn say_other_camera(drawing: &Path, scene: &Scene) -> bool {
     if is_elsewhere {
         let from = if words.is_empty() { "the default view".to_owned() } else { words.join(" ") };
         let path = drawing.display();
-        super::say(&format!("tinta: {path} was drawn from elsewhere ({from}); --camera {path} judges it from there"));
+        tinta::cli::say(&format!(
+            "tinta: {path} was drawn from elsewhere ({from}); --camera {path} judges it from there"
+        ));
     }
     is_elsewhere
 }

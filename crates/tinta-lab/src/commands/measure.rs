@@ -1,27 +1,25 @@
 //! `tinta measure`: every style's error against its run time, on the user's own models and machine.
 
 pub(super) mod errors;
-mod folder;
 mod groups;
 mod measuring;
 mod results;
 mod settings;
 mod words;
 
-use super::batch::JobOptions;
-use super::completions::of_table;
-use super::inputs::Inputs;
-use super::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, refuse_of_other_commands};
-use super::progress::{Steps, TimedProgress};
-use super::{Command, Verdict, given};
 use crate::measure::{Against, Setting};
-pub(super) use folder::make_folder;
 use groups::{all_surfaces, expected, groups};
 use measuring::Measuring;
 use results::Results;
 use settings::{HowMeasured, OfHow, Suite, setting_of};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use tinta::cli::batch::JobOptions;
+use tinta::cli::completions::of_table;
+use tinta::cli::inputs::Inputs;
+use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, refuse_of_other_commands};
+use tinta::cli::progress::{Steps, TimedProgress};
+use tinta::cli::{Command, Verdict, given};
 use tinta::preset::Preset;
 use tinta::request::{Layer, Request, Session};
 use tinta::settings::{HasSettings, OptionValue, Options};
@@ -196,7 +194,7 @@ fn measured(
     // Once nothing but the measuring can go wrong.
     let mut results = Results::open(&arguments.output, asked.resume)?;
     results.refuse_other_terms(*against, how)?;
-    super::say(&format!(
+    tinta::cli::say(&format!(
         "tinta: {}, {}, {}, {} each: about {}{}",
         counted(settings.len(), "setting"),
         counted(models.len(), "model"),

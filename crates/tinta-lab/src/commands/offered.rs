@@ -1,9 +1,9 @@
 //! What a shell is offered for the options of all commands.
 
-use super::completions::with_values;
 use super::{program, stress};
 use clap::Command;
 use clap::error::ErrorKind;
+use tinta::cli::completions::with_values;
 
 /// What clap says of a value, if it refuses it.
 fn refusal(command: &Command, option: &str, value: &str) -> Option<String> {

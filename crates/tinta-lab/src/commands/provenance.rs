@@ -1,8 +1,8 @@
 //! `tinta provenance`: whose each value of a style is.
 
-use super::messages::print;
-use super::{Command, Verdict, given};
 use crate::provenance::{page, text};
+use tinta::cli::messages::print;
+use tinta::cli::{Command, Verdict, given};
 use tinta::{Result, StyleName};
 
 /// The command.

@@ -1,10 +1,9 @@
 //! `tinta stress`: runs extreme cases and prints their verdicts.
 
-use super::Verdict;
-use super::progress::Progress;
-use super::{Command, given};
 use crate::stress::{StressSettings, Summary, run as stress};
 use std::path::PathBuf;
+use tinta::cli::progress::Progress;
+use tinta::cli::{Command, Verdict, given};
 use tinta::{Result, TextTarget};
 
 /// The command.
@@ -51,25 +50,25 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
         ..StressSettings::default()
     };
     settings.check()?;
-    super::make_folder(&arguments.output)?;
+    tinta::cli::make_folder(&arguments.output)?;
     let target = |name: &str| TextTarget::check(&arguments.output.join(name).to_string_lossy());
     let (json, table) = (target("stress.json")?, target("stress.md")?);
     let progress = Progress::new("attacking", 0);
     let summary = stress(&settings, |done, count| progress.set(done as u64, count as u64))?;
     drop(progress);
     for missing in &summary.missing {
-        super::say(&format!(
+        tinta::cli::say(&format!(
             "tinta: {} is missing ({}): the cases are tried without it, and no two backends are compared",
             missing.backend, missing.reason
         ));
     }
-    let record = super::json_text(&summary)?;
+    let record = tinta::cli::json_text(&summary)?;
     json.write(&record)?;
     table.write(&summary.table())?;
     if arguments.json {
-        super::print(&record)?;
+        tinta::cli::print(&record)?;
     } else {
-        super::print(&said(&summary))?;
+        tinta::cli::print(&said(&summary))?;
     }
     Ok(if summary.failures().next().is_none() { Verdict::Good } else { Verdict::Different })
 }

@@ -1,9 +1,9 @@
 //! Pictures of what a row's setting draws and where its errors lie, beside the page that shows them.
 
-use super::folder::make_folder;
 use crate::measure::Row;
 use crate::report::ReportPicture;
 use std::path::{Path, PathBuf};
+use tinta::cli::make_folder;
 use tinta::picture::PictureFormat;
 use tinta::{Error, Picture, Result, Target};
 

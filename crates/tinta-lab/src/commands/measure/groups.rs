@@ -1,8 +1,8 @@
 //! What is measured: models at sizes, and how long that will take.
 
-use super::super::progress::Steps;
 use crate::measure::{Against, frames_a_turn, turns};
 use std::time::Instant;
+use tinta::cli::progress::Steps;
 use tinta::lines::closed_forms::ClosedForm;
 use tinta::mesh::{BUILTINS, builtin};
 use tinta::renderer::milliseconds_since;

@@ -1,13 +1,13 @@
 //! Measures a group: references once, then the settings in turns, and the exact lines by their rules.
 
-use super::super::progress::TimedProgress;
-use super::super::say;
 use super::groups::{Group, KINDS};
 use super::results::Results;
 use super::settings::{HowMeasured, settings, smooth_inking};
 use crate::measure::{
     Against, MeasureSettings, MeasureStep, Setting, Subject, line_options, measure, measure_lines, turns,
 };
+use tinta::cli::progress::TimedProgress;
+use tinta::cli::say;
 use tinta::edges::SilhouetteRule;
 use tinta::recipe::option_words;
 use tinta::settings::{HasSettings, Kind, OptionValue, Options};

@@ -1,13 +1,13 @@
 //! What a measurement leaves in its folder: rows, pictures of errors, a report.
 
-use super::super::print;
 use super::errors::{error_page, is_shown, known_picture};
-use super::folder::make_folder;
 use super::words::counted;
 use crate::measure::{Against, MeasureSettings, Measured, Row, Subject};
 use crate::report::{ReportInfo, ReportPicture, RowLog, read_rows};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use tinta::cli::make_folder;
+use tinta::cli::print;
 use tinta::{Error, Result, Size, StyleName};
 
 /// The rows of a folder so far, and the pictures that its report shows.

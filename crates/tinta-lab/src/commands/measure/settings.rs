@@ -1,8 +1,8 @@
 //! Which settings are measured: each as the options that `tinta render` takes, so that a row can be drawn again.
 
-use super::super::options::Selection;
 use crate::measure::{Against, Setting};
 use std::sync::LazyLock;
+use tinta::cli::options::Selection;
 use tinta::plan::Submission;
 use tinta::recipe::option_words;
 use tinta::request::Request;
