@@ -28,7 +28,7 @@ impl MaterialPictures {
     ///
     /// # Errors
     ///
-    /// [`Error::File`](crate::Error::Picture) when one cannot be read.
+    /// [`Error::File`](crate::Error::File) when one cannot be read.
     pub fn prepare(&mut self, objects: &[Object]) -> Result<()> {
         self.0.retain(|(identity, _)| objects.iter().any(|object| identity.is_of(object)));
         for object in objects {
