@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench batch` writes meshes of 1,000 triangles, every one another, and a job for each: 256x256 pixels, the
 //! default style. Contestants take turns. One process a picture draws a share of them, as many at once as there are jobs
-//! beside it. Raw values go to `target/bench/batch.json`; docs/scale.md has the command and the numbers.
+//! beside it. Raw values go to `target/bench/batch.json`; docs/results/scale.md has the command and the numbers.
 
 use serde_json::{Value, json};
 use std::fmt::Write;

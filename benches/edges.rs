@@ -1,4 +1,4 @@
-//! Edge lists, silhouettes and inked frames beside VTK, numpy and PyVista. docs/measuring.md has the command.
+//! Edge lists, silhouettes and inked frames beside VTK, numpy and PyVista. docs/results/measuring.md has the command.
 //!
 //! Two meshes: the model, and the model with every triangle cut into sixteen. Rounds are interleaved: in each, every
 //! contestant runs once. All raw values go to `target/bench/edges.json`.

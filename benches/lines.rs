@@ -1,4 +1,4 @@
-//! Exact visible lines beside Blender Freestyle's and larnt's, and how their time grows. docs/measuring.md has the command.
+//! Exact visible lines beside Blender Freestyle's and larnt's, and how their time grows. docs/results/measuring.md has the command.
 //!
 //! Rounds are interleaved: in each, every contestant runs once, the programs as cold processes. All raw values go to
 //! `target/bench/lines.json`, the growth as a plot to `target/bench/lines-growth.svg`.

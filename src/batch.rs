@@ -3,7 +3,7 @@
 //! A list of jobs comes in, a line of JSON each ([`List`]). A run, or one of N [`Slice`]s of it, appends an [`Entry`] to its
 //! own file for every job that has ended ([`Journal`]), whatever machine it runs on. All those files together give a
 //! [`Summary`], which is the same bytes however the list was sliced: what differs from run to run, times and drivers, stands
-//! in a file of its own. Nothing here draws; `src/cli/batch.rs` carries the jobs out. How it is used: docs/batch.md.
+//! in a file of its own. Nothing here draws; `src/cli/batch.rs` carries the jobs out. How it is used: docs/guide/batches.md.
 //!
 //! ```
 //! use tinta::batch::{List, Slice};

@@ -1,7 +1,7 @@
 //! Whether a driver draws as the ones that tinta was made with: `tinta info --check`.
 //!
 //! In: a backend. Out: for each of its contexts a [`Checked`]: pictures of small scenes in every style beside reference pictures, which are
-//! part of the program; answers to questions that the styles rest on; the known faults of such a driver. docs/drivers.md has what was
+//! part of the program; answers to questions that the styles rest on; the known faults of such a driver. docs/dev/drivers.md has what was
 //! measured.
 //!
 //! ```

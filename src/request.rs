@@ -225,7 +225,7 @@ fn of_pruning() -> Vec<Setting<Request>> {
     .said("off, work that cannot change the picture is skipped");
     static HELP: LazyLock<String> = LazyLock::new(|| {
         let rules = names_of::<Rule>().join(", ");
-        format!("Work not to skip (docs/pruning.md explains each): {rules}")
+        format!("Work not to skip (docs/results/pruning.md explains each): {rules}")
     });
     let keep = Setting::of(
         "keep",

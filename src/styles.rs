@@ -184,7 +184,7 @@ row::styles! {
         mark: Some(Mark { rgb: [230, 159, 0], outline: Outline::Star }),
     }
 
-    // A new style's row comes here: docs/adding-a-style.md.
+    // A new style's row comes here: docs/dev/adding-a-style.md.
 
     /// Exact visible lines, without OpenGL.
     Lines(LineStyle) {

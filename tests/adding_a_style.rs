@@ -1,4 +1,4 @@
-//! `docs/adding-a-style.md` holds: its blocks, put where it says into a copy of the sources, make a style, and its one setting is
+//! `docs/dev/adding-a-style.md` holds: its blocks, put where it says into a copy of the sources, make a style, and its one setting is
 //! found at every door.
 
 use crate::support::root;
@@ -15,7 +15,7 @@ struct Block {
 
 /// The page's blocks, each under a line that names its file: `` `FILE`: `` or `` `FILE`, before `LINE`: ``.
 fn blocks() -> Vec<Block> {
-    let page = std::fs::read_to_string(root().join("docs/adding-a-style.md")).unwrap();
+    let page = std::fs::read_to_string(root().join("docs/dev/adding-a-style.md")).unwrap();
     let mut all = Vec::new();
     let mut parts = page.split("\n```");
     let mut above = parts.next().unwrap();
@@ -101,7 +101,7 @@ fn lines_style() -> Block {
     }
 
 "#;
-    let before = Some("// A new style's row comes here: docs/adding-a-style.md.".to_owned());
+    let before = Some("// A new style's row comes here: docs/dev/adding-a-style.md.".to_owned());
     Block { path: "src/styles.rs".to_owned(), before, text: text.to_owned() }
 }
 

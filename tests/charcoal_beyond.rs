@@ -201,7 +201,7 @@ fn change(before: &Picture, after: &Picture, is_model: &[bool]) -> [f64; 3] {
 }
 
 /// The report supposes that a better generator than `rand()` gives "subtly different results": other grains, the same drawing.
-/// Run with `--nocapture` for the numbers in docs/errata.md (V8).
+/// Run with `--nocapture` for the numbers in docs/texts/errata.md (V8).
 fn check_rand(side: u32) {
     let mut renderer = renderer(BACKENDS[0]);
     let mut settings = SceneSettings { size: sized(side), ..SceneSettings::default() };
@@ -234,7 +234,7 @@ fn rand_of_the_reports_time_gives_other_grains_and_the_same_drawing() {
 }
 
 #[test]
-#[ignore = "exhaustive: 512 x 512, the numbers of docs/errata.md"]
+#[ignore = "exhaustive: 512 x 512, the numbers of docs/texts/errata.md"]
 fn rand_of_the_reports_time_gives_other_grains_and_the_same_drawing_at_full_size() {
     check_rand(512);
 }

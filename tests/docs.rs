@@ -8,7 +8,9 @@ use std::process::Command;
 
 fn documents() -> Vec<(PathBuf, String)> {
     let mut paths = vec![root().join("README.md"), root().join("CHANGELOG.md"), root().join("CONTRIBUTING.md")];
-    for folder in ["docs", "models", "fuzz", "contrib", "python"] {
+    for folder in
+        ["docs", "docs/guide", "docs/results", "docs/texts", "docs/dev", "models", "fuzz", "contrib", "python"]
+    {
         let files = std::fs::read_dir(root().join(folder)).into_iter().flatten();
         paths.extend(files.map(|file| file.unwrap().path()));
     }
@@ -126,7 +128,7 @@ fn every_page_and_every_picture_is_reached_from_somewhere() {
         .filter_map(|path| path.canonicalize().ok())
         .collect();
     let mut files: Vec<PathBuf> =
-        all.iter().map(|(path, _)| path.clone()).filter(|path| path.parent() == Some(&root().join("docs"))).collect();
+        all.iter().map(|(path, _)| path.clone()).filter(|path| path.starts_with(root().join("docs"))).collect();
     for folder in ["docs/pictures", "docs/pictures/options"] {
         files.extend(std::fs::read_dir(root().join(folder)).unwrap().map(|file| file.unwrap().path()));
     }
@@ -349,7 +351,7 @@ fn the_limits_are_documented_as_they_are() {
     ];
     let source = std::fs::read_to_string(root().join("crates/tinta-geometry/src/limits.rs")).unwrap();
     assert_eq!(source.matches("pub const ").count(), limits.len(), "a limit that this test does not know");
-    let document = std::fs::read_to_string(root().join("docs/limits.md")).unwrap();
+    let document = std::fs::read_to_string(root().join("docs/dev/limits.md")).unwrap();
     for (name, value) in limits {
         // | `NAME` | 64 MiB | why |
         let row = document.lines().find_map(|line| line.strip_prefix(&format!("| `{name}` | "))).expect(name);

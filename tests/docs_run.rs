@@ -58,13 +58,13 @@ fn every_sentence_quoted_in_troubleshooting_is_said() {
             "it has no driver \"none\", which GALLIUM_DRIVER asks for; choose llvmpipe or softpipe, or unset it",
         );
     }
-    let page = std::fs::read_to_string(root().join("docs/troubleshooting.md")).unwrap();
+    let page = std::fs::read_to_string(root().join("docs/guide/troubleshooting.md")).unwrap();
     let quoted: Vec<&str> = page.lines().filter_map(|line| line.strip_prefix("> ")).map(str::trim).collect();
     assert!(quoted.len() >= 14, "only {quoted:?} were found");
     let missing: Vec<&str> = quoted.into_iter().filter(|sentence| !all.contains(*sentence)).collect();
     assert!(
         missing.is_empty(),
-        "docs/troubleshooting.md quotes what no command here says: {missing:#?}\nsaid was:\n{all}"
+        "docs/guide/troubleshooting.md quotes what no command here says: {missing:#?}\nsaid was:\n{all}"
     );
 }
 
@@ -74,7 +74,7 @@ fn run_first_ten_minutes(is_measured: bool) {
     for (from, to) in [("models/pawn.obj", "cow.obj"), ("models/pawn.ppm", "cow.ppm")] {
         std::fs::copy(root().join(from), folder.path().join(to)).unwrap();
     }
-    let page = std::fs::read_to_string(root().join("docs/first-ten-minutes.md")).unwrap();
+    let page = std::fs::read_to_string(root().join("docs/guide/first-ten-minutes.md")).unwrap();
     let mut count = 0;
     for command in page.lines().filter_map(|line| line.strip_prefix("    tinta ")) {
         if command.starts_with("view") || command.starts_with("measure") && !is_measured {

@@ -207,7 +207,7 @@ fn rows(document: &str) -> Vec<Vec<&str>> {
 
 #[test]
 fn the_document_of_claims_counts_those_that_are_measured_and_names_some_of_them() {
-    let document = std::fs::read_to_string(crate::support::root().join("docs/claims.md")).unwrap();
+    let document = std::fs::read_to_string(crate::support::root().join("docs/texts/claims.md")).unwrap();
     let mut count = 0;
     for text in Text::ALL {
         let of_text = claims(text);

@@ -308,7 +308,7 @@ fn corners_of_two_bytes_each_are_refused_before_they_take_more_than_twenty_times
     let bytes = file.stream_position().unwrap() as usize;
     drop(file);
     assert_eq!(bytes >> 20, 19);
-    // 20 times the file, the slack of docs/limits.md, and what any process takes of its address space.
+    // 20 times the file, the slack of docs/dev/limits.md, and what any process takes of its address space.
     let sentence =
         "corners.obj: its 4 vertices and 9999998 triangles take more than 20 times the file's size in memory";
     refused(&tinta_within(20 * 20 + 64 + 300, &["edges", &model]), &[sentence]);

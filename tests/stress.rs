@@ -223,7 +223,7 @@ fn a_backend_that_is_not_there_is_an_error_and_no_failed_case() {
     };
     let alone = run(&settings, |_, _| {}).unwrap();
     assert!(alone.cases.iter().all(|row| row.passed && row.backend == "egl"));
-    assert!(root().join("docs/stability.md").is_file());
+    assert!(root().join("docs/results/stability.md").is_file());
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn share(a: &Picture, b: &Picture, largest: u8, of: impl Fn(i64, i64) -> bool) -
 }
 
 /// Of a picture in tiles at most so many pixels are another step of 8 bits than in one piece, and at most so many more than a step
-/// away: docs/limits.md says why.
+/// away: docs/dev/limits.md says why.
 fn limits(name: &str) -> (f64, f64) {
     match name {
         // The middle between two steps, where even faces of one tone lie.

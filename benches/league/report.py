@@ -1,7 +1,7 @@
 """Judges what run.py drew and writes the tables, the plot and a sheet of pictures.
 
     python benches/league/report.py league
-    python benches/league/report.py league --document docs/league.md
+    python benches/league/report.py league --document docs/results/league.md
 
 Writes OUT/table.md and OUT/plot.svg, with --document also into that file, between the comments "league: begin" and "league: end";
 OUT/sheet.png (agreed ink black, missed lines red, invented ink blue); and OUT/page, the page of `tinta measure --merge`.

@@ -63,7 +63,7 @@ pub fn of_model(bytes: &[u8]) -> usize {
 }
 
 /// Most memory for what may be glTF, whose nodes show one mesh many times and whose accessors may be zeros without any bytes: what
-/// docs/limits.md allows besides is used up rightly.
+/// docs/dev/limits.md allows besides is used up rightly.
 pub fn of_gltf(bytes: &[u8]) -> usize {
     match bytes.contains(&b'{') {
         true => bytes.len() * tinta::limits::MEMORY_FACTOR + tinta::limits::MEMORY_SLACK_BYTES,

@@ -1,4 +1,4 @@
-"""What docs/python.md shows runs, block after block."""
+"""What docs/guide/python.md shows runs, block after block."""
 
 import os
 import re
@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-DOCUMENT = Path(os.environ.get("TINTA_DOCUMENT") or Path(__file__).parents[2] / "docs" / "python.md")
+DOCUMENT = Path(os.environ.get("TINTA_DOCUMENT") or Path(__file__).parents[2] / "docs" / "guide" / "python.md")
 
 
 def test_its_code_runs():

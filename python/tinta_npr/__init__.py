@@ -189,7 +189,7 @@ def measure(mesh, faces=None, *, styles=(), frames=21, tolerance=2.0, camera=Non
     Returns
     -------
     list of dict
-        A row for each style, ready for `pandas.DataFrame`; docs/measuring.md says what the columns mean.
+        A row for each style, ready for `pandas.DataFrame`; docs/results/measuring.md says what the columns mean.
 
     Settings
     --------

@@ -38,7 +38,7 @@ pub(super) const COMMAND: Command = Command {
 #[command(after_help = "\
 A job: {\"id\": \"cow-1\", \"command\": \"render\", \"model\": \"cow.obj\", \"output\": \"cow-1.png\", \"view\": \"90,15\"}
 Its command is render, compare or measure. Its model is a text, or several in brackets. Every other key is the long name of an \
-option of that command. Outputs are written into DIR; files to read are named as on the command line. See docs/batch.md.
+option of that command. Outputs are written into DIR; files to read are named as on the command line. See docs/guide/batches.md.
 
 Exit codes:
   0    all jobs done

@@ -15,7 +15,7 @@ pub(super) const COMMAND: Command = Command {
 /// Show which OpenGL backends work on this machine, and why the others do not
 #[derive(clap::Args)]
 #[command(after_help = "\
-Exit code: 0 if a context works, and with --check if all draw as they should; 1 if one does not; 2 if none works. docs/drivers.md has \
+Exit code: 0 if a context works, and with --check if all draw as they should; 1 if one does not; 2 if none works. docs/dev/drivers.md has \
 what is known of drivers.")]
 pub(super) struct Arguments {
     /// Backends to try: auto (all), egl, surfaceless, osmesa, wgl, cgl [default: auto]

@@ -1,7 +1,7 @@
 //! `ink`: the best ink an image-space filter was found to draw at no more than the faithful three passes' time.
 //!
 //! Evangelista's three passes with another map and another filter: the map holds each pixel's own plane, the filter asks
-//! whether neighbouring planes meet. What was measured is in `docs/ink.md`.
+//! whether neighbouring planes meet. What was measured is in `docs/results/ink.md`.
 
 use super::border::{reach, taps};
 use super::lens::DepthRange;

@@ -1,5 +1,5 @@
 //! How far silhouettes are from those of the surface that is meant, where their visibility breaks, and what they cost.
-//! docs/smooth.md has the commands and the numbers.
+//! docs/guide/smooth.md has the commands and the numbers.
 
 #[path = "contours/flicker.rs"]
 mod flicker;

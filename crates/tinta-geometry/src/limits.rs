@@ -2,7 +2,7 @@
 //!
 //! A file's own numbers are compared with what the file can hold before memory is asked for. What is left is bounded here:
 //! reading a model takes at most [`MEMORY_FACTOR`] times the bytes read and [`MEMORY_SLACK_BYTES`]; a picture has limits of its
-//! own, as a few bytes may rightly be a large one. The document `docs/limits.md` lists them all, which a test checks.
+//! own, as a few bytes may rightly be a large one. The document `docs/dev/limits.md` lists them all, which a test checks.
 //!
 //! ```
 //! // Eight thousand pixels a side, four bytes each, is the largest picture believed.

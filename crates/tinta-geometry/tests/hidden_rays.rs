@@ -117,7 +117,7 @@ fn an_intersection_that_begins_in_a_corner_is_hidden_from_there_on() {
 
 #[test]
 fn a_face_touches_what_lies_a_hundred_thousandth_of_a_long_line_behind_it() {
-    // Of a model 300 long and 0.03 thick a tenth of its thickness: the limit that docs/lines.md states. A narrow sheet below a wide one,
+    // Of a model 300 long and 0.03 thick a tenth of its thickness: the limit that docs/guide/lines.md states. A narrow sheet below a wide one,
     // seen from above.
     let sheet = |width: f64, y: f64| {
         let corners = [[-150.0, y, -width], [150.0, y, -width], [150.0, y, width], [-150.0, y, width]];

@@ -1,7 +1,7 @@
 //! Extreme cases for numbers and input files, each with its expected outcome.
 //!
 //! In: [`cases`], plain values that say what is extreme, what must happen and which number shows it. Out: a [`Row`] for each
-//! case, style and backend with its verdict. What the figures mean, and what they were, stands in docs/stability.md.
+//! case, style and backend with its verdict. What the figures mean, and what they were, stands in docs/results/stability.md.
 //!
 //! ```no_run
 //! # fn main() -> tinta::Result<()> {

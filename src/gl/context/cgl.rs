@@ -1,7 +1,7 @@
 //! CGL on macOS: a context without any surface, and a framebuffer object in its place (`surface_framebuffer`).
 //!
 //! The system's legacy profile is OpenGL 2.1 with GLSL 1.20, just what the articles need. glutin's CGL asks for a core profile
-//! first and for the main thread, hence the calls by name. This was compiled and never run: see docs/installing.md.
+//! first and for the main thread, hence the calls by name. This was compiled and never run: see docs/guide/installing.md.
 
 use super::platform::{NotCurrent, Platform};
 use crate::scene::Size;

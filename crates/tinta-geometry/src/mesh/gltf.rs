@@ -2,7 +2,7 @@
 //!
 //! The gltf-json crate gives the JSON its types. Data, accessors and nodes are followed here, through checked look-ups only: the gltf crate's
 //! readers trust every index and offset once its validation has passed, which does not look at buffers, and its importer
-//! opens whatever file a buffer names. What is read of a file and what is left out: docs/formats.md.
+//! opens whatever file a buffer names. What is read of a file and what is left out: docs/guide/formats.md.
 
 mod accessors;
 mod buffers;

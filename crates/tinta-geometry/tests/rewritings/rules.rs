@@ -217,7 +217,7 @@ fn parts(mesh: &Mesh) -> Vec<usize> {
 }
 
 /// Leaves open surfaces as they are: within one mesh, rims that meet at a T-junction are joined, so that sheets side by side are one
-/// surface; those of several objects each keep their rim. That is a rule of docs/lines.md, and no rewriting.
+/// surface; those of several objects each keep their rim. That is a rule of docs/guide/lines.md, and no rewriting.
 fn parts_as_objects(mut model: Model, _: &mut Random) -> Model {
     if model.is_open {
         return model;

@@ -20,10 +20,11 @@ fn documents() -> Vec<PathBuf> {
         let files = std::fs::read_dir(root.join(folder)).into_iter().flatten();
         files.map(|file| file.unwrap().path()).filter(|path| path.extension().is_some_and(|end| end == "md")).collect()
     };
-    let mut paths: Vec<PathBuf> = [".", "docs", "models", "contrib", "fuzz"]
-        .into_iter()
-        .flat_map(|folder| -> Vec<PathBuf> { in_folder(folder) })
-        .collect();
+    let mut paths: Vec<PathBuf> =
+        [".", "docs", "docs/guide", "docs/results", "docs/texts", "docs/dev", "models", "contrib", "fuzz"]
+            .into_iter()
+            .flat_map(|folder| -> Vec<PathBuf> { in_folder(folder) })
+            .collect();
     paths.sort();
     paths
 }

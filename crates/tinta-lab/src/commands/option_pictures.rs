@@ -1,4 +1,4 @@
-//! The pictures of docs/options.md: the command below each heading draws them again, without the option of the heading and
+//! The pictures of docs/guide/options.md: the command below each heading draws them again, without the option of the heading and
 //! with it, side by side.
 //!
 //! `TINTA_UPDATE_PICTURES=1 cargo test -p tinta-lab --all-features option_pictures` writes them anew and then fails, so that nobody does so
@@ -41,7 +41,7 @@ fn root() -> &'static Path {
 }
 
 fn page() -> String {
-    std::fs::read_to_string(root().join("docs/options.md")).unwrap()
+    std::fs::read_to_string(root().join("docs/guide/options.md")).unwrap()
 }
 
 /// A heading of the page with what stands below it.
@@ -61,12 +61,12 @@ fn sections(page: &str) -> Vec<Section> {
             text.lines().find_map(|line| line.strip_prefix("    ")).unwrap_or_else(|| panic!("no command: {option}"));
         let picture = text
             .split("](")
-            .find(|rest| rest.starts_with("pictures/"))
+            .find(|rest| rest.starts_with("../pictures/"))
             .and_then(|rest| rest.split(')').next())
             .unwrap_or_else(|| panic!("no picture: {option}"));
         let words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
         assert_eq!(words[0], "tinta", "{option}: {command}");
-        sections.push(Section { option, words, picture: root().join("docs").join(picture) });
+        sections.push(Section { option, words, picture: root().join("docs/guide").join(picture) });
     }
     sections
 }
@@ -289,14 +289,14 @@ fn every_option_has_a_picture_or_a_reason_to_have_none() {
         for option in arguments.filter_map(|arg| arg.get_long()).filter(|option| *option != "help") {
             assert!(
                 pictured.contains(option) || excused.contains(option),
-                "docs/options.md shows no picture of tinta {name} --{option}: add a heading with a command, or the option and \
+                "docs/guide/options.md shows no picture of tinta {name} --{option}: add a heading with a command, or the option and \
                  why it has none to the table \"Without a picture\""
             );
             known.insert(option.to_owned());
         }
     }
     let gone: Vec<_> = pictured.union(&excused).filter(|option| !known.contains(*option)).collect();
-    assert!(gone.is_empty(), "docs/options.md names options that no command has: {gone:?}");
+    assert!(gone.is_empty(), "docs/guide/options.md names options that no command has: {gone:?}");
     let both: Vec<_> = pictured.intersection(&excused).collect();
     assert!(both.is_empty(), "with a picture and excused from one: {both:?}");
     assert!(known.len() > 90, "only {} options were found", known.len());

@@ -83,7 +83,7 @@ pub struct Row {
     /// What is wrong, or the error's sentence.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remark: Option<String>,
-    /// Its figures by name; see docs/stability.md.
+    /// Its figures by name; see docs/results/stability.md.
     pub figures: Figures,
 }
 

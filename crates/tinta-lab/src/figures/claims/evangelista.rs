@@ -49,7 +49,7 @@ pub(super) fn claims() -> Vec<Claim> {
             "Leaving out the specular component's attenuation factor makes it faster.",
             "a time with and without would decide",
             "tinta render builtin:bust -o phong.png --style phong",
-            Nowhere("the sentence does not say which factor is meant: docs/errata.md, E14"),
+            Nowhere("the sentence does not say which factor is meant: docs/texts/errata.md, E14"),
         ),
         claim(
             "e-tone-texture",

@@ -1,4 +1,4 @@
-//! Model files that lie, are something else, or are not there. What fuzzing found besides stands in docs/limits.md.
+//! Model files that lie, are something else, or are not there. What fuzzing found besides stands in docs/dev/limits.md.
 
 use super::case::{Case, Content, Expected, Group, Work};
 
