@@ -137,7 +137,7 @@ pub mod record;
 #[cfg(feature = "presets")]
 pub mod request;
 
-#[cfg(feature = "cli")]
+// What pages of HTML begin with.
 pub mod page;
 
 // Many at once, by hand, and by the command line, which speaks of the library as any program does.
