@@ -25,9 +25,10 @@ def sheet(count):
 
 
 def python(script, *words, **more):
-    """A Python of its own that runs a script."""
+    """A Python of its own that runs a script, and stops at Ctrl-C whatever started the tests."""
+    hears = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
     return subprocess.Popen(
-        [sys.executable, *words, "-c", textwrap.dedent(script)],
+        [sys.executable, *words, "-c", hears + textwrap.dedent(script)],
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more,
     )
 
