@@ -75,7 +75,8 @@ impl Camera {
         look_at_mat4(self.eye, self.target, self.up)
     }
 
-    /// Unit vector from the target towards the eye in world space: the z axis of eye space, the paper's view vector.
+    /// Unit vector from the target towards the eye in world space: the z axis of eye space, the view vector of the
+    /// published texts.
     pub fn backward(&self) -> DVec3 {
         self.view_from_world().row(2).truncate()
     }

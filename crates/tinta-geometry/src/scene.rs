@@ -117,7 +117,7 @@ pub struct SceneSettings {
     pub color: Option<Color>,
     /// The colour where the model has none. Default [`DEFAULT_COLOR`].
     pub bare_color: Color,
-    /// The look of surfaces. Default plain, as in the pictures of the three papers.
+    /// The look of surfaces. Default plain, as in the pictures of the three texts.
     pub surface: Surface,
 }
 

@@ -17,7 +17,7 @@
 //!     .into();
 //! let scene = SceneSettings::from_options(&options)?;
 //! assert_eq!(scene.size, Size { width: 640, height: 480 });
-//! // What is as by default is not written.
+//! // Defaults are not written.
 //! assert_eq!(scene.to_options()?, options);
 //! # Ok(())
 //! # }
@@ -637,7 +637,7 @@ impl<T: Clone + 'static> Setting<T> {
 }
 
 impl<T> Setting<T> {
-    /// With a default that a publication prints, at this place.
+    /// With a default that a published text prints, at this place.
     #[must_use]
     pub fn printed(self, place: &'static str) -> Self {
         Self { provenance: Some(Provenance::printed(place)), ..self }

@@ -1,14 +1,14 @@
-//! The origin of a value: printed in a publication, deduced from one, or chosen by this project. Declared with the
+//! The origin of a value: printed in a published text, deduced from one, or chosen by this project. Declared with the
 //! setting or constant.
 
 /// Where a value comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Whose {
-    /// A publication prints it.
+    /// A published text prints it.
     Printed,
-    /// It follows from a publication's statements.
+    /// It follows from a published text's statements.
     Deduced,
-    /// No publication gives it; this project chose it.
+    /// No published text gives it; this project chose it.
     Ours,
 }
 
