@@ -14,7 +14,7 @@
 //! let settings = CameraSettings { eye: Some(DVec3::new(0.0, 0.0, 9.0)), fov_y_degrees: 45.0, ..Default::default() };
 //! let seen = scene.seen_with(&SceneSettings { camera: settings, ..Default::default() })?;
 //! assert_eq!(seen.camera.eye, DVec3::new(0.0, 0.0, 9.0));
-//! // The camera looks along -z, so that backward is +z.
+//! // The camera looks along -z, so backward is +z.
 //! assert!(seen.camera.backward().z > 0.99);
 //! # Ok(())
 //! # }
