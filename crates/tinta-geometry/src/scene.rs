@@ -46,13 +46,11 @@ pub struct Object {
     pub mesh: Arc<Mesh>,
     /// The position of the mesh's origin, world space.
     pub offset: DVec3,
-    /// The vertex arrays that GL draws, created on first use and shared between copies.
+    /// The vertex arrays that GL draws. Like the fields below, created on first use and shared between copies.
     arrays: Arc<OnceLock<VertexArrays>>,
-    /// Boxes around the vertices, likewise.
+    /// Boxes around the vertices.
     boxes: Arc<OnceLock<Vec<[Vec3; 2]>>>,
-    /// Its edges, likewise.
     edges: Arc<OnceLock<MeshEdges>>,
-    /// The curvature of its surface, likewise.
     curvatures: Arc<KeptCurvatures>,
 }
 

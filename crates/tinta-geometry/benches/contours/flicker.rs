@@ -189,7 +189,6 @@ fn square(px: DVec2, side: f64) -> [i32; 2] {
     (px / side).floor().as_ivec2().to_array()
 }
 
-/// The mean length of a mesh's sides.
 fn mean_side(mesh: &Mesh) -> f64 {
     let around = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|corner| mesh.positions[corner as usize]);

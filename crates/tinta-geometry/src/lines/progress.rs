@@ -55,7 +55,6 @@ pub enum Phase {
 #[derive(Debug)]
 struct Deadline {
     end: Instant,
-    /// The given time.
     limit: Duration,
 }
 

@@ -71,7 +71,6 @@ impl LineSettings {
         Self { crease_angle: CreaseAngle::default(), ..Self::default() }
     }
 
-    /// Whether smooth contours are drawn.
     pub(super) fn has_smooth_contours(&self) -> bool {
         self.silhouette == SilhouetteRule::Smooth && self.classes.contains(Class::Silhouette)
     }

@@ -84,7 +84,6 @@ pub fn sphere(triangles: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (positions, faces)
 }
 
-/// Writes a mesh in one format.
 type Writer = fn(&mut BufWriter<File>, &[DVec3], &[[u32; 3]]) -> Result<()>;
 
 /// The formats that hold any number of triangles: name, file extension and writer.
@@ -96,7 +95,6 @@ const FORMATS: [(&str, &str, Writer); 5] = [
     ("GLB", "glb", write_glb),
 ];
 
-/// Writes the mesh in all formats.
 pub fn files(positions: &[DVec3], triangles: &[[u32; 3]], folder: &Path) -> Result<Vec<(&'static str, PathBuf)>> {
     let written = |(name, ending, write): (&'static str, &str, Writer)| {
         let path = folder.join(format!("sphere.{ending}"));

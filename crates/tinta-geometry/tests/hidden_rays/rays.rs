@@ -48,7 +48,6 @@ enum Side {
     Open,
 }
 
-/// A line of the scene.
 struct Line {
     ends: [DVec3; 2],
     /// The positions at its ends by object and number: both for an edge; for an intersection, the common corner of
@@ -70,7 +69,6 @@ pub struct Rays<'a> {
     noise: f64,
 }
 
-/// The results of a check.
 #[derive(Debug, Default, Clone)]
 pub struct Found {
     /// Tested points of hidden and visible segments, and the undecided ones among them.

@@ -13,7 +13,6 @@ pub struct Model {
     pub meshes: Vec<Mesh>,
     pub camera: CameraSettings,
     pub size: Size,
-    /// Whether the picture is mirrored.
     pub is_mirrored: bool,
     /// Whether a surface has a rim.
     pub is_open: bool,

@@ -34,12 +34,10 @@ pub struct LinePath {
 }
 
 impl LinePath {
-    /// The layer that draws it.
     pub(in crate::lines) fn layer(&self) -> Layer {
         Layer::of(self.class, self.is_visible, self.is_outline)
     }
 
-    /// Reverses the path's direction.
     pub(in crate::lines) fn reverse(&mut self) {
         self.points_px.reverse();
         self.segments.reverse();

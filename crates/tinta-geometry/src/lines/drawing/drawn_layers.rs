@@ -26,7 +26,6 @@ const DASH_WIDTHS: [f64; 2] = [6.0, 5.0];
 /// picture.
 const PEN_DASHES: [f64; 2] = [1.0 / 128.0, 1.0 / 170.0];
 
-/// A drawing to be written.
 pub(in crate::lines) struct Drawing<'a> {
     pub segments: &'a [LineSegment],
     /// A note that the lines are incomplete.

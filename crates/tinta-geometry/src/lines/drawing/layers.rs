@@ -25,7 +25,6 @@ pub enum Layer {
 }
 
 impl Layer {
-    /// The layer of a line.
     pub(in crate::lines) fn of(class: Class, is_visible: bool, is_outline: bool) -> Self {
         match (is_visible, is_outline) {
             (true, true) => Self::Outline,

@@ -171,7 +171,6 @@ const POINTS_PER_INCH: f64 = 72.0;
 pub(in crate::lines) const PAGE_DECIMALS: u32 = 6;
 
 impl PageSize {
-    /// Refuses invalid sizes.
     pub(in crate::lines) fn check(self, margin: Millimetres) -> Result<()> {
         let is_sound = |value: f64| (SMALLEST..=LARGEST).contains(&value);
         match self {
@@ -264,7 +263,6 @@ impl Page {
         self.lengths.to_array().map(|length| crate::lines::drawing::text::decimal(length, PAGE_DECIMALS) + self.unit)
     }
 
-    /// Points per pixel.
     #[cfg(feature = "pdf")]
     pub(in crate::lines) fn points_per_px(&self) -> f64 {
         match self.units.px_per_mm {

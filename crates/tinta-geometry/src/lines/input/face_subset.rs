@@ -2,7 +2,6 @@
 
 use crate::mesh::{Mesh, NONE};
 
-/// The mesh with some of its faces.
 pub(in crate::lines) fn keep_faces(mesh: &Mesh, keep: impl Fn(u32) -> bool) -> Mesh {
     let kept: Vec<usize> = (0..mesh.triangles.len()).filter(|face| keep(*face as u32)).collect();
     with_faces(mesh, kept.iter().map(|face| (*face, mesh.triangles[*face])).collect())

@@ -146,7 +146,6 @@ fn plane_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> u
     planes.reduce(|first, second| if first == second { first } else { NO_GROUP }).unwrap_or(NO_GROUP)
 }
 
-/// The lines where faces intersect, as features.
 pub(in crate::lines) fn intersection_features(
     faces: &Faces,
     parts: &[ObjectEdges<'_>],

@@ -19,7 +19,6 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
-/// A mesh after its repair.
 pub(in crate::lines) struct RepairedMesh {
     /// The faces that hide others, without repeated ones.
     pub shape: Arc<Mesh>,

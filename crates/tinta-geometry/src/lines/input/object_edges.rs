@@ -8,7 +8,6 @@ use crate::tolerances::CONTACT;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-/// An object with its edges.
 pub(in crate::lines) struct ObjectEdges<'a> {
     pub object: &'a Object,
     pub edges: Edges<'a>,

@@ -137,7 +137,6 @@ impl<'a> HalfEdges<'a> {
     }
 }
 
-/// A mesh whose faces were split.
 pub(in crate::lines) struct Split {
     pub mesh: Mesh,
     /// For each face, the original face that contains it.

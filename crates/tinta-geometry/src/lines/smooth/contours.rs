@@ -186,7 +186,6 @@ impl ObjectSurface {
         self.mesh.triangles[face as usize].map(|position| positions[(position + self.first_position) as usize])
     }
 
-    /// The length of a face's longest side.
     pub(in crate::lines) fn longest_side(&self, positions: &[DVec3], face: u32) -> f64 {
         let [a, b, c] = self.corners(positions, face);
         a.distance(b).max(b.distance(c)).max(c.distance(a))
@@ -287,7 +286,6 @@ impl ObjectSurface {
         exits.max_by(|a, b| way.dot(a.point).total_cmp(&way.dot(b.point)))
     }
 
-    /// Whether the eye sees a face's front.
     pub(in crate::lines) fn is_front_face(&self, space: &Space, positions: &[DVec3], face: u32) -> bool {
         let [a, b, c] = self.corners(positions, face);
         (b - a).cross(c - a).dot(space.to_eye(a)) > 0.0

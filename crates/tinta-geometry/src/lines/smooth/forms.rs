@@ -41,7 +41,6 @@ use glam::DVec3;
 use std::sync::Arc;
 use trace::{Corners, Crest, crests, zero_set};
 
-/// The curvature of a part.
 pub(in crate::lines) fn curvatures(scene: &Scene, part: &ObjectEdges<'_>, settings: &LineSettings) -> Arc<Curvatures> {
     let &FormSettings { crease_angle, smoothing, .. } = &settings.forms;
     match &part.edges {

@@ -76,7 +76,6 @@ impl VisibilityChanges {
     }
 }
 
-/// The cusps of smooth contours.
 pub(in crate::lines) struct Cusps {
     /// Places in eye space, and the reach of each.
     places: Vec<(DVec3, f64)>,

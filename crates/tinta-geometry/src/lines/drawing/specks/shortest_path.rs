@@ -289,7 +289,6 @@ impl Strokes<'_> {
         through
     }
 
-    /// The position of a meeting.
     fn place(&self, meeting: usize) -> DVec2 {
         let end = self.ends[meeting][0] as usize;
         self.strokes[end / 2].ends[end % 2]

@@ -44,7 +44,6 @@ impl Stroke {
         (0..count as usize).map(move |part| [at(part as f64), at(part as f64 + 1.0)])
     }
 
-    /// Distance from a point.
     pub(super) fn distance(&self, point: DVec2) -> f64 {
         let along = self.ends[1] - self.ends[0];
         let square = along.length_squared();
@@ -93,7 +92,6 @@ impl<'a> Strokes<'a> {
         Self { strokes, border, meetings, ends, tree, order }
     }
 
-    /// The least length of a branch's strokes.
     pub(super) fn least(&self, branch: &Branch, least: Least) -> f64 {
         branch.strokes.iter().map(|stroke| least(&self.strokes[*stroke])).fold(f64::INFINITY, f64::min)
     }

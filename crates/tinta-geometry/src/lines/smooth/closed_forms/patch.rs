@@ -199,7 +199,6 @@ fn roots(polynomial: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
     changed.map(|ends| change(|place| value(place) > 0.0, [ends[0], ends[1]])).collect()
 }
 
-/// Two triangles.
 pub(super) fn quad([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }

@@ -3,7 +3,6 @@
 use crate::tolerances::{CREST_SHARPNESS, THROUGH_VERTEX};
 use glam::DVec3;
 
-/// A face's corners.
 pub(super) struct Corners {
     /// The vertices' numbers: a side begins at its lower vertex, whichever face it is traced from.
     pub numbers: [usize; 3],
