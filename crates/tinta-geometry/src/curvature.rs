@@ -115,9 +115,9 @@ impl Curvatures {
         &self.at[vertex as usize]
     }
 
-    /// The unit of length for thresholds, in file units. It is 1 % of a radius of curvature, that of the 10th
-    /// percentile of all principal curvatures by absolute value, and at most 5 % of the mesh's radius. The viewer by
-    /// the authors of suggestive contours uses the same unit.
+    /// The unit of length for thresholds, in file units. Take the 10th percentile of all principal curvatures by
+    /// absolute value: the unit is 1 % of its radius of curvature, and at most 5 % of the mesh's radius. The viewer
+    /// by the authors of suggestive contours uses the same unit.
     pub fn feature_size(&self) -> f64 {
         self.feature_size
     }

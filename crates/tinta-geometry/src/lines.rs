@@ -3,9 +3,9 @@
 //! Input: a [`Scene`] and the edge classes. Output: [`VisibleLines`], every line segment inside the picture, marked
 //! visible or hidden. It is the reference for measuring ink, and the source of the SVG.
 //!
-//! A point of a line is visible if, on at least one of its two sides in the picture, no face hides the place next to
-//! it, and no other selected line covers it from nearer to the eye. Along an edge the visibility can change only at
-//! these places:
+//! A point of a line is visible under two conditions. On at least one of its two sides in the picture, no face hides
+//! the place next to it. And no other selected line covers it from nearer to the eye. Along an edge the visibility
+//! can change only at these places:
 //!
 //! - where the edge's image crosses that of a nearer edge at which a surface ends or turns away (boundary,
 //!   non-manifold, silhouette);

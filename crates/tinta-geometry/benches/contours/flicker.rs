@@ -21,8 +21,8 @@ use tinta_geometry::{Mesh, Scene, VisibleLines};
 /// Largest distance between tested places, pixels at 512 x 512.
 const STEP_PX: f64 = 1.0;
 
-/// Distance above which a face of the same object hides a place as a separate part and not as the adjacent surface,
-/// in mean sides of the object's faces.
+/// Least distance, in mean sides of an object's faces, at which a face of the same object counts as a separate part
+/// and may hide a place. Nearer faces belong to the adjacent surface.
 const FAR_EDGES: f64 = 4.0;
 
 /// Lines that come and go between two pictures, pixels of line.

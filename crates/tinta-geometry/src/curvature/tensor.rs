@@ -130,8 +130,9 @@ impl Derivative {
 /// triangle's axes.
 ///
 /// Along a side (x, y), number k of the values changes by x times the form's number k plus y times the next. The
-/// normal equations therefore have three diagonals, and elimination needs no pivoting. Each number is weighted by how
-/// often it occurs in the full form (the middle one of a tensor twice), so the result does not depend on the axes.
+/// normal equations therefore have three diagonals, and elimination needs no pivoting. A number's weight is its count
+/// in the full form, for example two for the middle one of a tensor. The result therefore does not depend on the
+/// axes.
 pub(super) fn of_triangle<const FROM: usize, const TO: usize>(
     sides: &[DVec2; 3],
     values: [[f64; FROM]; 3],

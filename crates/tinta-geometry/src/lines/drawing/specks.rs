@@ -6,8 +6,8 @@
 //!
 //! - a *speck*: a connected set shorter than its least length that touches the rest in at most one place;
 //! - a *barb*: a stretch from a free end, where nothing connects or touches, to the first fork, if it is as short;
-//! - a *sliver's side*: a short stretch that touches the rest in two places, if these stay joined by lines that are
-//!   as wide and also too short, so that both lie under the same ink.
+//! - a *sliver's side*: a short stretch that touches the rest in two places, if other lines still join these. Those
+//!   lines are as wide and also too short, so their ink covers it.
 //!
 //! Segments that close a line therefore stay: an outline has no free end, and loses a part only if another path
 //! closes it. No removal leads to another, so a long line never disappears piece by piece.

@@ -210,9 +210,9 @@ fn edges_of_edge_on_faces(
     }
 }
 
-/// Whether an edge with at least one edge-on face is silhouette, independent of rounding. An eye slightly to one side
-/// sees the front of such a face, and to the other side its back, so the edge is silhouette for one of them. Two
-/// edge-on faces at an edge are coplanar; if they are folded onto each other, one of them always faces away.
+/// Whether an edge with at least one edge-on face is silhouette, independent of rounding. From slightly to one side
+/// such a face shows its front, from the other its back: the edge is silhouette from one of both. Two edge-on faces
+/// at an edge are coplanar; if they are folded onto each other, one of them always faces away.
 fn at_edge_on(faces: &Faces, mesh: &Mesh, list: &EdgeList, edge: u32, number_of: impl Fn(u32) -> u32) -> Option<bool> {
     let &[first, second] = list.faces(edge) else { return None };
     let is_edge_on = |face: u32| faces.edge_on_for_sure.binary_search(&number_of(face)).is_ok();

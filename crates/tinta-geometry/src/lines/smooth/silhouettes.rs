@@ -4,8 +4,8 @@
 //! A contour runs through faces that may be turned away from the eye. Adjacent faces then hide it, although the
 //! smooth surface would not. Exact lines solve this with a contour's summit. A depth buffer stores one depth per
 //! pixel, so each end is moved towards the eye instead. The plane through the eye, the end and its normal cuts the
-//! mesh in a line. This line is followed towards the eye until it last passes in front of the end, within the length
-//! of an edge, and the end moves to that depth. Its place in the picture stays the same.
+//! mesh in a line. The search follows this line towards the eye to the last place, within the length of an edge,
+//! where it comes in front of the end. The end moves to that depth. Its place in the picture stays the same.
 
 use crate::edges::{CreaseAngle, SilhouetteRule};
 use crate::lines::input::object_edges::{Edges, ObjectEdges};

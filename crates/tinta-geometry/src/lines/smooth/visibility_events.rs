@@ -1,13 +1,14 @@
 //! Places along silhouettes where visibility begins or ends, and their reasons: how often it breaks without one.
 //!
-//! On a smooth surface a visible contour ends only where something comes in front of it (a *crossing*), at a *cusp*,
-//! where it turns away into the surface, or where the surface ends. Any other end is an *inconsistency*: the faces
-//! differ from the smooth surface. Both silhouette rules are classified by the same criteria:
+//! On a smooth surface a visible contour ends only in three places: at a *crossing*, where something comes in front
+//! of it; at a *cusp*, where it turns away into the surface; and where the surface ends. Any other end is an
+//! *inconsistency*: the faces differ from the smooth surface. Both silhouette rules are classified by the same
+//! criteria:
 //!
 //! - a crossing, if the face that hides the line behind the place is more than two edges away from it, or belongs to
 //!   another shell;
-//! - a cusp, if the smooth contour has one within two edges, and bends away from the eye for more than two edges
-//!   before it and towards it for more than two after;
+//! - a cusp, if the smooth contour has one within two edges. It must bend away from the eye for more than two edges
+//!   before the cusp, and towards the eye for more than two after it;
 //! - otherwise an inconsistency.
 //!
 //! The length of an edge is the longest side of the faces there. Ends at sharp edges, open rims and the picture's

@@ -204,8 +204,8 @@ impl<'a> Strokes<'a> {
         places
     }
 
-    /// Calls `visit` with each stroke that has a part whose bounding box is within `distance` of that of two points,
-    /// perhaps more than once, until it returns true. Returns whether it did.
+    /// Calls `visit` with strokes near a segment until it returns true; returns whether it did. A stroke is near if
+    /// the bounding box of a part of it is within `distance` of the segment's; it may be visited more than once.
     pub(super) fn any_near(&self, [a, b]: [DVec2; 2], distance: f64, mut visit: impl FnMut(usize) -> bool) -> bool {
         let query = Box3::new((a.min(b) - distance).extend(0.0), (a.max(b) + distance).extend(0.0));
         self.tree.any(&query, |place| visit(self.order[place as usize] as usize))
