@@ -1,5 +1,5 @@
-//! Measures the time to read a model, each stage next to its limit: `cargo bench -p tinta-geometry --bench reading --
-//! [TRIANGLES] [ROUNDS]`.
+//! Measures the time to read a model, each stage next to its limit:
+//! `cargo bench -p tinta-geometry --bench reading -- [TRIANGLES] [ROUNDS]`.
 //!
 //! A sphere with bumps is written in all formats that hold any number of triangles. Each round reads every format
 //! once, and the results are medians over the rounds: a plain read of the file, a copy of its bytes in memory, the
