@@ -1,5 +1,5 @@
-//! How far silhouettes are from those of the surface that is meant, where their visibility breaks, and what they cost.
-//! docs/guide/smooth.md has the commands and the numbers.
+//! Measures the error of silhouettes against the smooth surface's, the breaks in their visibility, and their cost.
+//! docs/guide/smooth.md has the commands and the results.
 
 #[path = "contours/flicker.rs"]
 mod flicker;
@@ -20,7 +20,7 @@ const USAGE: &str = "cargo bench -p tinta-geometry --bench contours -- truth [SU
   times    milliseconds to find the lines, one view, rounds in turn
   flicker  what comes and goes per degree of a turn, pixels of silhouette: VIEWS places of it, a degree each; 360 are the whole";
 
-/// Pictures a model is seen in: the faces, edges and corners of a cube, turned a little so that no axis is looked along.
+/// Views of a model: the faces, edges and corners of a cube, slightly turned, so no view runs along an axis.
 fn views() -> Vec<DVec3> {
     let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.11, 0.23, 0.07);
     let step = |number: i32| f64::from(number % 3 - 1);
@@ -73,7 +73,7 @@ fn truth(surfaces: &[String]) -> Result<()> {
                     distances.sort_by(f64::total_cmp);
                     let (worst, median) = (distances[distances.len() - 1], distances[distances.len() / 2]);
                     let count = mesh.triangles.len() as f64;
-                    // By edge length, which falls with the root of the number of triangles.
+                    // The order in edge length, which falls with the square root of the number of triangles.
                     let order = before.map(|(error, triangles)| 2.0 * (error / worst).ln() / (count / triangles).ln());
                     let order = order.map_or("".to_owned(), |order| format!("{order:.2}"));
                     let mean = sum / distances.len() as f64;
@@ -143,14 +143,14 @@ fn times(models: &[String]) -> Result<()> {
             let mut taken = [const { Vec::new() }; 2];
             for round in 0..=ROUNDS {
                 for (rule, taken) in RULES.iter().zip(&mut taken) {
-                    // Cold each time: a new scene knows no edges.
+                    // Cold each time: a new scene has no cached edges.
                     let scene = scene(&mesh, DVec3::new(0.4, 0.3, 1.0).normalize())?;
                     let settings = LineSettings { classes, finds_hidden: false, ..settings(rule.1) };
                     let start = Instant::now();
                     let lines = VisibleLines::of(&scene, &settings)?;
                     let ms = start.elapsed().as_secs_f64() * 1e3;
                     assert!(!lines.segments.is_empty());
-                    // The first round warms up.
+                    // The first round is a warm-up.
                     if round > 0 {
                         taken.push(ms);
                     }
@@ -167,8 +167,8 @@ fn times(models: &[String]) -> Result<()> {
     Ok(())
 }
 
-/// Of each rule the silhouettes of a scene that are seen. The listing's rule has no lines of its own: its are those of all edges that
-/// it names, as far as they are seen.
+/// The visible silhouettes of a scene under each rule. The listing's rule has no exact lines; its silhouettes are the
+/// visible parts of all edges that it selects.
 fn silhouettes(scene: &Scene, rule: &str) -> Result<VisibleLines> {
     let silhouette = if rule == "smooth" { SilhouetteRule::Smooth } else { SilhouetteRule::Exact };
     let only = LineSettings {
@@ -217,7 +217,7 @@ fn turns(views: &str, models: &[String]) -> Result<()> {
                 for (slot, near_px) in [1.0, 2.0, 4.0, 8.0].into_iter().enumerate() {
                     let Flicker { drawn_px, unexplained_px, .. } = flicker(pair, near_px);
                     sum[slot] += unexplained_px / views as f64;
-                    // Drawn is counted in both pictures, each time.
+                    // Drawn lines are counted in both pictures, each time.
                     sum[4] += drawn_px / (8 * views) as f64;
                 }
                 known = Some((first + 1, after));

@@ -1,5 +1,5 @@
-//! What form lines take: `cargo bench -p tinta-geometry --bench forms -- MODEL`, milliseconds, the least and the median of 26 views
-//! around the model at 512 x 512; curvature, which is the same for every view, apart.
+//! Measures the time of form lines: `cargo bench -p tinta-geometry --bench forms -- MODEL`. It prints milliseconds,
+//! the least and the median of 26 views around the model at 512 x 512. Curvature, which all views share, is separate.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -41,7 +41,7 @@ fn main() -> tinta_geometry::Result<()> {
             let eye = Some(scene.centre + direction * scene.radius * 3.0);
             let camera = CameraSettings { eye, ..CameraSettings::default() };
             let scene = scene.seen_with(&SceneSettings { camera, ..SceneSettings::default() })?;
-            // What is kept between views is made by the first one.
+            // The first view computes the data that later views reuse.
             if view == 0 {
                 VisibleLines::of(&scene, &settings)?;
             }

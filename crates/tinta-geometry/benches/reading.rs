@@ -1,8 +1,9 @@
-//! What reading a model takes, each stage beside its limit: `cargo bench -p tinta-geometry --bench reading -- [TRIANGLES] [ROUNDS]`.
+//! Measures the time to read a model, each stage next to its limit:
+//! `cargo bench -p tinta-geometry --bench reading -- [TRIANGLES] [ROUNDS]`.
 //!
-//! A sphere with bumps is written in all formats that hold any number of triangles. Medians over rounds, in each of which every
-//! format is read once: a plain read of the file, a copy of its bytes in memory, then the stages of `load`, and the vertex arrays
-//! beside a copy of theirs. Memory is counted by the allocator.
+//! A sphere with bumps is written in all formats that hold any number of triangles. Each round reads every format
+//! once, and the results are medians over the rounds: a plain read of the file, a copy of its bytes in memory, the
+//! stages of `load`, and the vertex arrays next to a copy of them. The allocator counts the memory.
 
 #![expect(unsafe_code, reason = "an allocator that counts can only be written so")]
 
@@ -18,7 +19,7 @@ use tinta_geometry::{LoadOptions, load};
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// What is measured of a format, milliseconds.
+/// The measurements of a format, milliseconds.
 const COLUMNS: [&str; 8] = ["plain read", "memcpy", "reading", "parsing", "joining", "normals", "arrays", "memcpy"];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -56,7 +57,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Reads a file once; all times, in the order of the columns.
+/// Reads a file once; returns all times, in the order of the columns.
 fn one(path: &Path) -> tinta_geometry::Result<[f64; COLUMNS.len()]> {
     let (bytes, plain) = timed(|| std::fs::read(path).unwrap_or_default());
     let (copy, copied) = timed(|| bytes.clone());

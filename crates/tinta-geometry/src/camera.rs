@@ -1,6 +1,6 @@
-//! The camera: from the user's settings, fitted to the scene and checked, to f64 matrices.
+//! The camera: the user's settings, fitted to the scene and checked, as f64 matrices.
 //!
-//! In: [`CameraSettings`] and the scene's points. Out: a [`Camera`] in world space, file units, y up.
+//! Input: [`CameraSettings`] and the scene's points. Output: a [`Camera`] in world space, file units, y up.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {
@@ -14,7 +14,7 @@
 //! let settings = CameraSettings { eye: Some(DVec3::new(0.0, 0.0, 9.0)), fov_y_degrees: 45.0, ..Default::default() };
 //! let seen = scene.seen_with(&SceneSettings { camera: settings, ..Default::default() })?;
 //! assert_eq!(seen.camera.eye, DVec3::new(0.0, 0.0, 9.0));
-//! // The camera looks along -z, so that backward is +z.
+//! // The camera looks along -z, so backward is +z.
 //! assert!(seen.camera.backward().z > 0.99);
 //! # Ok(())
 //! # }
@@ -36,16 +36,16 @@ use glam::{DMat4, DVec2, DVec3};
 use serde::Serialize;
 use std::str::FromStr;
 
-/// A camera, world space.
+/// A camera in world space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// The eye's position.
     pub eye: DVec3,
-    /// The point in the middle of the picture.
+    /// The point in the centre of the picture.
     pub target: DVec3,
-    /// The direction that is up in the picture.
+    /// The direction that points up in the picture.
     pub up: DVec3,
-    /// How space becomes a picture.
+    /// The projection.
     pub projection: Projection,
     /// Distance of the near plane from the eye, file units.
     pub near: f64,
@@ -53,16 +53,16 @@ pub struct Camera {
     pub far: f64,
 }
 
-/// How space becomes a picture.
+/// The projection from space to the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Projection {
-    /// Central projection; the vertical field of view in degrees.
+    /// Perspective projection with a vertical field of view.
     Perspective {
         /// Full vertical angle, degrees.
         fov_y_degrees: f64,
     },
-    /// Parallel projection; the picture's height in file units.
+    /// Parallel projection with a height of the picture.
     Parallel {
         /// Picture height, file units.
         height: f64,
@@ -70,17 +70,18 @@ pub enum Projection {
 }
 
 impl Camera {
-    /// The matrix from world to eye space (x right, y up, looking along -z), rigid.
+    /// The rigid matrix from world to eye space (x right, y up, looking along -z).
     pub fn view_from_world(&self) -> DMat4 {
         look_at_mat4(self.eye, self.target, self.up)
     }
 
-    /// Unit vector from the target towards the eye, world space: eye space's z axis, the text's view vector.
+    /// Unit vector from the target towards the eye in world space: the z axis of eye space, the view vector of the
+    /// published texts.
     pub fn backward(&self) -> DVec3 {
         self.view_from_world().row(2).truncate()
     }
 
-    /// The projection for a picture of this width over height, GL's clip space, depth in [-1, 1].
+    /// The projection for a picture with this aspect (width over height): GL's clip space, depth in [-1, 1].
     pub fn clip_from_view(&self, aspect: f64) -> DMat4 {
         match self.projection {
             Projection::Perspective { fov_y_degrees } => {
@@ -94,7 +95,7 @@ impl Camera {
     }
 }
 
-/// A view by direction: the angles under which the eye is seen from the target.
+/// The direction of a view: the angles of the eye, seen from the target.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct View {
     /// Degrees around the up axis; 0 is the front (+z), 90 the model's +x side.
@@ -104,7 +105,7 @@ pub struct View {
 }
 
 impl View {
-    /// Three quarters from the front and a little from above: the default.
+    /// Three quarters from the front and slightly from above: the default.
     pub const DEFAULT: Self = Self { azimuth_degrees: 30.0, elevation_degrees: 15.0 };
 
     const NAMED: [(&str, f64, f64); 7] = [
@@ -125,7 +126,7 @@ impl View {
     }
 }
 
-/// Sine and cosine that are exact at multiples of 90 degrees, so that a front view is one.
+/// Sine and cosine, exact at multiples of 90 degrees, so a front view is exactly from the front.
 fn exact_sin_cos(degrees: f64) -> (f64, f64) {
     match degrees.rem_euclid(360.0) {
         0.0 => (0.0, 1.0),
@@ -175,28 +176,29 @@ impl Value for View {
     }
 }
 
-/// What the user asks of the camera; what is left open is fitted to the scene.
+/// The user's settings of the camera; unset ones are fitted to the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CameraSettings {
-    /// Direction of the view where no eye is given. Default 30,15.
+    /// Direction of the view if no eye is given. Default 30,15.
     pub view: View,
-    /// What stands in the middle where neither eye nor target are given. Default the middle of the scene's box.
+    /// The centre of the picture if neither eye nor target is given. Default the middle of the scene's bounding box.
     pub framing: Framing,
-    /// The eye, world space; fitted by default.
+    /// Position of the eye, world space. Default fitted.
     pub eye: Option<DVec3>,
-    /// The point looked at, world space; the scene's centre by default.
+    /// The point that the camera looks at, world space. Default the scene's centre.
     pub target: Option<DVec3>,
-    /// The picture's up; +y by default, or the scene's back where that is along the view.
+    /// The direction that points up in the picture. Default +y, or the scene's back if the view runs along y.
     pub up: Option<DVec3>,
-    /// Vertical field of view, degrees. Default 30; more is nearer and steeper.
+    /// Vertical field of view, degrees. Default 30; a larger angle brings the camera nearer and strengthens the
+    /// perspective.
     pub fov_y_degrees: f64,
-    /// Parallel instead of perspective projection. Default no.
+    /// Whether the projection is parallel instead of perspective. Default false.
     pub parallel: bool,
-    /// Height of a parallel projection's picture, file units; fitted by default. Less is nearer.
+    /// Height of a parallel projection's picture, file units. Default fitted; a smaller height magnifies.
     pub height: Option<f64>,
-    /// Distance of the near plane, file units; fitted by default.
+    /// Distance of the near plane, file units. Default fitted.
     pub near: Option<f64>,
-    /// Distance of the far plane, file units; fitted by default.
+    /// Distance of the far plane, file units. Default fitted.
     pub far: Option<f64>,
 }
 
@@ -217,11 +219,11 @@ impl Default for CameraSettings {
     }
 }
 
-/// What the camera's settings are listed under.
+/// The heading of the camera's settings.
 pub const HEADING: &str = "Camera";
 
 impl CameraSettings {
-    /// The settings.
+    /// The camera's settings.
     pub fn settings() -> Vec<Setting<Self>> {
         let view = Setting::of(
             "view",
@@ -229,7 +231,7 @@ impl CameraSettings {
             View::kind(),
             "View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees; if you see the \
              model's back, try 120,15 or 210,15 or -60,15 or 180,0",
-            // An eye stands where it stands, wherever the view would have put it.
+            // The position of an eye does not depend on the view.
             |camera: &Self| if camera.eye.is_some() { View::DEFAULT.text() } else { camera.view.text() },
             |camera, text| {
                 camera.view = View::parse(text)?;
@@ -299,9 +301,11 @@ impl CameraSettings {
         under(HEADING, settings).collect()
     }
 
-    /// The camera that shows all points in a picture of this aspect (width over height), as far as not given.
+    /// Returns the camera for a picture of this aspect (width over height); unset settings are fitted so that it
+    /// shows all points.
     ///
-    /// `centre` and `radius` are the scene's, world space. Fails by name on what cannot be a camera.
+    /// `centre` and `radius` are the scene's, in world space. The error names the setting that makes the camera
+    /// impossible.
     pub fn fit(
         &self,
         centre: DVec3,
@@ -396,7 +400,7 @@ impl CameraSettings {
         Ok(())
     }
 
-    /// The given up vector if it is one, else +y, else, looking straight down or up, the scene's back or front.
+    /// The given up vector if it is valid; else +y, or the scene's back or front when looking straight down or up.
     fn up_for(&self, back: DVec3) -> Result<DVec3> {
         let is_along_view = |up: DVec3| up.cross(back).length() < CAMERA_ALIGNMENT;
         match self.up.map(DVec3::try_normalize) {
@@ -414,10 +418,10 @@ impl CameraSettings {
         let (nearest, farthest) =
             depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), depth| (low.min(depth), high.max(depth)));
         let margin = DEPTH_MARGIN * (farthest - nearest).max(radius * NEAREST_FRACTION);
-        // Everything behind the eye: any range will do, the picture is empty.
+        // If everything is behind the eye, any range will do: the picture is empty.
         let fitted_far = if farthest + margin > 0.0 { farthest + margin } else { distance + radius };
         let far = self.far.unwrap_or(fitted_far.max(self.near.map_or(0.0, |near| near * 2.0)));
-        // By the fitted far plane: one given far away must not push the near plane into the scene.
+        // Based on the fitted far plane: a distant given one must not push the near plane into the scene.
         let least_near = far.min(fitted_far) * NEAREST_FRACTION;
         let fitted_near = (nearest - margin).max(least_near);
         let near = self.near.unwrap_or(if fitted_near < far { fitted_near } else { far * 0.5 });
@@ -529,10 +533,10 @@ mod tests {
                 let seen = lopsided.iter().map(|point| clip_from_world.project_point3(*point));
                 let (low, high) =
                     seen.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), ndc| (low.min(ndc), high.max(ndc)));
-                // A thousandth of the half width is a quarter of a pixel of 512.
+                // A thousandth of the half-width is a quarter of a pixel of 512.
                 assert!((low + high).truncate().abs().max_element() < 1e-3, "{settings:?}: {low} to {high}");
                 assert!((high.truncate().max_element() - OUTLINE_FILL).abs() < 1e-3, "{settings:?}: {high}");
-                // What is given is not moved.
+                // A given target is not moved.
                 let settings = CameraSettings { target: Some(DVec3::X), ..settings };
                 assert_eq!(fit(&settings, &lopsided, aspect).unwrap().target, DVec3::X);
             }

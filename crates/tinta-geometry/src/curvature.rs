@@ -1,17 +1,18 @@
-//! Curvature of the smooth surface that a mesh stands for: at each vertex the normal, both principal curvatures with their
-//! directions, and how curvature changes along these.
+//! The curvature of the smooth surface that a mesh approximates. Each vertex has a normal, two principal curvatures
+//! with their directions, and the derivative of curvature along these.
 //!
-//! In: a [`Mesh`] and its [`EdgeList`]. Out: [`Curvatures`]. The method is Rusinkiewicz's (*Estimating curvatures and their
-//! derivatives on triangle meshes*, 2004): in each triangle the tensor is fitted to how the vertices' normals differ along its
-//! sides, turned into each vertex's tangent plane and averaged there by the areas nearest to the vertex; the derivative is
-//! fitted in the same way to how the tensors differ. Normals are averaged with Max's weights (1999), which are exact on a sphere.
+//! Input: a [`Mesh`] and its [`EdgeList`]. Output: [`Curvatures`]. The method is Rusinkiewicz's (*Estimating
+//! curvatures and their derivatives on triangle meshes*, 2004). In each triangle a tensor is fitted to the
+//! differences of the vertices' normals along its sides. It is rotated into each vertex's tangent plane and averaged
+//! there, weighted by the areas nearest to the vertex. The derivative is fitted in the same way to the differences of
+//! the tensors. Normals are averaged with Max's weights (1999), which are exact on a sphere.
 //!
-//! Surfaces end at creases, boundaries, edges of three faces or more and edges whose faces are wound against each other: a
-//! position there has one *vertex* for each smooth piece that meets in it, as far as one can go round it without crossing such
-//! an edge. A crease that ends in the middle of a smooth piece therefore splits nothing.
+//! Surfaces end at creases, boundaries, edges with three or more faces, and edges whose faces have opposite
+//! orientations. A position there has one *vertex* for each smooth piece that meets in it: the faces connected around
+//! it without crossing such an edge. A crease that ends in the middle of a smooth piece therefore splits nothing.
 //!
-//! What is convex, seen from outside, has positive curvature. Where nothing can be told, at triangles without area and vertices
-//! that have no others, all is 0.
+//! Curvature is positive where the surface is convex from outside. It is 0 where it is undefined: in triangles
+//! without area, and at vertices that have no others.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {
@@ -47,13 +48,13 @@ pub use tensor::Curvature;
 use tensor::{Basis, Derivative, Tensor, of_triangle};
 
 impl Curvature {
-    /// The curvature tensor for two vectors, of which what lies in the tangent plane counts.
+    /// The curvature tensor for two vectors; only their components in the tangent plane count.
     pub fn second(&self, [a, b]: [DVec3; 2]) -> f64 {
         let [u, v] = self.directions;
         self.principal[0] * a.dot(u) * b.dot(u) + self.principal[1] * a.dot(v) * b.dot(v)
     }
 
-    /// The derivative of the tensor for one vector three times.
+    /// The derivative of the tensor for the same vector three times.
     pub fn third(&self, along: DVec3) -> f64 {
         let (u, v) = (along.dot(self.directions[0]), along.dot(self.directions[1]));
         let [a, b, c, d] = self.derivative;
@@ -73,14 +74,14 @@ pub struct Curvatures {
 }
 
 impl Curvatures {
-    /// Computes them; edges sharper than `crease_angle` are creases. The normals are smoothed first, by a Gaussian whose
-    /// standard deviation is about `smoothing` edge lengths; 0 leaves them as they are.
+    /// Computes the curvatures; edges sharper than `crease_angle` are creases. First a Gaussian with a standard
+    /// deviation of about `smoothing` edge lengths smooths the normals; 0 leaves them unchanged.
     pub fn new(mesh: &Mesh, edges: &EdgeList, crease_angle: CreaseAngle, smoothing: f64) -> Self {
         let threads = threads_for(mesh.triangles.len());
         let surface = Surface::new(mesh, edges, crease_angle, smoothing, threads);
         let at = curvatures(&surface, threads);
         let feature_size = feature_size(&at) * surface.radius;
-        // Back from the mesh's radius to file units.
+        // Convert from the mesh's radius to file units.
         let in_file = |at: &Curvature| Curvature {
             principal: at.principal.map(|curvature| curvature / surface.radius),
             derivative: at.derivative.map(|derivative| derivative / surface.radius / surface.radius),
@@ -114,20 +115,20 @@ impl Curvatures {
         &self.at[vertex as usize]
     }
 
-    /// A length that thresholds are measured in, so that they have no unit: 1 % of the radius that a tenth of all principal
-    /// curvatures is flatter than, and at most 5 % of the mesh's radius, file units. So the authors of suggestive contours have it
-    /// in their viewer.
+    /// The unit of length for thresholds, in file units. Take the 10th percentile of all principal curvatures by
+    /// absolute value: the unit is 1 % of its radius of curvature, and at most 5 % of the mesh's radius. The viewer
+    /// by the authors of suggestive contours uses the same unit.
     pub fn feature_size(&self) -> f64 {
         self.feature_size
     }
 }
 
-/// The curvatures of a mesh for the settings last asked for.
+/// The curvatures of a mesh for the latest settings.
 #[derive(Debug, Default)]
 pub(crate) struct KeptCurvatures(Mutex<Option<(CreaseAngle, f64, Arc<Curvatures>)>>);
 
 impl KeptCurvatures {
-    /// Those of a mesh, which is the same each time.
+    /// Returns those of a mesh, which must be the same in every call.
     pub(crate) fn get(
         &self,
         mesh: &Mesh,
@@ -147,7 +148,7 @@ impl KeptCurvatures {
     }
 }
 
-/// The curvature at each vertex of a surface, in its radii.
+/// The curvature at each vertex of a surface, relative to the surface's radius.
 fn curvatures(surface: &Surface, threads: usize) -> Vec<Curvature> {
     let faces = surface.corners.len();
     let bases: Vec<Option<Basis>> =
@@ -193,7 +194,7 @@ fn curvatures(surface: &Surface, threads: usize) -> Vec<Curvature> {
     at
 }
 
-/// A mean by areas.
+/// A mean weighted by area.
 struct Sum<const N: usize> {
     sum: [f64; N],
     area: f64,
@@ -213,13 +214,13 @@ impl<const N: usize> Sum<N> {
         }
     }
 
-    /// 0 where nothing was added.
+    /// 0 if nothing was added.
     fn mean(&self) -> [f64; N] {
         if self.area > 0.0 { self.sum.map(|sum| sum / self.area) } else { [0.0; N] }
     }
 }
 
-/// The length that thresholds are measured in, in the mesh's radii.
+/// The unit of length for thresholds, in radii of the mesh.
 fn feature_size(at: &[Curvature]) -> f64 {
     let mut amounts: Vec<f64> = at.iter().flat_map(|at| at.principal).map(f64::abs).collect();
     let tenth = amounts.len() / 10;

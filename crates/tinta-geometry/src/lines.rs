@@ -1,12 +1,18 @@
-//! Exact visible lines: which parts of a model's edges are seen, computed in f64 without GL.
+//! Exact visible lines: the visible and hidden parts of a model's edges, computed in f64 without GL.
 //!
-//! In: a [`Scene`] and the classes of edges wanted. Out: [`VisibleLines`], every piece of every line inside the picture,
-//! marked visible or hidden: the reference that ink is measured against, and what the SVG is drawn from. A point of a line is
-//! seen if on one of its two sides in the picture no face hides what is just beside it, and no other wanted line lies on it
-//! nearer to the eye. Along an edge that can change only where its image crosses that of a nearer edge at which a surface ends
-//! or turns away (boundary, non-manifold, silhouette), where the edge passes through a face (Appel 1967), and where the image
-//! of another edge lies on its own: where that one begins or ends, and where both are equally near. The edge is cut at all these
-//! places, and each piece is decided by one ray.
+//! Input: a [`Scene`] and the edge classes. Output: [`VisibleLines`], every line segment inside the picture, marked
+//! visible or hidden. It is the reference for measuring ink, and the source of the SVG.
+//!
+//! A point of a line is visible under two conditions. On at least one of its two sides in the picture, no face hides
+//! the place next to it. And no other selected line covers it from nearer to the eye. Along an edge the visibility
+//! can change only at these places:
+//!
+//! - where the edge's image crosses that of a nearer edge at which a surface ends or turns away (boundary,
+//!   non-manifold, silhouette);
+//! - where the edge passes through a face (Appel 1967);
+//! - where another edge's image overlaps its own: at that edge's ends, and where both are equally near.
+//!
+//! The edge is cut at all these places, and one ray decides each segment.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {
@@ -77,25 +83,26 @@ use visible::nearest_faces::NearestFaces;
 use visible::pyramid::Pyramid;
 use visible::space::Space;
 
-/// From how many intersections on the cells that hide some are made smaller.
+/// Number of intersections above which the cells that hide some are made smaller.
 const MANY_INTERSECTIONS: usize = 10_000;
 
 impl VisibleLines {
-    /// Finds the lines of a scene.
+    /// Finds the visible and hidden lines of a scene.
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] when no class is wanted, the scene has more than 2^30 faces or positions, or its lines take more memory than there is.
+    /// [`crate::Error::Setting`] if no class is selected, if the scene has more than 2^30 faces or positions, or if
+    /// its lines need more memory than is available.
     pub fn of(scene: &Scene, settings: &LineSettings) -> Result<Self> {
         Self::with_progress(scene, settings, &Progress::default())
     }
 
-    /// As [`VisibleLines::of`], saying how far it is.
+    /// Like [`VisibleLines::of`], and reports progress.
     ///
     /// # Errors
     ///
-    /// As there, [`Error::Cancelled`] after [`Progress::cancel`], and [`Error::OutOfTime`] after [`Progress::within`] and, while
-    /// nothing is certain, after [`Progress::within_or_part`].
+    /// Those of [`VisibleLines::of`], [`Error::Cancelled`] after [`Progress::cancel`], [`Error::OutOfTime`] after
+    /// [`Progress::within`], and the same after [`Progress::within_or_part`] while no line is decided.
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
         if settings.classes.is_empty() {
             return Err(Error::setting("classes", "name at least one class of lines"));
@@ -117,7 +124,7 @@ impl VisibleLines {
         let clock = Instant::now();
         let space = Space::of(scene);
         let unrepaired: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
-        // The hierarchy is built on one thread, the edges on another.
+        // One thread builds the hierarchy, another the edges.
         let (parts, faces) = both(
             || {
                 let parts = input::object_edges::object_edges(scene);
@@ -195,7 +202,7 @@ impl VisibleLines {
             if settings.has_smooth_contours() {
                 edges.silhouette += contours.pieces.len();
                 let decided = contour_lines.decided(progress);
-                // A part of smooth contours is none.
+                // Smooth contours are all or nothing: a partial set is an error.
                 progress.go_on()?;
                 changes = settings.counts_changes.then(|| contour_lines.changes(&decided));
                 segments.extend(contour_lines.segments(&decided));
@@ -204,7 +211,7 @@ impl VisibleLines {
                 changes = Some(contour_lines.changes_of_edges(&segments));
             }
         }
-        // What lies on what is known of a whole only.
+        // Overlaps are marked only if all lines are decided.
         if undecided == 0 {
             segments = visible::doubled::marked(segments, &space, progress)?;
         }

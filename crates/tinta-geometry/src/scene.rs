@@ -1,8 +1,8 @@
-//! What is drawn: meshes at their places, colours, a camera and a picture size.
+//! A scene: meshes in their places, colours, a camera and a picture size.
 //!
-//! GL draws in scene space: the scene's centre is the origin and its radius 1, so that f32 suffices wherever the model
-//! lies and however large it is, and so that the papers' light, given in eye space without a unit, always stands at the
-//! same place relative to what it lights (errata E11). Scene space only moves and scales world space; nothing turns.
+//! GL draws in scene space, with the scene's centre at the origin and radius 1. So f32 is enough wherever the model
+//! lies and however large it is. The papers give their light in eye space without a unit; in scene space it keeps its
+//! place relative to the model (errata E11). Scene space only moves and scales world space, without rotation.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {
@@ -39,85 +39,83 @@ use crate::tolerances::SCENE_RADIUS;
 use glam::{DMat4, DVec3, Mat4, Vec3};
 use std::sync::{Arc, LazyLock, OnceLock, Weak};
 
-/// A mesh at a place.
+/// A mesh in its place.
 #[derive(Debug, Clone)]
 pub struct Object {
     /// The mesh, shared between copies.
     pub mesh: Arc<Mesh>,
-    /// Where its own origin goes, world space.
+    /// The position of the mesh's origin, world space.
     pub offset: DVec3,
-    /// What GL draws of the mesh, made when first asked for, shared between copies.
+    /// The vertex arrays that GL draws. Like the fields below, created on first use and shared between copies.
     arrays: Arc<OnceLock<VertexArrays>>,
-    /// Boxes around them, likewise.
+    /// Boxes around the vertices.
     boxes: Arc<OnceLock<Vec<[Vec3; 2]>>>,
-    /// Its edges, likewise.
     edges: Arc<OnceLock<MeshEdges>>,
-    /// The curvature of its surface, likewise.
     curvatures: Arc<KeptCurvatures>,
 }
 
-/// Which object something was made for: copies of one object share theirs. It keeps nothing of the object alive.
+/// Identifies an object; its copies have the same identity. It keeps no data of the object alive.
 #[derive(Debug, Clone)]
 pub struct ObjectIdentity(Weak<OnceLock<VertexArrays>>);
 
 impl ObjectIdentity {
-    /// Whether the object is the one, or a copy of it.
+    /// Whether `object` is this object or a copy of it.
     pub fn is_of(&self, object: &Object) -> bool {
         std::ptr::eq(self.0.as_ptr(), Arc::as_ptr(&object.arrays))
     }
 }
 
-/// All that a style needs to know to plan a picture, and `gl` to draw it.
+/// Everything that a style needs to plan a picture, and `gl` to draw it.
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// The meshes at their places.
     pub objects: Vec<Object>,
-    /// Middle of the objects' bounding box, world space.
+    /// The centre of the objects' bounding box, world space.
     pub centre: DVec3,
-    /// Half the bounding box's diagonal, file units: the unit of scene space.
+    /// Half the diagonal of the bounding box, file units: the unit of scene space.
     pub radius: f64,
     /// The camera, world space.
     pub camera: Camera,
     /// The picture's size.
     pub size: Size,
-    /// What is behind the objects.
+    /// The background.
     pub background: Background,
-    /// The objects' colour where the model gives none, or everywhere with `recolor`.
+    /// The colour of objects without one; with `recolor`, of all objects.
     pub color: Color,
     /// Whether `color` replaces the model's own colours.
     pub recolor: bool,
-    /// What surfaces look like.
+    /// The surfaces' colours.
     pub surface: Surface,
 }
 
 crate::choices! {
-    /// What surfaces look like before a style shades them.
+    /// The look of surfaces before a style shades them.
     #[derive(Default)]
     pub enum Surface {
-        /// Each material has one colour.
+        /// One colour for each material.
         #[default]
         Plain = "plain",
-        /// With the textures and colours at vertices that the model brings; a material is white under its texture.
+        /// The model's textures and vertex colours; a material is white under its texture.
         Textured = "textured",
     }
 }
 
-/// What the user asks of the scene.
+/// The user's settings of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneSettings {
-    /// How often the models are repeated, on a square grid on the ground, as the first paper's scenes grow. Default 1.
+    /// Number of copies of the models on a square grid on the ground, as in the first paper's scenes. Default 1.
     pub copies: u32,
     /// The camera.
     pub camera: CameraSettings,
-    /// The picture's size. Default 512 x 512, the first paper's.
+    /// The picture's size, pixels. Default 512 x 512, as in the first paper.
     pub size: Size,
-    /// What is behind the objects. Default white.
+    /// The background. Default white.
     pub background: Background,
-    /// One colour for everything instead of the model's own.
+    /// One colour for everything, in place of the model's. Default none.
     pub color: Option<Color>,
-    /// The colour of what the model gives none. Default [`DEFAULT_COLOR`].
+    /// The colour where the model has none. Default [`DEFAULT_COLOR`].
     pub bare_color: Color,
-    /// What surfaces look like. Default plain, as in the three texts' pictures.
+    /// The look of surfaces. Default plain, as in the pictures of the three texts.
     pub surface: Surface,
 }
 
@@ -144,7 +142,7 @@ impl HasSettings for SceneSettings {
 }
 
 impl SceneSettings {
-    /// The settings, also for a table of something that has a scene in it.
+    /// The settings, for tables of structs that contain a scene.
     pub fn settings() -> Vec<Setting<Self>> {
         let default = || Self::default().background;
         let background = Setting::of(
@@ -207,25 +205,25 @@ impl SceneSettings {
     }
 }
 
-/// The colour of models that bring none: a warm light clay on which all three tones show.
+/// The default colour of models without one: a light, warm clay that shows all three tones.
 pub const DEFAULT_COLOR: Color = Color([0.93, 0.74, 0.52]);
 
 /// Gap between copies on the grid, as a share of the models' largest extent.
 const COPY_GAP: f64 = 0.15;
 
-/// Most copies: each is drawn by itself in every pass.
+/// Largest number of copies, because every pass draws each copy separately.
 const LARGEST_COPIES: u32 = 10_000;
 
-/// Points looked at one by one to fit the camera; larger scenes are fitted by their objects' boxes.
+/// Largest number of points to which the camera is fitted; larger scenes are fitted by their objects' bounding boxes.
 const FITTED_POINTS: usize = 4_000_000;
 
 impl Scene {
-    /// Puts meshes together, each at its own coordinates, and fits the camera to them; takes meshes and shared ones alike.
+    /// Places the meshes at their coordinates and fits the camera to them. Accepts meshes and shared meshes.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for what cannot be drawn: no mesh, no copy, a size of 0, a nonsensical camera, planes so far apart that
-    /// depth cannot tell what is in front, a scene whose coordinates are beyond [`SCENE_RADIUS`].
+    /// [`Error::Setting`] for a scene that cannot be drawn: no mesh, no copy, a size of 0, an impossible camera,
+    /// planes too far apart for depth to order faces, or coordinates beyond [`SCENE_RADIUS`].
     pub fn new(meshes: impl IntoIterator<Item: Into<Arc<Mesh>>>, settings: &SceneSettings) -> Result<Self> {
         let meshes: Vec<Arc<Mesh>> = meshes.into_iter().map(Into::into).collect();
         if meshes.is_empty() || !(1..=LARGEST_COPIES).contains(&settings.copies) {
@@ -253,17 +251,17 @@ impl Scene {
         Self::seen(objects, centre, radius, settings)
     }
 
-    /// The same objects, with all that was found out about them, as other settings show them; `copies` is left as it is.
+    /// Returns the same objects, with their cached data, under other settings; `copies` is ignored.
     ///
     /// # Errors
     ///
-    /// As [`Scene::new`].
+    /// Those of [`Scene::new`].
     pub fn seen_with(&self, settings: &SceneSettings) -> Result<Self> {
         check_size(settings.size)?;
         Self::seen(self.objects.clone(), self.centre, self.radius, settings)
     }
 
-    /// Objects with what is known of where they are, as settings show them.
+    /// Objects with the given centre and radius, under these settings.
     fn seen(objects: Vec<Object>, centre: DVec3, radius: f64, settings: &SceneSettings) -> Result<Self> {
         let camera = fitted_camera(&objects, centre, radius, settings)?;
         let scene = Self {
@@ -281,17 +279,17 @@ impl Scene {
         Ok(scene)
     }
 
-    /// What GL draws of an object of this scene: in scene radii, around the mesh's own centre.
+    /// The vertex arrays of an object of this scene: in scene radii, around the mesh's centre.
     pub fn arrays<'a>(&self, object: &'a Object) -> &'a VertexArrays {
         object.arrays.get_or_init(|| VertexArrays::new(&object.mesh, self.radius))
     }
 
-    /// Boxes around an object's vertices, as its arrays have them.
+    /// Boxes around an object's vertices, in the space of its arrays.
     fn boxes<'a>(&self, object: &'a Object) -> &'a [[Vec3; 2]] {
         object.boxes.get_or_init(|| vertex_boxes::boxes(self.arrays(object)))
     }
 
-    /// Makes every object's arrays now, on the thread that has the time.
+    /// Creates every object's arrays now, for example on a background thread.
     pub fn make_arrays(&self) {
         self.objects.iter().for_each(|object| {
             self.arrays(object);
@@ -303,13 +301,13 @@ impl Scene {
         object.edges.get_or_init(|| MeshEdges::new(object.mesh.clone()))
     }
 
-    /// The curvature of an object's surface between creases, smoothed as [`Curvatures::new`] says; that of the last settings asked
-    /// for is kept.
+    /// The curvature of an object's surface between creases, smoothed as in [`Curvatures::new`]. The result for the
+    /// latest settings is cached.
     pub fn curvatures(&self, object: &Object, crease_angle: CreaseAngle, smoothing: f64) -> Arc<Curvatures> {
         object.curvatures.get(&object.mesh, self.edges(object).list(), crease_angle, smoothing)
     }
 
-    /// Where an object is seen from, in its mesh's own coordinates; for the listing's rule always the camera's axis.
+    /// The eye in an object's mesh coordinates; for the listing's rule always the camera's axis.
     pub fn eye(&self, object: &Object, rule: SilhouetteRule) -> Eye {
         match (rule, self.camera.projection) {
             (SilhouetteRule::Exact | SilhouetteRule::Smooth, Projection::Perspective { .. }) => {
@@ -319,17 +317,17 @@ impl Scene {
         }
     }
 
-    /// The matrix from a mesh's arrays (recentred on `mesh_centre`, in scene radii) to eye space, rigid.
+    /// The rigid matrix from a mesh's arrays (centred on `mesh_centre`, in scene radii) to eye space.
     pub fn view_from_object(&self, object: &Object, mesh_centre: DVec3) -> Mat4 {
         let view = self.camera.view_from_world();
-        // Everything relative to the eye in f64, so that a far-away scene loses nothing.
+        // Relative to the eye in f64, so a distant scene loses no precision.
         let from_eye = mesh_centre + object.offset - self.camera.eye;
         let translation = view.transform_vector3(from_eye) / self.radius;
         let rotation = DMat4::from_mat3(glam::DMat3::from_mat4(view));
         (DMat4::from_translation(translation) * rotation).as_mat4()
     }
 
-    /// The projection in scene radii.
+    /// The projection, for lengths in scene radii.
     pub fn clip_from_view(&self) -> Mat4 {
         let mut camera = self.camera;
         camera.near /= self.radius;
@@ -340,7 +338,7 @@ impl Scene {
         camera.clip_from_view(self.size.aspect()).as_mat4()
     }
 
-    /// The colour of a run of triangles with this material (or [`crate::mesh::NONE`]).
+    /// The colour of triangles with this material (or [`crate::mesh::NONE`]).
     pub fn material_color(&self, mesh: &Mesh, material: u32) -> Color {
         if self.recolor {
             return self.color;
@@ -351,29 +349,29 @@ impl Scene {
         }
     }
 
-    /// What has no colour of its own; white under colours at vertices.
+    /// The colour of faces without one; white under vertex colours.
     fn bare_color(&self, mesh: &Mesh) -> Color {
         if self.has_colors(mesh) { Color([1.0; 3]) } else { self.color }
     }
 
-    /// Whether a mesh is drawn with the colours at its vertices, in styles that leave it to the scene.
+    /// Whether a mesh shows its vertex colours, in styles that follow the scene's setting.
     fn has_colors(&self, mesh: &Mesh) -> bool {
         self.surface == Surface::Textured && !self.recolor && !mesh.position_colors.is_empty()
     }
 
-    /// Whether a material of the mesh is drawn with its texture, in styles that leave it to the scene.
+    /// Whether a material shows its texture, in styles that follow the scene's setting.
     fn is_textured(&self, mesh: &Mesh, material: &Material) -> bool {
         let has_coordinates = !mesh.triangle_texture_coordinates.is_empty();
         self.surface == Surface::Textured && !self.recolor && has_coordinates && material.has_texture()
     }
 
-    /// Whether anything is drawn with its texture or colours at its vertices, in styles that leave it to the scene.
+    /// Whether any texture or vertex colours are shown, in styles that follow the scene's setting.
     pub fn has_textured_surfaces(&self) -> bool {
         let is_textured = |object: &Object| object.mesh.materials.iter().any(|it| self.is_textured(&object.mesh, it));
         self.objects.iter().any(|object| is_textured(object) || self.has_colors(&object.mesh))
     }
 
-    /// The colours at the vertices of each object, white where it has none; `None` where no object is drawn with any.
+    /// The vertex colours of each object, white without any; `None` if no object shows them.
     pub fn vertex_colors(&self) -> Option<Vec<Arc<Vec<[f32; 4]>>>> {
         if !self.objects.iter().any(|object| self.has_colors(&object.mesh)) {
             return None;
@@ -391,7 +389,7 @@ impl Scene {
         Some(lists)
     }
 
-    /// A sentence for each mesh whose open edges run beside one another as cracks do.
+    /// A sentence for each mesh that seems to have cracks: open edges side by side.
     pub fn crack_remarks(&self) -> Vec<String> {
         let objects = self.objects.iter().enumerate();
         // Copies share a mesh.
@@ -401,7 +399,7 @@ impl Scene {
         objects.filter(is_first).filter_map(|(_, object)| self.edges(object).remark()).collect()
     }
 
-    /// Triangles of all objects together.
+    /// Number of triangles of all objects.
     pub fn triangle_count(&self) -> usize {
         self.objects.iter().map(|object| object.mesh.triangles.len()).sum()
     }
@@ -420,7 +418,7 @@ impl Object {
         }
     }
 
-    /// What tells this object and its copies from others, for as long as one of them is there.
+    /// The identity shared by this object and its copies, valid while one of them exists.
     pub fn identity(&self) -> ObjectIdentity {
         ObjectIdentity(Arc::downgrade(&self.arrays))
     }
@@ -447,7 +445,7 @@ fn check_size(size: Size) -> Result<()> {
     }
 }
 
-/// The camera that the settings ask for, fitted to the objects.
+/// The camera of these settings, fitted to the objects.
 fn fitted_camera(objects: &[Object], centre: DVec3, radius: f64, settings: &SceneSettings) -> Result<Camera> {
     let aspect = settings.size.aspect();
     let point_count: usize = objects.iter().map(|object| object.mesh.positions.len()).sum();
@@ -459,11 +457,11 @@ fn fitted_camera(objects: &[Object], centre: DVec3, radius: f64, settings: &Scen
     settings.camera.fit(centre, radius, aspect, corners.iter().copied())
 }
 
-/// The models repeated in rows along x, rows going back along -z.
+/// The models repeated in rows along x; further rows follow along -z.
 fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
     let all: Vec<DVec3> = meshes.iter().map(|mesh| mesh.bounds()).flat_map(|(low, high)| [low, high]).collect();
     let (low, high) = bounds(&all);
-    // Models that are flat along an axis would otherwise stand in one another.
+    // A gap in every direction, because models that are flat along an axis would otherwise overlap.
     let step = (high - low) + (high - low).max_element() * COPY_GAP;
     let columns = f64::from(copies).sqrt().ceil() as u32;
     let originals: Vec<Object> = meshes.iter().map(|mesh| Object::at_home(mesh.clone())).collect();
@@ -552,7 +550,7 @@ mod tests {
         }
         assert!(refused(CameraSettings { fov_y_degrees: 1e-7, ..base() }).contains("--parallel"));
         assert!(refused(CameraSettings { eye: Some(DVec3::Z * 1e30), ..base() }).contains("eye"));
-        // Exact lines can be found by these, GL cannot draw by them.
+        // Precise enough for exact lines, but not for GL.
         let by_gl = |camera: CameraSettings| scene(camera).unwrap().check_precision().unwrap_err().to_string();
         assert!(by_gl(CameraSettings { fov_y_degrees: 1e-3, ..base() }).contains("GL can resolve"));
         let (near, far) = (Some(1e-12), Some(1e12));

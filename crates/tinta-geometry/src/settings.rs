@@ -1,11 +1,11 @@
-//! What a setting is: its name, what it can be, its help, and how it is read from and written to the struct it belongs to.
+//! Settings: their names, kinds, help, and how they are read from and written to a struct.
 //!
-//! Each setting is declared once, beside its struct: [`crate::scene`] has those of [`crate::SceneSettings`]. Everything
-//! else is a loop over a [`Table`]: options of the command line with their help and defaults, completions, manual pages,
-//! presets, recipes, jobs of a batch, keys of JSON records, the viewer's panel, the test that all of them go there and back.
-//! This module knows none of them.
+//! Each setting is declared once, next to its struct: [`crate::scene`] has those of [`crate::SceneSettings`].
+//! Everything else is a loop over a [`Table`]: command-line options with their help and defaults, completions, manual
+//! pages, presets, recipes, batch jobs, keys of JSON records, the viewer's panel, and the round-trip test of all
+//! settings. This module knows none of these uses.
 //!
-//! In: values as the texts that a user writes. Out: structs with their settings, and from these the same texts.
+//! Input: the values as the user's texts. Output: structs, and from them the same texts.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {
@@ -17,7 +17,7 @@
 //!     .into();
 //! let scene = SceneSettings::from_options(&options)?;
 //! assert_eq!(scene.size, Size { width: 640, height: 480 });
-//! // What is as by default is not written.
+//! // Defaults are not written.
 //! assert_eq!(scene.to_options()?, options);
 //! # Ok(())
 //! # }
@@ -43,26 +43,26 @@ use std::ops::RangeInclusive;
 /// Options by their long names without dashes, each at most once.
 pub type Options = BTreeMap<String, OptionValue>;
 
-/// What is given for an option.
+/// The value given for an option.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum OptionValue {
     /// `true` or `false`: an option without a value that is given or not, or `on` and `off`.
     Switch(bool),
-    /// The value as it is written on the command line.
+    /// The value as written on the command line.
     Text(String),
-    /// Several, which are one with commas between where an option is not repeated.
+    /// Several values; joined with commas, unless the option may be repeated.
     Texts(Vec<String>),
 }
 
 impl OptionValue {
-    /// A value that is written as a text.
+    /// A value given as text.
     pub fn text(text: impl Into<String>) -> Self {
         Self::Text(text.into())
     }
 }
 
-/// Settings that exclude each other: one, and those that cannot stand beside it.
+/// Mutually exclusive settings: each with those that it excludes.
 pub const EXCLUSIVE: [(&str, &[&str]); 9] = [
     ("eye", &["view"]),
     ("transparent", &["background"]),
@@ -79,7 +79,7 @@ pub const EXCLUSIVE: [(&str, &[&str]); 9] = [
 ///
 /// # Errors
 ///
-/// [`Error::Settings`] with the two.
+/// [`Error::Settings`] with the names of both.
 pub fn refuse_exclusive(options: &Options) -> Result<()> {
     let is_given = |name: &str| options.get(name).is_some_and(|value| *value != OptionValue::Switch(false));
     for (one, others) in EXCLUSIVE.iter().filter(|(one, _)| is_given(one)) {
@@ -90,37 +90,37 @@ pub fn refuse_exclusive(options: &Options) -> Result<()> {
     Ok(())
 }
 
-/// How a setting is read; `None` where there is none.
+/// Reads a setting; `None` if the struct does not have it.
 type Get<T> = Box<dyn Fn(&T) -> Option<String> + Send + Sync>;
 
-/// How it is set.
+/// Writes a setting.
 type Set<T> = Box<dyn Fn(&mut T, &str) -> std::result::Result<(), Problem> + Send + Sync>;
 
 /// A setting of a `T`.
 pub struct Setting<T> {
-    /// Its name: that of the option, without dashes, and the key in presets, jobs and records.
+    /// Its name: the option without dashes, and the key in presets, jobs and records.
     pub name: &'static str,
-    /// What it can be.
+    /// The kind of its values.
     pub kind: Kind,
-    /// What its value is called in the option's help.
+    /// The placeholder for its value in the option's help.
     pub value_name: &'static str,
-    /// What it does to the picture.
+    /// Its effect on the picture.
     pub help: &'static str,
-    /// What the help says of the default, where the plain text would not say enough.
+    /// The default as the help gives it, if the plain text is not clear enough.
     pub said_default: Option<&'static str>,
-    /// What it is listed under.
+    /// The heading that lists it.
     pub heading: &'static str,
-    /// Whether most people need it, so that short lists show it too.
+    /// Whether it is common: short lists show it too.
     pub is_common: bool,
-    /// The text for a value that is left open.
+    /// The text for an unset value.
     pub open: Option<&'static str>,
-    /// Whose its default is, where somebody asked.
+    /// The origin of its default, if known.
     pub provenance: Option<Provenance>,
-    /// Texts of earlier versions with those that say the same now: they are read, and neither written nor offered.
+    /// Texts of earlier versions, each with its present equivalent: they are accepted, but never written or offered.
     pub former: &'static [(&'static str, &'static str)],
-    /// Whether it may be given without a value: then its text is empty.
+    /// Whether its option may be given without a value; its text is then empty.
     pub stands_alone: bool,
-    /// Whether it decides which others there are, and is set before them.
+    /// Whether it decides which other settings exist, and is therefore set first.
     is_first: bool,
     label: Option<&'static str>,
     get: Get<T>,
@@ -149,7 +149,7 @@ impl<T: Clone + 'static> Setting<T> {
         Self::of(name, value_name, V::kind(), help, get, set)
     }
 
-    /// A field that may be left open, for which there is a word.
+    /// A field that may be unset, with a word for that.
     pub fn open_field<V: Value + 'static>(
         name: &'static str,
         value_name: &'static str,
@@ -173,7 +173,7 @@ impl<T: Clone + 'static> Setting<T> {
         Self { open: Some(open), said_default: Some(open), ..Self::of(name, value_name, kind, help, get, set) }
     }
 
-    /// A field that is one of two, `false` first.
+    /// A field with two values, the one for `false` first.
     pub fn either(
         name: &'static str,
         value_name: &'static str,
@@ -190,7 +190,7 @@ impl<T: Clone + 'static> Setting<T> {
         Self::of(name, value_name, Kind::Choice(names.to_vec()), help, get, set)
     }
 
-    /// A setting that is on or off, and an option without a value.
+    /// A setting that is on or off; its option takes no value.
     pub fn flag(name: &'static str, help: &'static str, get: fn(&T) -> bool, set: fn(&mut T, bool)) -> Self {
         let get = move |of: &T| on_off(get(of)).to_owned();
         let set = move |of: &mut T, text: &str| {
@@ -200,7 +200,7 @@ impl<T: Clone + 'static> Setting<T> {
         Self::of(name, "", Kind::Flag, help, get, set)
     }
 
-    /// A setting that is read and set by two functions.
+    /// A setting with functions to read and to set it.
     pub fn of(
         name: &'static str,
         value_name: &'static str,
@@ -228,7 +228,7 @@ impl<T: Clone + 'static> Setting<T> {
         }
     }
 
-    /// With the numbers that a panel offers, and how many decimals of them are worth showing.
+    /// Sets the range of numbers that a panel offers, and the number of decimals worth showing.
     #[must_use]
     pub fn range(mut self, low: f64, high: f64, decimals: usize) -> Self {
         let count = if let Kind::Numbers { count, .. } = self.kind { count } else { 1 };
@@ -236,49 +236,49 @@ impl<T: Clone + 'static> Setting<T> {
         self
     }
 
-    /// With texts that a shell and a panel offer.
+    /// Sets the texts that a shell and a panel offer.
     #[must_use]
     pub fn offering(mut self, texts: &[&'static str]) -> Self {
         self.kind = Kind::Choice(texts.to_vec());
         self
     }
 
-    /// With this text for a value that is left open.
+    /// Sets the text for an unset value.
     #[must_use]
     pub fn open(mut self, text: &'static str) -> Self {
         self.open = Some(text);
         self
     }
 
-    /// With texts that earlier versions had, each before what says the same now.
+    /// Sets texts of earlier versions, each followed by its present equivalent.
     #[must_use]
     pub fn formerly(mut self, texts: &'static [(&'static str, &'static str)]) -> Self {
         self.former = texts;
         self
     }
 
-    /// With other words for the default.
+    /// Sets the words that the help uses for the default.
     #[must_use]
     pub fn said(mut self, default: &'static str) -> Self {
         self.said_default = Some(default);
         self
     }
 
-    /// As one that may be given without a value.
+    /// Allows its option without a value.
     #[must_use]
     pub fn standing_alone(mut self) -> Self {
         self.stands_alone = true;
         self
     }
 
-    /// As one that decides which others there are.
+    /// Marks it as a setting that decides which others exist.
     #[must_use]
     pub fn first(mut self) -> Self {
         self.is_first = true;
         self
     }
 
-    /// With values that this owner of it cannot have, each refused with a reason.
+    /// Refuses values that `check` rejects for this struct.
     #[must_use]
     pub fn refusing(mut self, check: fn(&T) -> Result<()>) -> Self {
         let set = self.set;
@@ -289,7 +289,7 @@ impl<T: Clone + 'static> Setting<T> {
         self
     }
 
-    /// As whole numbers within these limits only.
+    /// Accepts only whole numbers within these limits.
     #[must_use]
     pub fn whole(mut self, limits: RangeInclusive<u32>) -> Self {
         let (set, open) = (self.set, self.open);
@@ -303,33 +303,33 @@ impl<T: Clone + 'static> Setting<T> {
         self
     }
 
-    /// With a text that is not the default, for those who try it.
+    /// Sets an example text that is not the default, for tests.
     #[must_use]
     pub fn like(mut self, example: &'static str) -> Self {
         self.kind = Kind::Text { offered: &[], example };
         self
     }
 
-    /// As one of the few that most people need: the short help (`-h`) lists it.
+    /// Marks it as common: the short help (`-h`) lists it.
     #[must_use]
     pub fn common(mut self) -> Self {
         self.is_common = true;
         self
     }
 
-    /// With another name in a panel than its own.
+    /// Sets a panel label that differs from its name.
     #[must_use]
     pub fn labelled(mut self, label: &'static str) -> Self {
         self.label = Some(label);
         self
     }
 
-    /// What its panel calls it.
+    /// Its label in a panel.
     pub fn label(&self) -> String {
         self.label.map_or_else(|| self.name.replace('-', " "), str::to_owned)
     }
 
-    /// The same setting of a whole that may have a `T` in it; where it has none it has no such setting.
+    /// Returns this setting for a struct that may contain a `T`; without a `T` the struct does not have the setting.
     pub fn within<S: Clone + 'static>(self, part: fn(&mut S) -> Option<&mut T>) -> Setting<S> {
         let Self {
             name,
@@ -370,22 +370,22 @@ impl<T: Clone + 'static> Setting<T> {
         }
     }
 
-    /// A text as it is written now: another where earlier versions had this one.
+    /// Returns the present text for one of an earlier version; any other text is unchanged.
     pub fn present<'t>(&self, text: &'t str) -> &'t str {
         self.former.iter().find(|(former, _)| *former == text).map_or(text, |(_, present)| present)
     }
 
-    /// Its value, as it is written; `None` where there is no such setting, empty where there is no text for what it is.
+    /// Returns its value as text; `None` if `of` does not have the setting, empty if no text describes the value.
     pub fn value(&self, of: &T) -> Option<String> {
         (self.get)(of)
     }
 
-    /// Sets it; what has no such setting stays as it is.
+    /// Sets it; without effect if `of` does not have the setting.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for a text that is no value of it, [`Error::File`] for a file that cannot be read. What no value
-    /// of its own can tell is refused by whoever uses it, for a style by its plan.
+    /// [`Error::Setting`] for an invalid text, [`Error::File`] for a file that cannot be read. Values that are
+    /// invalid only in combination are refused later, for a style by its plan.
     pub fn set(&self, of: &mut T, text: &str) -> Result<()> {
         if self.value(of).is_none() {
             return Ok(());
@@ -396,7 +396,7 @@ impl<T: Clone + 'static> Setting<T> {
         })
     }
 
-    /// What to say of a text that is no value: the name that was meant, where its values are names, or what is wrong.
+    /// Returns the message for an invalid text: the nearest known name, or the problem.
     fn said_of(&self, text: &str, problem: String) -> String {
         match &self.kind {
             Kind::Numbers { .. } => problem,
@@ -410,11 +410,11 @@ impl<T: Clone + 'static> Setting<T> {
         }
     }
 
-    /// What is given of it as recipes and presets keep it, in the words of this version; the error says what should be given instead.
+    /// Returns a value as recipes and presets store it, in this version's words.
     ///
     /// # Errors
     ///
-    /// What should be given instead.
+    /// What to write instead.
     pub fn kept(&self, value: OptionValue) -> std::result::Result<OptionValue, String> {
         let text = self.text_of(&value)?;
         Ok(match (&self.kind, value) {
@@ -424,7 +424,7 @@ impl<T: Clone + 'static> Setting<T> {
         })
     }
 
-    /// The text that this is of what is given; the error says what should be given instead.
+    /// Returns the text of a given value; the error says what to write instead.
     fn text_of(&self, value: &OptionValue) -> std::result::Result<String, String> {
         match (&self.kind, value) {
             (Kind::Flag, OptionValue::Text(_) | OptionValue::Texts(_)) => {
@@ -444,7 +444,7 @@ impl<T: Clone + 'static> Setting<T> {
         matches!(self.kind, Kind::Recipe(_))
     }
 
-    /// When it is set among others: recipes before what they set, and what takes something away last.
+    /// Its place in the order of setting: recipes come before the settings they contain, flags last.
     fn turn(&self) -> usize {
         match self.kind {
             _ if self.is_first => 0,
@@ -460,7 +460,7 @@ pub fn under<T>(heading: &'static str, settings: Vec<Setting<T>>) -> impl Iterat
     settings.into_iter().map(move |setting| Setting { heading, ..setting })
 }
 
-/// The same settings of a whole that may have a `T` in it.
+/// The same settings, for a struct that may contain a `T`.
 pub fn within<S: Clone + 'static, T: Clone + 'static>(
     settings: Vec<Setting<T>>,
     part: fn(&mut S) -> Option<&mut T>,
@@ -468,18 +468,18 @@ pub fn within<S: Clone + 'static, T: Clone + 'static>(
     settings.into_iter().map(move |setting| setting.within(part))
 }
 
-/// All settings of a `T`, which may come in several forms with settings of their own, as styles do. Settings of the same name
-/// in different forms are one option.
+/// All settings of a `T`, which may have several forms with different settings, as styles do. Settings with the same
+/// name in different forms are one option.
 #[derive(Debug)]
 pub struct Table<T> {
-    /// The settings, as help lists them.
+    /// The settings, in the order of the help.
     pub settings: Vec<Setting<T>>,
-    /// Every form as it is by default.
+    /// The default of every form.
     pub defaults: Vec<T>,
 }
 
 impl<T: Clone + 'static> Table<T> {
-    /// The settings of one form, or of all where none is given, each name once.
+    /// The settings of one form, or of all if none is given, each name once.
     pub fn of(&self, form: Option<&T>) -> Vec<&Setting<T>> {
         let is_first = |index: usize, name: &str| self.settings[..index].iter().all(|earlier| earlier.name != name);
         let is_of_it = |(index, setting): &(usize, &Setting<T>)| match form {
@@ -489,26 +489,26 @@ impl<T: Clone + 'static> Table<T> {
         self.settings.iter().enumerate().filter(is_of_it).map(|(_, setting)| setting).collect()
     }
 
-    /// A form's setting of this name.
+    /// A form's setting with this name.
     pub fn find(&self, form: &T, name: &str) -> Option<&Setting<T>> {
         self.settings.iter().find(|setting| setting.name == name && setting.value(form).is_some())
     }
 
-    /// Whether any form has a setting of this name.
+    /// Whether any form has a setting with this name.
     pub fn has(&self, name: &str) -> bool {
         self.settings.iter().any(|setting| setting.name == name)
     }
 
-    /// The first form's default of a setting.
+    /// The default of a setting in the first form that has it.
     pub fn default_of(&self, setting: &Setting<T>) -> String {
         self.defaults.iter().find_map(|form| setting.value(form)).unwrap_or_default()
     }
 
-    /// Refuses a text that is no value of this setting in any form; the error is without the setting's name.
+    /// Refuses a text that no form accepts for this setting; the error does not name the setting.
     pub fn check(&self, name: &str, text: &str) -> std::result::Result<(), String> {
         let mut first = Ok(());
         for setting in self.settings.iter().filter(|setting| setting.name == name) {
-            // A file is read when it is used.
+            // The file is read when it is used.
             if setting.kind == Kind::File {
                 return if text.is_empty() { Err("name a file".to_owned()) } else { Ok(()) };
             }
@@ -523,11 +523,11 @@ impl<T: Clone + 'static> Table<T> {
         first
     }
 
-    /// Sets what the options set; what is no setting of this form is left alone.
+    /// Sets all given options; options that this form does not have are ignored.
     ///
     /// # Errors
     ///
-    /// Those of [`Setting::set`], and [`Error::Setting`] for `true` or `false` where another value is due.
+    /// Those of [`Setting::set`], and [`Error::Setting`] for `true` or `false` where the setting needs a value.
     pub fn apply(&self, to: &mut T, options: &Options) -> Result<()> {
         let mut given: Vec<_> =
             self.settings.iter().filter_map(|setting| Some((setting, options.get(setting.name)?))).collect();
@@ -542,11 +542,11 @@ impl<T: Clone + 'static> Table<T> {
         Ok(())
     }
 
-    /// What differs from `default`, as options.
+    /// Returns the differences from `default` as options.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for a value that no text says: a file whose name is none, no class at all.
+    /// [`Error::Setting`] for a value without a text: a file whose name is not UTF-8, or no class at all.
     pub fn options(&self, of: &T, default: &T) -> Result<Options> {
         let mut options = Options::new();
         for setting in self.of(Some(of)).into_iter().filter(|setting| !setting.is_recipe()) {
@@ -554,7 +554,7 @@ impl<T: Clone + 'static> Table<T> {
             if setting.value(default).as_ref() == Some(&value) {
                 continue;
             }
-            // A name that was no text has lost something.
+            // A name that is not UTF-8 was read with replacement characters.
             if setting.kind == Kind::File && value.contains(char::REPLACEMENT_CHARACTER) {
                 let problem = "this file name is not valid UTF-8 and cannot be saved; rename the file";
                 return Err(Error::value(setting.name, value, problem));
@@ -575,19 +575,19 @@ impl<T: Clone + 'static> Table<T> {
         Ok(options)
     }
 
-    /// Every setting of a form with its value as JSON has it.
+    /// Returns every setting of a form with its value as JSON.
     pub fn record(&self, of: &T) -> serde_json::Map<String, serde_json::Value> {
         let settings = self.of(Some(of)).into_iter().filter(|setting| !setting.is_recipe());
         settings.map(|setting| (setting.name.to_owned(), setting.json(of))).collect()
     }
 }
 
-/// What has a table of its settings.
+/// A struct with a table of settings.
 pub trait HasSettings: Clone + Send + Sync + 'static {
-    /// All of them.
+    /// All its settings.
     fn table() -> &'static Table<Self>;
 
-    /// The default with what the options set; options that are none of these settings are left alone.
+    /// Returns the default with the given options set; unknown options are ignored.
     ///
     /// # Errors
     ///
@@ -601,7 +601,7 @@ pub trait HasSettings: Clone + Send + Sync + 'static {
         Ok(made)
     }
 
-    /// The options that make this: what differs from the default.
+    /// Returns the differences from the default as options.
     ///
     /// # Errors
     ///
@@ -615,7 +615,7 @@ pub trait HasSettings: Clone + Send + Sync + 'static {
 }
 
 impl<T: Clone + 'static> Setting<T> {
-    /// Its value as JSON has it: numbers as numbers, `null` for what is left open.
+    /// Returns its value as JSON: numbers as numbers, `null` if unset.
     fn json(&self, of: &T) -> serde_json::Value {
         let text = self.value(of).unwrap_or_default();
         let is_whole = !matches!(self.kind, Kind::Numbers { decimals: 1.., .. });
@@ -637,19 +637,19 @@ impl<T: Clone + 'static> Setting<T> {
 }
 
 impl<T> Setting<T> {
-    /// With the place where a text prints its default.
+    /// With a default that a published text prints, at this place.
     #[must_use]
     pub fn printed(self, place: &'static str) -> Self {
         Self { provenance: Some(Provenance::printed(place)), ..self }
     }
 
-    /// With what its default follows from.
+    /// With a default that follows from `from`.
     #[must_use]
     pub fn deduced(self, from: &'static str) -> Self {
         Self { provenance: Some(Provenance::deduced(from)), ..self }
     }
 
-    /// With the reason why its default was chosen here.
+    /// With a default chosen by this project, and the reason.
     #[must_use]
     pub fn ours(self, reason: &'static str) -> Self {
         Self { provenance: Some(Provenance::ours(reason)), ..self }

@@ -1,4 +1,5 @@
-//! What this crate promises those who use it alone: few crates, no OpenGL, and an SVG of a model's visible lines.
+//! The promises of this crate to users of it alone: few dependencies, no OpenGL, and an SVG of a model's visible
+//! lines.
 
 #[expect(dead_code, reason = "the program's own main is not run here")]
 #[path = "../examples/exact_svg.rs"]
@@ -7,7 +8,7 @@ mod exact_svg;
 use std::collections::BTreeSet;
 use std::process::Command;
 
-/// Most crates that may be resolved for this one, itself not counted.
+/// Largest number of resolved crates, without this one.
 const MOST_CRATES: usize = 42;
 
 #[test]

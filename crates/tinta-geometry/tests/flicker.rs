@@ -1,4 +1,5 @@
-//! The measure of flicker of `benches/contours.rs`: nothing of a sphere, lengths that are left out, what goes behind something.
+//! Tests the flicker measure of `benches/contours.rs`: none for a sphere, the right length for gaps, and hidden lines
+//! explained.
 
 #[path = "../benches/contours/flicker.rs"]
 mod flicker;
@@ -14,7 +15,7 @@ fn of(meshes: Vec<Mesh>) -> Scene {
     Scene::new(meshes.into_iter().map(Arc::new).collect::<Vec<_>>(), &SceneSettings::default()).unwrap()
 }
 
-/// Two pictures a degree apart, somewhere in a turn, and their silhouettes.
+/// Two pictures one degree apart, somewhere in a turn, with their silhouettes.
 fn a_degree(scene: &Scene, at: usize, silhouette: SilhouetteRule) -> [(Scene, VisibleLines); 2] {
     let cameras = scene.turntable(&CameraSettings::default(), 360).unwrap();
     let classes = ClassSet::of(&[Class::Silhouette]);
@@ -58,16 +59,16 @@ fn what_is_left_out_of_one_picture_is_flicker_by_its_length() {
         .sum();
     pictures[1].1.segments.retain(|segment| !is_out(middle(segment.ends_px)));
     let found = of_pictures(&pictures);
-    // The ends of the gap stay over a pixel or two.
+    // The ends of the gap count as still drawn for a pixel or two.
     assert!(left_out > 300.0 && (found.unexplained_px - left_out).abs() < 6.0, "{left_out} {found:?}");
-    // Vanishing or appearing is all the same.
+    // Vanishing and appearing count the same.
     let [a, b] = pictures;
     assert_eq!(of_pictures(&[b, a]).unexplained_px, found.unexplained_px);
 }
 
 #[test]
 fn what_goes_behind_something_is_explained() {
-    // A sheet before a ball hides half of it in the second picture.
+    // A sheet in front of a ball hides half of it in the second picture.
     let ball = || ClosedForm::ellipsoid(1.0, 1.0, 1.0).mesh(10_000, 0.0).unwrap();
     let scene = of(vec![ball()]);
     let [first, second] = a_degree(&scene, 0, SilhouetteRule::Smooth);
@@ -80,7 +81,7 @@ fn what_goes_behind_something_is_explained() {
     let sheet = Mesh::of_triangles("sheet", corners, &[[0, 1, 2], [0, 2, 3]], &LoadOptions::default()).unwrap();
     let mut hidden = of(vec![ball(), sheet]);
     (hidden.camera, hidden.centre, hidden.radius) = (second.0.camera, second.0.centre, second.0.radius);
-    // Nothing is drawn there any more: half of that is right.
+    // The second picture is empty, which is right for half of the ball.
     let nothing = VisibleLines { segments: Vec::new(), ..second.1.clone() };
     let pictures = [(&first.0, &first.1), (&hidden, &nothing)];
     let Flicker { drawn_px, explained_px, unexplained_px } = flicker(pictures, 1.0);

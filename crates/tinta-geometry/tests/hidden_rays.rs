@@ -1,7 +1,7 @@
-//! Hidden lines against rays: something lies in front of each point of a hidden piece, and nothing in front of a visible one; every
-//! point of a line is in exactly one piece.
+//! Tests hidden lines with rays: something lies in front of each point of a hidden segment, and nothing in front of a
+//! visible one. Every point of a line belongs to exactly one segment.
 //!
-//! In f64 and world space, each ray against each face, with no formula of the library's.
+//! The rays run in f64 and world space, each against every face, with no formula of the library.
 
 extern crate tinta_geometry as tinta;
 
@@ -30,10 +30,10 @@ use tinta::Scene;
 use tinta::edges::Class;
 use tinta::lines::LineSettings;
 
-/// The families, and four kinds of scenes turned at random.
+/// The families, and four kinds of randomly oriented scenes.
 const KINDS: usize = FAMILIES.len() + 4;
 
-/// A scene of one of the families, numbered through all of them.
+/// A scene of one of the families, numbered across all of them.
 fn scene(number: usize, random: &mut Random) -> (String, Scene) {
     match FAMILIES.get(number % KINDS) {
         Some((name, make)) => ((*name).to_owned(), make(random)),
@@ -44,7 +44,7 @@ fn scene(number: usize, random: &mut Random) -> (String, Scene) {
     }
 }
 
-/// Checks the scenes of seeds 1 to so many.
+/// Checks the scenes of seeds 1 to `count`.
 fn check(count: u64) {
     let (mut all, mut failures) = (Found::default(), Vec::new());
     let mut failed = 0;
@@ -64,7 +64,7 @@ fn check(count: u64) {
     println!("{failed} of {count} scenes fail; {}", all.summary());
     failures.truncate(40);
     assert!(failures.is_empty(), "{failed} of {count} scenes fail: {failures:#?}");
-    // Hidden and visible points are both asked for, and few are left open.
+    // Hidden and visible points are both tested, and few remain undecided.
     assert!(all.hidden as u64 > 50 * count && all.visible as u64 > 50 * count, "{}", all.summary());
     assert!(all.unclear * 20 < all.hidden + all.visible, "{}", all.summary());
     assert!(all.edges as u64 > 10 * count && all.exempt * 5 < all.edges, "{}", all.summary());
@@ -93,9 +93,9 @@ fn where_hidden_lines_are_left_out_the_visible_ones_are_the_same() {
 
 #[test]
 fn an_intersection_that_begins_in_a_corner_is_hidden_from_there_on() {
-    // Three faces with a common corner: a floor, a wall that reaches a little through it, and above both a lid that leaves the floor at
-    // an angle of 0.03 degrees. By the distance alone the lid would touch the first fiftieth of the line. The rim of a small face above
-    // all crosses that.
+    // Three faces share a corner: a floor, a wall that reaches slightly through it, and a lid that rises from the
+    // floor at 0.03 degrees. By distance alone, the lid would touch the first fiftieth of the line. The rim of a
+    // small face above crosses all of it.
     let floor = [[2.0, 0.0, -1.0], [2.0, 0.0, 1.0]];
     let wall = [[2.0, -1.0, 0.0], [2.0, 4e-4, 0.0]];
     let lid = [[3.0, 1.5e-3, -2.0], [3.0, 1.5e-3, 2.0]];
@@ -117,8 +117,8 @@ fn an_intersection_that_begins_in_a_corner_is_hidden_from_there_on() {
 
 #[test]
 fn a_face_touches_what_lies_a_hundred_thousandth_of_a_long_line_behind_it() {
-    // Of a model 300 long and 0.03 thick a tenth of its thickness: the limit that docs/guide/lines.md states. A narrow sheet below a wide one,
-    // seen from above.
+    // A tenth of the thickness of a model 300 long and 0.03 thick: the limit that docs/guide/lines.md states. A
+    // narrow sheet lies below a wide one and is seen from above.
     let sheet = |width: f64, y: f64| {
         let corners = [[-150.0, y, -width], [150.0, y, -width], [150.0, y, width], [-150.0, y, width]];
         mesh(corners.map(DVec3::from).to_vec(), vec![[0, 1, 2], [0, 2, 3]])

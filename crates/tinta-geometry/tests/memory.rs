@@ -1,6 +1,6 @@
-//! Memory at the peak, counted by the allocator and never by a clock or the system: of the exact lines and of reading files.
+//! Peak memory of exact lines and of reading files, counted by the allocator, never by a clock or the system.
 //!
-//! One test in a process of its own, because everything counts.
+//! It is the only test of its process, because every allocation counts.
 
 #![expect(unsafe_code, reason = "an allocator that counts can only be written so")]
 
@@ -14,12 +14,12 @@ use tinta_geometry::{LineSettings, LoadOptions, Mesh, Scene, SceneSettings, Visi
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// Most bytes a triangle, beyond the model itself for the lines, and with it for the readers.
+/// Most bytes per triangle: for the lines in addition to the model, for the readers including it.
 const MOST_OF_LINES: usize = 300;
 const MOST_OF_READERS: [(&str, usize); 5] =
     [("OBJ", 160), ("PLY, binary", 120), ("PLY, text", 130), ("STL, binary", 200), ("GLB", 150)];
 
-/// Most bytes a triangle that the vertex arrays take beside the mesh while they are made.
+/// Most bytes per triangle that creating the vertex arrays needs in addition to the mesh.
 const MOST_OF_ARRAYS: usize = 100;
 
 #[test]

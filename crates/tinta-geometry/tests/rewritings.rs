@@ -1,7 +1,7 @@
-//! The same surface, written another way, has the same lines.
+//! A surface that is written in another way has the same lines.
 //!
-//! Every rewriting below changes a model's file and not its surface. The drawing must keep its visible length per class
-//! and every visible piece.
+//! Every rewriting below changes a model's file, but not its surface. The drawing must keep its visible length per
+//! class and every visible segment.
 
 extern crate tinta_geometry as tinta;
 
@@ -31,7 +31,7 @@ use rules::REWRITINGS;
 use same::difference;
 use shapes::Random;
 
-/// A scene of one of the families, numbered through all of them.
+/// A scene of one of the families, numbered across all of them.
 fn scene(number: usize, random: &mut Random) -> (String, Model) {
     let kind = number % (FAMILIES.len() + 4);
     match FAMILIES.get(kind) {
@@ -43,7 +43,7 @@ fn scene(number: usize, random: &mut Random) -> (String, Model) {
     }
 }
 
-/// Rewrites one scene by a chain of rules and returns what differs.
+/// Rewrites one scene by a chain of rules and returns the differences.
 fn failure(seed: u64, number: usize, chain: &[usize]) -> Option<String> {
     let mut random = Random::seeded(seed);
     let (name, model) = scene(number, &mut random);
@@ -97,11 +97,11 @@ fn from_very_far_away_perspective_is_parallel_projection() {
     for seed in 1..=96 {
         let mut random = Random::seeded(seed);
         let (name, model) = scene(seed as usize, &mut random);
-        // Triangles of any three points cross at angles at which a millionth of the distance shows.
+        // Random triangles intersect at such small angles that a millionth of the distance matters.
         if name == "random scenes 3" {
             continue;
         }
-        // Along no axis: a face seen edge-on in parallel projection is not so from any place.
+        // Along no axis, because a face that is edge-on in parallel projection is not edge-on in perspective.
         let direction = random.direction();
         let [parallel, far] = [model.parallel_from(direction), model.perspective_from(direction)];
         let difference = difference(&lines(&parallel.scene()), &lines(&far.scene()), false);

@@ -1,5 +1,5 @@
-//! Smooth silhouettes of an open wavy surface against those of a mesh eighteen times as fine: short contours that hardly bend, ends on
-//! the rim, and what the count of breaks names.
+//! Smooth silhouettes of an open wavy surface, compared with a mesh with eighteen times as many faces: short contours
+//! with little bend, ends on the rim, and counted breaks.
 
 extern crate tinta_geometry as tinta;
 
@@ -17,14 +17,15 @@ use tinta::Mesh;
 use tinta::edges::{Class, SilhouetteRule};
 use tinta::lines::{LineSettings, VisibleLines};
 
-/// Around each place where what is seen of the true contour changes, pixels left out: there lines end a little earlier or later.
+/// Excluded range around each change of visibility on the true contour, pixels: lines end slightly earlier or later
+/// there.
 const AROUND_CHANGES_PX: f64 = 3.0;
 
 /// Cells along each side: 9,800 triangles, and 180,000 for the truth.
 const CELLS: u32 = 70;
 const FINE_CELLS: u32 = 300;
 
-/// The waves, their inner vertices moved by up to a share of a cell.
+/// The waves, with inner vertices moved by up to a share of a cell.
 fn waves(cells: u32, share: f64, random: &mut Random) -> Mesh {
     let mut positions = Vec::new();
     for place in (0..=cells).flat_map(|i| (0..=cells).map(move |j| [i, j])) {
@@ -50,7 +51,7 @@ fn pieces(lines: &VisibleLines, is_visible: bool, is_asked: impl Fn(Class) -> bo
     asked.map(|piece| piece.ends_px).collect()
 }
 
-/// The largest distance of points of some pieces, but those that are left out, from the nearest of others.
+/// The largest distance of points of some segments from the nearest other segment; `is_left_out` excludes points.
 fn worst(of: &[[DVec2; 2]], from: &[[DVec2; 2]], is_left_out: impl Fn(DVec2) -> bool) -> f64 {
     let distance = |point: DVec2| {
         let to = |[a, b]: &[DVec2; 2]| {
@@ -81,7 +82,7 @@ fn away_from_where_waves_begin_and_end_to_hide_them_their_contours_are_met_withi
             let [missed, invented] =
                 [worst(&seen, &drawn, is_change), worst(&pieces(&found, true, silhouette), &all, is_change)];
             assert!(missed < 1.0 && invented < 1.0, "{name}, seed {seed}: {missed} px missed, {invented} invented");
-            // Where lines break for no reason that the count knows nothing is missing.
+            // Away from the counted breaks no line is missing.
             let breaks = found.changes.unwrap().places;
             let is_elsewhere = |point: DVec2| !breaks.iter().any(|at| DVec2::from(at.px).distance(point) < 10.0);
             let missed = worst(&seen, &drawn, is_elsewhere);

@@ -1,41 +1,44 @@
-//! Flicker: what of lines comes and goes while the eye moves, though nothing hides it.
+//! Flicker: lines that come and go while the eye moves, although nothing hides them.
 //!
-//! In: two pictures of the same models, with eyes near each other, and the visible lines of each. Out: the length that is in one
-//! and not in the other, [`Flicker`]. No rule of silhouettes takes part, and none is favoured: only what is drawn counts.
+//! Input: two pictures of the same models from nearby eyes, and the visible lines of each. Output: [`Flicker`], the
+//! length of lines in only one of them. The measure uses drawn lines only and no rule for silhouettes, so it favours
+//! none.
 //!
-//! A place of a drawn line, taken along with the model into the other picture, *stays* if a line is drawn there within
-//! so many pixels of it as whoever asks says. A contour slides over its surface, but along the view: by one degree its image is off by the radius of the surface
-//! times 0.00015. What does not stay is *explained* if in the other picture a face of another object hides the place, or one
-//! of its own that is nearer to the eye by more than [`FAR_EDGES`] sides, or if the place leaves the picture. The rest is flicker.
+//! A place of a drawn line moves with the model into the other picture. It *stays* if a line is drawn there within
+//! the caller's distance in pixels. A contour slides over its surface, but along the view: for one degree its image
+//! shifts by 0.00015 times the surface's radius. A place that does not stay is *explained* in three cases: it leaves
+//! the picture; a face of another object hides it there; or a face of the same object hides it that is nearer to the
+//! eye by more than [`FAR_EDGES`] sides. The rest is flicker.
 //!
-//! A true contour flickers, too, where it ends at a cusp, which moves along it, and where a new one begins. Edges of flat faces that turn
-//! away behind their own faces are not explained either: the measure is one for curved models.
+//! A true contour flickers too, where it ends at a cusp, which moves along it, and where a new one begins. Edges of
+//! flat faces that turn away behind their own faces are not explained: the measure suits curved models only.
 
 use glam::{DMat4, DVec2, DVec3};
 use std::collections::HashMap;
 use tinta_geometry::camera::Projection;
 use tinta_geometry::{Mesh, Scene, VisibleLines};
 
-/// Places that are asked about are at most so far apart, pixels at 512 x 512.
+/// Largest distance between tested places, pixels at 512 x 512.
 const STEP_PX: f64 = 1.0;
 
-/// From how far on a face hides a place of its object as something else, not as the surface just beside it: mean sides of the
-/// object's faces.
+/// Least distance, in mean sides of an object's faces, at which a face of the same object counts as a separate part
+/// and may hide a place. Nearer faces belong to the adjacent surface.
 const FAR_EDGES: f64 = 4.0;
 
-/// What comes and goes between two pictures, pixels of line.
+/// Lines that come and go between two pictures, pixels of line.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Flicker {
-    /// What is drawn, both pictures together.
+    /// Drawn length of both pictures.
     pub drawn_px: f64,
-    /// What is in one picture only, explained by what hides it in the other.
+    /// Length in only one picture, where a face or the border hides it in the other.
     pub explained_px: f64,
-    /// What is in one picture only for no such reason.
+    /// Length in only one picture, without such a reason.
     pub unexplained_px: f64,
 }
 
-/// The flicker between two pictures, both ways: what vanishes and what appears. Lines are the same if they are no farther than `near_px`
-/// apart, pixels at 512 x 512: less also counts lines that move, more forgives what jumps.
+/// Measures the flicker between two pictures in both directions: lines that vanish and lines that appear. Lines are
+/// the same if they are at most `near_px` apart, pixels at 512 x 512. A smaller distance also counts lines that move;
+/// a larger one tolerates jumps.
 pub fn flicker(pictures: [(&Scene, &VisibleLines); 2], near_px: f64) -> Flicker {
     let mut all = Flicker::default();
     for [(_, from), (scene, to)] in [pictures, [pictures[1], pictures[0]]] {
@@ -44,7 +47,7 @@ pub fn flicker(pictures: [(&Scene, &VisibleLines); 2], near_px: f64) -> Flicker 
     all
 }
 
-/// Adds what of some lines is not in another picture.
+/// Adds the lines that are missing in another picture.
 fn add(from: &VisibleLines, scene: &Scene, to: &VisibleLines, near_px: f64, all: &mut Flicker) {
     let picture = Picture::of(scene);
     let px = picture.size.max_element() / 512.0;
@@ -74,7 +77,7 @@ fn add(from: &VisibleLines, scene: &Scene, to: &VisibleLines, near_px: f64, all:
     }
 }
 
-/// Where a scene is seen from and how it becomes a picture.
+/// The camera of a scene and its projection to the picture.
 struct Picture {
     clip_from_world: DMat4,
     size: DVec2,
@@ -98,12 +101,12 @@ impl Picture {
         }
     }
 
-    /// How far a point is from the eye along the view.
+    /// The distance of a point from the eye along the view.
     fn depth(&self, world: DVec3) -> f64 {
         (self.eye - world).dot(self.backward)
     }
 
-    /// The pixels of a point, from the upper left; none of a point that is not beyond the near plane.
+    /// The pixel position of a point, from the upper left; `None` unless it is beyond the near plane.
     fn place(&self, world: DVec3) -> Option<DVec2> {
         let place = self.clip_from_world.project_point3(world).truncate() * DVec2::new(0.5, -0.5) + 0.5;
         (self.depth(world) > self.near).then_some(place * self.size)
@@ -115,16 +118,16 @@ impl Picture {
     }
 }
 
-/// A scene's faces, by the squares of the picture that they may be seen in.
+/// A scene's faces, by the squares of the picture that they may cover.
 struct Faces {
-    /// The object and the corners of each.
+    /// The object and the corners of each face.
     all: Vec<(usize, [DVec3; 3])>,
     squares: HashMap<[i32; 2], Vec<usize>>,
-    /// Of each object, from how far on its faces hide its own places.
+    /// For each object, the distance above which its faces hide its own places.
     far: Vec<f64>,
 }
 
-/// Sides of the faces' squares, pixels.
+/// Side of the squares for faces, pixels.
 const FACE_SQUARE_PX: f64 = 8.0;
 
 impl Faces {
@@ -135,7 +138,7 @@ impl Faces {
             faces.far.push(FAR_EDGES * mean_side(&object.mesh));
             for face in &object.mesh.triangles {
                 let corners = face.map(|corner| object.mesh.positions[corner as usize] + object.offset);
-                // One that reaches the near plane may be anywhere.
+                // The image of a face that reaches the near plane is unbounded.
                 let (low, high) = match corners.map(|corner| picture.place(corner)) {
                     [Some(a), Some(b), Some(c)] => {
                         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
@@ -154,7 +157,8 @@ impl Faces {
         faces
     }
 
-    /// Whether a place of an object is out of the picture, or hidden by another object or something far before it.
+    /// Whether a place of an object is outside the picture, or hidden by another object or a distant part of the same
+    /// one.
     fn explain(&self, picture: &Picture, object: usize, world: DVec3) -> bool {
         let Some(px) = picture.place(world) else { return true };
         if px.cmplt(DVec2::ZERO).any() || px.cmpgt(picture.size).any() {
@@ -171,7 +175,7 @@ impl Faces {
     }
 }
 
-/// How far along a line from a point a face lies.
+/// The distance of a face along a line from a point.
 fn meet(from: DVec3, along: DVec3, [a, b, c]: &[DVec3; 3]) -> Option<f64> {
     let turns = [(a, b), (b, c), (c, a)].map(|(first, second)| (first - from).cross(second - from).dot(along));
     let normal = (b - a).cross(c - a);
@@ -180,12 +184,11 @@ fn meet(from: DVec3, along: DVec3, [a, b, c]: &[DVec3; 3]) -> Option<f64> {
     (is_inside && slope != 0.0).then(|| normal.dot(a - from) / slope)
 }
 
-/// The square of this side that a place lies in.
+/// The square with this side that contains a place.
 fn square(px: DVec2, side: f64) -> [i32; 2] {
     (px / side).floor().as_ivec2().to_array()
 }
 
-/// The mean side of a mesh's faces.
 fn mean_side(mesh: &Mesh) -> f64 {
     let around = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|corner| mesh.positions[corner as usize]);
@@ -194,15 +197,15 @@ fn mean_side(mesh: &Mesh) -> f64 {
     mesh.triangles.iter().map(around).sum::<f64>() / (3 * mesh.triangles.len().max(1)) as f64
 }
 
-/// Visible lines, to be asked what is near.
+/// Visible lines, indexed for proximity queries.
 struct Drawn<'a> {
     lines: &'a VisibleLines,
     near_px: f64,
-    /// Of squares of the picture, so wide, the pieces that may be near.
+    /// The segments that may be near, by square of the picture.
     squares: HashMap<[i32; 2], Vec<usize>>,
 }
 
-/// Sides of the squares, in distances that are near.
+/// Side of the squares, in multiples of the near distance.
 const SQUARE: f64 = 4.0;
 
 impl<'a> Drawn<'a> {

@@ -1,21 +1,21 @@
-//! A camera out of the matrix that other programs have: clip space from world space.
+//! Camera settings from a matrix of another program: clip space from world space.
 
 use super::{CameraSettings, View};
 use crate::error::ParseError;
 use glam::{DMat3, DMat4, DVec3, DVec4, Vec4Swizzles};
 
-/// How far from right angles, from the picture's middle and from one another two lengths may be, as a share: matrices are often written
-/// with seven digits.
+/// Relative tolerance for right angles, a centred axis and equal lengths, because matrices are often written with
+/// seven digits.
 const SLACK: f64 = 1e-4;
 
 impl CameraSettings {
-    /// The camera with this matrix to clip space: x to the right, y up, the depth of any kind in perspective and growing away from the
-    /// eye in a parallel projection, for a picture of `height` over `width` as
-    /// the matrix has it. Planes of depth are left to be fitted.
+    /// Returns the camera with this matrix to clip space, for the aspect that the matrix contains. x points right and
+    /// y up. In perspective the depth may have any form; in a parallel projection it must grow away from the eye. The
+    /// near and far planes stay unset and are fitted.
     ///
     /// # Errors
     ///
-    /// A sentence for a matrix that is no camera's, that mirrors or shears, or whose picture does not have the axis in its middle.
+    /// A sentence if the matrix is not a camera's, mirrors or shears, or if its axis is not in the picture's centre.
     pub fn of_clip_from_world(matrix: &DMat4) -> std::result::Result<Self, ParseError> {
         let rows = [0, 1, 3].map(|row| matrix.row(row));
         if !rows.iter().all(|row| row.is_finite()) {
@@ -30,7 +30,7 @@ impl CameraSettings {
     }
 }
 
-/// Refuses axes that no picture has: `right` and `up` as long as they are in the matrix, `backward` of length 1.
+/// Refuses impossible axes: `right` and `up` with their lengths in the matrix, `backward` of length 1.
 fn check(right: DVec3, up: DVec3, backward: DVec3) -> std::result::Result<(), ParseError> {
     let refused = |problem: &str| Err(format!("a camera's matrix {problem}").into());
     if !(right.length() > 0.0 && up.length() > 0.0) {
@@ -53,12 +53,12 @@ fn perspective(x: DVec4, y: DVec4, w: DVec4) -> std::result::Result<CameraSettin
     let [x, y, w] = [x, y, w].map(|row| row / length);
     let backward = -w.xyz();
     check(x.xyz(), y.xyz(), backward)?;
-    // The eye is where all three are zero.
+    // At the eye all three rows are zero.
     let eye = DMat3::from_cols(x.xyz(), y.xyz(), w.xyz()).transpose().inverse() * -DVec3::new(x.w, y.w, w.w);
     if !eye.is_finite() {
         return Err("a camera's matrix has an eye".to_owned().into());
     }
-    // Any point on the axis will do; near the origin, where models are, it loses no digits.
+    // Any point on the axis will do; one near the origin, where models are, keeps the most digits.
     let ahead = eye.dot(backward);
     let distance = if ahead > 0.0 { ahead } else { eye.length().max(1.0) };
     Ok(CameraSettings {
@@ -77,14 +77,14 @@ fn parallel(x: DVec4, y: DVec4, depth: DVec3, w: f64) -> std::result::Result<Cam
     let [x, y] = [x / w, y / w];
     let backward = x.xyz().cross(y.xyz()).try_normalize().unwrap_or(DVec3::ZERO);
     check(x.xyz(), y.xyz(), backward)?;
-    // Nothing else says from which side: a matrix whose depth grows the other way shows what it shows mirrored.
+    // Only the depth tells front from back: a matrix with the opposite depth shows a mirrored picture.
     if (depth / w).dot(backward) > 0.0 {
         return Err("a camera's matrix does not mirror: with x to the right and y up, depth grows away from the eye; \
                     turn the sign of one of these rows"
             .to_owned()
             .into());
     }
-    // The point of the axis that is nearest to the origin.
+    // The axis's nearest point to the origin.
     let middle = -x.xyz() * (x.w / x.xyz().length_squared()) - y.xyz() * (y.w / y.xyz().length_squared());
     let view = View {
         azimuth_degrees: backward.x.atan2(backward.z).to_degrees(),
@@ -121,7 +121,7 @@ mod tests {
                     let view = view.parse().unwrap();
                     let settings = CameraSettings { view, parallel, fov_y_degrees: 41.0, ..CameraSettings::default() };
                     let matrix = matrix_of(&settings, aspect);
-                    // Programs write it with another factor, and with depths of their own.
+                    // Other programs write it with another factor and another depth range.
                     let others = DMat4::from_scale(DVec3::new(1.0, 1.0, 0.5)) * matrix * 3.0;
                     for matrix in [matrix, others] {
                         let again = matrix_of(&CameraSettings::of_clip_from_world(&matrix).unwrap(), aspect);
@@ -144,7 +144,7 @@ mod tests {
         for axis in [DVec3::new(-1.0, 1.0, 1.0), DVec3::new(1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, -1.0)] {
             assert!(refused(DMat4::from_scale(axis) * matrix_of(&front, 1.0)).contains("mirror"), "{axis}");
         }
-        // x to the left and the nearest at the largest z, as a mirror shows it.
+        // x to the left and the nearest points at the largest z, as in a mirror.
         let mirror = [-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 4.0];
         assert!(refused(DMat4::from_cols_array(&mirror)).contains("mirror"));
         assert!(refused(DMat4::from_translation(DVec3::new(0.2, 0.0, 0.0)) * matrix).contains("middle"));

@@ -1,10 +1,10 @@
-//! Meshes of surfaces whose curvature is known, for tests.
+//! Meshes of surfaces with known curvature, for tests.
 
 use crate::mesh::{LoadOptions, Mesh};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// A mesh over a grid of parameters, whose sides may be joined.
+/// A mesh over a grid of parameters, with optionally joined sides.
 pub(crate) fn grid(counts: [u32; 2], joined: [bool; 2], at: impl Fn(f64, f64) -> DVec3) -> Mesh {
     let rows = [0, 1].map(|axis| if joined[axis] { counts[axis] } else { counts[axis] + 1 });
     let share = |number: u32, axis: usize| f64::from(number) / f64::from(counts[axis]);
@@ -21,7 +21,7 @@ pub(crate) fn grid(counts: [u32; 2], joined: [bool; 2], at: impl Fn(f64, f64) ->
     Mesh::of_triangles("a grid", positions, &triangles, &LoadOptions::default()).unwrap()
 }
 
-/// A ball whose six sides are grids of `count` squares, mapped.
+/// A mapped ball whose six sides are grids of `count` squares each way.
 pub(crate) fn ball(count: u32, map: impl Fn(DVec3) -> DVec3) -> Mesh {
     let (mut positions, mut triangles) = (Vec::new(), Vec::new());
     for side in 0..6 {
@@ -47,7 +47,7 @@ pub(crate) fn ball(count: u32, map: impl Fn(DVec3) -> DVec3) -> Mesh {
     Mesh::of_triangles("a ball", positions, &triangles, &LoadOptions::default()).unwrap()
 }
 
-/// A torus of two radii around z.
+/// A torus with two radii around z.
 pub(crate) fn torus(counts: [u32; 2], radii: [f64; 2]) -> Mesh {
     grid(counts, [true; 2], |u, v| {
         let (u, v) = (u * TAU, v * TAU);

@@ -1,4 +1,4 @@
-//! A mesh as smooth surfaces: which corners are one vertex, the areas nearest to each corner, the vertices' normals.
+//! A mesh as smooth surfaces: its vertices, their normals, and the areas nearest to each corner.
 
 use crate::edges::{CreaseAngle, EdgeList, Incidence};
 use crate::mesh::{Mesh, triangle_normal};
@@ -7,21 +7,21 @@ use crate::tolerances::{NEEDLE, PARALLEL_COSINE};
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// A mesh as smooth surfaces, in radii from its middle.
+/// A mesh as smooth surfaces, in radii from its centre.
 pub(super) struct Surface {
-    /// Half the diagonal of the mesh's box, file units.
+    /// Half the diagonal of the mesh's bounding box, file units.
     pub radius: f64,
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
     /// Each triangle's vertices.
     pub corners: Vec<[u32; 3]>,
-    /// Of each triangle's area what is nearest to each corner; 0 for one too thin to have a plane.
+    /// The part of each triangle's area that is nearest to each corner; 0 if the triangle is too thin for a plane.
     pub areas: Vec<[f64; 3]>,
-    /// Each vertex's unit normal; 0 where there is none.
+    /// Each vertex's unit normal; 0 if it has none.
     pub normals: Vec<DVec3>,
-    /// For each vertex where its corners begin in `around`.
+    /// Where the corners of each vertex begin in `around`.
     starts: Vec<u32>,
-    /// The corners of each vertex, ascending: three times the triangle's number, and which corner.
+    /// The corners of each vertex, ascending: three times the triangle's number, plus the corner.
     around: Vec<u32>,
 }
 
@@ -64,7 +64,7 @@ impl Surface {
         self.triangles[face].map(|position| self.positions.get(position as usize).copied().unwrap_or(DVec3::NAN))
     }
 
-    /// The triangles around a vertex, each with its area nearest to it.
+    /// The triangles around a vertex, each with the part of its area nearest to the vertex.
     pub(super) fn around(&self, vertex: usize) -> impl Iterator<Item = (usize, f64)> {
         let corners = &self.around[self.starts[vertex] as usize..self.starts[vertex + 1] as usize];
         corners.iter().map(|corner| {
@@ -73,7 +73,7 @@ impl Surface {
         })
     }
 
-    /// The mean of the faces' normals by Max's weights: sine of the angle over the product of both sides.
+    /// The mean of the faces' normals with Max's weights: sine of the angle over the product of both sides.
     fn normal(&self, vertex: usize) -> DVec3 {
         let corners = &self.around[self.starts[vertex] as usize..self.starts[vertex + 1] as usize];
         let weighted = |corner: &u32| {
@@ -88,8 +88,8 @@ impl Surface {
         corners.iter().map(weighted).filter(|normal| normal.is_finite()).sum::<DVec3>().normalize_or_zero()
     }
 
-    /// Averages normals: each step takes of every face around a vertex the mean of its corners', by area. On even triangles a step
-    /// is a Gaussian of 1/3 of an edge's square.
+    /// Averages normals. Each step takes the area-weighted mean of the faces around a vertex, each with the mean of
+    /// its corners. On even triangles, a step is a Gaussian with a variance of 1/3 of an edge's square.
     fn smooth(&mut self, smoothing: f64, threads: usize) {
         for _ in 0..(3.0 * smoothing * smoothing).round() as usize {
             let mean = |vertex: usize| {
@@ -106,29 +106,29 @@ impl Surface {
     }
 }
 
-/// What of a triangle's area is nearest to each corner (Meyer et al. 2002); 0 for a needle.
+/// The part of a triangle's area that is nearest to each corner (Meyer et al. 2002); 0 for a needle.
 fn areas(points: [DVec3; 3]) -> [f64; 3] {
     let sides = [0, 1, 2].map(|corner| points[(corner + 2) % 3] - points[(corner + 1) % 3]);
     let squares = sides.map(DVec3::length_squared);
     let area = 0.5 * sides[0].cross(sides[1]).length();
     let longest = squares.into_iter().fold(0.0, f64::max);
-    // A NaN is none either.
+    // Also true for NaN.
     if area.partial_cmp(&(NEEDLE * longest)) != Some(Ordering::Greater) {
         return [0.0; 3];
     }
-    // Twice the cosine at each corner times both its sides: below 0 where the angle is obtuse.
+    // Twice the cosine at each corner times both its sides: negative for an obtuse angle.
     let blunt = [0, 1, 2].map(|corner| squares[(corner + 1) % 3] + squares[(corner + 2) % 3] - squares[corner]);
     if let Some(obtuse) = blunt.iter().position(|cosine| *cosine <= 0.0) {
         let mut shares = [0.25 * area; 3];
         shares[obtuse] = 0.5 * area;
         return shares;
     }
-    // The other two sides' squares, each times the cotangent of the angle opposite to it.
+    // The squares of the other two sides, each times the cotangent of the opposite angle.
     let parts = [0, 1, 2].map(|corner| squares[corner] * blunt[corner] / (32.0 * area));
     [0, 1, 2].map(|corner| parts[(corner + 1) % 3] + parts[(corner + 2) % 3])
 }
 
-/// Each triangle's vertices: corners at one position that are joined by edges across which the surface goes on.
+/// Each triangle's vertices: corners at one position, joined by edges across which the surface continues.
 fn vertices(mesh: &Mesh, edges: &EdgeList, crease_angle: CreaseAngle, threads: usize) -> Vec<[u32; 3]> {
     let count = mesh.triangles.len();
     let normals = filled(count, threads, DVec3::ZERO, |face| {
@@ -136,7 +136,7 @@ fn vertices(mesh: &Mesh, edges: &EdgeList, crease_angle: CreaseAngle, threads: u
         let [Some(a), Some(b), Some(c)] = corners else { return DVec3::ZERO };
         triangle_normal([a, b, c]).unwrap_or(DVec3::ZERO)
     });
-    // A corner's set is named by its lowest corner.
+    // The lowest corner identifies a set.
     let mut sets: Vec<u32> = (0..3 * count as u32).collect();
     for (edge, ends) in edges.positions().iter().enumerate() {
         let &[first, second] = edges.faces(edge as u32) else { continue };
@@ -171,7 +171,7 @@ fn vertices(mesh: &Mesh, edges: &EdgeList, crease_angle: CreaseAngle, threads: u
     numbers.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect()
 }
 
-/// The name of a corner's set.
+/// The lowest corner of a corner's set.
 fn named(sets: &mut [u32], mut corner: u32) -> u32 {
     while sets[corner as usize] != corner {
         sets[corner as usize] = sets[sets[corner as usize] as usize];
@@ -180,7 +180,7 @@ fn named(sets: &mut [u32], mut corner: u32) -> u32 {
     corner
 }
 
-/// The places of each number in a list, ascending: where those of each begin, and all of them.
+/// The indices of each number in a list, ascending: where those of each number begin, and all of them.
 fn grouped(list: &[u32], count: usize) -> (Vec<u32>, Vec<u32>) {
     let mut starts = vec![0u32; count + 1];
     list.iter().for_each(|number| starts[*number as usize + 1] += 1);

@@ -1,39 +1,39 @@
-//! The numbers that curvature is made of: tensors in tangent planes, how they are fitted in a triangle and seen in another plane.
+//! Tensors in tangent planes: how they are fitted in a triangle and rotated into another plane.
 
 use glam::{DVec2, DVec3};
 
-/// The surface at a vertex. Lengths are in file units.
+/// The curvature of the surface at a vertex. Lengths are in file units.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Curvature {
-    /// The unit normal; 0 where there is none.
+    /// The unit normal; 0 if undefined.
     pub normal: DVec3,
-    /// The principal curvatures, the one of larger amount first, 1 / length; convex is positive.
+    /// The principal curvatures, the one with the larger absolute value first, 1 / length; positive if convex.
     pub principal: [f64; 2],
-    /// Their directions, unit vectors; with the normal they are right-handed. Their signs mean nothing.
+    /// Their directions, unit vectors, right-handed with the normal. Their signs are arbitrary.
     pub directions: [DVec3; 2],
-    /// The derivative C of the curvature tensor, 1 / length²: C(u, u, u), C(u, u, v), C(u, v, v) and C(v, v, v) for the
-    /// directions u and v. The first is how the first principal curvature grows along its own direction.
+    /// The derivative C of the curvature tensor, 1 / length²: C(u, u, u), C(u, u, v), C(u, v, v) and C(v, v, v) for
+    /// the directions u and v. The first is the growth of the first principal curvature along its own direction.
     pub derivative: [f64; 4],
 }
 
-/// A tangent plane with its two axes, right-handed with the normal.
+/// A tangent plane with two axes, right-handed with the normal.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Basis {
     pub axes: [DVec3; 2],
     pub normal: DVec3,
-    /// For a face its sides in these axes: from each corner's successor to the one after that.
+    /// For a face, its sides in these axes: from each corner's successor to the one after that.
     pub sides: [DVec2; 3],
 }
 
-/// One plane's axes, turned into another plane along the shortest way, in that plane's axes.
+/// The axes of one plane in those of another, rotated along the shortest way.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turn([DVec2; 2]);
 
-/// How near to opposite, as 1 plus the cosine, two normals may be before there is no shortest way from one to the other.
+/// Least value of 1 plus the cosine of two normals: nearly opposite normals have no shortest rotation.
 const OPPOSITE: f64 = 1e-6;
 
 impl Basis {
-    /// Of a face with some area.
+    /// The basis of a face; `None` without area.
     pub(super) fn of_face([a, b, c]: [DVec3; 3], areas: [f64; 3]) -> Option<Self> {
         if areas.iter().sum::<f64>() <= 0.0 {
             return None;
@@ -45,7 +45,7 @@ impl Basis {
         Some(Self { axes, normal, sides: [c - b, a - c, b - a].map(flat) })
     }
 
-    /// Of a unit normal; none for 0.
+    /// The basis for a unit normal; `None` for 0.
     pub(super) fn of_normal(normal: DVec3) -> Option<Self> {
         if normal == DVec3::ZERO {
             return None;
@@ -54,18 +54,18 @@ impl Basis {
         Some(Self { axes: [first, normal.cross(first)], normal, sides: [DVec2::ZERO; 3] })
     }
 
-    /// Of the principal directions; none where there is no normal.
+    /// The basis of the principal directions; `None` without a normal.
     pub(super) fn of_curvature(at: &Curvature) -> Option<Self> {
         let is_some = at.normal != DVec3::ZERO;
         is_some.then_some(Self { axes: at.directions, normal: at.normal, sides: [DVec2::ZERO; 3] })
     }
 
-    /// What of a vector lies in the plane.
+    /// The components of a vector in the plane.
     pub(super) fn flat(&self, vector: DVec3) -> [f64; 2] {
         self.axes.map(|axis| vector.dot(axis))
     }
 
-    /// Its axes, turned into another plane; none where the planes face away from each other.
+    /// Its axes, rotated into another plane; `None` if the planes face away from each other.
     pub(super) fn turned(&self, other: &Self) -> Option<Turn> {
         let cosine = 1.0 + self.normal.dot(other.normal);
         if cosine < OPPOSITE {
@@ -87,15 +87,15 @@ impl Tensor {
         p * a.x * b.x + q * (a.x * b.y + a.y * b.x) + r * a.y * b.y
     }
 
-    /// The same for the axes of another plane.
+    /// The tensor in the axes of another plane.
     pub(super) fn seen(&self, Turn([a, b]): Turn) -> Self {
         Self([self.of(a, a), self.of(a, b), self.of(b, b)])
     }
 
-    /// Its values and their directions, the one of larger amount first.
+    /// Its eigenvalues and their directions, the one with the larger absolute value first.
     pub(super) fn principal(&self, basis: &Basis) -> ([f64; 2], [DVec3; 2]) {
         let [p, q, r] = self.0;
-        // A turn of the axes by half the angle of (p - r, 2 q).
+        // The axes turn by half the angle of (p - r, 2 q).
         let (half, radius) = (0.5 * (p - r), (0.5 * (p - r)).hypot(q));
         let (high, low) = (0.5 * (p + r) + radius, 0.5 * (p + r) - radius);
         let cosine = if radius > 0.0 { half / radius } else { 1.0 };
@@ -119,18 +119,20 @@ impl Derivative {
             + s * a.y * b.y * c.y
     }
 
-    /// The same for the axes of another plane.
+    /// The form in the axes of another plane.
     pub(super) fn seen(&self, Turn([a, b]): Turn) -> Self {
         Self([self.of(a, a, a), self.of(a, a, b), self.of(a, b, b), self.of(b, b, b)])
     }
 }
 
-/// Fits a symmetric form of one more vector to how values at a triangle's corners differ along its sides, by least squares: of
-/// `FROM` numbers a form of `TO`, which is one more. Both are in the triangle's axes.
+/// Fits a symmetric form to the differences of values at a triangle's corners along its sides, by least squares.
+/// Values have `FROM` numbers; the form takes one more vector and has `TO`, which is one more number. Both are in the
+/// triangle's axes.
 ///
-/// Along a side (x, y) number k of the values changes by x times the form's number k plus y times the next. So the normal
-/// equations have three diagonals, and elimination needs no exchange of rows. A number counts as often as it stands in the whole
-/// form, the middle one of a tensor twice, so that the axes do not matter.
+/// Along a side (x, y), number k of the values changes by x times the form's number k plus y times the next. The
+/// normal equations therefore have three diagonals, and elimination needs no pivoting. A number's weight is its count
+/// in the full form, for example two for the middle one of a tensor. The result therefore does not depend on the
+/// axes.
 pub(super) fn of_triangle<const FROM: usize, const TO: usize>(
     sides: &[DVec2; 3],
     values: [[f64; FROM]; 3],

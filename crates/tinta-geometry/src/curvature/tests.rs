@@ -1,4 +1,4 @@
-//! Curvatures against closed forms.
+//! Curvatures compared with closed forms.
 
 use super::shapes::{ball, grid, torus};
 use super::*;
@@ -15,7 +15,7 @@ fn curvatures_of(mesh: &Mesh) -> Curvatures {
     Curvatures::new(mesh, &EdgeList::new(mesh), CreaseAngle::of_drawings(), 0.0)
 }
 
-/// Each vertex with its position.
+/// Each vertex's position and curvature.
 fn placed<'a>(mesh: &'a Mesh, of: &'a Curvatures) -> Vec<(DVec3, Curvature)> {
     let places = of.positions().iter().map(|position| mesh.positions[*position as usize]);
     places.zip(of.all().iter().copied()).collect()
@@ -27,7 +27,7 @@ fn median(mut numbers: Vec<f64>) -> f64 {
     numbers[numbers.len() / 2]
 }
 
-/// The median error of both principal curvatures, as a share of the larger amount of both.
+/// The median error of both principal curvatures, as a share of the larger absolute value.
 fn median_error(mesh: &Mesh, truth: impl Fn(DVec3) -> [f64; 2]) -> f64 {
     let of = curvatures_of(mesh);
     let errors = placed(mesh, &of).into_iter().flat_map(|(point, at)| {
@@ -48,12 +48,12 @@ fn torus_curvatures(radii: [f64; 2]) -> impl Fn(DVec3) -> [f64; 2] {
     }
 }
 
-/// Of the surface where the squares over `AXES` sum to 1.
+/// The curvatures of the ellipsoid with half axes `AXES`.
 fn ellipsoid_curvatures(point: DVec3) -> [f64; 2] {
     let gradient = point / (AXES * AXES);
     let [x, y, z] = gradient.to_array();
     let height = 1.0 / gradient.length();
-    // Both from their product and their sum.
+    // Both follow from their product and their sum.
     let product = height.powi(4) / (AXES * AXES).element_product();
     let sum = height.powi(3)
         * (x * x * (1.0 / AXES.y.powi(2) + 1.0 / AXES.z.powi(2))
@@ -113,7 +113,7 @@ fn errors_shrink_with_the_square_of_the_edges() {
 
 #[test]
 fn the_derivative_is_that_of_a_cubic() {
-    // Seen from above what rises is concave: every number changes its sign.
+    // Seen from above a rise is concave, so every number changes its sign.
     let (k, c) = ([0.7, -0.4], [0.9, -0.5, 0.3, 0.8]);
     let height = |x: f64, y: f64| {
         0.5 * (k[0] * x * x + k[1] * y * y)
@@ -150,7 +150,7 @@ fn saddles_have_both_signs() {
     let (_, at) = placed(&saddle, &of).into_iter().min_by(|a, b| a.0.length().total_cmp(&b.0.length())).unwrap();
     let amounts = at.principal.map(f64::abs);
     assert!(at.principal[0] * at.principal[1] < 0.0 && amounts.iter().all(|it| (it - 1.0).abs() < 5e-3), "{amounts:?}");
-    // Along x = y it rises: concave from above.
+    // It rises along x = y: concave from above.
     let rising = DVec3::new(1.0, 1.0, 0.0).normalize();
     assert!((at.second([rising; 2]) + 1.0).abs() < 5e-3);
 }
@@ -174,7 +174,7 @@ fn turning_scaling_and_another_order_change_nothing() {
         for k in 0..2 {
             assert!((other.principal[k] * scale - at.principal[k]).abs() < 1e-9);
         }
-        // Where both curvatures are alike directions mean nothing.
+        // Directions are arbitrary where both curvatures are equal.
         let apart = (at.principal[0] - at.principal[1]).abs() / at.principal[0].abs();
         for direction in at.directions {
             let (here, there) = (at.third(direction), other.third(turn * direction) * scale * scale);
@@ -190,7 +190,7 @@ fn creases_split_a_position_and_one_that_ends_inside_does_not() {
     let of = curvatures_of(&cube);
     assert_eq!(of.all().len(), 6 * 25);
     assert!(of.all().iter().all(|at| at.principal.iter().all(|curvature| curvature.abs() < 1e-9)));
-    // A dart: folded along one edge from the middle out.
+    // A dart: folded along one edge from the centre outwards.
     let dart = grid([2, 2], [false; 2], |u, v| DVec3::new(u, v, if u == 1.0 && v == 0.5 { 0.4 } else { 0.0 }));
     let of = Curvatures::new(&dart, &EdgeList::new(&dart), CreaseAngle::from_degrees(50.0).unwrap(), 0.0);
     let middle: Vec<_> =

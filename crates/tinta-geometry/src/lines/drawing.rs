@@ -1,4 +1,4 @@
-//! From visible lines to a drawing: layers, paths, their order and shape, paper.
+//! Turns visible lines into a drawing: layers, paths, their order and shape, paper.
 
 pub(super) mod chain;
 pub(super) mod curves;

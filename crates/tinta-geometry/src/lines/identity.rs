@@ -1,19 +1,20 @@
-//! Strokes that stay the same from picture to picture while the eye moves.
+//! Strokes that keep their identity from frame to frame while the eye moves.
 //!
-//! In: the lines of one picture after another of the same models. Out: their paths, each with the number of its stroke
-//! ([`LinePath::stroke`]). A stroke is known by where it lies on the models, not in the picture:
+//! Input: the lines of successive pictures of the same models. Output: their paths, each with a stroke number
+//! ([`LinePath::stroke`]). A stroke is identified by its place on the models, not in the picture:
 //!
-//! - Edges whose class does not depend on the view make *curves*, which end at corners: where other than two edges of one class
-//!   meet. A path keeps to one curve, whether its pieces are drawn as creases or as silhouettes. A stroke of a curve that
-//!   was hidden has its old number when it comes back, and so have intersections, ridges and valleys.
-//! - Silhouettes elsewhere, suggestive contours and apparent ridges slide over the surface. They are compared with those of the
-//!   same class and object in the picture before. Each point is taken for the nearest one there, no farther away than a ball as large
-//!   as the scene turns its own outline; a stroke that is not seen for one picture is gone.
+//! - Edges whose class does not depend on the view form *curves*. A curve ends at corners, where more or fewer than
+//!   two edges of one class meet. A path stays on one curve, whether its segments are drawn as creases or as
+//!   silhouettes. Strokes on curves, intersections, ridges and valleys get their old numbers back when they reappear.
+//! - Other silhouettes, suggestive contours and apparent ridges slide over the surface. They are compared with
+//!   strokes of the same class and object in the previous picture. Each point is matched to the nearest one there, at
+//!   most as far as the outline of a ball as large as the scene moves. A stroke that is missing from one picture
+//!   loses its number.
 //!
-//! Of all pairs of an old stroke and a new one the pair with the longest common stretch on the surface comes first, then the
-//! next of what is left; so a stroke that splits keeps its number in the longer part, and of two that become one the longer gives
-//! its number. Less than a quarter ([`LEAST_SHARE`]) of the shorter of both in common is no reason to be the same. What finds
-//! no old stroke is a new one; no number is given twice.
+//! Of all pairs of an old and a new stroke, the pair with the longest common stretch on the surface is matched first,
+//! then the next. So if a stroke splits, its longer part keeps the number; if two strokes merge, the longer one gives
+//! its number. Two strokes match only if they share at least a quarter ([`LEAST_SHARE`]) of the shorter one. A stroke
+//! without a match gets a new number; numbers are never reused.
 
 use super::{LineSegment, LineSettings, VisibleLines};
 use crate::edges::{Class, ClassSet};
@@ -25,52 +26,54 @@ use glam::{DVec3, IVec3};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashMap};
 
-/// Points of strokes that are compared are so far apart, radii of the scene; at most a quarter of how far strokes may slide.
+/// Distance between compared points of strokes, in radii of the scene; at most a quarter of how far strokes may
+/// slide.
 const SPACING: f64 = 1.0 / 200.0;
 
 /// Share of the shorter of two strokes that they must have in common.
 const LEAST_SHARE: f64 = 0.25;
 
-/// Gives the strokes of one picture after another their numbers.
+/// Numbers the strokes of successive pictures.
 #[derive(Debug)]
 pub struct StrokeIds {
-    /// Of an object's edges, by their vertices in the file, the curve that each is part of; from 0.
+    /// The curve of each view-independent edge, numbered from 0, by object and the edge's vertices in the file.
     curves: HashMap<(u32, [u32; 2]), u32>,
-    /// All that may be seen again.
+    /// All strokes that may reappear.
     known: Vec<Stroke>,
     frame: u32,
     count: u32,
-    /// From the scene's centre to the eye of the last picture, length 1.
+    /// Unit vector from the scene's centre to the last picture's eye.
     towards_eye: Option<DVec3>,
 }
 
-/// Where a stroke lies.
+/// The place of a stroke on the models.
 #[derive(Debug)]
 struct Stroke {
     id: u32,
     group: Group,
-    /// Points in the world and the length of stroke that each stands for.
+    /// Points in world coordinates, each with the length of stroke that it represents.
     points: Vec<(DVec3, f64)>,
     length: f64,
     /// The last picture that showed it.
     frame: u32,
 }
 
-/// Strokes are compared within an object and a curve, or a class of lines that are on none; see [`curve_of_class`].
+/// Object and curve of a stroke. For a line without a curve, its class takes the curve's place; see
+/// [`curve_of_class`]. Only strokes of one group are compared.
 type Group = (u32, u32);
 
-/// What stands for a class where lines are on no curve.
+/// The curve number that represents a class of lines without curves.
 fn curve_of_class(class: Class) -> u32 {
     u32::MAX - class as u32
 }
 
-/// Whether strokes stay where they are on the model.
+/// Whether the strokes of a group stay in place on the model.
 fn stands((_, curve): Group) -> bool {
     ![Class::Silhouette, Class::Suggestive, Class::ApparentRidge].map(curve_of_class).contains(&curve)
 }
 
 impl StrokeIds {
-    /// Finds the curves of a scene's models, from wherever it is seen. Nothing has a number yet.
+    /// Finds the curves of a scene's models, which do not depend on the view. No stroke has a number yet.
     pub fn new(scene: &Scene, settings: &LineSettings) -> Self {
         let mut curves = HashMap::new();
         let mut count = 0;
@@ -82,12 +85,13 @@ impl StrokeIds {
         Self { curves, known: Vec::new(), frame: 0, count: 0, towards_eye: None }
     }
 
-    /// How many numbers were given, from 1 on.
+    /// The count of numbers given so far; the first is 1.
     pub fn count(&self) -> u32 {
         self.count
     }
 
-    /// The next picture's paths with their numbers: `lines` of `scene`, which differs from the last one by its camera only.
+    /// Returns the next picture's paths with their numbers. `lines` are those of `scene`, which may differ from the
+    /// last scene only in its camera.
     pub fn next(&mut self, scene: &Scene, lines: &VisibleLines) -> Vec<LinePath> {
         let towards_eye = (scene.camera.eye - scene.centre).normalize_or_zero();
         let slide = self.towards_eye.map_or(0.0, |before| before.distance(towards_eye)) * scene.radius;
@@ -107,7 +111,7 @@ impl StrokeIds {
             })
             .collect();
 
-        // First what was there a moment ago, then what was there before.
+        // Strokes of the previous picture first, then earlier ones.
         let before = self.frame - 1;
         self.take_over(&mut strokes, |known| known.frame == before, [spacing, slide.max(spacing)]);
         self.take_over(&mut strokes, |known| known.frame < before, [spacing; 2]);
@@ -123,8 +127,8 @@ impl StrokeIds {
         paths
     }
 
-    /// Gives numbers of known strokes to those that have none, where they lie no farther apart than `reach`: what stands and
-    /// what slides.
+    /// Gives the numbers of known strokes to new strokes that lie within `reach`: one distance for strokes that stay,
+    /// one for those that slide.
     fn take_over(&mut self, strokes: &mut [Stroke], is_asked: impl Fn(&Stroke) -> bool, reach: [f64; 2]) {
         let reach_of = |group: Group| if stands(group) { reach[0] } else { reach[1] };
         let cell = |group: Group, point: DVec3| (point / reach_of(group)).floor().as_ivec3();
@@ -162,7 +166,7 @@ impl StrokeIds {
         }
         pairs.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then((b.1, b.2).cmp(&(a.1, a.2))));
         for (_, Reverse(known), Reverse(number)) in pairs {
-            // Taken ones are of this picture.
+            // A known stroke of this frame is already matched.
             if strokes[number].id == 0 && self.known[known].frame < self.frame {
                 strokes[number].id = self.known[known].id;
                 self.known[known].frame = self.frame;
@@ -172,7 +176,7 @@ impl StrokeIds {
 }
 
 impl Stroke {
-    /// Where a path of some pieces lies.
+    /// The stroke of a path, from its segments.
     fn of(path: &LinePath, segments: &[LineSegment], group: Group, spacing: f64, frame: u32) -> Self {
         let (mut points, mut length, mut waiting) = (Vec::new(), 0.0, 0.0);
         for piece in &path.segments {
@@ -188,7 +192,7 @@ impl Stroke {
             }
             length += of_piece;
         }
-        // What is left belongs to the last point, or is all there is.
+        // The remaining length belongs to the last point, or is the whole stroke.
         match points.last_mut() {
             Some((_, last)) => *last += waiting,
             None => points.push((segments[path.segments[0]].ends_world[0], waiting)),
@@ -197,8 +201,8 @@ impl Stroke {
     }
 }
 
-/// Calls `add` with the edges of a part that do not depend on the view, by their vertices in the file, and the curve of each,
-/// numbered from `count` on.
+/// Calls `add` with each view-independent edge of an object, by its vertices in the file, and with its curve,
+/// numbered from `count`.
 fn add_curves(part: &ObjectEdges<'_>, settings: &LineSettings, count: &mut u32, mut add: impl FnMut([u32; 2], u32)) {
     let edges = part.edges.get();
     let (list, mesh) = (edges.list(), edges.mesh());

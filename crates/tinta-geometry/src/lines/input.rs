@@ -1,4 +1,5 @@
-//! The lines of a scene before their visibility is known: objects with repaired meshes, edges by class, other features.
+//! The lines of a scene before their visibility is decided: objects with repaired meshes, edges by class, other
+//! features.
 
 pub(super) mod covered;
 pub(super) mod face_subset;

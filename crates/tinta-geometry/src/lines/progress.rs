@@ -1,13 +1,13 @@
-//! How far long work is, when it is to end before it is done, and what becomes then of what is done.
+//! Progress, cancellation and time limits of long work.
 
 use crate::clock::Instant;
 use crate::error::{Error, Result};
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// How far the work is, for whoever watches from another thread, who may also ask for it to be given up.
+/// The progress of long work, for another thread to watch or cancel.
 ///
-/// Work that is given one looks at it after each few milliseconds' worth.
+/// Work that gets one checks it every few milliseconds.
 ///
 /// ```
 /// # fn main() -> tinta_geometry::Result<()> {
@@ -33,58 +33,57 @@ pub struct Progress {
     is_cancelled: AtomicBool,
     deadline: Option<Deadline>,
     keeps_part: bool,
-    /// How much longer drawing what there is may take, where a part is asked for.
+    /// Extra time for drawing a partial result.
     grace: Duration,
 }
 
-/// What work on lines is at.
+/// The current phase of work on lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
-    /// Getting ready: edges, faces, hierarchies of them; nobody counts these.
+    /// Preparation: edges, faces and their hierarchies; not counted.
     Preparing,
-    /// Looking for places where faces pass through one another; groups of faces count.
+    /// Finds intersections of faces; counts groups of faces.
     Intersections,
-    /// Deciding what is seen of each line; lines count.
+    /// Decides the visibility of lines; counts lines.
     Lines,
-    /// Deciding what is seen of smooth silhouettes; their pieces count.
+    /// Decides the visibility of smooth silhouettes; counts their segments.
     Contours,
-    /// Leaving out what is too short to be a line; what may be one side of a sliver counts.
+    /// Removes lines that are too short; counts possible sides of slivers.
     TooShort,
 }
 
 #[derive(Debug)]
 struct Deadline {
     end: Instant,
-    /// The time that was given.
     limit: Duration,
 }
 
 impl Progress {
-    /// Of work that ends with [`Error::OutOfTime`] when it takes longer than this from now on.
+    /// Ends the work with [`Error::OutOfTime`] if it takes longer than `limit` from now.
     pub fn within(limit: Duration) -> Self {
-        // A time that no clock reaches is no limit.
+        // A limit beyond the clock's range is no limit.
         let deadline = Instant::now().checked_add(limit).map(|end| Deadline { end, limit });
         Self { deadline, ..Self::default() }
     }
 
-    /// Of work that then ends with what is done of it: lines that are decided stay, each as a whole, and
-    /// [`VisibleLines::undecided`](super::VisibleLines::undecided) says how many are missing. While no line is decided, it ends
-    /// with [`Error::OutOfTime`] nevertheless.
+    /// Ends the work after `limit` and keeps the lines decided by then, each complete.
+    /// [`VisibleLines::undecided`](super::VisibleLines::undecided) holds the number of missing lines. If no line is
+    /// decided by then, the work still ends with [`Error::OutOfTime`].
     ///
-    /// Leaving out specks may take a tenth of the time longer, and half a second; what is not done by then is left, see
-    /// [`VisibleLines::has_specks`](super::VisibleLines::has_specks).
+    /// Removing specks may take a tenth of the limit plus half a second longer. If that is too short, all specks
+    /// stay; see [`VisibleLines::has_specks`](super::VisibleLines::has_specks).
     pub fn within_or_part(limit: Duration) -> Self {
         const LEAST: Duration = Duration::from_millis(500);
         Self { keeps_part: true, grace: (limit / 10).saturating_add(LEAST), ..Self::within(limit) }
     }
 
-    /// The same without a moment more.
+    /// Like [`Progress::within_or_part`], without extra time.
     #[cfg(test)]
     pub(crate) fn exactly_within_or_part(limit: Duration) -> Self {
         Self { grace: Duration::ZERO, ..Self::within_or_part(limit) }
     }
 
-    /// What the work is at.
+    /// The current phase.
     pub fn phase(&self) -> Phase {
         match self.phase.load(Ordering::Relaxed) {
             0 => Phase::Preparing,
@@ -95,28 +94,28 @@ impl Progress {
         }
     }
 
-    /// How much of its phase is done, and how much there is to do: 0 and 0 while nobody counts.
+    /// Finished steps of the current phase and their total; both are 0 in a phase that counts no steps.
     pub fn state(&self) -> (usize, usize) {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }
 
-    /// How many boxes of hierarchies were looked at for what is done of this phase, as far as that is counted: what takes the time, so that the
-    /// time left can be told from it where steps differ.
+    /// Bounding boxes tested so far in this phase, where they are counted. They measure the work better than steps
+    /// do, because steps differ in cost.
     pub fn compared(&self) -> u64 {
         self.compared.load(Ordering::Relaxed)
     }
 
-    /// Asks for the work to be given up: it then ends soon with [`Error::Cancelled`].
+    /// Cancels the work, which then soon ends with [`Error::Cancelled`].
     pub fn cancel(&self) {
         self.is_cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it was asked to be given up.
+    /// Whether [`Progress::cancel`] was called.
     pub fn is_cancelled(&self) -> bool {
         self.is_cancelled.load(Ordering::Relaxed)
     }
 
-    /// Whether the work is to end now.
+    /// Whether the work must end now.
     pub(crate) fn is_over(&self) -> bool {
         self.is_cancelled() || self.is_late()
     }
@@ -125,7 +124,7 @@ impl Progress {
         self.deadline.as_ref().is_some_and(|deadline| Instant::now() >= deadline.end)
     }
 
-    /// Refuses to go on where the work is to end.
+    /// Returns an error if the work must end: cancelled or out of time.
     pub(crate) fn go_on(&self) -> Result<()> {
         if self.is_cancelled() {
             return Err(Error::Cancelled);
@@ -138,7 +137,7 @@ impl Progress {
         }
     }
 
-    /// The same of what comes after the lines, which may take a little longer where a part of them is asked for.
+    /// Like [`Progress::go_on`], for the work after the lines, which gets extra time for a partial result.
     pub(crate) fn go_on_drawing(&self) -> Result<()> {
         let is_given_more = |deadline: &Deadline| deadline.end.elapsed() < self.grace;
         if self.keeps_part && !self.is_cancelled() && self.deadline.as_ref().is_none_or(is_given_more) {
@@ -147,7 +146,7 @@ impl Progress {
         self.go_on()
     }
 
-    /// How many lines were not decided, of work that has ended.
+    /// The number of undecided lines, after the work has ended.
     pub(crate) fn undecided(&self) -> Result<usize> {
         let (done, total) = self.state();
         match total - done {
@@ -165,7 +164,7 @@ impl Progress {
         self.total.store(total, Ordering::Relaxed);
     }
 
-    /// So many steps more are done, for which so many boxes were looked at.
+    /// Adds finished steps and the boxes tested for them.
     pub(crate) fn advance(&self, count: usize, compared: u64) {
         self.compared.fetch_add(compared, Ordering::Relaxed);
         self.done.fetch_add(count, Ordering::Relaxed);

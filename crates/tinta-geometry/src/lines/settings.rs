@@ -1,4 +1,4 @@
-//! The settings of lines: which classes are wanted, by which rules.
+//! The settings of visible lines: edge classes and the rules for finding them.
 
 use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
@@ -6,30 +6,32 @@ use crate::lines::smooth::forms::FormSettings;
 use crate::settings::{HasSettings, Setting, Table, Value as _, within};
 use std::sync::LazyLock;
 
-/// Which lines are wanted.
+/// Which lines are found, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineSettings {
-    /// Classes of lines. Default all but the seams of textures and normals, which belong to a model's data, not its shape, and the
-    /// form lines, which are those of a smooth surface.
+    /// Classes of lines. Default: all except form lines, which belong to a smooth surface, and texture and normal
+    /// seams, which belong to the model's data.
     pub classes: ClassSet,
-    /// From which angle between faces an edge is a crease. Default 30 degrees; more find fewer lines.
+    /// Angle between two faces above which their edge is a crease. Default 30 degrees; a larger angle finds fewer
+    /// lines.
     pub crease_angle: CreaseAngle,
-    /// Whether creases are drawn only where they last: closed or long ones, and those at which a flat face of several triangles ends. Default
-    /// no; then single folds of scans are drawn, too.
+    /// Whether to keep only lasting creases: closed ones, long ones, and those at the end of a flat face of several
+    /// triangles. Default false, which also draws single folds of scans.
     pub lasting_creases: bool,
-    /// Where silhouettes run: exact ones, the default, are what the faces show; smooth ones are what a curved surface that the faces stand
-    /// for would show. The listing's rule is refused: it knows no exact lines.
+    /// The rule for silhouettes. `Exact`, the default, finds those of the faces. `Smooth` finds those of the curved
+    /// surface that the faces approximate. `Published` is refused because it has no exact lines.
     pub silhouette: SilhouetteRule,
-    /// Whether hidden parts are found too. Default yes; without them [`VisibleLines::segments`](super::VisibleLines::segments) has what is seen alone, and no time
-    /// is spent on what lies behind.
+    /// Whether hidden parts are found too. Default true. If false,
+    /// [`VisibleLines::segments`](super::VisibleLines::segments) holds visible parts only, and hidden ones take no
+    /// time.
     pub finds_hidden: bool,
-    /// Whether outlines are found, for [`LineSegment::is_outline`](super::LineSegment::is_outline); lines are cut where they begin and end. Default no: it takes
-    /// time, and nobody else needs the cuts.
+    /// Whether outlines are found, for [`LineSegment::is_outline`](super::LineSegment::is_outline), and lines cut at
+    /// their ends. Default false, because it takes time and only outlines need the cuts.
     pub finds_outline: bool,
-    /// How strong form lines must be, where their classes are wanted.
+    /// How strong form lines must be, if their classes are selected.
     pub forms: FormSettings,
-    /// Whether it is counted where silhouettes begin and end to be seen, and why, for [`VisibleLines::changes`](super::VisibleLines::changes). Default no; then hidden
-    /// parts are found, too.
+    /// Whether to count where silhouettes begin and end to be visible, and why, for
+    /// [`VisibleLines::changes`](super::VisibleLines::changes). Default false. If true, hidden parts are found too.
     pub counts_changes: bool,
 }
 
@@ -64,17 +66,16 @@ impl HasSettings for LineSettings {
 }
 
 impl LineSettings {
-    /// As by default, with the creases of Dachsbacher's listing: what the ink of all styles is measured against.
+    /// The defaults, with the creases of Dachsbacher's listing: the reference for the ink of all styles.
     pub fn as_published() -> Self {
         Self { crease_angle: CreaseAngle::default(), ..Self::default() }
     }
 
-    /// Whether smooth contours are drawn.
     pub(super) fn has_smooth_contours(&self) -> bool {
         self.silhouette == SilhouetteRule::Smooth && self.classes.contains(Class::Silhouette)
     }
 
-    /// The settings, for a table of something that has lines in it.
+    /// The settings, for tables of structs that contain these.
     pub fn settings() -> Vec<Setting<Self>> {
         let edges = vec![
             ClassSet::setting(ClassSet::ALL, |lines: &mut Self| &mut lines.classes),
@@ -94,7 +95,7 @@ impl LineSettings {
     }
 }
 
-/// Refuses the listing's rule.
+/// Refuses [`SilhouetteRule::Published`].
 pub(super) fn not_published(rule: SilhouetteRule) -> Result<()> {
     let problem = "style lines finds silhouettes exactly or smooth; leave it out, or draw --style inking into a .png";
     if rule == SilhouetteRule::Published { Err(Error::value("silhouette", rule.text(), problem)) } else { Ok(()) }

@@ -1,4 +1,5 @@
-//! Lines of the smooth surface that the faces stand for: contours and their visibility, form lines, closed forms to compare with.
+//! Lines of the smooth surface that the faces approximate: contours and their visibility, form lines, closed forms
+//! for comparison.
 
 pub mod closed_forms;
 pub(super) mod contour_visibility;

@@ -1,5 +1,5 @@
-//! Smooth contours against closed forms, against themselves in other places and orders, against edges where all is flat, and where
-//! little of a surface is left.
+//! Smooth contours compared with closed forms, with themselves in other places and orders, and with edges where all
+//! faces are flat; also on degenerate surfaces.
 
 use super::{LineSegment, LineSettings, VisibleLines, chain, first_hits};
 use crate::camera::{CameraSettings, View};
@@ -43,7 +43,8 @@ const TORUS: ClosedForm = ClosedForm::Torus { ring: 1.0, tube: 0.4 };
 fn closed_forms_of_ten_thousand_triangles_are_met_within_half_a_pixel() {
     let views = [(30.0, 15.0), (112.0, 38.0), (-71.0, -22.0), (5.0, 74.0)];
     let (sphere, ellipsoid) = (ClosedForm::ellipsoid(1.0, 1.0, 1.0), ClosedForm::ellipsoid(1.0, 0.6, 1.4));
-    // Where the vertices of a torus are moved, its contour's ends at cusps move by more: docs/guide/smooth.md says by how much.
+    // A torus with moved vertices is omitted: the ends of its contour at cusps move farther, as docs/guide/smooth.md
+    // states.
     for (form, jitters) in [(sphere, &[0.0f64, 0.2][..]), (ellipsoid, &[0.0, 0.2]), (TORUS, &[0.0])] {
         for &jitter in jitters {
             for (azimuth, elevation) in views {
@@ -51,7 +52,7 @@ fn closed_forms_of_ten_thousand_triangles_are_met_within_half_a_pixel() {
                     let camera = CameraSettings { parallel, ..camera(azimuth, elevation) };
                     let scene = scene(form.mesh(10_000, jitter).unwrap(), camera);
                     let error = distance(&found(&scene, &smooth()), &form.visible_contour(&scene));
-                    // Sides are up to 1 + 2 jitter times as long; what the faces are off by grows with the square.
+                    // Sides are up to 1 + 2 jitter times as long; the error of the faces grows with the square.
                     let limit = 0.5 * (1.0f64 + 2.0 * jitter).powi(2);
                     assert!(
                         error.hausdorff_px() <= limit,
@@ -65,7 +66,7 @@ fn closed_forms_of_ten_thousand_triangles_are_met_within_half_a_pixel() {
 
 #[test]
 fn four_times_the_triangles_leave_a_quarter_of_the_error() {
-    // The worst of some views, as single ones may be lucky.
+    // The worst of several views, because a single one may be lucky.
     let worst = |form: ClosedForm, triangles: usize| {
         let views = [(30.0, 15.0), (112.0, 38.0), (-71.0, -22.0), (5.0, 74.0)];
         let errors = views.map(|(azimuth, elevation)| {
@@ -102,7 +103,7 @@ fn polygons_with_flat_faces_have_the_same_lines_by_either_rule() {
         keys.sort_unstable();
         keys
     };
-    // The gear's bore and hub are rounder than 30 degrees a step; above this angle all of its edges are sharp.
+    // The gear's bore and hub are rounder than 30 degrees per step; above this angle all of its edges are sharp.
     let crease_angle = crate::edges::CreaseAngle::from_degrees(2.0).unwrap();
     for mesh in [gear(), open_box()] {
         for (azimuth, elevation) in
@@ -119,7 +120,7 @@ fn polygons_with_flat_faces_have_the_same_lines_by_either_rule() {
     }
 }
 
-/// A closed cylinder with so many sides.
+/// A closed cylinder with this number of sides.
 pub(super) fn cylinder(count: u32) -> Mesh {
     let ring = |y: f64| {
         (0..count).map(move |k| {
@@ -151,7 +152,7 @@ fn a_cylinder_has_two_straight_contours_that_end_on_its_rims() {
         let along = ends[1] - ends[0];
         let off = path.points_px.iter().map(|point| (*point - ends[0]).perp_dot(along).abs() / along.length());
         assert!(along.length() > 150.0 && off.fold(0.0, f64::max) < 0.2, "{path:?}");
-        // On the rims something sharp goes on from the very same points.
+        // On the rims a sharp line continues from exactly these points.
         for end in ends {
             let meets = |segment: &&LineSegment| segment.edge.is_some() && segment.ends_px.contains(&end);
             assert_eq!(lines.segments.iter().filter(meets).count(), 2, "{end}");
@@ -232,7 +233,7 @@ fn wherever_rays_find_a_random_surfaces_outline_a_contour_is_seen() {
             if pair[0].is_some() == pair[1].is_some() {
                 continue;
             }
-            // The outline passes between both pixels' middles, within half a pixel of this.
+            // The outline passes between the centres of both pixels, within half a pixel of this.
             let px = DVec2::new((place % 512) as f64 + 1.0, (place / 512) as f64 + 0.5);
             let nearest = seen.iter().map(|ends| distance_to(px, *ends)).fold(f64::INFINITY, f64::min);
             assert!(nearest <= 1.0, "{seed}: no line within {nearest} px of {px}");
@@ -250,7 +251,7 @@ fn distance_to(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
 
 #[test]
 fn n_dot_v_of_zero_all_over_is_front_and_ends_in_numbers() {
-    // A tube seen along its axis: all of its side is edge-on, and both its rims are sharp.
+    // A tube seen along its axis: its whole side is edge-on, and both rims are sharp.
     let count = 16u32;
     let ring = |y: f64| {
         (0..count).map(move |k| {
@@ -268,7 +269,7 @@ fn n_dot_v_of_zero_all_over_is_front_and_ends_in_numbers() {
     let camera = CameraSettings { parallel: true, ..camera(0.0, 90.0) };
     let lines = found(&scene(of_triangles(positions, &triangles), camera), &smooth());
     assert!(lines.segments.iter().all(|segment| segment.class == Class::Boundary), "{:?}", lines.segments);
-    // A sphere seen so that vertices lie exactly on its contour.
+    // A sphere with vertices exactly on its contour.
     let camera = CameraSettings {
         parallel: true,
         view: View { azimuth_degrees: 0.0, elevation_degrees: 0.0 },
@@ -291,13 +292,13 @@ fn hostile_meshes_end_in_numbers() {
         (state >> 33) as f64 / f64::from(1u32 << 30) - 1.0
     };
     let mut point = |scale: f64| DVec3::new(random(), random(), random()) * scale;
-    // A soup in which every face shares positions with others at random.
+    // A soup in which faces share positions at random.
     let positions: Vec<DVec3> = (0..60).map(|_| point(1.0)).collect();
     let soup: Vec<[u32; 3]> = (0..150u32)
         .map(|k| [k * 7 % 60, k * 11 % 59, k * 13 % 58])
         .filter(|[a, b, c]| a != b && b != c && c != a)
         .collect();
-    // A sphere with noise of a twentieth of its radius, a tenth of an edge, and needles.
+    // A sphere with needles, and noise of a twentieth of its radius, a tenth of an edge.
     let mut noisy = ClosedForm::ellipsoid(1.0, 1.0, 1.0).mesh(2_000, 0.2).unwrap();
     noisy.positions.iter_mut().for_each(|position| *position += point(0.05));
     let mut needles = ClosedForm::ellipsoid(1.0, 1.0, 1.0).mesh(2_000, 0.0).unwrap();
@@ -313,7 +314,7 @@ fn hostile_meshes_end_in_numbers() {
             }
         }
     }
-    // From the inside of a closed surface its contours are seen, too.
+    // From inside a closed surface its contours are visible too.
     let inside = CameraSettings {
         eye: Some(DVec3::new(0.97, 0.05, 0.02)),
         target: Some(DVec3::new(-0.9, 0.3, 0.2)),

@@ -1,5 +1,5 @@
-//! Smooth contours where it is hard to be right: closed forms with flat places and rims, all cusps of a torus, noise, normals that are
-//! wrong, and shapes that are mostly flat.
+//! Smooth contours on hard input: closed forms with flat places and rims, all cusps of a torus, noise, wrong normals,
+//! and mostly flat shapes.
 
 use super::LineSettings;
 use super::smooth_tests::{camera, found, of_triangles, scene, smooth};
@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3, Vec3};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// y = 0.5 (x^2 - z^2): its rim is a saddle's.
+/// y = 0.5 (x^2 - z^2): the rim is that of a saddle.
 const SADDLE: Patch = Patch { coefficients: [[0.0, 0.0, -0.5, 0.0], [0.0; 4], [0.5, 0.0, 0.0, 0.0], [0.0; 4]] };
 
 fn error(form: ClosedForm, triangles: usize, jitter: f64, (azimuth, elevation): (f64, f64)) -> ContourDistance {
@@ -126,7 +126,7 @@ fn normals_of_a_file_that_are_wrong_change_nothing() {
     assert_eq!(segments(plain), segments(wrong));
 }
 
-/// Where its faces are flat, a machine part's creases are those of the exact rule; at its round parts they begin and end elsewhere.
+/// On flat faces, a machine part's creases are those of the exact rule; on round parts they begin and end elsewhere.
 #[test]
 fn a_machine_part_keeps_its_creases() {
     let public = std::env::var_os("TINTA_MODELS").map_or_else(|| "../shared/models".into(), PathBuf::from);

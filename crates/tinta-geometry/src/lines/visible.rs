@@ -1,4 +1,4 @@
-//! Which parts of lines are seen: the faces in the eye's space, the trees over faces and lines, cuts and rays.
+//! Decides the visibility of lines: faces in eye space, trees over faces and lines, cuts and rays.
 
 pub(super) mod bundles;
 pub(super) mod cast;

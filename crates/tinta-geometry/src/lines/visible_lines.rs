@@ -1,4 +1,4 @@
-//! The lines of a scene, as they were found.
+//! The visible and hidden lines of a scene.
 
 use super::segment::LineSegment;
 use crate::edges::ClassCounts;
@@ -7,45 +7,50 @@ use crate::lines::smooth::visibility_events::VisibilityChanges;
 use crate::scene::Size;
 use serde::Serialize;
 
-/// The lines of a scene.
+/// The visible and hidden lines of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VisibleLines {
-    /// The picture's size.
+    /// The picture's size, pixels.
     pub size: Size,
-    /// All pieces with any length inside the picture and between the near and the far plane, in a stable order: by
-    /// object, then edge, then along it; then intersections, then form lines, then smooth contours, by object and face.
+    /// All segments that have length inside the picture and between the near and far planes. The order is stable: by
+    /// object, then edge, then along the edge; then intersections, form lines and smooth contours, by object and
+    /// face.
     pub segments: Vec<LineSegment>,
-    /// How many edges there are of each class, each counted in its first one.
+    /// Number of edges in each class; an edge counts in the first of its classes.
     pub edges: ClassCounts,
-    /// How many triangles others cover in one plane, as in models made to be seen from both sides; each region counts once.
+    /// Number of triangles covered by coplanar ones, as in models made to be seen from both sides; each region counts
+    /// once.
     pub covered_triangles: usize,
-    /// Where along silhouettes what is seen begins and ends, if that was asked for.
+    /// Where along silhouettes visibility begins and ends, if
+    /// [`LineSettings::counts_changes`](super::LineSettings::counts_changes) is set.
     pub changes: Option<VisibilityChanges>,
-    /// How many lines are missing because the time was over before they were decided: none but after
-    /// [`Progress::within_or_part`](super::Progress::within_or_part). What is there is as in the whole.
+    /// Number of lines that were undecided at the time limit. It is above 0 only after
+    /// [`Progress::within_or_part`](super::Progress::within_or_part). The lines that were decided are the same as
+    /// without a limit.
     pub undecided: usize,
-    /// Whether the time was over before what is too short to be a line was left out, so that all of it is there: not but after
-    /// [`Progress::within_or_part`](super::Progress::within_or_part) and [`VisibleLines::without_specks_with_progress`].
+    /// Whether specks remain because the time ran out before they were removed. Only after
+    /// [`Progress::within_or_part`](super::Progress::within_or_part) and
+    /// [`VisibleLines::without_specks_with_progress`].
     pub has_specks: bool,
-    /// How it went.
+    /// Time and work of each step.
     pub times: LineTimes,
 }
 
-/// Milliseconds of the clock, and what they went by.
+/// Wall-clock times in milliseconds, and the work done.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct LineTimes {
-    /// Mending, edge list, classes that do not depend on the view, the faces' hierarchy.
+    /// Repair, edge list, view-independent classes, and the hierarchy of faces.
     pub topology_ms: f64,
-    /// Which faces are seen from which side, and the edges between them.
+    /// Front and back faces, and the edges between them.
     pub silhouette_ms: f64,
     /// Intersections, cuts and rays.
     pub visibility_ms: f64,
-    /// Boxes of faces, lines and groups of them that were looked at for that: the same on every machine for the same scene.
+    /// Bounding boxes of faces, lines and groups tested for visibility: the same on every machine for the same scene.
     pub compared: u64,
 }
 
 impl VisibleLines {
-    /// What files say of lines of which some are missing, see [`VisibleLines::undecided`], or specks are left.
+    /// Returns the note that files carry if lines are missing (see [`VisibleLines::undecided`]) or specks remain.
     pub fn partial_note(&self) -> Option<String> {
         let lines = if self.undecided == 1 { "1 line was" } else { &format!("{} lines were", self.undecided) };
         let specks = "specks were left out";
@@ -58,10 +63,10 @@ impl VisibleLines {
         Some(format!("partial: the time was over before {before}"))
     }
 
-    /// Refuses lines that no drawing can hold: not finite, or outside the picture.
+    /// Refuses lines that cannot be drawn: not finite, or outside the picture.
     pub fn check(&self) -> Result<()> {
         let limits = [self.size.width, self.size.height].map(f64::from);
-        // What rounds to the border is on it.
+        // Values that round to the border count as on it.
         let is_inside = |value: f64, limit: f64| value > -5e-4 && value < limit + 5e-4;
         for (number, segment) in self.segments.iter().enumerate() {
             let mut points = segment.ends_px.iter();

@@ -1,4 +1,4 @@
-//! Drawings as files and values: SVG, PDF, pixels, polylines.
+//! Writes drawings as SVG, PDF, pixels and polylines.
 
 #[cfg(feature = "pdf")]
 pub(super) mod pdf;

@@ -1,24 +1,24 @@
-//! Where on the picture a scene lies: which objects are outside it, and which pixels those inside can touch.
+//! The extent of a scene in the picture: objects outside it, and pixels that the others can touch.
 //!
-//! In: the vertices GL gets, taken together in boxes of neighbours. Out: answers that may say "perhaps" too often and never
-//! "no" wrongly, in f64 by the same matrices.
+//! Input: the vertices for GL, grouped in boxes of neighbours. The answers are conservative: "perhaps" may be too
+//! frequent, "no" is always right. They are computed in f64 with the same matrices.
 
 use super::{Object, Rectangle, Scene, Size};
 use crate::tolerances::{CLIP_ROUNDING, WINDOW_ROUNDING_PX};
 use glam::{DMat4, DVec3, DVec4};
 
 impl Scene {
-    /// Whether nothing of this object, nor any line or point along its edges of this width, can be in the picture.
+    /// Whether the object, including lines or points of this width along its edges, is certainly outside the picture.
     pub fn is_outside(&self, object: &Object, width_px: f32) -> bool {
-        // Half the width beyond the picture's edge and a pixel more, as a share of half the picture.
+        // Half the width plus a pixel beyond the picture's border, as a share of half the picture.
         let beyond = [self.size.width, self.size.height].map(|side| (f64::from(width_px) + 2.0) / f64::from(side));
         let limits = DVec3::new(1.0 + beyond[0], 1.0 + beyond[1], 1.0) * (1.0 + CLIP_ROUNDING);
-        // By the axis and the side of it on which everything lies: right, left, above, below, far, near.
+        // For each axis and direction, whether all corners lie beyond it: right, left, above, below, far, near.
         let mut all_beyond = [true; 6];
         for corner in self.corners_in_clip_space(object) {
             for axis in 0..3 {
                 let limit = limits[axis] * corner.w;
-                // Behind the eye w is below 0, and the limits are on the other side: a point there is inside none.
+                // Behind the eye w is negative and the limits swap sides, so such a point is inside none.
                 all_beyond[axis * 2] &= corner[axis] > limit;
                 all_beyond[axis * 2 + 1] &= corner[axis] < -limit;
             }
@@ -26,20 +26,21 @@ impl Scene {
         all_beyond.contains(&true)
     }
 
-    /// Whether all of an object lies between the near and the far plane, well clear of both.
+    /// Whether the whole object lies clearly between the near and far planes.
     pub fn is_between_planes(&self, object: &Object) -> bool {
         self.corners_in_clip_space(object)
             .all(|corner| corner.w > 0.0 && corner.z.abs() < corner.w * (1.0 - CLIP_ROUNDING))
     }
 
-    /// The pixels of a surface of this size that faces of these objects can touch; `None` for none. The whole surface where
-    /// a box reaches behind the eye.
+    /// The pixels of a surface of this size that faces of these objects can touch; `None` for none, the whole surface
+    /// if a box reaches behind the eye.
     pub fn extent_px<'a>(&self, objects: impl Iterator<Item = &'a Object>, surface: Size) -> Option<Rectangle> {
         let whole = [f64::from(surface.width), f64::from(surface.height)];
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for object in objects {
             for corner in self.corners_in_clip_space(object) {
-                // Beside or behind the eye a box has no bounds in the picture. What the near plane cuts off only lies nearer.
+                // A box beside or behind the eye is unbounded in the picture. The near plane only cuts off nearer
+                // parts.
                 if corner.w <= 0.0 {
                     return Some(Rectangle { x: 0, y: 0, width: surface.width, height: surface.height });
                 }
@@ -89,7 +90,8 @@ mod tests {
         let view = View { azimuth_degrees: 0.0, elevation_degrees: 0.0 };
         let scene = scene(CameraSettings { view, parallel: true, ..CameraSettings::default() }, 1);
         let extent = scene.extent_px(scene.objects.iter(), scene.size).unwrap();
-        // The triangle's box is a square; fitted, it fills 92 of 100 of the picture, and a pixel may be added at each end.
+        // The triangle's bounding box is a square; fitted, it fills 92 % of the picture, and each end may add a
+        // pixel.
         let side = 512.0 * crate::tolerances::FRAME_FILL;
         for (first, length) in [(extent.x, extent.width), (extent.y, extent.height)] {
             assert!((f64::from(length) - side).abs() <= 2.5, "{extent:?}");
@@ -132,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_wide_line_reaches_in_from_outside() {
-        // The triangle's nearest edge lies 3 pixels beyond the right edge of a picture in parallel projection.
+        // The triangle's nearest edge lies 3 pixels beyond the right border in parallel projection.
         let view = View { azimuth_degrees: 0.0, elevation_degrees: 0.0 };
         let mut scene = scene(CameraSettings { view, parallel: true, ..CameraSettings::default() }, 1);
         let crate::camera::Projection::Parallel { height } = scene.camera.projection else { panic!("parallel") };

@@ -1,4 +1,4 @@
-//! Refuses cameras beyond the precision of numbers: f64 for every scene, f32 and a depth buffer where GL draws it.
+//! Refuses cameras beyond numeric precision: f64 for every scene, f32 and the depth buffer for drawing with GL.
 
 use super::Scene;
 use crate::camera::{Camera, Projection};
@@ -11,7 +11,7 @@ impl Scene {
         (self.camera.eye - self.centre).length() / self.radius
     }
 
-    /// Refuses an eye so far away that f64 cannot place the scene in the picture.
+    /// Refuses an eye too distant for f64 to place the scene in the picture.
     pub(super) fn check_distance(&self) -> Result<()> {
         let distance = self.distance();
         match distance > LARGEST_EXACT_DISTANCE {
@@ -26,12 +26,12 @@ impl Scene {
         }
     }
 
-    /// Refuses a camera that GL cannot draw this scene by: whose matrices f32 cannot hold with the precision depth needs, or
-    /// whose planes leave the depth buffer too few steps. Exact lines need neither.
+    /// Refuses a camera that GL cannot draw this scene with: f32 matrices are too coarse for the depth, or the planes
+    /// leave the depth buffer too few steps. Exact lines need neither.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] that names the options.
+    /// [`Error::Setting`] with the names of the options.
     pub fn check_precision(&self) -> Result<()> {
         let distance = self.distance();
         if distance > LARGEST_DISTANCE || !self.clip_from_view().is_finite() {
@@ -46,12 +46,13 @@ impl Scene {
         self.check_depth()
     }
 
-    /// Refuses planes so far apart that the depth buffer has next to no steps left for the scene between them.
+    /// Refuses planes so far apart that the depth buffer has hardly any steps for the scene.
     fn check_depth(&self) -> Result<()> {
         let Camera { near, far, .. } = self.camera;
         let middle = (self.centre - self.camera.eye).dot(-self.camera.backward());
         let (nearest, farthest) = (near.max(middle - self.radius), far.min(middle + self.radius));
-        // Nothing between the planes, or an eye within the scene, before which something may be as near as the plane.
+        // Either no point lies between the planes, or the eye is inside the scene, where points may be as near as the
+        // plane.
         if nearest >= farthest || nearest == near {
             return Ok(());
         }

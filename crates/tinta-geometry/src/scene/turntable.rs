@@ -1,6 +1,6 @@
-//! A scene turned once around, as on a potter's wheel, for a camera that stays where it is.
+//! The cameras of a full turn around a scene.
 //!
-//! GL's lights stand still relative to the camera, so turning the camera is turning the scene under its light.
+//! GL's lights move with the camera, so turning the camera is equivalent to turning the scene under a fixed light.
 
 use super::{FITTED_POINTS, Object, Scene};
 use crate::camera::{Camera, CameraSettings};
@@ -8,18 +8,20 @@ use crate::error::{Error, Result};
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// Corners of the polygon that stands for a circle when the camera is fitted; it lies around the circle.
+/// Corners of the polygon around a circle that the camera is fitted to.
 const CORNERS: u32 = 64;
 
 impl Scene {
-    /// The cameras of `views` pictures of a full turn about the up axis (`--up`, else +y) through the scene's centre.
+    /// Returns the cameras of `views` pictures of a full turn about the up axis (`--up`, default +y) through the
+    /// scene's centre.
     ///
-    /// All stand equally far away, so that the scene does not pulse: fitted, as `settings` say, to the room that it takes
-    /// up in turning. The first looks from where `settings` say; an eye given goes round with the turn.
+    /// All have the same distance, so the scene does not pulse: with the given settings, they are fitted to the space
+    /// that the turning scene fills. The first camera looks from the direction in `settings`; a given eye moves
+    /// along.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for no view, and as [`Scene::new`] for a nonsensical camera.
+    /// [`Error::Setting`] if `views` is 0, and those of [`Scene::new`] for an impossible camera.
     pub fn turntable(&self, settings: &CameraSettings, views: u32) -> Result<Vec<Camera>> {
         if views == 0 {
             return Err(Error::value("turntable", "0", "a turn has at least one view"));
@@ -43,8 +45,8 @@ impl Scene {
         Ok((0..views).map(view).collect())
     }
 
-    /// The outline of the turning scene: heights along the axis from the centre, with distances from the axis, as far as
-    /// they are corners of its convex hull.
+    /// The outline of the turning scene: the corners of the convex hull of all points, each as height along the axis
+    /// from the centre and distance from the axis.
     fn profile(&self, axis: DVec3) -> Vec<DVec2> {
         let outline = |point: DVec3| {
             let from_centre = point - self.centre;
@@ -61,7 +63,7 @@ impl Scene {
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         let mut hull: Vec<DVec2> = Vec::new();
         for point in points {
-            // From left to right over the top: only turns to the right stay.
+            // Walk along the top from left to right and keep only right turns.
             while let [.., a, b] = hull[..]
                 && (b - a).perp_dot(point - a) >= 0.0
             {
@@ -86,7 +88,7 @@ mod tests {
         Scene::new(vec![Arc::new(mesh)], &SceneSettings { camera, ..SceneSettings::default() }).unwrap()
     }
 
-    /// How far the scene reaches towards the picture's edges, 1 at the edge.
+    /// The scene's reach towards the picture's border; 1 is at the border.
     fn reach(scene: &Scene, camera: &Camera) -> f64 {
         let clip_from_world = camera.clip_from_view(scene.size.aspect()) * camera.view_from_world();
         let points = scene.objects[0].mesh.positions.iter().map(|point| clip_from_world.project_point3(*point));

@@ -1,15 +1,15 @@
-//! The boxes around a mesh's vertices.
+//! Bounding boxes around groups of a mesh's vertices.
 
 use crate::mesh::VertexArrays;
 use glam::Vec3;
 
-/// Vertices in a box at least: fewer make tighter boxes and more of them.
+/// Least number of vertices per box: smaller boxes are tighter, but more numerous.
 const LEAST_IN_BOX: usize = 64;
 
-/// Boxes of a mesh at most: each is eight points to project in each picture.
+/// Largest number of boxes per mesh: each adds eight points to project in every picture.
 const MOST_BOXES: usize = 512;
 
-/// The boxes around a mesh's vertices, neighbours in drawing order together, in scene radii from the mesh's centre.
+/// Boxes around a mesh's vertices, grouped in drawing order, in scene radii from the mesh's centre.
 pub(super) fn boxes(arrays: &VertexArrays) -> Vec<[Vec3; 2]> {
     let each = LEAST_IN_BOX.max(arrays.vertices.len().div_ceil(MOST_BOXES));
     let around = |vertices: &[[f32; 6]]| {

@@ -1,50 +1,51 @@
-//! What a setting can be, and what is wrong with a text that is none of it.
+//! The kinds of settings, and the errors for invalid texts.
 
 use crate::error::{Error, ParseError};
 
-/// What options that are on or off call their value.
+/// The placeholder for the value of an option that is on or off.
 pub const ON_OFF: &str = "ON|OFF";
 
-/// What a setting can be.
+/// The kind of a setting's values.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Kind {
-    /// Numbers with commas between.
+    /// Numbers separated by commas.
     Numbers {
-        /// How many.
+        /// Number of values.
         count: usize,
-        /// Least and most that a panel offers; what is beyond may be refused or not.
+        /// The least and greatest value that a panel offers; others may still be accepted.
         range: [f64; 2],
-        /// So many decimals are worth showing; none where only whole numbers are read.
+        /// Number of decimals worth showing; 0 if only whole numbers are accepted.
         decimals: usize,
     },
-    /// One of a few names; a shell and a panel offer them, and other texts may be read too.
+    /// One of a few names. A shell and a panel offer them; other texts may be accepted too.
     Choice(Vec<&'static str>),
-    /// The same, and each name stands for values of several other settings. It is set before these, and never written.
+    /// Like [`Kind::Choice`], but each name stands for values of several other settings. It is set before these, and
+    /// never written.
     Recipe(Vec<&'static str>),
-    /// Some of a few names with commas between.
+    /// Several of a few names, separated by commas.
     Several(Vec<&'static str>),
     /// `on` or `off`.
     Switch,
-    /// `on` or `off`, and on the command line an option without a value where it is on.
+    /// `on` or `off`; on the command line, an option without a value turns it on.
     Flag,
-    /// The path of a file that is read.
+    /// The path of an input file.
     File,
     /// A colour: a CSS name, `#rrggbb` or `rgb(r,g,b)`.
     Color,
-    /// Colours for some of a few names: `NAME=COLOR`, with commas between.
+    /// Colours for some of a few names: `NAME=COLOR`, separated by commas.
     Colors {
         /// The names that a panel offers.
         names: Vec<&'static str>,
-        /// Some whole values worth offering.
+        /// Complete values worth offering.
         offered: &'static [&'static str],
-        /// One that is not the default.
+        /// An example that is not the default.
         example: &'static str,
     },
-    /// A text of its own grammar: colours by class, a size.
+    /// A text with its own grammar, such as colours by class or a size.
     Text {
-        /// Some values worth offering.
+        /// Values worth offering.
         offered: &'static [&'static str],
-        /// One that is not the default.
+        /// An example that is not the default.
         example: &'static str,
     },
 }
@@ -52,7 +53,7 @@ pub enum Kind {
 impl Kind {
     /// The texts that a shell offers.
     pub fn offered(&self) -> Vec<&'static str> {
-        /// Whole numbers are offered where there are no others.
+        /// Offered where a whole number has no other texts.
         const NUMBERS: [&str; 5] = ["0", "1", "2", "3", "4"];
         match self {
             Self::Numbers { count: 1, range: [low, high], decimals: 0 } if (0.0..5.0).contains(high) => {
@@ -65,7 +66,8 @@ impl Kind {
         }
     }
 
-    /// Texts to try: each is read, and one at least is not `default`. A file is made by whoever tries.
+    /// Texts for tests: each is valid, and at least one is not `default`. The caller must create the file of a file
+    /// setting.
     pub fn samples(&self, default: &str) -> Vec<String> {
         match self {
             Self::Numbers { count, range: [low, high], decimals } => {
@@ -86,17 +88,17 @@ impl Kind {
     }
 }
 
-/// `on` or `off`.
+/// Returns `on` or `off`.
 pub fn on_off(is_on: bool) -> &'static str {
     if is_on { "on" } else { "off" }
 }
 
-/// Why a text is no value of a setting.
+/// Why a text is invalid for a setting.
 #[derive(Debug)]
 pub enum Problem {
-    /// It does not say such a value, whatever the rest is. A sentence without the setting's name.
+    /// The text is invalid in any context: a sentence without the setting's name.
     Text(String),
-    /// It says one, which cannot be had.
+    /// The text is valid, but its value is refused.
     Refused(Error),
 }
 

@@ -1,18 +1,19 @@
-//! Whose a value is: a text's, drawn from a text, or ours. Declared with the setting or the constant it is said of.
+//! The origin of a value: printed in a published text, deduced from one, or chosen by this project. Declared with the
+//! setting or constant.
 
-/// Whose a value is.
+/// Where a value comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Whose {
-    /// A text prints it.
+    /// A published text prints it.
     Printed,
-    /// It follows from what a text says.
+    /// It follows from a published text's statements.
     Deduced,
-    /// No text gives it; it was chosen here.
+    /// No published text gives it; this project chose it.
     Ours,
 }
 
 impl Whose {
-    /// As it is written in tables.
+    /// Its name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Printed => "printed",
@@ -22,27 +23,27 @@ impl Whose {
     }
 }
 
-/// Whose a value is, and how one knows.
+/// The origin of a value, with the evidence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Provenance {
-    /// Whose.
+    /// The origin.
     pub whose: Whose,
     /// Where it is printed, what it follows from, or why it was chosen: a phrase.
     pub why: &'static str,
 }
 
 impl Provenance {
-    /// A text prints it there.
+    /// Printed at this place.
     pub const fn printed(place: &'static str) -> Self {
         Self { whose: Whose::Printed, why: place }
     }
 
-    /// It follows from this.
+    /// Follows from this.
     pub const fn deduced(from: &'static str) -> Self {
         Self { whose: Whose::Deduced, why: from }
     }
 
-    /// It was chosen here for this reason.
+    /// Chosen by this project for this reason.
     pub const fn ours(reason: &'static str) -> Self {
         Self { whose: Whose::Ours, why: reason }
     }

@@ -1,23 +1,23 @@
-//! How values are written and read: each type's text, which reads back as the same value.
+//! How values are written and read: each type's text reads back as the same value.
 
 use super::{Choice, Kind, Problem, on_off};
 use crate::values::{Color, Size};
 use glam::DVec3;
 use std::path::PathBuf;
 
-/// What a field of a setting can be.
+/// A type of a setting's field.
 pub trait Value: Sized {
-    /// What texts it has.
+    /// The kind of its texts.
     fn kind() -> Kind;
 
-    /// Its text.
+    /// Returns its text.
     fn text(&self) -> String;
 
-    /// The value of a text.
+    /// Parses a text.
     ///
     /// # Errors
     ///
-    /// What is wrong with the text.
+    /// A description of the problem.
     fn parse(text: &str) -> Result<Self, Problem>;
 }
 
@@ -40,7 +40,7 @@ impl<T: Choice> Value for T {
     }
 }
 
-/// A number of a type of its own: whole where it has no decimals.
+/// A type of number, with its decimals: 0 for whole numbers.
 trait Number: std::str::FromStr + ToString + Copy {
     const DECIMALS: usize;
     const USAGE: &'static str;
@@ -64,9 +64,9 @@ fn joined<N: Number>(numbers: &[N]) -> String {
     numbers.iter().map(N::to_string).collect::<Vec<_>>().join(",")
 }
 
-/// Makes values of types of numbers.
+/// Implements [`Value`] for number types.
 ///
-/// A macro because every [`Choice`] is a [`Value`] already: another type can be only by itself.
+/// A macro, because a blanket implementation would conflict with that for every [`Choice`].
 macro_rules! numbers {
     ($($number:ty: $decimals:literal, $usage:literal;)+) => {$(
         impl Number for $number {
@@ -177,7 +177,7 @@ impl Value for PathBuf {
         Kind::File
     }
 
-    /// Of bytes that are no text what can be kept.
+    /// A file name that is not UTF-8 keeps its valid parts.
     fn text(&self) -> String {
         self.to_string_lossy().into_owned()
     }

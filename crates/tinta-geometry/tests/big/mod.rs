@@ -1,5 +1,5 @@
-//! Large models made up, their files in all formats that can hold them, and an allocator that counts: for the test of memory and the
-//! benchmark of reading.
+//! Large synthetic models, their files in all formats that can hold them, and a counting allocator: for the memory
+//! test and the reading benchmark.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::f64::consts::{PI, TAU};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tinta_geometry::glam::DVec3;
 
-/// The system's allocator, counting.
+/// The system's allocator with a counter.
 pub struct Counting;
 
 static HELD: AtomicUsize = AtomicUsize::new(0);
@@ -20,7 +20,7 @@ fn grow(bytes: usize) {
     PEAK.fetch_max(held, Ordering::Relaxed);
 }
 
-// SAFETY: every call is passed on to the system's allocator as it is; counting touches no memory that is given out.
+// SAFETY: every call is passed on to the system's allocator unchanged; counting touches no allocated memory.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         grow(layout.size());
@@ -41,7 +41,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn realloc(&self, place: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // While it moves both are there.
+        // During the move both blocks exist.
         grow(size);
         HELD.fetch_sub(layout.size(), Ordering::Relaxed);
         // SAFETY: as the caller promises.
@@ -49,7 +49,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// What some work returns, and how many bytes more than before were held at most meanwhile.
+/// Runs some work; returns its result and the peak of additional bytes held.
 pub fn peak<T>(work: impl FnOnce() -> T) -> (T, usize) {
     let before = HELD.load(Ordering::Relaxed);
     PEAK.store(before, Ordering::Relaxed);
@@ -57,7 +57,7 @@ pub fn peak<T>(work: impl FnOnce() -> T) -> (T, usize) {
     (result, PEAK.load(Ordering::Relaxed) - before)
 }
 
-/// A sphere with bumps, a closed mesh of about so many triangles.
+/// A sphere with bumps: a closed mesh with about this many triangles.
 pub fn sphere(triangles: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let rows = ((triangles as f64) / 4.0).sqrt().round() as u32;
     let columns = rows * 2;
@@ -84,10 +84,9 @@ pub fn sphere(triangles: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (positions, faces)
 }
 
-/// Writes one of the formats.
 type Writer = fn(&mut BufWriter<File>, &[DVec3], &[[u32; 3]]) -> Result<()>;
 
-/// The formats that hold any number of triangles: what each is called, its file's ending, and how it is written.
+/// The formats that hold any number of triangles: name, file extension and writer.
 const FORMATS: [(&str, &str, Writer); 5] = [
     ("OBJ", "obj", write_obj),
     ("PLY, binary", "ply", write_ply),
@@ -96,7 +95,6 @@ const FORMATS: [(&str, &str, Writer); 5] = [
     ("GLB", "glb", write_glb),
 ];
 
-/// The mesh as files of all formats.
 pub fn files(positions: &[DVec3], triangles: &[[u32; 3]], folder: &Path) -> Result<Vec<(&'static str, PathBuf)>> {
     let written = |(name, ending, write): (&'static str, &str, Writer)| {
         let path = folder.join(format!("sphere.{ending}"));

@@ -9,18 +9,18 @@ use tinta::camera::Projection;
 use tinta::lines::{LineSegment, VisibleLines};
 use tinta::tolerances::{CONTACT, CREASE_DIGITS, TOUCH, WELD};
 
-/// How far to either side of a line the rays begin, pixels: twice the distance within which two lines are one in the picture, so that
-/// each ray is clearly on its side of whatever lies on the line.
+/// Distance of the rays' start from a line on either side, pixels. It is twice the distance within which two lines
+/// coincide in the picture, so each ray is clearly on its side of anything on the line.
 const ASIDE_PX: f64 = 1e-4;
 
-/// How far from a piece's ends its points are at least, pixels: up to the 0.02 pixels within which a face that hides a line beside a
-/// common corner hides it, and some more.
+/// Least distance of tested points from a segment's ends, pixels: more than the 0.02 pixels near a common corner
+/// within which an adjacent face may hide the line.
 const FROM_ENDS_PX: f64 = 0.03;
 
-/// Sine of the angle to the view below which a face is edge-on, and above which it is not.
+/// Sine of the angle to the view: a face is edge-on below the first value and not edge-on above the second.
 const EDGE_ON: [f64; 2] = [1e-12, 1e-7];
 
-/// By how much the ends of pieces may overlap or be apart, pixels: ten times the shortest line in a picture of 640.
+/// Largest overlap or gap between the ends of segments, pixels: ten times the shortest line in a picture of 640.
 const SAME_PLACE_PX: f64 = 1e-3;
 
 /// Rounding of a place in space, as a share of the largest coordinate or distance.
@@ -33,50 +33,49 @@ struct Face {
     normal: DVec3,
     longest: f64,
     object: u32,
-    /// Where its image lies, with a margin.
+    /// Bounds of its image, with a margin.
     low: DVec2,
     high: DVec2,
 }
 
-/// What is between one side of a line and the eye.
+/// The state of the space between one side of a line and the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Side {
-    /// A face for sure.
+    /// A face certainly covers it.
     Covered,
-    /// A face that touches the line or whose rim passes too near to tell.
+    /// A face touches the line, or its rim passes too close to decide.
     Unclear,
     Open,
 }
 
-/// A line of the scene.
 struct Line {
     ends: [DVec3; 2],
-    /// The positions at its ends by object and number: of an edge both, of an intersection the corner that its faces have in common.
+    /// The positions at its ends by object and number: both for an edge; for an intersection, the common corner of
+    /// its faces.
     corners: [Option<[u32; 2]>; 2],
     /// The faces that it belongs to.
     own: Vec<usize>,
     object: u32,
 }
 
-/// All of a scene's faces and edges.
+/// All faces and edges of a scene.
 pub struct Rays<'a> {
     scene: &'a Scene,
     faces: Vec<Face>,
     /// By object and position numbers, the lower first.
     edges: BTreeMap<(u32, [u32; 2]), Vec<usize>>,
     welds: Vec<f64>,
-    /// What rounding may move a point by, file units.
+    /// Largest shift of a point by rounding, file units.
     noise: f64,
 }
 
-/// What a check found.
 #[derive(Debug, Default, Clone)]
 pub struct Found {
-    /// Points of hidden and of visible pieces that were looked at, and how many of these no ray decides.
+    /// Tested points of hidden and visible segments, and the undecided ones among them.
     pub hidden: usize,
     pub visible: usize,
     pub unclear: usize,
-    /// Edges whose points were counted, and of how many a rule for edges that others cover takes some away.
+    /// Edges whose points were counted, and those that a rule for covered edges exempts in part.
     pub edges: usize,
     pub exempt: usize,
     pub wrong: Vec<String>,
@@ -120,7 +119,7 @@ impl<'a> Rays<'a> {
                     .for_each(|corner| farthest = farthest.max(corner.distance(camera.eye)).max(corner.length()));
                 let is_cut = corners.iter().any(|corner| (camera.eye - *corner).dot(camera.backward()) < camera.near);
                 let images = corners.map(|corner| px(scene, corner));
-                // The image of what the near plane cuts may lie anywhere.
+                // The image of a face cut by the near plane is unbounded.
                 let (low, high) = match is_cut {
                     true => (DVec2::NEG_INFINITY, DVec2::INFINITY),
                     false => {
@@ -149,13 +148,13 @@ impl<'a> Rays<'a> {
         (self.scene.camera.eye - point).dot(self.scene.camera.backward())
     }
 
-    /// From a point to the eye, or to the plane through it.
+    /// The direction from a point to the eye, or to the plane through it.
     fn to_eye(&self, point: DVec3) -> DVec3 {
         let camera = &self.scene.camera;
         if self.is_parallel() { camera.backward() * self.depth(point) } else { camera.eye - point }
     }
 
-    /// The point of a line whose image is at a share of the line's.
+    /// The point of a line whose image is at this share of the line's image.
     fn at(&self, [a, b]: [DVec3; 2], share: f64) -> DVec3 {
         if self.is_parallel() {
             return a.lerp(b, share);
@@ -164,7 +163,7 @@ impl<'a> Rays<'a> {
         a.lerp(b, near / (near + far))
     }
 
-    /// Below which distance a face touches a line at a point: from a corner that both have, in proportion to the distance from it.
+    /// The distance below which a face touches a line at a point: proportional to the distance from a common corner.
     fn touch(&self, face: &Face, line: &Line, point: DVec3) -> f64 {
         let length = line.ends[0].distance(line.ends[1]);
         let touch =
@@ -173,7 +172,7 @@ impl<'a> Rays<'a> {
         corner.map_or(touch, |corner| touch * (point.distance(line.ends[corner]) / length).min(1.0))
     }
 
-    /// What covers a line beside one of its points. `middle` is that of the piece: it is decided there what the piece touches.
+    /// The state of one side of a line at a point. `middle` is the midpoint of the segment, where contact is decided.
     fn side(&self, point: DVec3, aside: DVec3, middle: DVec3, line: &Line) -> Side {
         let camera = &self.scene.camera;
         let moved = point + aside;
@@ -187,7 +186,7 @@ impl<'a> Rays<'a> {
             }
             let [p, q, r] = face.corners;
             let from_plane = |point: DVec3| face.normal.dot(point - p).abs();
-            // A face in whose plane the line lies does not hide it.
+            // A face whose plane contains the line does not hide it.
             let touches = |end: &DVec3| from_plane(*end) < 0.4 * self.touch(face, line, *end) + self.noise;
             if line.ends.iter().all(touches) {
                 continue;
@@ -209,7 +208,8 @@ impl<'a> Rays<'a> {
             if inside_px < -0.1 * ASIDE_PX {
                 continue;
             }
-            // In a piece's middle twice the contact is none; at its end what is contact may be twice as far away as there.
+            // At the midpoint, twice the contact distance means no contact; at the segment's end the contact distance
+            // may be twice as large.
             let [here, there] = [point, middle].map(|place| (from_plane(place), self.touch(face, line, place)));
             if inside_px > 0.1 * ASIDE_PX && here.0 > 2.1 * here.1 + self.noise {
                 return Side::Covered;
@@ -221,17 +221,17 @@ impl<'a> Rays<'a> {
         side
     }
 
-    /// A vector across a line's image, parallel to the picture, that is so many pixels long at a point.
+    /// A vector across a line's image, parallel to the picture, with this length in pixels at a point.
     fn aside(&self, point: DVec3, along_px: DVec2, length_px: f64) -> DVec3 {
         let camera = &self.scene.camera;
         let right = camera.up.cross(camera.backward()).normalize();
         let up = camera.backward().cross(right);
         let unit_px = px(self.scene, point + right).distance(px(self.scene, point));
-        // Pixels run down, the eye's space up.
+        // Pixels run down, eye space up.
         (right * along_px.y + up * along_px.x) * (length_px / unit_px)
     }
 
-    /// The positions of the edge of which a piece is part, if it is part of one that there is.
+    /// The positions of the edge that contains a segment, if the edge exists.
     fn numbers(&self, piece: &LineSegment) -> Option<[u32; 2]> {
         let vertices = &self.scene.objects[piece.object as usize].mesh.file_vertices;
         let number = |vertex: u32| Some(vertices.iter().position(|known| *known == vertex)? as u32);
@@ -239,10 +239,11 @@ impl<'a> Rays<'a> {
         Some([number(a)?, number(b)?])
     }
 
-    /// The line of which a piece is part.
+    /// The line that contains a segment.
     fn line(&self, piece: &LineSegment) -> Option<Line> {
         if piece.edge.is_none() {
-            // Where a corner of one face touches the other face the line ends in that corner, beside the common line of both planes.
+            // If a corner of one face touches the other face, the line ends in that corner, beside the planes'
+            // intersection.
             return self.intersection(piece, CONTACT * CONTACT).or_else(|| self.intersection(piece, CONTACT));
         }
         let (numbers, object) = (self.numbers(piece)?, &self.scene.objects[piece.object as usize]);
@@ -255,11 +256,12 @@ impl<'a> Rays<'a> {
         })
     }
 
-    /// The intersection of two faces of which a piece is part, up to a share of their sides: of several the shortest.
+    /// The intersection of two faces that contains a segment, within a share of their sides; the shortest if there
+    /// are several.
     fn intersection(&self, piece: &LineSegment, share: f64) -> Option<Line> {
         let [start, end] = piece.ends_world;
         let along = (end - start).normalize();
-        // Places along the piece between which it runs through a face.
+        // The range of the segment that runs through a face.
         let range = |face: &Face| -> Option<[f64; 2]> {
             let [p, q, r] = face.corners;
             let rounding = share * face.longest + self.noise;
@@ -297,7 +299,7 @@ impl<'a> Rays<'a> {
         lines.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, line)| line)
     }
 
-    /// Looks at points of all pieces and at all edges.
+    /// Tests points of all segments, and all edges.
     pub fn check(&self, lines: &VisibleLines, random: &mut Random) -> Found {
         let mut found = Found::default();
         for piece in lines.segments.iter().filter(|piece| length(piece) > 3.0 * FROM_ENDS_PX) {
@@ -343,7 +345,7 @@ impl<'a> Rays<'a> {
         }
     }
 
-    /// Whether a visible line lies on a point in the picture and is not farther away.
+    /// Whether a visible line overlaps a point in the picture and is not farther away.
     fn is_under_nearer(&self, point: DVec3, piece: &LineSegment, lines: &VisibleLines) -> bool {
         let image = px(self.scene, point);
         lines.segments.iter().any(|other| {
@@ -354,7 +356,7 @@ impl<'a> Rays<'a> {
         })
     }
 
-    /// The point of a piece whose image is at a pixel, if the piece runs through that.
+    /// The point of a segment whose image is at a pixel, if its image passes through it.
     fn nearest(&self, piece: &LineSegment, image: DVec2) -> Option<DVec3> {
         let [a, b] = piece.ends_px;
         let share = ((image - a).dot(b - a) / a.distance_squared(b).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -370,7 +372,7 @@ impl<'a> Rays<'a> {
         face.normal.dot(towards_eye.normalize())
     }
 
-    /// Whether an edge is a line by the default settings; `None` where rounding decides it, or a rule for faces that lie on one another.
+    /// Whether an edge is a line by the default settings; `None` if rounding or a rule for overlapping faces decides.
     fn is_line(&self, [a, b]: [u32; 2], faces: &[usize]) -> Option<bool> {
         let [first, second] = match *faces {
             [_] => return Some(true),
@@ -397,8 +399,8 @@ impl<'a> Rays<'a> {
         Some(ways[0] != ways[1] || cosine < of_drawings)
     }
 
-    /// Asserts that the pieces of each edge follow one another without gap and overlap, and that where there is a gap another line lies in
-    /// the same place.
+    /// Asserts that the segments of each edge follow one another without gap or overlap, unless another line fills
+    /// the gap.
     fn check_edges(&self, lines: &VisibleLines, found: &mut Found) {
         let mut pieces: BTreeMap<(u32, [u32; 2]), Vec<&LineSegment>> = BTreeMap::new();
         for piece in &lines.segments {
@@ -464,7 +466,7 @@ impl<'a> Rays<'a> {
             }
             found.exempt += usize::from(is_exempt);
         }
-        // A face that is split where a corner lies on its rim has parts of its edges in their place.
+        // A face with a corner on its rim is split, and parts replace its edges.
         let is_part = |(object, numbers): &(u32, [u32; 2])| {
             let in_scene = &self.scene.objects[*object as usize];
             let place = |number: u32| in_scene.mesh.positions[number as usize];
@@ -490,8 +492,8 @@ impl<'a> Rays<'a> {
             .any(|piece| self.nearest(piece, image).is_some_and(|other| other.distance(point) <= touch))
     }
 
-    /// Whether faces of its object that do not have an edge touch it at a point, or some of those that have it lie on one another: the
-    /// rules for faces that cover one another and for T-junctions then say what it is.
+    /// Whether faces of its object without this edge touch it at a point, or faces at it lie on one another. The
+    /// rules for covering faces and T-junctions then decide.
     fn lies_on_others(&self, point: DVec3, object: u32, numbers: [u32; 2]) -> bool {
         let own = &self.edges[&(object, numbers)];
         let ends = numbers.map(|number| self.scene.objects[object as usize].mesh.positions[number as usize]);
@@ -523,7 +525,7 @@ impl<'a> Rays<'a> {
                 .any(|(number, face)| face.object == object && !others.contains(&number) && touches(face))
     }
 
-    /// What of a line is in the picture and between the planes.
+    /// The part of a line in the picture and between the planes.
     fn clipped(&self, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         let camera = &self.scene.camera;
         let clip_from_world = camera.clip_from_view(self.scene.size.aspect()) * camera.view_from_world();

@@ -1,4 +1,4 @@
-//! Scenes that were once drawn otherwise when they were written otherwise, with their right lengths.
+//! Scenes whose drawing once depended on how they were written, with their correct lengths.
 
 use crate::lines_support::{lines, of_class, scene_of, total, view};
 use crate::shapes::{joined, mesh};
@@ -17,7 +17,7 @@ fn assert_px(actual: f64, expected: f64, what: &str) {
     assert!((actual - expected).abs() <= 0.05, "{what}: {actual:.3} px instead of {expected}");
 }
 
-/// A cylinder of polygons, each followed by itself seen from the other side, both beginning where `first` says.
+/// A cylinder of polygons, each followed by its reverse; both begin where `first` says.
 fn cylinder_from_both_sides(first: impl Fn(usize, usize) -> usize) -> Mesh {
     const SIDES: usize = 24;
     let mut text = String::new();
@@ -51,7 +51,7 @@ fn polygons_seen_from_both_sides_count_once_whatever_their_first_corners() {
         assert_px(of_class(&found, Class::Silhouette, true), 1409.2, what);
         assert_px(of_class(&found, Class::Crease, true), 359.8, what);
         assert_px(total(&found, true), 1769.0, what);
-        // 24 sides of two triangles, two caps of 22.
+        // 24 sides with two triangles each, two caps with 22.
         assert_eq!(found.covered_triangles, 92, "{what}");
     }
 }
@@ -112,7 +112,7 @@ fn a_line_in_the_plane_of_a_wall_is_cut_where_it_passes_the_corner_of_wall_and_f
     }
 }
 
-/// An L, its wall at x = 2, its floor at z = 3.
+/// An L with its wall at x = 2 and its floor at z = 3.
 fn bracket() -> Mesh {
     let profile = [(0, 3), (2, 3), (2, 0), (3, 0), (3, 4), (0, 4)];
     let mut text = String::new();

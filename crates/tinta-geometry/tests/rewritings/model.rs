@@ -1,4 +1,4 @@
-//! A scene that can be written in other ways.
+//! A scene that can be rewritten.
 
 use crate::lines_support::explicit;
 use crate::rules::edges;
@@ -13,7 +13,6 @@ pub struct Model {
     pub meshes: Vec<Mesh>,
     pub camera: CameraSettings,
     pub size: Size,
-    /// Whether the picture is the mirror image of the original.
     pub is_mirrored: bool,
     /// Whether a surface has a rim.
     pub is_open: bool,
@@ -24,7 +23,7 @@ pub struct Model {
 impl Model {
     pub fn of(scene: &Scene) -> Self {
         let parallel = matches!(scene.camera.projection, Projection::Parallel { .. });
-        // As readers make them: no two positions in one place.
+        // As readers create them: all positions differ.
         let placed = |object: &tinta::scene::Object| {
             let positions = object.mesh.positions.iter().map(|point| *point + object.offset).collect();
             joined(&[Mesh { positions, ..(*object.mesh).clone() }])
@@ -44,14 +43,14 @@ impl Model {
         Scene::new(self.meshes.iter().cloned().map(Arc::new).collect::<Vec<_>>(), &settings).unwrap()
     }
 
-    /// The middle and half the diagonal of all meshes.
+    /// The centre and half the diagonal of all meshes.
     fn ball(&self) -> (DVec3, f64) {
         let bounds = self.meshes.iter().map(Mesh::bounds);
         let (low, high) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap();
         ((low + high) * 0.5, low.distance(high) * 0.5)
     }
 
-    /// The same model in parallel projection, seen from a direction.
+    /// The model in parallel projection, seen from a direction.
     pub fn parallel_from(&self, direction: DVec3) -> Self {
         let (middle, radius) = self.ball();
         let camera = CameraSettings {
@@ -67,7 +66,7 @@ impl Model {
         Self { camera, ..self.clone() }
     }
 
-    /// The same as nearly as a perspective can show it, from a million radii away.
+    /// The closest perspective view, from a million radii away.
     pub fn perspective_from(&self, direction: DVec3) -> Self {
         let mut far = self.parallel_from(direction);
         let (middle, radius) = self.ball();
@@ -81,8 +80,8 @@ impl Model {
         far
     }
 
-    /// Writes each mesh as an OBJ and the options of its picture into the folder that `TINTA_REWRITTEN` names, to look into a scene that
-    /// differs.
+    /// Writes each mesh as an OBJ, and the options of its picture, into the folder `TINTA_REWRITTEN`, for the
+    /// inspection of a failed scene.
     pub fn keep(&self, name: &str) {
         let Ok(folder) = std::env::var("TINTA_REWRITTEN") else { return };
         let path = format!("{folder}/{name}");
@@ -107,7 +106,7 @@ impl Model {
         std::fs::write(format!("{path}.txt"), command).unwrap();
     }
 
-    /// Model and camera under a similarity.
+    /// Moves model and camera by a similarity.
     pub fn moved(mut self, turn: DMat3, scale: f64, shift: DVec3) -> Self {
         let place = |point: DVec3| turn * point * scale + shift;
         for mesh in &mut self.meshes {
@@ -124,7 +123,7 @@ impl Model {
     }
 }
 
-/// The mesh of some triangles with the positions that they use.
+/// The mesh of some triangles, with only the positions that they use.
 pub fn compact(mesh: &Mesh, triangles: Vec<[u32; 3]>) -> Mesh {
     let mut used = triangles.as_flattened().to_vec();
     used.sort_unstable();

@@ -1,4 +1,4 @@
-//! Ways to write a model that leave its surface as it is.
+//! Ways to rewrite a model without changing its surface.
 
 use crate::lines_support::shuffled;
 use crate::model::Model;
@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use tinta::Mesh;
 
-/// A rule by its name.
+/// A named rule.
 pub struct Rewriting {
     pub name: &'static str,
     pub rewrite: fn(Model, &mut Random) -> Model,
@@ -60,7 +60,7 @@ fn rotate_faces(model: Model, random: &mut Random) -> Model {
     })
 }
 
-/// For each edge its faces.
+/// The faces of each edge.
 pub fn edges(mesh: &Mesh) -> BTreeMap<[u32; 2], Vec<usize>> {
     let mut edges: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
     for (face, [a, b, c]) in mesh.triangles.iter().enumerate() {
@@ -76,8 +76,8 @@ fn third(mesh: &Mesh, face: usize, edge: [u32; 2]) -> u32 {
     mesh.triangles[face].into_iter().find(|corner| !edge.contains(corner)).unwrap()
 }
 
-/// The faces of triangles that are parts of flat quadrangles, with the other diagonal, half of them. Not after faces were repeated: two
-/// triangles of two layers would be mixed so that neither layer is whole, which no file of a surface has.
+/// Flips the diagonals of half of the flat quadrangles. It skips models with repeated faces: mixing triangles of two
+/// layers would break both, which never happens in a file of a surface.
 fn flip_diagonals(model: Model, random: &mut Random) -> Model {
     if model.has_layers {
         return model;
@@ -96,12 +96,12 @@ fn flip_diagonals(model: Model, random: &mut Random) -> Model {
             let normals = [normal(a, b, c), normal(b, a, d), normal(a, d, c), normal(b, c, d)];
             let largest = normals.iter().map(|normal| normal.length()).fold(0.0, f64::max);
             let is_flat = normals.iter().all(|other| other.cross(normals[0]).length() <= 1e-14 * largest * largest);
-            // The other diagonal lies well inside.
+            // The other diagonal must lie well inside.
             let is_convex = normals.iter().all(|other| other.dot(normals[0]) > 0.01 * largest * normals[0].length());
-            // An edge that is there must not get two more faces.
+            // An existing edge must not get two more faces.
             let is_new = c != d && !edges(mesh).contains_key(&[c.min(d), c.max(d)]);
             if is_flat && is_convex && is_new {
-                // Each as the face was wound that it stands for.
+                // Each keeps the orientation of the face that it replaces.
                 let is_up = |face: usize, [x, y, z]: [u32; 3]| {
                     let corners = old.triangles[face];
                     let of_face = normal(corners[0], corners[1], corners[2]);
@@ -115,7 +115,7 @@ fn flip_diagonals(model: Model, random: &mut Random) -> Model {
     })
 }
 
-/// Splits a face at a vertex on an edge of it.
+/// Splits a face at a vertex on one of its edges.
 fn split_face(mesh: &mut Mesh, face: usize, edge: [u32; 2], vertex: u32) {
     let corners = mesh.triangles[face];
     let with = |old: u32| corners.map(|corner| if corner == old { vertex } else { corner });
@@ -185,7 +185,7 @@ fn split_and_weld(model: Model, random: &mut Random) -> Model {
         let corners = whole.triangles.as_flattened().iter().map(|corner| whole.positions[*corner as usize]).collect();
         let faces = (0..whole.triangles.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
         let apart = shuffled(&mesh(corners, faces), random);
-        // Objects that were put together stay apart.
+        // Objects that were joined stay separate.
         let is_welded = joined(std::slice::from_ref(whole)).positions.len() == whole.positions.len();
         if is_welded {
             *whole = joined(&[apart]);
@@ -193,7 +193,7 @@ fn split_and_weld(model: Model, random: &mut Random) -> Model {
     })
 }
 
-/// For each face the first face it hangs together with, over common positions.
+/// For each face, the first face that it is connected to by common positions.
 fn parts(mesh: &Mesh) -> Vec<usize> {
     let mut first_at: Vec<usize> = (0..mesh.positions.len()).collect();
     fn root(parents: &mut [usize], mut one: usize) -> usize {
@@ -216,8 +216,8 @@ fn parts(mesh: &Mesh) -> Vec<usize> {
     mesh.triangles.iter().enumerate().map(part_of).collect()
 }
 
-/// Leaves open surfaces as they are: within one mesh, rims that meet at a T-junction are joined, so that sheets side by side are one
-/// surface; those of several objects each keep their rim. That is a rule of docs/guide/lines.md, and no rewriting.
+/// Skips open surfaces. Within one mesh, rims that meet at a T-junction are joined, because sheets side by side are
+/// one surface; rims of separate objects stay. docs/guide/lines.md states this rule, so the drawing would change.
 fn parts_as_objects(mut model: Model, _: &mut Random) -> Model {
     if model.is_open {
         return model;
@@ -237,7 +237,7 @@ fn parts_as_objects(mut model: Model, _: &mut Random) -> Model {
     model
 }
 
-/// Leaves open surfaces as they are, for the same reason.
+/// Skips open surfaces, for the same reason.
 fn objects_as_one(mut model: Model, _: &mut Random) -> Model {
     if model.is_open {
         return model;
@@ -261,7 +261,7 @@ fn reorder(mut model: Model, random: &mut Random) -> Model {
 
 fn move_rigidly(model: Model, random: &mut Random) -> Model {
     let turn = DMat3::from_axis_angle(random.direction(), random.number() * 6.0);
-    // Some sizes away, so that no coordinate loses more than a digit.
+    // A few model sizes away, so no coordinate loses more than a digit.
     let reach = model.meshes.iter().map(|mesh| mesh.bounds()).map(|(low, high)| low.distance(high)).fold(0.0, f64::max);
     let shift = random.direction() * 5.0 * reach;
     model.moved(turn, 1.0, shift)

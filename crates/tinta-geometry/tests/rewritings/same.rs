@@ -1,4 +1,4 @@
-//! Whether two drawings show the same.
+//! Compares two drawings.
 
 use crate::lines_support::length;
 use glam::DVec2;
@@ -6,13 +6,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use tinta::edges::Class;
 use tinta::lines::{LineSegment, VisibleLines};
 
-/// By how much the visible length of a class may differ, pixels.
+/// Largest difference of a class's visible length, pixels.
 const LENGTH_PX: f64 = 0.05;
 
-/// How near a point of a piece must be to a piece of the other drawing, pixels.
+/// Largest distance of a point of a segment from a segment of the other drawing, pixels.
 const PIECE_PX: f64 = 0.01;
 
-/// What differs between two drawings; `None` if nothing does.
+/// The difference between two drawings; `None` if they are the same.
 pub fn difference(expected: &VisibleLines, actual: &VisibleLines, is_mirrored: bool) -> Option<String> {
     let (expected, mut actual) = (visible(expected), visible_of(actual));
     if is_mirrored {
@@ -48,7 +48,7 @@ fn visible_of(lines: &VisibleLines) -> (Vec<(Class, [DVec2; 2])>, u32) {
     (visible(lines), lines.size.width)
 }
 
-/// A place on a piece of one drawing that no piece of the same class of another is near to.
+/// A place on a segment of one drawing without a nearby segment of the same class in the other.
 fn lost(pieces: &[(Class, [DVec2; 2])], others: &[(Class, [DVec2; 2])]) -> Option<String> {
     for (class, [a, b]) in pieces {
         for share in [0.0, 0.37, 0.5, 0.81, 1.0] {

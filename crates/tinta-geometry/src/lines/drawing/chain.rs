@@ -1,8 +1,9 @@
-//! Joins pieces of lines into polylines, which a pen draws without being lifted.
+//! Chains line segments into polylines that a pen draws in one stroke.
 //!
-//! In: the pieces of [`crate::lines::VisibleLines`]. Out: [`LinePath`]s. Two pieces of one layer and object are joined
-//! where their ends coincide bit for bit. Where more than two meet, the two that go on straightest are joined first. Sorting
-//! the ends finds the meetings, O(n log n); only sums, products and square roots decide, so that every platform joins alike.
+//! Input: the segments of [`crate::lines::VisibleLines`]. Output: [`LinePath`]s. Two segments of one layer and object
+//! are joined where their ends coincide bit for bit. Where more than two meet, the straightest continuations are
+//! joined first. Meetings are found by sorting the ends, in O(n log n). Only sums, products and square roots decide,
+//! so every platform gives the same paths.
 
 use crate::edges::Class;
 use crate::lines::LineSegment;
@@ -10,57 +11,56 @@ use crate::lines::drawing::layers::Layer;
 use glam::DVec2;
 use std::cmp::Ordering;
 
-/// Pieces drawn as one line.
+/// Segments drawn as one line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinePath {
-    /// Their class; an outline's pieces may be of several, of which this is one.
+    /// Their class; an outline's segments may have several, of which this is one.
     pub class: Class,
-    /// Whether they are seen.
+    /// Whether they are visible.
     pub is_visible: bool,
-    /// Whether they are outline.
+    /// Whether they belong to the outline.
     pub is_outline: bool,
-    /// Their object in the scene.
+    /// Their object's number in the scene.
     pub object: u32,
-    /// Their ends in order, pixels, y down; a closed path's first point is not repeated.
+    /// Their ends in order, pixels, y down; a closed path does not repeat its first point.
     pub points_px: Vec<DVec2>,
     /// Whether the last point is joined to the first.
     pub is_closed: bool,
-    /// The pieces by their places among those chained: piece `k` goes from point `k` to the next.
+    /// Indices of the segments in the chained list: segment `k` goes from point `k` to the next.
     pub segments: Vec<usize>,
-    /// The stroke that it is in all frames of a turn, see [`crate::lines::StrokeIds`]; `None` for a drawing by itself.
+    /// The number of its stroke in all frames of a turn, see [`crate::lines::StrokeIds`]; `None` for a single
+    /// drawing.
     pub stroke: Option<u32>,
 }
 
 impl LinePath {
-    /// The layer it is drawn in.
     pub(in crate::lines) fn layer(&self) -> Layer {
         Layer::of(self.class, self.is_visible, self.is_outline)
     }
 
-    /// The path along the other direction.
     pub(in crate::lines) fn reverse(&mut self) {
         self.points_px.reverse();
         self.segments.reverse();
         if self.is_closed {
-            // The piece that closes the path stays the last one: the points begin where they ended.
+            // The closing segment stays last: the points now begin where they ended.
             self.points_px.rotate_right(1);
         }
     }
 
-    /// The closed path from another of its points on.
+    /// Makes another point the first of a closed path.
     pub(in crate::lines) fn rotate(&mut self, first: usize) {
         self.points_px.rotate_left(first);
         self.segments.rotate_left(first);
     }
 }
 
-/// No end is joined here.
+/// Marks an end that is joined to none.
 const FREE: usize = usize::MAX;
 
-/// On each side of straight on, how many ends are tried where many meet: all of them where up to nine do.
+/// Candidates tried on each side of the straight continuation; up to nine ends at a meeting are all tried.
 const TRIED: usize = 4;
 
-/// Where a piece ends. Ends are numbered: piece `k` has ends `2k` and `2k + 1`.
+/// An end of a segment. Segment `k` has ends `2k` and `2k + 1`.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct End {
     object: u32,
@@ -78,13 +78,13 @@ impl End {
     }
 }
 
-/// Joins pieces to paths, in the order of each path's first piece. Pieces without length are left out, and hidden ones in whose place
-/// others are drawn.
+/// Joins segments to paths, in the order of each path's first segment. Omits segments without length, and hidden ones
+/// that other lines replace.
 pub fn chain(segments: &[LineSegment]) -> Vec<LinePath> {
     chain_curves(segments, |_| 0)
 }
 
-/// The same of pieces that belong to curves by their numbers: only those of one curve are joined.
+/// Like [`chain`], for segments on numbered curves: joins only those of one curve.
 pub(in crate::lines) fn chain_curves(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Vec<LinePath> {
     let partners = partners(segments, curve);
     let mut is_drawn = vec![false; segments.len()];
@@ -105,12 +105,12 @@ fn position(segments: &[LineSegment], end: usize) -> DVec2 {
     segments[end / 2].ends_px[end % 2]
 }
 
-/// The end each end is joined with, or [`FREE`].
+/// For each end the end that it is joined to, or [`FREE`].
 fn partners(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Vec<usize> {
     let mut ends = Vec::with_capacity(segments.len() * 2);
     for (index, segment) in segments.iter().enumerate().filter(|(_, segment)| is_drawn_itself(segment)) {
         for (which, point) in segment.ends_px.iter().enumerate() {
-            // Adding 0 makes -0 a 0, which is the same place.
+            // Adding 0 turns -0 into 0, which is the same place.
             let [x, y] = [point.x, point.y].map(|value| (value + 0.0).to_bits());
             let layer = segment.layer();
             ends.push(End { object: segment.object, layer, curve: curve(segment), x, y, number: index * 2 + which });
@@ -133,9 +133,9 @@ fn join(partners: &mut [usize], a: usize, b: usize) {
     partners[b] = a;
 }
 
-/// Joins the ends of one meeting in pairs, those that go on straightest first.
+/// Joins the ends of one meeting in pairs, the straightest continuations first.
 fn join_straightest(segments: &[LineSegment], meeting: &[End], partners: &mut [usize]) {
-    // The direction in which each end leaves the meeting, and where that is on a circle of circumference 4.
+    // The direction in which each end leaves the meeting, and its place on a circle of circumference 4.
     let mut leaving: Vec<(f64, DVec2, usize)> = meeting
         .iter()
         .map(|end| {
@@ -154,7 +154,7 @@ fn join_straightest(segments: &[LineSegment], meeting: &[End], partners: &mut [u
             let other = (nearest + count * TRIED + step - TRIED) % count;
             if other != index {
                 let (_, other_direction, other_number) = leaving[other];
-                // -1 straight on, 1 back.
+                // -1 is straight on, 1 is back.
                 let cosine = direction.dot(other_direction);
                 pairs.push((cosine, (*number).min(other_number), (*number).max(other_number)));
             }
@@ -171,7 +171,7 @@ fn join_straightest(segments: &[LineSegment], meeting: &[End], partners: &mut [u
     }
 }
 
-/// A number in [0, 4) that grows with the direction's angle: no trigonometry, which differs between platforms.
+/// A number in [0, 4) that grows with the direction's angle. It avoids trigonometry, which differs between platforms.
 fn place_on_circle(direction: DVec2) -> f64 {
     let DVec2 { x, y } = direction;
     let sum = x.abs() + y.abs();
@@ -186,7 +186,7 @@ fn place_on_circle(direction: DVec2) -> f64 {
     }
 }
 
-/// The path through the piece `first`, in that piece's direction.
+/// The path through segment `first`, in that segment's direction.
 fn walk(segments: &[LineSegment], partners: &[usize], first: usize, is_drawn: &mut [bool]) -> LinePath {
     let mut begin = first * 2;
     let mut is_closed = false;
@@ -274,7 +274,7 @@ mod tests {
         let twice = [segment([1.0, 1.0], [5.0, 1.0]), segment([1.0, 1.0], [5.0, 1.0])];
         let paths = chain(&twice);
         assert!(paths.len() == 1 && paths[0].is_closed && paths[0].points_px.len() == 2);
-        // A loop that comes back to where two other lines meet.
+        // A loop that returns to where two other lines meet.
         let a = [50.0, 50.0];
         let around = [[a, [60.0, 60.0]], [[60.0, 60.0], [40.0, 60.0]], [[40.0, 60.0], a]];
         let through = [[[10.0, 50.0], a], [a, [90.0, 50.0]]];
@@ -307,7 +307,7 @@ mod tests {
 
     #[test]
     fn every_piece_is_in_one_path_and_every_path_holds_together() {
-        // A grid of streets: meetings of two, three and four.
+        // A grid of streets, with meetings of two, three and four segments.
         let mut segments = Vec::new();
         for i in 0..20 {
             for j in 0..20 {

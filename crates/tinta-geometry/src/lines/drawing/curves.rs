@@ -1,10 +1,10 @@
-//! Polylines as cubic Bézier curves within a stated error.
+//! Fits cubic Bézier curves to polylines within a given error.
 //!
-//! In: a [`LinePath`] and the largest error, pixels. Out: [`Step`]s from its first point on. The path is cut at its corners, which
-//! stay. Through the points between two of them goes a smooth curve of cubics (Bessel's tangents), of which kurbo makes as few as
-//! it can. These are then held against the polyline, point by point in both directions: where they are farther from it than
-//! allowed, the stretch is halved and tried again; what is left of two points is a straight line. So the error holds whatever
-//! the fit does, and a straight line stays one.
+//! Input: a [`LinePath`] and the largest error in pixels. Output: [`Step`]s from its first point. The path is cut at
+//! its corners, which stay. Between two corners a smooth curve of cubics passes through the points (Bessel tangents),
+//! and kurbo reduces it to as few cubics as it can. The result is then compared with the polyline, in both
+//! directions. Where it is too far away, the stretch is halved and fitted again; two points give a straight line. The
+//! error bound therefore holds whatever the fit does, and straight lines stay straight.
 
 use crate::lines::drawing::chain::LinePath;
 use crate::lines::drawing::simplify::simplified;
@@ -13,34 +13,34 @@ use glam::DVec2;
 use kurbo::simplify::SimplifyBezPath;
 use kurbo::{BezPath, CubicBez, ParamCurve, PathSeg, Point, fit_to_bezpath_opt};
 
-/// How a path goes on.
+/// A step of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Step {
-    /// Straight to a point, pixels.
+    /// A straight line to a point, pixels.
     Line(DVec2),
-    /// Along a cubic Bézier curve: two control points and its end, pixels.
+    /// A cubic Bézier curve: two control points and its end, pixels.
     Curve([DVec2; 3]),
 }
 
-/// Smallest and largest error of a fit, pixels: below, numbers of three decimals are no longer close enough.
+/// Smallest and largest error of a fit, pixels. Below the smallest, coordinates with three decimals are too coarse.
 pub(in crate::lines) const FIT_PX: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 
-/// Cosine of the angle by which a path turns at a corner, 35 degrees: what turns less is drawn as a curve if that is close enough.
+/// Cosine of the least angle at a corner, 35 degrees; smaller turns become curves if these are close enough.
 const CORNER_COSINE: f64 = 0.819;
 
-/// Most points that are fitted at once.
+/// Most points fitted at once.
 const MOST_POINTS: usize = 200;
 
-/// Points of each curve that are held against the polyline.
+/// Samples of each curve that are compared with the polyline.
 const SAMPLES: usize = 24;
 
-/// What rounding to three decimals and leaving out points on straight lines take from the error.
+/// Part of the error reserved for rounding to three decimals and for omitted points on straight lines.
 const RESERVED_PX: f64 = 2.0 * STRAIGHT_PX;
 
 /// Share of the error that the fit may use by its own estimate.
 const ESTIMATED: f64 = 0.7;
 
-/// A path as curves no farther than `error_px` from it, and its first point; a closed path comes back there.
+/// Returns a path's first point and curves at most `error_px` from it; a closed path returns to that point.
 pub fn fitted(path: &LinePath, error_px: f64) -> (DVec2, Vec<Step>) {
     let mut points = simplified(path);
     points.dedup();
@@ -57,7 +57,7 @@ pub fn fitted(path: &LinePath, error_px: f64) -> (DVec2, Vec<Step>) {
     };
     let mut is_smooth_ring = false;
     if path.is_closed {
-        // It begins at a corner, or goes round without one.
+        // A closed path begins at a corner, or is a ring without one.
         let begin = (0..points.len()).find(|at| corner(&points, *at));
         is_smooth_ring = begin.is_none();
         points.rotate_left(begin.unwrap_or(0));
@@ -73,7 +73,7 @@ pub fn fitted(path: &LinePath, error_px: f64) -> (DVec2, Vec<Step>) {
     (points[0], steps)
 }
 
-/// The direction of a smooth curve through points at each of them, by the length along it (Bessel).
+/// The tangents of a smooth curve at its points, per unit of length (Bessel).
 fn tangents(points: &[DVec2], is_ring: bool) -> Vec<DVec2> {
     let last = points.len() - 1;
     let slope = |from: usize| (points[from + 1] - points[from]) / points[from].distance(points[from + 1]);
@@ -86,7 +86,7 @@ fn tangents(points: &[DVec2], is_ring: bool) -> Vec<DVec2> {
     let [start, end] = if is_ring {
         [between(last - 1, 0); 2]
     } else if last > 1 {
-        // A parabola through the first three points, and the last.
+        // A parabola through the first three points, and through the last three.
         [slope(0) * 2.0 - tangents[0], slope(last - 1) * 2.0 - tangents[last - 2]]
     } else {
         [slope(0); 2]
@@ -96,7 +96,7 @@ fn tangents(points: &[DVec2], is_ring: bool) -> Vec<DVec2> {
     tangents.into_iter().map(DVec2::normalize_or_zero).collect()
 }
 
-/// Adds the steps from the first point on to the last.
+/// Adds the steps from the first point to the last.
 fn fit(points: &[DVec2], tangents: &[DVec2], tolerance: f64, steps: &mut Vec<Step>) {
     let last = points.len() - 1;
     if last == 1 {
@@ -114,7 +114,7 @@ fn fit(points: &[DVec2], tangents: &[DVec2], tolerance: f64, steps: &mut Vec<Ste
     fit(&points[middle..], &tangents[middle..], tolerance, steps);
 }
 
-/// Cubics through the first and the last of some points, if they are near enough.
+/// Cubics from the first point to the last, if they are close enough.
 fn curves(points: &[DVec2], tangents: &[DVec2], tolerance: f64) -> Option<Vec<CubicBez>> {
     let mut smooth = BezPath::new();
     smooth.move_to(point(points[0]));
@@ -131,14 +131,14 @@ fn curves(points: &[DVec2], tangents: &[DVec2], tolerance: f64) -> Option<Vec<Cu
             PathSeg::Line(_) | PathSeg::Quad(_) => return None,
         }
     }
-    // The ends as they are, so that what meets still does.
+    // Restore the exact ends, so that adjacent curves still meet.
     curves.first_mut()?.p0 = point(points[0]);
     curves.last_mut()?.p3 = point(points[points.len() - 1]);
     let is_finite = |curve: &CubicBez| [curve.p0, curve.p1, curve.p2, curve.p3].iter().all(|point| point.is_finite());
     (curves.iter().all(is_finite) && is_near(&curves, points, tolerance)).then_some(curves)
 }
 
-/// Whether no point of the curves is farther from a polyline than allowed, and none of the polyline from the curves.
+/// Whether curves and a polyline stay within the tolerance of each other.
 fn is_near(curves: &[CubicBez], points: &[DVec2], tolerance: f64) -> bool {
     let at = |curve: &CubicBez, sample: usize| vector(curve.eval(sample as f64 / SAMPLES as f64));
     let mut drawn: Vec<DVec2> = vec![points[0]];
@@ -146,7 +146,7 @@ fn is_near(curves: &[CubicBez], points: &[DVec2], tolerance: f64) -> bool {
     all_near(&drawn, points, tolerance) && all_near(points, &drawn, tolerance)
 }
 
-/// Whether all points of one polyline, and the middles between them, are near another.
+/// Whether all points of one polyline, and the midpoints between them, are close to another.
 fn all_near(points: &[DVec2], line: &[DVec2], tolerance: f64) -> bool {
     let middles = points.windows(2).map(|pair| (pair[0] + pair[1]) * 0.5);
     points.iter().copied().chain(middles).all(|point| {
@@ -155,7 +155,7 @@ fn all_near(points: &[DVec2], line: &[DVec2], tolerance: f64) -> bool {
     })
 }
 
-/// The square of a point's distance from a line.
+/// The squared distance of a point from a line.
 fn square_to(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = b - a;
     let square = along.length_squared();
@@ -182,7 +182,7 @@ mod tests {
         LinePath { class, is_visible: true, is_outline: false, object: 0, points_px, is_closed, segments, stroke: None }
     }
 
-    /// Points along the drawn path, densely.
+    /// Dense points along the drawn path.
     fn drawn((first, steps): &(DVec2, Vec<Step>)) -> Vec<DVec2> {
         let mut points = vec![*first];
         for step in steps {

@@ -1,6 +1,6 @@
-//! A drawing as whoever writes it needs it: its page, and its layers from the lowest to the highest with their looks and paths.
+//! A drawing for its writers: its page, and its layers from lowest to highest with their styles and paths.
 //!
-//! In: lines, the paths they were chained to, settings. Out: a [`Drawing`]; SVG and PDF write the same one.
+//! Input: lines, their chained paths, settings. Output: a [`Drawing`], which the SVG and PDF writers share.
 
 use crate::error::Result;
 use crate::lines::drawing::chain::{LinePath, chain};
@@ -16,49 +16,49 @@ use glam::DVec2;
 /// Opacity of hidden lines drawn as ghosts.
 pub const GHOST_OPACITY: f32 = 0.3;
 
-/// Width of a pen's line where nothing is said, pixels: to look at; the pen has its own.
+/// Default line width for a pen, pixels: only for display, because the pen has its own.
 const PEN_WIDTH_PX: f64 = 0.5;
 
-/// Dashes and the gaps between them, widths of their line; its round ends take one from each gap.
+/// Lengths of dashes and gaps, in line widths; round ends take one width from each gap.
 const DASH_WIDTHS: [f64; 2] = [6.0, 5.0];
 
-/// A pen's dashes and gaps, shares of the picture's longer side: so many at most, however large the picture.
+/// A pen's dashes and gaps, as shares of the picture's longer side: their number is limited, however large the
+/// picture.
 const PEN_DASHES: [f64; 2] = [1.0 / 128.0, 1.0 / 170.0];
 
-/// What is to be written.
 pub(in crate::lines) struct Drawing<'a> {
     pub segments: &'a [LineSegment],
-    /// What is said of lines that are a part.
+    /// A note that the lines are incomplete.
     pub note: Option<String>,
     pub settings: &'a DrawingSettings,
     pub page: Page,
-    /// From the lowest to the highest, without those that have no lines.
+    /// Non-empty layers, from the lowest to the highest.
     pub layers: Vec<DrawnLayer>,
 }
 
-/// The paths of a layer and how they look.
+/// The paths of a layer and their style.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnLayer {
-    /// Which layer.
+    /// The layer.
     pub layer: Layer,
-    /// Its lines' colour.
+    /// The colour of its lines.
     pub color: Color,
-    /// Its lines' width, pixels.
+    /// The width of its lines, pixels.
     pub width_px: f64,
-    /// Dash and gap, pixels.
+    /// Lengths of dash and gap, pixels.
     pub dash_px: Option<[f64; 2]>,
-    /// Whether it is drawn with [`GHOST_OPACITY`], as a whole: where lines cross it does not add up.
+    /// Whether the whole layer has [`GHOST_OPACITY`], so that crossings do not add up.
     pub is_ghost: bool,
-    /// Its lines.
+    /// Its paths.
     pub paths: Vec<LinePath>,
 }
 
-/// The drawing that an SVG file of these lines is, as plain values: its layers from the lowest to the highest, without spurs and
-/// specks. For whoever draws them by other means.
+/// Returns the drawing that an SVG file of these lines holds, as plain values: layers from lowest to highest, without
+/// spurs and specks.
 ///
 /// # Errors
 ///
-/// As [`crate::lines::svg()`].
+/// Those of [`crate::lines::svg()`].
 pub fn drawn_layers(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<DrawnLayer>> {
     let lines = lines.without_specks(settings)?;
     let mut layers = Drawing::new(&lines, chain(&lines.segments), settings)?.layers;
@@ -69,11 +69,11 @@ pub fn drawn_layers(lines: &VisibleLines, settings: &DrawingSettings) -> Result<
 }
 
 impl<'a> Drawing<'a> {
-    /// Puts the paths into their layers.
+    /// Sorts the paths into layers.
     ///
     /// # Errors
     ///
-    /// As [`DrawingSettings::check`] and [`VisibleLines::check`].
+    /// Those of [`DrawingSettings::check`] and [`VisibleLines::check`].
     pub(in crate::lines) fn new(
         lines: &'a VisibleLines,
         paths: Vec<LinePath>,
@@ -93,7 +93,7 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// The page of a drawing: its lines fill a sheet.
+/// The drawing's page; if it is a sheet of paper, the lines fill it.
 pub(in crate::lines) fn page(lines: &VisibleLines, settings: &DrawingSettings) -> Page {
     let is_drawn = |segment: &LineSegment| settings.draws(segment.is_visible) && !segment.is_covered;
     Page::new(lines, is_drawn, settings.page_size, settings.margin.0)
@@ -123,7 +123,7 @@ impl DrawnLayer {
 }
 
 impl DrawingSettings {
-    /// The points of a path as they are written.
+    /// The points of a path that are written.
     pub(in crate::lines) fn points_of(&self, path: &LinePath) -> Vec<DVec2> {
         if self.has_provenance { path.points_px.clone() } else { simplified(path) }
     }

@@ -1,8 +1,8 @@
-//! The layers of a drawing, and what is said of single ones: colours and widths, of which drawings by GL know those of classes.
+//! The layers of a drawing, and their colours and widths. Drawings by GL have only those of classes.
 //!
-//! In: texts such as `silhouette=3,hidden=0.5`. Out: [`OfLayers`], a value for some of the names. `CLASS` is a class's visible
-//! lines, `hidden-CLASS` its hidden ones, `hidden` all hidden ones, `outline` what of the visible lines has nothing but
-//! background on one side.
+//! Input: texts such as `silhouette=3,hidden=0.5`. Output: [`OfLayers`], with a value for some of the names. `CLASS`
+//! means a class's visible lines, `hidden-CLASS` its hidden ones, `hidden` all hidden lines, `outline` the visible
+//! lines with only background on one side.
 
 use crate::choice::nearest;
 use crate::edges::Class;
@@ -13,10 +13,10 @@ use crate::values::Color;
 use std::fmt::Display;
 use std::str::FromStr;
 
-/// Lines that are drawn alike, one layer above the other.
+/// Lines with the same style, drawn as one layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
-    /// Visible lines beyond which there is only background, of any class.
+    /// Visible lines of any class with only background on one side.
     Outline,
     /// A class's other visible lines.
     Visible(Class),
@@ -25,7 +25,6 @@ pub enum Layer {
 }
 
 impl Layer {
-    /// The layer of a line.
     pub(in crate::lines) fn of(class: Class, is_visible: bool, is_outline: bool) -> Self {
         match (is_visible, is_outline) {
             (true, true) => Self::Outline,
@@ -34,19 +33,19 @@ impl Layer {
         }
     }
 
-    /// All of them from the lowest to the highest: hidden ones below, and the first class above the others, for an edge of
-    /// several belongs to the first.
+    /// All layers from lowest to highest: hidden ones at the bottom, the first class at the top, because an edge of
+    /// several classes belongs to the first.
     pub fn upwards() -> impl Iterator<Item = Self> {
         let classes = || Class::ALL.into_iter().rev().map(|(_, class)| class);
         classes().map(Self::Hidden).chain(classes().map(Self::Visible)).chain([Self::Outline])
     }
 
-    /// Whether its lines are seen.
+    /// Whether its lines are visible.
     pub fn is_visible(self) -> bool {
         !matches!(self, Self::Hidden(_))
     }
 
-    /// What a program that shows layers calls it, in two words.
+    /// Its label in programs that show layers, in two words.
     pub fn words(self) -> [&'static str; 2] {
         match self {
             Self::Outline => ["visible", "outline"],
@@ -55,7 +54,7 @@ impl Layer {
         }
     }
 
-    /// The names under which something may be said of it, the first one given is meant. An outline is most often silhouette.
+    /// The names that give the layer a value; the first one with a value counts. An outline is usually silhouette.
     fn names(self) -> [Option<Name>; 2] {
         match self {
             Self::Outline => [Some(Name::Outline), Some(Name::Class(Class::Silhouette))],
@@ -67,7 +66,7 @@ impl Layer {
 
 const CLASSES: usize = Class::ALL.len();
 
-/// What something can be said of.
+/// A name in the settings of layers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Name {
     Class(Class),
@@ -76,7 +75,7 @@ enum Name {
     HiddenClass(Class),
 }
 
-/// What all hidden lines are called, and how the names of hidden classes begin.
+/// The name of all hidden lines, and the prefix of hidden classes.
 const HIDDEN_LINES: &str = "hidden";
 const HIDDEN: &str = "hidden-";
 
@@ -136,49 +135,49 @@ impl<T> Default for OfLayers<T> {
 }
 
 impl<T: Copy> OfLayers<T> {
-    /// The same for a class's visible lines and nothing else.
+    /// Sets the value of a class's visible lines only.
     pub fn set_class(&mut self, class: Class, value: T) {
         self.0[Name::Class(class).index()] = Some(value);
     }
 
-    /// For the outline.
+    /// Sets the outline's value.
     pub fn set_outline(&mut self, value: T) {
         self.0[Name::Outline.index()] = Some(value);
     }
 
-    /// For all hidden lines of which nothing else is said.
+    /// Sets the value of all hidden lines that have no value of their class.
     pub fn set_hidden(&mut self, value: T) {
         self.0[Name::Hidden.index()] = Some(value);
     }
 
-    /// What is said of a layer.
+    /// Returns a layer's value.
     pub fn of(&self, layer: Layer) -> Option<T> {
         layer.names().into_iter().flatten().find_map(|name| self.0[name.index()])
     }
 
-    /// Whether something is said of the outline, so that it has to be found.
+    /// Whether the outline has a value and must therefore be found.
     pub fn tells_outline(&self) -> bool {
         self.0[Name::Outline.index()].is_some()
     }
 
-    /// The first name beside those of classes of which something is said: what drawings by GL do not have.
+    /// The first name with a value that is not a class; drawings by GL do not support it.
     pub fn first_beyond_classes(&self) -> Option<String> {
         self.given().map(|(name, _)| name).find(|name| !matches!(name, Name::Class(_))).map(Name::text)
     }
 
-    /// The names with what is said of them.
+    /// The names with their values.
     fn given(&self) -> impl Iterator<Item = (Name, T)> {
         Name::all().filter_map(|name| Some((name, self.0[name.index()]?)))
     }
 
-    /// The first value that is none, with its name.
+    /// The first invalid value, with its name.
     pub(in crate::lines) fn find(&self, mut is_wrong: impl FnMut(T) -> bool) -> Option<(String, T)> {
         self.given().find(|(_, value)| is_wrong(*value)).map(|(name, value)| (name.text(), value))
     }
 }
 
 impl<T: Copy + Display> OfLayers<T> {
-    /// `NAME=VALUE`, with commas between.
+    /// `NAME=VALUE`, separated by commas.
     fn text(&self) -> String {
         self.given().map(|(name, value)| format!("{}={value}", name.text())).collect::<Vec<_>>().join(",")
     }
@@ -197,7 +196,7 @@ impl<T: Copy> OfLayers<T> {
 
 const BLACK: Color = Color([0.0; 3]);
 
-/// Colours of lines; where none is said visible ones are black.
+/// Colours of lines. Visible lines without a colour are black.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ClassColors(pub OfLayers<Color>);
 
@@ -213,45 +212,45 @@ impl ClassColors {
         Self(colors)
     }
 
-    /// A class's colour where it is seen.
+    /// The colour of a class's visible lines.
     pub fn of_class(&self, class: Class) -> Color {
         self.0.of(Layer::Visible(class)).unwrap_or(BLACK)
     }
 
-    /// What is said of a name: a class, `outline`, `hidden` or `hidden-` and a class.
+    /// Returns the colour of a name: a class, `outline`, `hidden`, or `hidden-` and a class.
     ///
     /// # Errors
     ///
-    /// For a name that there is not, those there are.
+    /// The known names, if this one is unknown.
     pub fn named(&self, name: &str) -> Result<Option<Color>, ParseError> {
         Ok(self.0.0[name.parse::<Name>()?.index()])
     }
 
-    /// Says a colour of a name, or nothing any more.
+    /// Sets or removes the colour of a name.
     ///
     /// # Errors
     ///
-    /// As [`ClassColors::named`].
+    /// Those of [`ClassColors::named`].
     pub fn set_named(&mut self, name: &str, color: Option<Color>) -> Result<(), ParseError> {
         self.0.0[name.parse::<Name>()?.index()] = color;
         Ok(())
     }
 
-    /// What colours can be said of: every class, and these besides.
+    /// The kind of a setting of colours: every class, and the given names.
     fn kind_of(more: &[&'static str]) -> Kind {
         let names = Class::ALL.iter().map(|(name, _)| *name).chain(more.iter().copied()).collect();
         let example = "silhouette=red,crease=rgb(1 2.5 3),normal=#010203";
         Kind::Colors { names, offered: &["figure-6", "black"], example }
     }
 
-    /// The setting of the colours of a drawing, which knows layers beside classes.
+    /// The setting of a drawing's colours, which include layers as well as classes.
     pub fn setting_of_drawing<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let mut setting = Self::setting(field);
         setting.kind = Self::kind_of(&["outline", HIDDEN_LINES]);
         setting
     }
 
-    /// The setting of the colours.
+    /// The setting of the colours of classes.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let help = "Colours of the lines by class: CLASS=COLOR, separated by commas, or figure-6 (outer red, inner \
             blue); in style lines also outline, hidden and hidden-CLASS";
@@ -266,7 +265,7 @@ impl Value for ClassColors {
         Self::kind_of(&[])
     }
 
-    /// `NAME=COLOR` of each name of which one is said.
+    /// `NAME=COLOR` for each name with a colour.
     fn text(&self) -> String {
         if *self == Self::figure_6() {
             return "figure-6".to_owned();
@@ -290,7 +289,7 @@ impl FromStr for ClassColors {
             "black" => Ok(Self::default()),
             _ => {
                 let mut colors = OfLayers::parsed(text, usage, str::parse)?;
-                // Black is what a class has anyway.
+                // Black is the default of a class.
                 colors.0[..CLASSES].iter_mut().for_each(|color| *color = color.filter(|color| *color != BLACK));
                 Ok(Self(colors))
             }
@@ -298,11 +297,11 @@ impl FromStr for ClassColors {
     }
 }
 
-/// Widths of lines; where none is said visible ones are as wide as all others.
+/// Widths of lines. Visible lines without a width use the common one.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ClassWidths(pub OfLayers<Length>);
 
-/// What no widths are called.
+/// The text for no widths.
 const NONE: &str = "none";
 
 impl Value for ClassWidths {

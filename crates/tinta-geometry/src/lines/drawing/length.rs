@@ -1,53 +1,54 @@
-//! Lengths in a drawing: pixels of the picture, a share of its height, millimetres on paper, or a multiple of the lines' width.
+//! Lengths in a drawing: pixels, a share of the picture's height, millimetres on paper, or a multiple of the line
+//! width.
 
 use crate::error::{Error, ParseError, Result};
 use crate::settings::{Kind, Problem, Setting, Value};
 use std::fmt;
 use std::str::FromStr;
 
-/// A length.
+/// A length in a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Length {
     /// Pixels of the picture.
     Px(f64),
-    /// Millimetres on paper: of a drawing that has a size there.
+    /// Millimetres on paper; needs a drawing with a size on paper.
     Mm(f64),
-    /// Hundredths of the picture's height, and at least 0.7 pixels: thinner lines are lost on a screen.
+    /// Hundredths of the picture's height, at least 0.7 pixels because thinner lines vanish on a screen.
     Percent(f64),
-    /// The first, as [`Length::Percent`], of a drawing without a size on paper, and millimetres where it has one.
+    /// [`Length::Percent`] for a drawing without a size on paper, millimetres for one that has it.
     ScreenOrPaper {
         /// Hundredths of the picture's height.
         percent: f64,
         /// Millimetres.
         mm: f64,
     },
-    /// So many times as wide as lines are of which nothing is said; only widths of classes are.
+    /// A multiple of the common line width; only for widths of classes.
     Times(f64),
 }
 
-/// What millimetres end in.
+/// The suffix of millimetres.
 const MM: &str = "mm";
 
-/// What shares of the picture's height end in.
+/// The suffix of shares of the picture's height.
 const PERCENT: &str = "%";
 
-/// What multiples of the lines' width end in.
+/// The suffix of multiples of the line width.
 const TIMES: &str = "x";
 
-/// What a share of the height is at least, pixels.
+/// Least width of a share of the height, pixels.
 const LEAST_SHARE_PX: f64 = 0.7;
 
-/// What lengths are told in for one drawing.
+/// The scale of lengths in one drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Units {
-    /// Pixels in a millimetre; `None` where a drawing has no size on paper.
+    /// Pixels per millimetre; `None` if the drawing has no size on paper.
     pub px_per_mm: Option<f64>,
     /// The picture's height, pixels.
     pub height_px: f64,
 }
 
 impl Length {
-    /// In pixels; `None` for millimetres where a drawing has no size on paper, and for multiples.
+    /// Converts to pixels. `None` for multiples, and for millimetres of a drawing without a size on paper.
     pub fn px(self, units: Units) -> Option<f64> {
         match self {
             Self::Times(_) => None,
@@ -58,7 +59,7 @@ impl Length {
         }
     }
 
-    /// Refuses millimetres of a drawing that has none.
+    /// Refuses millimetres for a drawing without a size on paper.
     pub(in crate::lines) fn check_unit(self, name: &str, has_paper: bool) -> Result<()> {
         if !matches!(self, Self::Mm(_)) || has_paper {
             return Ok(());
@@ -67,7 +68,7 @@ impl Length {
         Err(Error::value(name, self, problem))
     }
 
-    /// Refuses multiples of what is no width of a class.
+    /// Refuses multiples, except for widths of classes.
     pub(in crate::lines) fn check_is_no_multiple(self, name: &str) -> Result<()> {
         match self {
             Self::Times(_) => {
@@ -77,7 +78,7 @@ impl Length {
         }
     }
 
-    /// Whether a number in whichever unit, or both, are as they have to be.
+    /// Whether the number passes the test; for [`Length::ScreenOrPaper`], both numbers.
     pub(in crate::lines) fn all(self, is_sound: impl Fn(f64) -> bool) -> bool {
         match self {
             Self::Px(number) | Self::Mm(number) | Self::Percent(number) | Self::Times(number) => is_sound(number),
@@ -140,7 +141,7 @@ impl Value for Length {
     }
 }
 
-/// A length that is always on paper.
+/// A length on paper, millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Millimetres(pub f64);
 
@@ -160,7 +161,7 @@ impl Value for Millimetres {
     }
 }
 
-/// What `--line-width` is called, for which kind of values, and what it does.
+/// Name, value name and help of `--line-width`.
 pub(in crate::lines) const LINE_WIDTH: (&str, &str, &str) = (
     "line-width",
     "PIXELS",
@@ -168,13 +169,13 @@ pub(in crate::lines) const LINE_WIDTH: (&str, &str, &str) = (
      height (0.3%), or a share on the screen and millimetres on paper (0.3%/0.35mm)",
 );
 
-/// The default's words.
+/// The default as the help gives it.
 pub(in crate::lines) const LINE_WIDTH_SAID: &str = "2; style lines with --page: 0.5mm";
 
 /// The range that a panel offers.
 pub(in crate::lines) const LINE_WIDTH_RANGE: (f64, f64, usize) = (0.5, 40.0, 1);
 
-/// The setting of how wide lines are that GL draws, which knows pixels only.
+/// The setting of the line width for drawings by GL, in pixels.
 pub fn line_width<T: Clone + 'static>(field: fn(&mut T) -> &mut f32) -> Setting<T> {
     let (name, value_name, help) = LINE_WIDTH;
     let (low, high, decimals) = LINE_WIDTH_RANGE;

@@ -1,7 +1,8 @@
-//! How large a drawing is on paper, and which part of the picture's plane the paper shows.
+//! The size of a drawing on paper, and the part of the picture's plane that the paper shows.
 //!
-//! In: a [`PageSize`] and where the drawing's lines are. Out: a [`Page`]. Lines keep the picture's pixels; the page says which
-//! rectangle of them it shows and how large that is, so that a drawing has the same numbers on any paper.
+//! Input: a [`PageSize`] and the extent of the drawing's lines. Output: a [`Page`]. Lines keep the picture's pixel
+//! coordinates; the page holds the rectangle of pixels that it shows and its size on paper. A drawing thus has the
+//! same numbers on any paper.
 
 use crate::error::{Error, ParseError, Result};
 use crate::lines::drawing::length::{Millimetres, Units};
@@ -12,30 +13,30 @@ use glam::DVec2;
 use std::fmt;
 use std::str::FromStr;
 
-/// How large a drawing is on paper.
+/// The size of a drawing on paper.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum PageSize {
-    /// In pixels, whatever they are.
+    /// Pixels of unknown size.
     #[default]
     Unset,
-    /// The picture is this wide, millimetres.
+    /// Width of the picture, millimetres.
     WidthMm(f64),
-    /// The picture has this many pixels an inch.
+    /// Pixels of the picture per inch.
     Dpi(f64),
-    /// The drawing fills this sheet but for its margin.
+    /// The drawing fills this sheet inside its margins.
     Paper(Paper),
 }
 
 /// A sheet of paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paper {
-    /// Its sides.
+    /// Its size.
     pub sheet: Sheet,
-    /// Which way it lies. What has sides of its own lies as they are said.
+    /// Its orientation; ignored if the sides are given in millimetres.
     pub turn: Turn,
 }
 
-/// The sides of a sheet.
+/// The size of a sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sheet {
     /// 297 x 420 mm.
@@ -50,15 +51,15 @@ pub enum Sheet {
     Mm([f64; 2]),
 }
 
-/// Which way a sheet lies.
+/// The orientation of a sheet.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Turn {
-    /// As the drawing does.
+    /// That of the drawing.
     #[default]
     ByDrawing,
     /// Upright.
     Portrait,
-    /// On its longer side.
+    /// With the longer side horizontal.
     Landscape,
 }
 
@@ -68,7 +69,7 @@ const TURNS: [(&str, Turn); 3] =
     [("", Turn::ByDrawing), ("-portrait", Turn::Portrait), ("-landscape", Turn::Landscape)];
 
 impl Sheet {
-    /// Millimetres, the shorter side first where it has a name.
+    /// Width and height in millimetres; a named sheet is upright.
     fn sides_mm(self) -> [f64; 2] {
         match self {
             Self::A3 => [297.0, 420.0],
@@ -81,7 +82,7 @@ impl Sheet {
 }
 
 impl Paper {
-    /// Width and height for a drawing of this shape, millimetres.
+    /// Width and height in millimetres, for a drawing of this shape.
     fn sides_mm(self, drawing: DVec2) -> [f64; 2] {
         let [width, height] = self.sheet.sides_mm();
         let lies = match (self.sheet, self.turn) {
@@ -94,7 +95,8 @@ impl Paper {
 }
 
 impl PageSize {
-    /// How many pixels a sheet has at so many dots an inch, upright unless it is to lie; `None` where no sheet is named.
+    /// Returns the sheet's size in pixels at this resolution, upright unless landscape is set; `None` if no sheet is
+    /// set.
     pub fn pixels(self, dpi: f64) -> Option<Size> {
         let Self::Paper(paper) = self else { return None };
         let [width, height] = paper.sides_mm(DVec2::ZERO).map(|side| (side / MM_PER_INCH * dpi).round() as u32);
@@ -149,27 +151,26 @@ impl Value for Paper {
     }
 }
 
-/// The largest width on paper, millimetres, and the most pixels an inch: beyond any paper, within any reader's numbers.
+/// Largest width on paper in millimetres, and most pixels per inch: beyond any paper, within any reader's range.
 const LARGEST: f64 = 1e6;
 
-/// The least of both: still written as more than 0.
+/// Least width and resolution: still written as more than 0.
 const SMALLEST: f64 = 1e-3;
 
 const MM_PER_INCH: f64 = 25.4;
 
-/// Pixels an inch where nobody says how large they are, as readers of SVG take them.
+/// Pixels per inch for a page of unknown size, as SVG readers assume.
 #[cfg(feature = "pdf")]
 const PX_PER_INCH: f64 = 96.0;
 
-/// Points an inch: what PDF measures in.
+/// Points per inch, PDF's unit.
 #[cfg(feature = "pdf")]
 const POINTS_PER_INCH: f64 = 72.0;
 
-/// Decimals of a length on paper, which may be a small part of an inch.
+/// Decimals of a length on paper, which may be a small fraction of an inch.
 pub(in crate::lines) const PAGE_DECIMALS: u32 = 6;
 
 impl PageSize {
-    /// Refuses sizes that are none.
     pub(in crate::lines) fn check(self, margin: Millimetres) -> Result<()> {
         let is_sound = |value: f64| (SMALLEST..=LARGEST).contains(&value);
         match self {
@@ -198,28 +199,28 @@ impl PageSize {
         }
     }
 
-    /// Whether the drawing's millimetres are known.
+    /// Whether the drawing has a size on paper.
     pub(in crate::lines) fn is_set(self) -> bool {
         self != Self::Unset
     }
 }
 
-/// What paper a drawing is on.
+/// The paper of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::lines) struct Page {
-    /// Where it begins in the picture's plane, pixels.
+    /// Its upper left corner in the picture's plane, pixels.
     pub origin_px: DVec2,
-    /// Its extent there, pixels.
+    /// Its extent in the picture's plane, pixels.
     pub extent_px: DVec2,
-    /// Its extent on paper as SVG writes it: a number for each side, and the unit of both.
+    /// Its width and height on paper as SVG writes them, and their unit.
     lengths: DVec2,
     unit: &'static str,
-    /// What lengths are told in.
+    /// The scale of lengths.
     pub units: Units,
 }
 
 impl Page {
-    /// The page of a drawing; its lines are looked at only where a sheet is to be filled.
+    /// The page of a drawing; the lines matter only if a sheet is to be filled.
     pub(in crate::lines) fn new(
         lines: &VisibleLines,
         is_drawn: impl Fn(&LineSegment) -> bool,
@@ -247,7 +248,7 @@ impl Page {
                 let drawn = lines.segments.iter().filter(|segment| is_drawn(segment));
                 let (low, high) = bounds(drawn).unwrap_or((DVec2::ZERO, picture));
                 let paper_mm = DVec2::from_array(paper.sides_mm(high - low));
-                // A line straight across leaves one of both without length.
+                // A horizontal or vertical line has an extent of 0 in one direction.
                 let room = (paper_mm - 2.0 * margin) / (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
                 let px_per_mm = 1.0 / room.min_element();
                 let extent_px = paper_mm * px_per_mm;
@@ -262,7 +263,6 @@ impl Page {
         self.lengths.to_array().map(|length| crate::lines::drawing::text::decimal(length, PAGE_DECIMALS) + self.unit)
     }
 
-    /// Points in a pixel.
     #[cfg(feature = "pdf")]
     pub(in crate::lines) fn points_per_px(&self) -> f64 {
         match self.units.px_per_mm {
@@ -272,7 +272,7 @@ impl Page {
     }
 }
 
-/// The box around pieces; none where there is nothing with an extent.
+/// The bounding box of segments; `None` if it has no extent.
 fn bounds<'a>(pieces: impl Iterator<Item = &'a LineSegment>) -> Option<(DVec2, DVec2)> {
     let ends = pieces.flat_map(|piece| piece.ends_px);
     let around = ends.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), end| (low.min(end), high.max(end)));
@@ -355,7 +355,7 @@ mod tests {
         assert_fits([[0.0, 0.0], [600.0, 400.0]], "A3-portrait", 20.0, [297.0, 420.0]);
         assert_fits([[0.0, 0.0], [600.0, 400.0]], "100x300mm", 49.0, [100.0, 300.0]);
         assert_fits([[10.0, 50.0], [20.0, 50.0]], "letter", 15.0, [279.4, 215.9]);
-        // Nothing is drawn: the picture as a whole.
+        // An empty drawing shows the whole picture.
         let nothing = Page::new(&line([1.0; 2], [2.0; 2]), |_| false, sheet("A4"), 15.0);
         assert_eq!(nothing.units.px_per_mm, Some(600.0 / 267.0));
     }

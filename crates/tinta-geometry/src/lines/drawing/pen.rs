@@ -1,8 +1,8 @@
-//! Paths for a plotter: in an order, and each in a direction, that spares the pen empty ways; dashes as lines of their own.
+//! Orders and directs paths for a plotter to shorten pen-up travel, and cuts dashes into separate lines.
 //!
-//! From where the pen is it goes to the nearest beginning of a path not drawn yet; an open path may begin at either end, a
-//! closed one at any of its points. A k-d tree of the beginnings, which knows what is left in each of its parts, finds the
-//! nearest in O(log n) even where most of the picture is drawn already, as a grid does not.
+//! The pen always moves to the nearest start of an undrawn path. An open path may start at either end, a closed one
+//! at any of its points. A k-d tree of the starts, with the number left in each part, finds the nearest in O(log n).
+//! Unlike a grid it stays fast when most of the picture is drawn.
 
 use crate::lines::LinePath;
 use glam::DVec2;
@@ -33,7 +33,7 @@ pub(in crate::lines) fn in_pen_order(mut paths: Vec<LinePath>) -> Vec<LinePath> 
     order.into_iter().filter_map(|path| paths[path].take()).collect()
 }
 
-/// Where a path can begin.
+/// A possible start of a path.
 #[derive(Clone, Copy)]
 struct Beginning {
     at: [f64; 2],
@@ -41,10 +41,10 @@ struct Beginning {
     point: usize,
 }
 
-/// A k-d tree: of any part the middle one divides the rest, by x and y in turn.
+/// A k-d tree: the middle element of each part divides the rest, by x and y in turn.
 struct Beginnings {
     tree: Vec<Beginning>,
-    /// Of the part whose middle this is, how many are left.
+    /// The number of starts left in the part that each element divides.
     left: Vec<usize>,
     is_taken: Vec<bool>,
     /// Each path's places in the tree, path by path.
@@ -84,7 +84,7 @@ impl Beginnings {
         let Beginning { at, path, .. } = self.tree[middle];
         let [x, y] = [at[0] - pen[0], at[1] - pen[1]];
         let squared = x * x + y * y;
-        // Only what is nearer replaces the best: thousands of lines from one point are not all looked at for each.
+        // Only a nearer start replaces the best, so thousands of lines from one point are not all visited each time.
         let is_better = |squared: f64, best: &Option<(f64, usize)>| best.is_none_or(|(least, _)| squared < least);
         if !self.is_taken[path] && is_better(squared, best) {
             *best = Some((squared, middle));
@@ -98,7 +98,7 @@ impl Beginnings {
         }
     }
 
-    /// The path is drawn: none of its beginnings is left.
+    /// Removes all starts of a path, once it is drawn.
     fn take(&mut self, path: usize) {
         self.is_taken[path] = true;
         let first = self.places.partition_point(|(other, _)| *other < path);
@@ -121,7 +121,7 @@ fn middle(part: &Range<usize>) -> usize {
     part.start + part.len() / 2
 }
 
-/// Makes a tree of a part; numbers break ties, so that it is the same for every run.
+/// Builds the tree of a part; path numbers break ties, so every run gives the same tree.
 fn divide(part: &mut [Beginning], axis: usize) {
     if part.len() < 2 {
         return;
@@ -144,7 +144,8 @@ fn count_parts(part: Range<usize>, left: &mut [usize]) {
     count_parts(middle + 1..part.end, left);
 }
 
-/// A path as dashes of `dash_px` with gaps of `gap_px`, both above 0: plotters' programs leave an SVG's dashes out.
+/// Cuts a path into dashes of `dash_px` with gaps of `gap_px`, both above 0, because plotter programs ignore an SVG's
+/// dashes.
 pub(in crate::lines) fn dashes(path: &LinePath, dash_px: f64, gap_px: f64) -> Vec<LinePath> {
     let count = path.points_px.len();
     let begin = |point: DVec2, piece: usize| LinePath {
@@ -186,7 +187,7 @@ pub(in crate::lines) fn dashes(path: &LinePath, dash_px: f64, gap_px: f64) -> Ve
         }
     }
     dashes.extend(dash.filter(|dash| dash.points_px.len() > 1));
-    // Of the stroke's dashes the first has its number: no two paths have the same.
+    // Only the first dash keeps the stroke's number, so that numbers stay unique.
     dashes.iter_mut().skip(1).for_each(|dash| dash.stroke = None);
     dashes
 }
@@ -211,7 +212,7 @@ mod tests {
         }
     }
 
-    /// Points scattered by a simple generator, the same everywhere.
+    /// Points scattered by a simple generator, the same on every platform.
     fn scattered(count: usize) -> Vec<LinePath> {
         let mut state = 1u64;
         let mut next = || {

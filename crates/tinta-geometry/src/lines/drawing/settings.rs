@@ -1,4 +1,4 @@
-//! The settings of drawings: SVG and PDF.
+//! The settings of drawings in SVG and PDF.
 
 use crate::edges::Class;
 use crate::error::{Error, Result};
@@ -10,39 +10,41 @@ use crate::scene::{Background, Color};
 use crate::settings::{HasSettings, Kind, Setting, Table, Value, under};
 use std::sync::LazyLock;
 
-/// How a drawing is written.
+/// The settings of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawingSettings {
     /// Its title. Default none.
     pub title: String,
-    /// The command that made it, kept in its metadata. Default none.
+    /// The command that made it, stored in its metadata. Default none.
     pub command: String,
-    /// The recipe to make it again, JSON, kept in an SVG's metadata too. Default none.
+    /// The recipe that reproduces it, as JSON, stored in the metadata of an SVG. Default none.
     pub recipe: String,
-    /// What becomes of hidden lines. Default none of them is written.
+    /// How hidden lines are drawn. Default: not at all.
     pub hidden: Hidden,
-    /// Colours of single layers. Default black; hidden lines that are dashed half-way to the paper's colour.
+    /// Colours of layers. Default black; dashed hidden lines have a colour half-way to the paper's.
     pub class_colors: ClassColors,
     /// Width of the lines. Default 2 pixels, on [`PageSize::Paper`] half a millimetre.
     pub line_width: Option<Length>,
-    /// Widths of single layers. Default that of all; hidden lines half of what their class has.
+    /// Widths of layers. Default the line width; hidden lines have half the width of their class.
     pub class_widths: ClassWidths,
-    /// Strokes and branches that end free and are shorter than this are left out unless that would open a line; creases below
-    /// eight times it, and at most eight widths where it is longer than one. Default the strokes' own width.
+    /// Strokes and branches with a free end that are shorter than this are removed, unless that would open a line.
+    /// For creases the limit is eight times this length or eight line widths, whichever is less, but never below this
+    /// length. Default the line width.
     pub min_length: Option<Length>,
-    /// How far lines may be from where they are, pixels, so that they can be written as cubic Bézier curves. Default not at all:
-    /// polylines.
+    /// Largest distance of the drawn cubic Bézier curves from the lines, pixels. Default none, which draws polylines.
     pub fit_px: Option<f64>,
-    /// A rectangle behind everything, or nothing. Default white.
+    /// A rectangle behind the drawing, or none. Default white.
     pub background: Background,
-    /// How large it is on paper. Default left to the program that shows it.
+    /// Size on paper. Default unset: the program that shows the drawing decides.
     pub page_size: PageSize,
-    /// What stays free around the drawing on [`PageSize::Paper`]. Default 15 millimetres.
+    /// Margin around the drawing on [`PageSize::Paper`]. Default 15 millimetres.
     pub margin: Millimetres,
-    /// Whether each path names its class, object, mesh edges and angles; then no point is left out. Default no.
+    /// Whether each path names its class, object, mesh edges and angles; all its points are then written. Default
+    /// false.
     pub has_provenance: bool,
-    /// Whether it is for a plotter: lines in an order that spares empty ways, dashes as lines of their own, no background; layers,
-    /// widths and colours tell its pens apart, and lines are half a pixel wide where nothing is said. Default no.
+    /// Whether the drawing is for a plotter. Paths are then sorted to shorten pen-up travel, dashes are separate
+    /// lines, and the background is omitted. Layers, widths and colours distinguish the pens; lines without a width
+    /// are half a pixel wide. Default false.
     pub is_for_pen: bool,
 }
 
@@ -79,18 +81,19 @@ impl HasSettings for DrawingSettings {
     }
 }
 
-/// What a size on paper that is left open is called.
+/// The text for an unset size on paper.
 const UNSET: &str = "none";
 
-/// What a length is called that follows from others.
+/// The text for a length that follows from others.
 const AUTO: &str = "auto";
 
-/// Width of lines of which nothing is said, and on a sheet of paper.
+/// Default line width, and that on a sheet of paper.
 const WIDTH: Length = Length::Px(2.0);
 const WIDTH_ON_PAPER: Length = Length::Mm(0.5);
 
 impl DrawingSettings {
-    /// The settings, also for a table of something that has a drawing in it; title, recipe and background come from elsewhere.
+    /// The settings, for the table of a struct that may contain a drawing. Title, recipe and background come from
+    /// elsewhere.
     pub fn settings() -> Vec<Setting<Self>> {
         let number = |low: f64, high: f64| Kind::Numbers { count: 1, range: [low, high], decimals: 1 };
         let width = Setting::of(
@@ -196,28 +199,30 @@ impl DrawingSettings {
 }
 
 crate::choices! {
-    /// What becomes of hidden lines.
+    /// How hidden lines are drawn.
     #[derive(Default)]
     pub enum Hidden {
-        /// They are left out.
+        /// Not at all.
         #[default]
         None = "none",
-        /// They are dashed.
+        /// Dashed.
         Dashed = "dashed",
-        /// They are faint; for a pen, which cannot be, thin lines in layers of their own.
+        /// Faint; for a pen, which cannot draw faintly, thin lines in separate layers.
         Ghost = "ghost",
     }
 }
 
-/// Widest and thinnest line, pixels or millimetres; the widest as in the style inking, the thinnest still written as more than 0.
+/// Thinnest and widest line, pixels or millimetres. The thinnest is still written as more than 0; the widest is that
+/// of style inking.
 const WIDTHS: std::ops::RangeInclusive<f64> = 1e-3..=16_384.0;
 
 impl DrawingSettings {
-    /// Refuses nonsense, before any work.
+    /// Refuses invalid settings, before any work.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for a width, a length, a paper size or a resolution that is none, and for millimetres without paper.
+    /// [`Error::Setting`] for an invalid width, length, paper size or resolution, and for millimetres without a size
+    /// on paper.
     pub fn check(&self) -> Result<()> {
         let has_paper = self.page_size.is_set();
         let is_wrong = |width: Length| !width.all(|number| WIDTHS.contains(&number));
@@ -261,17 +266,17 @@ impl DrawingSettings {
         self.page_size.check(self.margin)
     }
 
-    /// Whether outlines have to be found: some look is said of them.
+    /// Whether outlines must be found because they have a width or colour.
     pub fn tells_outline(&self) -> bool {
         self.class_widths.0.tells_outline() || self.class_colors.0.tells_outline()
     }
 
-    /// Whether a layer is drawn.
+    /// Whether visible or hidden lines are drawn.
     pub(in crate::lines) fn draws(&self, is_visible: bool) -> bool {
         is_visible || self.hidden != Hidden::None
     }
 
-    /// How wide lines are of which nothing is said.
+    /// The common line width.
     fn width(&self) -> Length {
         self.line_width.unwrap_or(match self.page_size {
             PageSize::Paper(_) => WIDTH_ON_PAPER,
@@ -279,7 +284,7 @@ impl DrawingSettings {
         })
     }
 
-    /// A layer's width, pixels: what is said of it, or for hidden lines half of what their class has.
+    /// A layer's width in pixels: its own, or for hidden lines half of their class's.
     pub(in crate::lines) fn width_px(&self, layer: Layer, units: Units) -> f64 {
         let px = |length: Length| length.px(units).unwrap_or(0.0);
         match (self.class_widths.0.of(layer), layer) {
@@ -290,13 +295,13 @@ impl DrawingSettings {
         }
     }
 
-    /// Whether something is said of how wide a layer is.
+    /// Whether a layer's width is set.
     pub(in crate::lines) fn says_width(&self, layer: Layer) -> bool {
         self.line_width.is_some() || self.class_widths.0.of(layer).is_some()
     }
 
-    /// A layer's colour: what is said of it; dashes are half as strong as their class. A pen has one ink for both, and ghosts
-    /// are faint anyway.
+    /// A layer's colour: its own, or that of its class. Dashed hidden lines have half its strength, but not for a
+    /// pen, which has one ink for both; ghosts are faint anyway.
     pub(in crate::lines) fn color(&self, layer: Layer) -> Color {
         match (self.class_colors.0.of(layer), layer) {
             (Some(color), _) => color,
@@ -309,7 +314,7 @@ impl DrawingSettings {
         }
     }
 
-    /// What is behind the lines; white where nothing is.
+    /// The colour behind the lines; white without a background.
     pub(in crate::lines) fn paper_color(&self) -> Color {
         match self.background {
             Background::Color(color) if !self.is_for_pen => color,
@@ -317,9 +322,10 @@ impl DrawingSettings {
         }
     }
 
-    /// Below which length a stroke of a layer may be left out, pixels. A pen is as wide as any other line. Creases that belong to
-    /// an edge of a part end at others; what ends free are folds of a scan. So do silhouettes within the outline, where it is told
-    /// apart: what ends free are the facets of a curved surface that turn away one by one.
+    /// Length in pixels below which a stroke of a layer may be removed. It is longer for lines that may be noise:
+    /// creases with a free end are mostly folds of a scan, because creases on a part's edge end at other lines. Where
+    /// outlines are found, silhouettes inside them with a free end are single facets of a curved surface that turn
+    /// away. A pen's width counts like any other.
     pub(in crate::lines) fn min_length_px(&self, layer: Layer, units: Units) -> f64 {
         let width = self.width_px(layer, units);
         let length = self.min_length.and_then(|length| length.px(units)).unwrap_or(width);
@@ -332,16 +338,17 @@ impl DrawingSettings {
     }
 }
 
-/// A colour on its way from the paper's: 0 is the paper's.
+/// Mixes a colour into the paper's: strength 0 gives the paper's.
 pub(in crate::lines) fn mixed(color: Color, paper: Color, strength: f32) -> Color {
     let [Color(color), Color(paper)] = [color, paper];
     Color(std::array::from_fn(|channel| paper[channel] + (color[channel] - paper[channel]) * strength))
 }
 
-/// So much longer must creases, and silhouettes within the outline, be that end free or hang on nothing.
+/// Factor of the least length for creases, and for silhouettes inside the outline, with a free end or without a
+/// connection.
 const LEAST_FOLD: f64 = 8.0;
 
-/// Hidden lines' width and strength, as shares of what their class has.
+/// Hidden lines' width and strength, as shares of their class's.
 const HIDDEN_WIDTH: f64 = 0.5;
 const HIDDEN_STRENGTH: f32 = 0.5;
 

@@ -1,14 +1,15 @@
 //! Removes the points of a polyline that do not change its shape.
 //!
-//! From one kept point a cone of directions is narrowed by each point passed, so that the straight line to the next kept
-//! point goes by all of them within [`STRAIGHT_PX`]. One look at each point, O(n), and no recursion.
+//! A cone of directions starts at each kept point, and each point passed narrows it. The straight line to the next
+//! kept point therefore passes all of them within [`STRAIGHT_PX`]. Each point is visited once, O(n), without
+//! recursion.
 
 use crate::lines::LinePath;
 use crate::tolerances::STRAIGHT_PX;
 use glam::DVec2;
 
-/// The points of a path without those within [`STRAIGHT_PX`] of the straight lines between the others. The first stays, and
-/// an open path's last.
+/// Returns a path's points without those within [`STRAIGHT_PX`] of the straight lines between the others. The first
+/// point stays, and an open path's last.
 pub(in crate::lines) fn simplified(path: &LinePath) -> Vec<DVec2> {
     let mut points = path.points_px.clone();
     if path.is_closed {
@@ -28,18 +29,18 @@ pub(in crate::lines) fn simplified(path: &LinePath) -> Vec<DVec2> {
     if !path.is_closed {
         kept.extend(points.last());
     } else if kept.len() == 1 {
-        // Nothing but turns within the tolerance; two points at least make a path.
+        // All turns are within the tolerance; a path needs at least two points.
         kept.extend(path.points_px.get(1));
     }
     kept
 }
 
-/// The directions from a kept point that pass near enough to every point since.
+/// The directions from a kept point that pass close enough to every point since.
 struct Cone {
     apex: DVec2,
-    /// Both borders, the left one first as seen along y up; `None` while any direction will do.
+    /// Both borders, the left one first with y up; `None` while every direction is allowed.
     borders: Option<[DVec2; 2]>,
-    /// The farthest point so far: a line that comes back is not straight.
+    /// The farthest point so far: a line that turns back is not straight.
     reach: f64,
 }
 
@@ -55,7 +56,7 @@ impl Cone {
         away.length() >= self.reach && self.borders.is_none_or(is_between)
     }
 
-    /// Lets only directions stay that pass by this point.
+    /// Keeps only directions that pass close to this point.
     fn narrow(&mut self, point: DVec2) {
         let away = point - self.apex;
         let distance = away.length();
@@ -63,7 +64,7 @@ impl Cone {
         if distance <= STRAIGHT_PX {
             return;
         }
-        // The two tangents from the apex to a circle of the tolerance around the point.
+        // The tangents from the apex to a circle around the point with the tolerance as radius.
         let sine = STRAIGHT_PX / distance;
         let cosine = (1.0 - sine * sine).sqrt();
         let direction = away / distance;

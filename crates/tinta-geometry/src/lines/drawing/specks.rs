@@ -1,16 +1,16 @@
-//! Leaves out what is too short to be a line: specks, barbs, and strokes that lie under the ink of others.
+//! Removes lines that are too short to read: specks, barbs, and strokes covered by the ink of others.
 //!
-//! In: pieces of lines, how wide each is drawn and how short is too short. Out: the pieces that stay. Pieces hang together
-//! where they have an end in common, bit for bit; they touch where an end of one comes within [`JOINED_PX`] of the other, as
-//! where a line ends behind a nearer one. Three things go:
+//! Input: line segments, their drawn widths and least lengths. Output: the segments that stay. Segments are connected
+//! where they share an end bit for bit. They touch where an end of one is within [`JOINED_PX`] of the other, for
+//! example where a line ends behind a nearer one. Three things are removed:
 //!
-//! - a *speck*: all that hangs together is shorter than too short and touches the rest at one place at most;
-//! - a *barb*: from an end that is free, where nothing hangs or touches, to the first fork, likewise;
-//! - a *sliver's side*: what touches the rest at two places that stay joined by lines as wide and also shorter than too short,
-//!   so that these lie under the same ink.
+//! - a *speck*: a connected set shorter than its least length that touches the rest in at most one place;
+//! - a *barb*: a stretch from a free end, where nothing connects or touches, to the first fork, if it is as short;
+//! - a *sliver's side*: a short stretch that touches the rest in two places, if other lines still join these. Those
+//!   lines are as wide and also too short, so their ink covers it.
 //!
-//! So what closes a line stays: an outline has no free end, and of its parts only such go that another way round closes.
-//! Nothing is left out because something else was: a long line never goes bit by bit.
+//! Segments that close a line therefore stay: an outline has no free end, and loses a part only if another path
+//! closes it. No removal leads to another, so a long line never disappears piece by piece.
 
 mod strokes;
 mod shortest_path;
@@ -28,22 +28,22 @@ use shortest_path::ShortestPaths;
 use strokes::{Branch, Stroke, Strokes};
 
 impl VisibleLines {
-    /// The lines without spurs and specks as a drawing's settings ask: what is shorter than [`DrawingSettings::min_length`]. Where settings say
-    /// something of the outline, what cannot be read as outline is none: beside slits narrower than it, and in runs shorter than four
-    /// of its widths.
+    /// Removes spurs and specks: lines shorter than [`DrawingSettings::min_length`]. If the settings style the
+    /// outline, segments that do not read as outline lose that mark: those beside slits narrower than it, and runs
+    /// shorter than four of its widths.
     ///
     /// # Errors
     ///
-    /// As [`DrawingSettings::check`] and [`VisibleLines::check`].
+    /// Those of [`DrawingSettings::check`] and [`VisibleLines::check`].
     pub fn without_specks(&self, settings: &DrawingSettings) -> Result<Self> {
         self.without_specks_with_progress(settings, &Progress::default())
     }
 
-    /// The same, telling how far it is.
+    /// Like [`VisibleLines::without_specks`], and reports progress.
     ///
     /// # Errors
     ///
-    /// Also [`Error::Cancelled`] and, but where a part is asked for, [`Error::OutOfTime`].
+    /// Also [`Error::Cancelled`], and [`Error::OutOfTime`] unless a partial result is allowed.
     pub fn without_specks_with_progress(&self, settings: &DrawingSettings, progress: &Progress) -> Result<Self> {
         settings.check()?;
         self.check()?;
@@ -53,7 +53,7 @@ impl VisibleLines {
             false => self.segments.clone(),
         };
         let mut keeps = vec![true; segments.len()];
-        // Hidden lines lie in layers of their own, which may be switched off.
+        // Hidden lines have separate layers, which may be switched off.
         for is_visible in [true, false] {
             let strokes: Vec<Stroke> = segments
                 .iter()
@@ -64,7 +64,7 @@ impl VisibleLines {
             let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));
             match Strokes::new(&strokes, border).too_short(progress) {
                 Ok(all) => all.into_iter().for_each(|stroke| keeps[strokes[stroke].number] = false),
-                // Some of them would depend on the machine.
+                // A partial removal would depend on the machine.
                 Err(Error::OutOfTime { asked_for_part: true, .. }) => {
                     return Ok(Self { has_specks: true, segments, ..self.clone_without_segments() });
                 }
@@ -89,11 +89,11 @@ impl VisibleLines {
     }
 }
 
-/// Branches whose neighbours a thread looks at at once.
+/// Branches whose neighbours a thread tests at once.
 const LOOKED_AT_ONCE: usize = 2048;
 
 impl Strokes<'_> {
-    /// All that go.
+    /// All segments to remove.
     fn too_short(&self, progress: &Progress) -> Result<Vec<usize>> {
         progress.begin(Phase::TooShort, 0);
         progress.go_on_drawing()?;

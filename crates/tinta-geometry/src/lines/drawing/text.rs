@@ -1,4 +1,4 @@
-//! The words of an SVG file: numbers, colours, and texts that XML can hold.
+//! The text of an SVG file: numbers, colours, and strings that XML allows.
 
 use crate::lines::drawing::curves::Step;
 use crate::scene::Color;
@@ -7,10 +7,10 @@ use glam::DVec2;
 /// Decimals of a coordinate: a thousandth of a pixel.
 const DECIMALS: u32 = 3;
 
-/// A number with at most `decimals` decimals, without zeros at the end, never `-0`.
+/// A number with at most `decimals` decimals, without trailing zeros, never `-0`.
 pub(in crate::lines) fn decimal(value: f64, decimals: u32) -> String {
     let scale = 10_i64.pow(decimals);
-    // Up to a picture's largest size and its decimals this is exact in f64.
+    // Exact in f64 up to a picture's largest size and its decimals.
     let scaled = (value * scale as f64).round() as i64;
     let (whole, part) = (scaled.unsigned_abs() / scale as u64, scaled.unsigned_abs() % scale as u64);
     let sign = if scaled < 0 { "-" } else { "" };
@@ -18,12 +18,12 @@ pub(in crate::lines) fn decimal(value: f64, decimals: u32) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// A number as coordinates are written.
+/// A coordinate as text.
 pub(in crate::lines) fn number(value: f64) -> String {
     decimal(value, DECIMALS)
 }
 
-/// The points of a polyline as they are written; points that are written alike are written once unless `keep_all`.
+/// The points of a polyline as text; equal neighbours are written once unless `keep_all`.
 pub(in crate::lines) fn written_points(points_px: &[DVec2], is_closed: bool, keep_all: bool) -> Vec<[String; 2]> {
     let mut written: Vec<[String; 2]> = Vec::with_capacity(points_px.len());
     for (index, point) in points_px.iter().enumerate() {
@@ -36,7 +36,7 @@ pub(in crate::lines) fn written_points(points_px: &[DVec2], is_closed: bool, kee
     written
 }
 
-/// A polyline as path data; as [`written_points`] has it.
+/// A polyline as path data, with the points of [`written_points`].
 pub(in crate::lines) fn path_data(points_px: &[DVec2], is_closed: bool, keep_all: bool) -> String {
     let mut data = String::new();
     for (index, [x, y]) in written_points(points_px, is_closed, keep_all).iter().enumerate() {
@@ -55,7 +55,7 @@ pub(in crate::lines) fn path_data(points_px: &[DVec2], is_closed: bool, keep_all
     data
 }
 
-/// A point as it is written.
+/// A point as text.
 pub(in crate::lines) fn written_point(point_px: DVec2) -> [String; 2] {
     point_px.to_array().map(number)
 }

@@ -21,7 +21,7 @@ fn cube() -> Scene {
     scene(Mesh::of_triangles("cube", corners, &triangles, &LoadOptions::default()).unwrap())
 }
 
-/// Of each picture of a turn the lines and their paths.
+/// The lines and paths of each picture of a turn.
 fn turn(scene: &Scene, settings: &LineSettings, views: u32) -> Vec<(VisibleLines, Vec<LinePath>)> {
     let mut ids = StrokeIds::new(scene, settings);
     let cameras = scene.turntable(&CameraSettings::default(), views).unwrap();
@@ -69,7 +69,7 @@ fn the_outline_of_a_sphere_is_one_stroke_for_the_whole_turn() {
     }
 }
 
-/// Creases along the x axis, each from one place to another.
+/// Creases along the x axis, each between two given places.
 fn creases(of: &[[f64; 2]]) -> VisibleLines {
     let crease = |ends: &[f64; 2]| LineSegment {
         class: Class::Crease,
@@ -144,7 +144,7 @@ fn the_strokes_of_a_torus_are_few_over_a_turn_and_the_same_in_every_run() {
     };
     let first = numbers();
     assert_eq!(first, numbers());
-    // It turns about an axis in its plane or about its own: the outline, and the hole's rim each time it opens.
+    // The hole turns about an axis in its plane: strokes are the outline, and the hole's rim each time it opens.
     let count = first.iter().flatten().collect::<BTreeSet<_>>().len();
     assert!(count <= 12, "{count}: {first:?}");
 }

@@ -1,11 +1,13 @@
-//! Faces that cover one another in one plane, as in models made to be seen from both sides.
+//! Coplanar faces that cover one another, as in models made to be seen from both sides.
 //!
-//! In: a mesh and its edges. Out: the faces to leave out so that each region of a plane counts once, whatever the diagonals, first
-//! corners and directions of the triangles that cover it. Sheets with the same outline cover one another: a sheet goes on over
-//! each piece of an edge that has one face on either side and no others. Where diagonals that sheets have in common join
-//! and part them, regions take their place: they end at pieces with more faces on one side than on the other, so
-//! that all of a region is covered equally often. Only where two faces lie on the same side of one edge, or of edges on
-//! one line, is anything covered twice, so other meshes are left after one look at each edge.
+//! Input: a mesh and its edges. Output: the faces to remove so that each region of a plane counts once. The result
+//! does not depend on diagonals, first corners or directions of the triangles.
+//!
+//! Sheets with the same outline cover one another. A sheet continues across each stretch of an edge that has exactly
+//! one face on either side. If shared diagonals join or split sheets, regions are used instead. A region ends at
+//! stretches with more faces on one side than on the other, so all parts of it are covered equally often. Faces can
+//! overlap only if two of them lie on the same side of an edge, or of collinear edges; other meshes need one test per
+//! edge.
 
 use crate::edges::EdgeList;
 use crate::lines::input::split_t_junctions::{Chain, vertices_on};
@@ -15,8 +17,8 @@ use crate::tolerances::{CONTACT, PRINTED_DIGITS, WELD};
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// The faces that others cover, of each region all but those of the set with the lowest number. `chains` are the edges that
-/// others cover.
+/// The covered faces: in each region all except the set with the lowest number. `chains` are the edges that others
+/// cover.
 pub(in crate::lines) fn covered_faces(mesh: &Mesh, edges: &EdgeList, chains: &[Chain]) -> HashSet<u32> {
     let planar = Planar::new(mesh);
     let at_edges = in_chunks(edges.len(), EDGES_A_THREAD, threads_for(edges.len()), |range| {
@@ -33,7 +35,7 @@ pub(in crate::lines) fn covered_faces(mesh: &Mesh, edges: &EdgeList, chains: &[C
     let edge_of: HashMap<[u32; 2], u32> = edges.positions().iter().copied().zip(0..).collect();
     let mut covered = HashSet::new();
     for mut cluster in planar.clusters(edges, &edge_of, &pairs, &links) {
-        // A face that is repeated by itself parts the sheet that it belongs to until it is left out.
+        // A single repeated face splits its sheet until it is removed.
         loop {
             let mut of_cluster = planar.covered_of(&cluster, is_sheet);
             if of_cluster.is_empty() {
@@ -49,35 +51,36 @@ pub(in crate::lines) fn covered_faces(mesh: &Mesh, edges: &EdgeList, chains: &[C
     covered
 }
 
-/// A mesh whose faces are compared with one another's planes.
+/// A mesh whose faces are tested against one another's planes.
 struct Planar<'a> {
     mesh: &'a Mesh,
-    /// Distances below which positions are one, and below which coordinates of six digits may leave one plane, file units.
+    /// Distances, in file units: below `weld` positions coincide, below `digits` coordinates with six digits may
+    /// deviate from a plane.
     weld: f64,
     digits: f64,
 }
 
-/// Edges a thread looks at at once.
+/// Edges per batch of a thread.
 const EDGES_A_THREAD: usize = 8192;
 
-/// Sine of the largest angle between faces of one plane.
+/// Sine of the largest angle between coplanar faces.
 const LARGEST_SINE: f64 = 0.01;
 
-/// The faces of one plane at a piece of an edge.
+/// The coplanar faces at a stretch of an edge.
 #[derive(Default)]
 struct AtPiece {
-    /// By their places in the list of the plane's faces.
+    /// Their indices in the list of the plane's faces.
     faces: Vec<usize>,
-    /// How many more lie to the left of it than to the right.
+    /// Faces to the left of the stretch minus those to the right.
     balance: i32,
 }
 
-/// What hangs together over some pieces of edges.
+/// Faces connected across some stretches of edges.
 #[derive(Default)]
 struct Region {
-    /// By their places in the list of the plane's faces.
+    /// Their indices in the list of the plane's faces.
     faces: Vec<usize>,
-    /// At each piece how many more of these faces lie to the left of it than to the right: 0 inside.
+    /// At each stretch, these faces to the left minus those to the right: 0 inside.
     balances: HashMap<[u32; 2], i32>,
 }
 
@@ -89,12 +92,12 @@ fn is_region(at_piece: &AtPiece) -> bool {
     at_piece.balance == 0
 }
 
-/// Where two faces at an edge lie.
+/// The position of two faces at an edge.
 #[derive(Clone, Copy, PartialEq)]
 enum Fold {
-    /// In one plane, on the same side of the edge.
+    /// Coplanar, on the same side of the edge.
     Closed,
-    /// In one plane, on either side of it.
+    /// Coplanar, on opposite sides of the edge.
     Flat,
     Bent,
 }
@@ -115,7 +118,7 @@ impl<'a> Planar<'a> {
         (b - a).cross(c - a)
     }
 
-    /// How two faces lie to one another at a line between two points; their farthest corners from it decide.
+    /// The position of two faces at a line between two points; their farthest corners from it decide.
     fn fold(&self, [start, end]: [DVec3; 2], faces: [u32; 2]) -> Fold {
         let along = (end - start).normalize_or_zero();
         let across = |face: u32| {
@@ -141,10 +144,10 @@ impl<'a> Planar<'a> {
         }
     }
 
-    /// Whether two faces at an edge lie less than a right angle apart: a quick look that spares most edges another.
+    /// Whether two faces at an edge form an angle below 90 degrees: a quick test that settles most edges.
     fn is_acute(&self, [start, end]: [DVec3; 2], faces: [u32; 2]) -> bool {
         let along = end - start;
-        // Of a face's corners two lie on the edge, so that their sum is the third, moved along it.
+        // Two of a face's corners lie on the edge, so the sum is the third corner, shifted along the edge.
         let [first, second] = faces.map(|face| self.corners(face).iter().map(|corner| *corner - start).sum::<DVec3>());
         first.dot(second) * along.length_squared() > first.dot(along) * second.dot(along)
     }
@@ -153,7 +156,7 @@ impl<'a> Planar<'a> {
         edges.positions()[edge as usize].map(|position| self.mesh.positions[position as usize])
     }
 
-    /// Adds the faces at an edge that lie on the same side of it in one plane.
+    /// Adds the pairs of coplanar faces on the same side of an edge.
     fn add_pairs_at(&self, edges: &EdgeList, edge: u32, pairs: &mut Vec<[u32; 2]>) {
         let ends = self.ends(edges, edge);
         match *edges.faces(edge) {
@@ -173,7 +176,7 @@ impl<'a> Planar<'a> {
                 };
                 let mut round: Vec<(f64, u32)> = faces.iter().map(|face| (angle(*face), *face)).collect();
                 round.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-                // The last is the neighbour of the first.
+                // The last face is the neighbour of the first.
                 let next = round.iter().cycle().skip(1);
                 for (first, second) in round.iter().zip(next).map(|(first, second)| (first.1, second.1)) {
                     if first != second && self.fold(ends, [first, second]) == Fold::Closed {
@@ -184,7 +187,7 @@ impl<'a> Planar<'a> {
         }
     }
 
-    /// Faces of one plane at an edge and at one of a chain that covers it.
+    /// Coplanar faces at an edge and at one edge of a chain that covers it.
     fn links(&self, edges: &EdgeList, chains: &[Chain]) -> Vec<([u32; 2], Fold)> {
         let mut links = Vec::new();
         for (long, short) in
@@ -197,7 +200,7 @@ impl<'a> Planar<'a> {
         links
     }
 
-    /// The pairs with all faces that go on from them in their planes, plane by plane.
+    /// The pairs, together with all connected coplanar faces, plane by plane.
     fn clusters(
         &self,
         edges: &EdgeList,
@@ -223,12 +226,12 @@ impl<'a> Planar<'a> {
                 let own = self.normal(face);
                 let [a, b, c] = self.corners(face);
                 let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-                // One that is no higher than what counts as touching has no direction.
+                // A face no higher than the contact tolerance has no reliable direction.
                 let is_needle = own.length() <= (CONTACT * longest + self.weld) * longest;
                 is_needle || own.cross(normal).length() <= LARGEST_SINE * own.length()
             };
             let mut cluster = vec![*first];
-            // From each edge once: of all faces at it that are in one plane with the first to come there.
+            // Each edge is used once, for all its faces in the plane of the first one that arrives there.
             let mut edges_left: HashSet<u32> = HashSet::new();
             let mut next = 0;
             while let Some(face) = cluster.get(next).copied() {
@@ -252,12 +255,12 @@ impl<'a> Planar<'a> {
         clusters
     }
 
-    /// The faces of a plane that are not needed to cover once what hangs together over some pieces of edges.
+    /// The faces of a plane that are not needed to cover each connected region once.
     fn covered_of(&self, cluster: &[u32], joins: fn(&AtPiece) -> bool) -> HashSet<u32> {
         let largest = cluster.iter().map(|face| self.normal(*face)).max_by(|a, b| a.length().total_cmp(&b.length()));
         let normal = largest.unwrap_or_default();
         let pieces = self.pieces(cluster);
-        // Each face to the left of a piece counts up, each to the right down.
+        // A face to the left of a stretch adds 1, one to the right subtracts 1.
         let mut at_piece: HashMap<[u32; 2], AtPiece> = HashMap::new();
         let mut sides: Vec<Vec<([u32; 2], i32)>> = Vec::with_capacity(cluster.len());
         for (index, face) in cluster.iter().enumerate() {
@@ -307,7 +310,7 @@ impl<'a> Planar<'a> {
         covered
     }
 
-    /// Of faces that cover a region several times all but some that cover it once; none where these are not found.
+    /// For faces that cover a region several times: all except one layer of them; none if no layer is found.
     fn beyond_one_layer(&self, faces: &[u32], sides: &[&[([u32; 2], i32)]], normal: DVec3) -> Vec<u32> {
         if faces.len() > MOST_IN_LAYERS {
             return Vec::new();
@@ -330,7 +333,7 @@ impl<'a> Planar<'a> {
         if is_whole { beyond.collect() } else { Vec::new() }
     }
 
-    /// Each face's sides, in pieces between all of the cluster's vertices that lie on them.
+    /// Each face's sides, cut into stretches at all of the cluster's vertices on them.
     fn pieces(&self, cluster: &[u32]) -> Vec<Vec<[u32; 2]>> {
         let sides = |face: &u32| {
             let [a, b, c] = self.mesh.triangles[*face as usize];
@@ -360,9 +363,9 @@ impl<'a> Planar<'a> {
     }
 }
 
-/// One layer of a region in the making.
+/// One layer of a region, while it is assembled.
 struct Layer<'a> {
-    /// Of each face its pieces, and on which side of each it lies.
+    /// For each face its stretches, and its side of each.
     sides: &'a [&'a [([u32; 2], i32)]],
     at_piece: &'a HashMap<[u32; 2], Vec<(usize, i32)>>,
     flat: Vec<[DVec2; 3]>,
@@ -371,15 +374,15 @@ struct Layer<'a> {
     tries: usize,
 }
 
-/// Faces of a region that is taken apart into layers at most: each is compared with all, on the stack.
+/// Most faces of a region that is split into layers: each is compared with all, recursively.
 const MOST_IN_LAYERS: usize = 1000;
 
-/// Faces that are tried for one layer at most.
+/// Most faces tried for one layer.
 const MOST_TRIES: usize = 100_000;
 
 impl Layer<'_> {
-    /// Adds faces until each of these pieces has one on the side named, and the pieces of those in turn one on the other side. If there
-    /// are no such faces, nothing is added.
+    /// Adds faces until each of these stretches has one on the given side, and each stretch of the added faces one on
+    /// the other side. Adds nothing if such faces do not exist.
     fn fill(&mut self, mut open: Vec<([u32; 2], i32)>) -> bool {
         let has = |layer: &Self, (piece, side): ([u32; 2], i32)| {
             layer.at_piece[&piece].iter().any(|(face, of_face)| *of_face == side && layer.kept.contains(face))
@@ -411,7 +414,7 @@ impl Layer<'_> {
     }
 }
 
-/// Whether two triangles of one plane have more in common than what lies within a distance of a side.
+/// Whether two coplanar triangles overlap by more than a strip of this width along a side.
 fn overlap(first: [DVec2; 3], second: [DVec2; 3], distance: f64) -> bool {
     let is_apart = |one: [DVec2; 3], other: [DVec2; 3]| {
         let turn = (one[1] - one[0]).perp_dot(one[2] - one[0]).signum();
@@ -425,7 +428,7 @@ fn overlap(first: [DVec2; 3], second: [DVec2; 3], distance: f64) -> bool {
     !is_apart(first, second) && !is_apart(second, first)
 }
 
-/// The root of an element among sets that are lists of parents.
+/// The root of an element, among sets stored as lists of parents.
 fn root(parents: &mut [usize], mut element: usize) -> usize {
     while parents[element] != element {
         parents[element] = parents[parents[element]];

@@ -2,14 +2,13 @@
 
 use crate::mesh::{Mesh, NONE};
 
-/// The mesh with some of its faces.
 pub(in crate::lines) fn keep_faces(mesh: &Mesh, keep: impl Fn(u32) -> bool) -> Mesh {
     let kept: Vec<usize> = (0..mesh.triangles.len()).filter(|face| keep(*face as u32)).collect();
     with_faces(mesh, kept.iter().map(|face| (*face, mesh.triangles[*face])).collect())
 }
 
-/// The mesh with these faces, each with the number of the one whose normals, texture and material it has; corners that one
-/// does not have get none.
+/// The mesh with these faces, each with the number of the face that gives its normals, texture and material. Corners
+/// that this face does not have get none.
 pub(in crate::lines) fn with_faces(mesh: &Mesh, faces: Vec<(usize, [u32; 3])>) -> Mesh {
     let of_corners = |list: &[[u32; 3]]| -> Vec<[u32; 3]> {
         let of_face = |(face, corners): &(usize, [u32; 3])| {

@@ -1,4 +1,4 @@
-//! The lines of a scene before their visibility is known: edges by class, places where surfaces end, intersections.
+//! The lines of a scene before their visibility is decided: edges by class, ends of surfaces, intersections.
 
 use crate::bvh::NO_GROUP;
 use crate::edges::{
@@ -19,23 +19,24 @@ use std::ops::Range;
 /// Classes at which a surface ends or turns away.
 const OCCLUDING: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, Class::Silhouette]);
 
-/// Classes of edges that may have to last.
+/// Classes of edges that `lasting_creases` restricts.
 const CREASES: [Class; 3] = [Class::Crease, Class::ConvexCrease, Class::ConcaveCrease];
 
-/// Of each edge of a mesh whether it is a crease that lasts, where only such are drawn.
+/// For each edge of a mesh whether it is a lasting crease; `None` if all creases are drawn.
 fn lasting(edges: &MeshEdges, classes: &Classes, settings: &LineSettings) -> Option<Vec<bool>> {
     let is_crease = |edge: u32| !classes.of_edges[edge as usize].and(ClassSet::of(&CREASES)).is_empty();
     settings.lasting_creases.then(|| persistent_creases(edges.mesh(), edges.list(), is_crease))
 }
 
-/// The classes of a mesh's edges that have to be known for some settings.
+/// The classes of a mesh's edges that these settings need.
 pub(in crate::lines) fn asked(settings: &LineSettings) -> ClassSet {
     let of_contours = if settings.has_smooth_contours() { ClassSet::of(&[Class::Crease]) } else { ClassSet::default() };
     settings.classes.or(OCCLUDING).or(of_contours).and(ClassSet::EDGES)
 }
 
-/// The edges of all parts that are wanted or hide others, in a stable order, and how many are wanted of each class. With smooth
-/// contours only sharp edges are drawn as silhouette, as far as they are; what hides others is the same.
+/// The edges of all parts that are drawn or hide others, in a stable order, and the number of drawn ones in each
+/// class. With smooth contours, only the silhouette parts of sharp edges are drawn as silhouette; the edges that hide
+/// others are the same.
 pub(in crate::lines) fn edge_features(
     scene: &Scene,
     space: &Space,
@@ -106,7 +107,7 @@ pub(in crate::lines) fn edge_features(
     (features, counts)
 }
 
-/// From where to where an edge is drawn as which class, if as one.
+/// The parts of an edge, and the class that each is drawn as, if any.
 fn parts_by_class(of_edge: ClassSet, on_edge: OnEdge, wanted: ClassSet) -> Vec<(Option<Class>, [f64; 2])> {
     let drawn = |with: &[Class]| {
         let others = of_edge.classes().filter(|class| *class != Class::Silhouette);
@@ -139,13 +140,12 @@ fn planes_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> 
     [plane(0), plane(1)]
 }
 
-/// The plane in which all faces at an edge lie, if they lie in one of many faces.
+/// The plane of all faces at an edge, if they share one with many faces.
 fn plane_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> u32 {
     let planes = at_edge.iter().map(|face| faces.plane(number_of(*face)));
     planes.reduce(|first, second| if first == second { first } else { NO_GROUP }).unwrap_or(NO_GROUP)
 }
 
-/// The lines where faces intersect, as features.
 pub(in crate::lines) fn intersection_features(
     faces: &Faces,
     parts: &[ObjectEdges<'_>],
@@ -174,7 +174,7 @@ pub(in crate::lines) fn intersection_features(
     intersections.iter().map(feature).collect()
 }
 
-/// Where faces are cut off by the near plane: what is behind appears there.
+/// The lines where the near plane cuts faces: things behind appear there.
 pub(in crate::lines) fn near_plane_features(space: &Space, faces: &Faces) -> Vec<Feature> {
     let cut = |face: &u32| {
         let corners = faces.corners(*face);
@@ -195,8 +195,7 @@ pub(in crate::lines) fn near_plane_features(space: &Space, faces: &Faces) -> Vec
     faces.cut_by_near.iter().filter_map(cut).collect()
 }
 
-/// Edges of the faces that are seen edge-on: there a surface that faces the eye may go over into one that does not, without
-/// any single edge between the two.
+/// Edges of faces seen edge-on: a surface may turn from front to back there without any single edge between the two.
 fn edges_of_edge_on_faces(
     faces: &Faces,
     list: &EdgeList,
@@ -211,9 +210,9 @@ fn edges_of_edge_on_faces(
     }
 }
 
-/// Whether an edge is silhouette, if one of its two faces at least is seen edge-on, whatever the last digit says of it: to an eye
-/// just beside this one such a face shows its front or its back, so that the edge is silhouette to one of both. Two edge-on
-/// faces at an edge lie in one plane; where they are folded onto one another, one of both is always turned away.
+/// Whether an edge with at least one edge-on face is silhouette, independent of rounding. From slightly to one side
+/// such a face shows its front, from the other its back: the edge is silhouette from one of both. Two edge-on faces
+/// at an edge are coplanar; if they are folded onto each other, one of them always faces away.
 fn at_edge_on(faces: &Faces, mesh: &Mesh, list: &EdgeList, edge: u32, number_of: impl Fn(u32) -> u32) -> Option<bool> {
     let &[first, second] = list.faces(edge) else { return None };
     let is_edge_on = |face: u32| faces.edge_on_for_sure.binary_search(&number_of(face)).is_ok();
@@ -224,7 +223,7 @@ fn at_edge_on(faces: &Faces, mesh: &Mesh, list: &EdgeList, edge: u32, number_of:
     }
 }
 
-/// The angle between an edge's two faces, of one orientation, degrees.
+/// The angle between the two faces of an edge, for one orientation, degrees.
 fn angle(mesh: &Mesh, list: &EdgeList, edge: u32) -> Option<f64> {
     let &[first, second] = list.faces(edge) else { return None };
     let normal =
@@ -234,12 +233,12 @@ fn angle(mesh: &Mesh, list: &EdgeList, edge: u32) -> Option<f64> {
     Some(degrees_between(first, if is_reversed { -second } else { second }))
 }
 
-/// The angle between two unit vectors, exact also where it is small.
+/// The angle between two unit vectors, degrees; precise for small angles too.
 fn degrees_between(first: DVec3, second: DVec3) -> f64 {
     first.cross(second).length().atan2(first.dot(second)).to_degrees()
 }
 
-/// Two ascending sequences as one, each number once.
+/// Merges two ascending sequences, each number once.
 fn merged(first: impl Iterator<Item = u32>, second: impl Iterator<Item = u32>) -> impl Iterator<Item = u32> {
     let (mut first, mut second) = (first.peekable(), second.peekable());
     std::iter::from_fn(move || {

@@ -1,12 +1,12 @@
 //! Repairs a mesh before its lines are found.
 //!
-//! - Of faces that [cover one another](crate::lines::input::covered), as a surface modelled from both sides has them, one set is kept: the others
-//!   would make every edge one of four faces.
-//! - Faces no higher than what is welded are left out where they lie at others: they are lines.
-//! - Faces are split at [T-junctions](crate::lines::input::split_t_junctions), so that no line is drawn across a surface that looks whole. What hides is the
-//!   face as it was: a thousand slivers of it would hide the same, and be in one another's way.
+//! - Of faces that [cover one another](crate::lines::input::covered), as in surfaces modelled from both sides, one
+//!   set stays. The others would turn every edge into one with four faces.
+//! - Faces no higher than the weld distance are removed if they touch others: they are lines.
+//! - Faces are split at [T-junctions](crate::lines::input::split_t_junctions), so no line crosses a surface that
+//!   looks whole. The unsplit face still hides other lines: its many slivers would hide the same, only more slowly.
 //!
-//! Cracks wider than `--weld` stay openings.
+//! Cracks wider than `--weld` stay open.
 
 use crate::edges::EdgeList;
 use crate::lines::input::covered::covered_faces;
@@ -19,21 +19,20 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
-/// What was repaired of a mesh.
 pub(in crate::lines) struct RepairedMesh {
-    /// The faces that hide: without repeated ones.
+    /// The faces that hide others, without repeated ones.
     pub shape: Arc<Mesh>,
-    /// The mesh that edges are found on: faces with vertices on their sides are split there.
+    /// The mesh whose edges become lines: its faces are split at vertices on their sides.
     pub split: Arc<Mesh>,
-    /// Of each of its faces the one of the shape that it is a part of.
+    /// For each split face, the face of the shape that it is a part of.
     pub whole_faces: Vec<u32>,
-    /// The vertices on each edge that was split, in their order along it.
+    /// The vertices on each split edge, in order.
     pub on_edges: BTreeMap<[u32; 2], Vec<u32>>,
-    /// How many faces others cover, which were left out.
+    /// Number of covered faces that were removed.
     pub covered: usize,
 }
 
-/// The repaired mesh, if there was anything to repair.
+/// Returns the repaired mesh; `None` if it needs no repair.
 pub(in crate::lines) fn repaired(mesh: &Arc<Mesh>, edges: &EdgeList) -> Option<RepairedMesh> {
     let lines = faces_without_height(mesh, edges);
     let mut shape = WorkingMesh { mesh: mesh.clone(), edges: Cow::Borrowed(edges) };
@@ -55,7 +54,7 @@ pub(in crate::lines) fn repaired(mesh: &Arc<Mesh>, edges: &EdgeList) -> Option<R
     })
 }
 
-/// A mesh with some of its faces left out, and its edges.
+/// A mesh with some of its faces removed, and its edges.
 struct WorkingMesh<'a> {
     mesh: Arc<Mesh>,
     edges: Cow<'a, EdgeList>,
@@ -70,8 +69,8 @@ impl WorkingMesh<'_> {
     }
 }
 
-/// Faces whose third corner lies on the side between the other two, as well as welding tells places apart, and that share a side
-/// with one that has a height. Others are wires, and drawn.
+/// Faces with their third corner on the opposite side, within the weld distance, that share a side with a face that
+/// has a height. Others are wires and are drawn.
 fn faces_without_height(mesh: &Mesh, edges: &EdgeList) -> HashSet<u32> {
     let (low, high) = mesh.bounds();
     let weld = WELD * low.distance(high);
@@ -93,5 +92,5 @@ fn faces_without_height(mesh: &Mesh, edges: &EdgeList) -> HashSet<u32> {
     found.into_iter().filter(|face| at_surfaces.contains(face)).collect()
 }
 
-/// Faces a thread looks at at once.
+/// Faces per batch of a thread.
 const FACES_A_THREAD: usize = 8192;

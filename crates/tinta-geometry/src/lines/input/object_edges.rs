@@ -1,4 +1,4 @@
-//! The objects of a scene with their edges: those of the mesh as it is, or as it was repaired.
+//! The objects of a scene with their edges, from the original or the repaired mesh.
 
 use crate::edges::{Eye, Incidence, MeshEdges, Side, SilhouetteRule, side_of_face};
 use crate::lines::input::mesh_repair::{self, RepairedMesh};
@@ -8,24 +8,23 @@ use crate::tolerances::CONTACT;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-/// An object with its edges.
 pub(in crate::lines) struct ObjectEdges<'a> {
     pub object: &'a Object,
     pub edges: Edges<'a>,
 }
 
-/// The edges of the scene's own mesh, or of a repaired one.
+/// The edges of the scene's mesh or of a repaired one.
 pub(in crate::lines) enum Edges<'a> {
     OfScene(&'a MeshEdges),
     Repaired(Arc<RepairedEdges>),
 }
 
-/// The edges of a repaired mesh with the faces that hide.
+/// The edges of a repaired mesh, with the faces that hide others.
 pub(in crate::lines) struct RepairedEdges {
     edges: MeshEdges,
     shape: Arc<Mesh>,
     whole_faces: Vec<u32>,
-    /// Edges of two faces, one of which at least is a part of a face, ascending.
+    /// Edges with two faces, at least one of which was split, ascending.
     at_split_faces: Vec<u32>,
     on_edges: BTreeMap<[u32; 2], Vec<u32>>,
     covered: usize,
@@ -44,15 +43,15 @@ impl RepairedEdges {
         Self { edges, shape, whole_faces, at_split_faces, on_edges, covered }
     }
 
-    /// Whether of the two faces at an edge one is seen from the front and the other is not: of split faces the whole decides, for
-    /// rounding turns their parts.
+    /// Whether exactly one of the two faces at an edge is seen from the front. For split faces the whole face
+    /// decides, because rounding tilts its parts.
     fn is_silhouette(&self, edge: u32, eye: Eye) -> bool {
         let &[first, second] = self.edges.list().faces(edge) else { return false };
         let side = |face: u32| {
             let corners = self.shape.triangles[self.whole_faces[face as usize] as usize];
             side_of_face(corners.map(|corner| self.shape.positions[corner as usize]), eye)
         };
-        // Turned the other way round, the second face shows its back.
+        // For the opposite orientation the second face shows its back.
         let is_reversed = self.edges.list().incidence()[edge as usize] == Incidence::InnerReversed;
         let front_of_second = if is_reversed { Side::Back } else { Side::Front };
         (side(first) == Side::Front) != (side(second) == front_of_second)
@@ -69,7 +68,7 @@ impl Edges<'_> {
 }
 
 impl ObjectEdges<'_> {
-    /// The faces that hide.
+    /// The faces that hide others.
     pub(in crate::lines) fn shape(&self) -> &Arc<Mesh> {
         match &self.edges {
             Edges::OfScene(edges) => edges.mesh(),
@@ -77,7 +76,7 @@ impl ObjectEdges<'_> {
         }
     }
 
-    /// Of a face of the edge list the number of the one in the shape that it is a part of.
+    /// The face of the shape that contains this face of the edge list.
     pub(in crate::lines) fn whole_face(&self, face: u32) -> u32 {
         match &self.edges {
             Edges::OfScene(_) => face,
@@ -90,7 +89,8 @@ impl ObjectEdges<'_> {
         matches!(&self.edges, Edges::Repaired(repaired) if !repaired.on_edges.is_empty())
     }
 
-    /// The vertices on an edge of the shape where its faces were split, in their order along it; the edge's lower position first.
+    /// The vertices at which an edge of the shape was split, in order; the edge is given with its lower position
+    /// first.
     pub(in crate::lines) fn on_edge(&self, edge: [u32; 2]) -> &[u32] {
         match &self.edges {
             Edges::OfScene(_) => &[],
@@ -110,7 +110,7 @@ impl ObjectEdges<'_> {
         silhouette
     }
 
-    /// How many of the mesh's faces others cover, which were left out.
+    /// Number of covered faces of the mesh that were removed.
     pub(in crate::lines) fn covered(&self) -> usize {
         match &self.edges {
             Edges::OfScene(_) => 0,
@@ -118,8 +118,8 @@ impl ObjectEdges<'_> {
         }
     }
 
-    /// Whether an edge runs through the inside of a face that was split. What lies on that face may have an edge there, too: it counts for
-    /// itself, and is none where two faces lie flat on either side.
+    /// Whether an edge runs through the inside of a split face. A face that lies on it may have an edge there too:
+    /// that edge counts separately, unless its two faces lie flat on either side.
     pub(in crate::lines) fn is_within_a_face(&self, edge: u32) -> bool {
         if matches!(self.edges, Edges::OfScene(_)) {
             return false;
@@ -131,13 +131,13 @@ impl ObjectEdges<'_> {
         others.len() < faces.len() && (others.is_empty() || self.lie_flat(edge, &others))
     }
 
-    /// Whether two faces at an edge lie in one plane on either side of it.
+    /// Whether two faces at an edge are coplanar, on opposite sides of it.
     fn lie_flat(&self, edge: u32, faces: &[u32]) -> bool {
         let &[first, second] = faces else { return false };
         let (edges, mesh) = (self.edges.get(), self.edges.get().mesh());
         let ends = edges.list().positions()[edge as usize];
         let [from, to] = ends.map(|end| mesh.positions[end as usize]);
-        // The normals as if both turned the same way round the edge: opposite ones where they lie on either side.
+        // The normals as if both faces had the same direction around the edge: opposite for faces on opposite sides.
         let normal = |face: u32| {
             let third = mesh.triangles[face as usize].into_iter().find(|corner| !ends.contains(corner))?;
             (to - from).cross(mesh.positions[third as usize] - from).try_normalize()
@@ -146,7 +146,7 @@ impl ObjectEdges<'_> {
     }
 }
 
-/// The scene's objects with their edges, repaired where that is needed; objects of one mesh share them.
+/// The scene's objects with their edges, repaired if needed; objects with the same mesh share them.
 pub(in crate::lines) fn object_edges(scene: &Scene) -> Vec<ObjectEdges<'_>> {
     let mut known: HashMap<*const Mesh, Option<Arc<RepairedEdges>>> = HashMap::new();
     let mut parts = Vec::with_capacity(scene.objects.len());

@@ -1,8 +1,9 @@
-//! T-junctions: a vertex of one face that lies on the side of another.
+//! T-junctions: vertices of one face on the side of another.
 //!
-//! In: a mesh and its edges. Out: the mesh with the faces at such sides split there, so that both become one edge. First come chains of
-//! edges that cover another from end to end: they are that edge, cut on one side. Then every vertex of an open rim that lies on
-//! another rim: surfaces side by side are one. Cracks wider than `--weld` stay openings.
+//! Input: a mesh and its edges. Output: the mesh with such faces split at these vertices, so that both sides become
+//! the same edges. First come chains of edges that cover another edge from end to end, which are that edge cut on one
+//! side. Then come vertices of an open rim on another rim, because surfaces side by side are one. Cracks wider than
+//! `--weld` stay open.
 
 use crate::bvh::{Box3, BoxTree};
 use crate::edges::{EdgeList, Incidence};
@@ -13,18 +14,18 @@ use glam::DVec3;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 
-/// How much the directions of edges on one line may differ.
+/// Largest difference between the directions of collinear edges.
 const SAME_DIRECTION: f64 = 1e-4;
 
-/// An edge that others cover from end to end, where it is a rim or they all are. Solids that merely touch along parts of their edges
-/// are no chain.
+/// An edge that others cover from end to end, if it is a rim or they all are. Edges of solids that merely touch along
+/// parts of them are not chains.
 pub(in crate::lines) struct Chain {
     pub long: u32,
-    /// From one end of the long one to the other.
+    /// From one end of the long edge to the other.
     pub edges: Vec<u32>,
 }
 
-/// All such edges.
+/// All chains of a mesh.
 pub(in crate::lines) fn chains(mesh: &Mesh, edges: &EdgeList) -> Vec<Chain> {
     let mut is_asked = vec![false; mesh.positions.len()];
     let rims = (0..edges.len()).filter(|edge| edges.incidence()[*edge] == Incidence::Boundary);
@@ -41,7 +42,7 @@ pub(in crate::lines) fn chains(mesh: &Mesh, edges: &EdgeList) -> Vec<Chain> {
     }
 }
 
-/// Edges as they leave some positions, those of one position by their directions.
+/// Edges as they leave some positions, sorted by position and direction.
 struct HalfEdges<'a> {
     edges: &'a EdgeList,
     half_edges: Vec<HalfEdge>,
@@ -55,7 +56,7 @@ struct HalfEdge {
     edge: u32,
     direction: DVec3,
     length: f64,
-    /// The direction's part along one that no grid is aligned with.
+    /// The component of its direction along an axis that no grid is aligned with.
     skewed: f64,
 }
 
@@ -94,7 +95,7 @@ impl<'a> HalfEdges<'a> {
         self.edges.incidence()[edge as usize] == Incidence::Boundary
     }
 
-    /// Pairs of edges, one of which at least is a rim, that leave a position in one direction.
+    /// Pairs of edges that leave a position in the same direction, at least one of them a rim.
     fn along_one_another(&self) -> Vec<[u32; 2]> {
         let mut pairs = Vec::new();
         for (index, half_edge) in self.half_edges.iter().enumerate() {
@@ -136,16 +137,15 @@ impl<'a> HalfEdges<'a> {
     }
 }
 
-/// A mesh whose faces were split.
 pub(in crate::lines) struct Split {
     pub mesh: Mesh,
-    /// Of each face the one it was part of.
+    /// For each face, the original face that contains it.
     pub whole_faces: Vec<u32>,
-    /// The vertices on each edge that was split, in their order along it.
+    /// The vertices on each split edge, in order.
     pub on_edges: BTreeMap<[u32; 2], Vec<u32>>,
 }
 
-/// The mesh with its faces split at all T-junctions; `None` if there is none.
+/// The mesh with its faces split at all T-junctions; `None` if it has none.
 pub(in crate::lines) fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Option<Split> {
     /// A chain may cover an edge of another chain.
     const MOST_ROUNDS: usize = 8;
@@ -192,7 +192,7 @@ fn on_bundles(mesh: &Mesh, edges: &EdgeList, chains: &[Chain]) -> BTreeMap<[u32;
 }
 
 impl Split {
-    /// Two splits, one after the other, as one.
+    /// Combines two successive splits.
     fn after(first: Option<Self>, then: Self) -> Self {
         let Some(first) = first else { return then };
         let Self { mesh, whole_faces, on_edges } = then;
@@ -217,7 +217,7 @@ impl Split {
     }
 }
 
-/// The mesh with its faces split at the vertices on their sides; `None` if no face has any.
+/// The mesh with its faces split at the vertices on their sides; `None` if no side has any.
 fn split_at(mesh: &Mesh, on_sides: BTreeMap<[u32; 2], Vec<u32>>) -> Option<Split> {
     if on_sides.is_empty() {
         return None;
@@ -234,10 +234,10 @@ fn split_at(mesh: &Mesh, on_sides: BTreeMap<[u32; 2], Vec<u32>>) -> Option<Split
     is_split.then(|| Split { mesh: with_faces(mesh, faces), whole_faces, on_edges: on_sides })
 }
 
-/// Splits a face at the vertices on its sides: into a fan around the corner opposite to its first side with any, and at that
-/// side's two ends into fans around the vertices next to them.
+/// Splits a face at the vertices on its sides: a fan around the corner opposite the first side with vertices, and
+/// fans around the vertices next to that side's ends.
 fn split(corners: [u32; 3], on_sides: &HashMap<[u32; 2], &[u32]>, add: &mut impl FnMut([u32; 3])) {
-    // From corner to corner with what is between them.
+    // From corner to corner, with the vertices between them.
     let between = |side: usize| {
         let (from, to) = (corners[side], corners[(side + 1) % 3]);
         let mut between = on_sides.get(&[from.min(to), from.max(to)]).map_or_else(Vec::new, |between| between.to_vec());
@@ -257,15 +257,16 @@ fn split(corners: [u32; 3], on_sides: &HashMap<[u32; 2], &[u32]>, add: &mut impl
     fan(nearest_b, &[&[b], on_bc, &[c]].concat(), add);
 }
 
-/// A triangle around an apex for each two neighbours on a way.
+/// A triangle with the apex for each pair of neighbours along a line.
 fn fan(apex: u32, along: &[u32], add: &mut impl FnMut([u32; 3])) {
     along.windows(2).for_each(|pair| add([apex, pair[0], pair[1]]));
 }
 
-/// Length of the parts in which rims are looked for, the mesh's radii.
+/// Length of the parts in which rims are searched, in radii of the mesh.
 const LONGEST_PART: f64 = 0.1;
 
-/// For each edge, the lower position first, the vertices that lie on it, in their order along it; edges without any have no entry.
+/// For each edge, given with its lower position first, the vertices that lie on it, in order; edges without vertices
+/// are absent.
 pub(in crate::lines) fn vertices_on(mesh: &Mesh, edges: &[[u32; 2]], vertices: &[u32]) -> BTreeMap<[u32; 2], Vec<u32>> {
     let position = |index: u32| mesh.positions[index as usize];
     let (low, high) = mesh.bounds();
@@ -276,7 +277,7 @@ pub(in crate::lines) fn vertices_on(mesh: &Mesh, edges: &[[u32; 2]], vertices: &
     for (edge, ends) in edges.iter().enumerate() {
         let [a, b] = ends.map(|end| scaled(position(end)));
         let margin = DVec3::splat(CONTACT * a.distance(b) + WELD);
-        // In parts, so that a long one is not asked for everything in its box.
+        // Search in parts: the bounding box of a long edge contains too much.
         let count = (a.distance(b) / LONGEST_PART).ceil().max(1.0);
         for part in 0..count as u32 {
             let [from, to] = [part, part + 1].map(|place| a.lerp(b, f64::from(place) / count));
@@ -295,8 +296,8 @@ pub(in crate::lines) fn vertices_on(mesh: &Mesh, edges: &[[u32; 2]], vertices: &
             let distance = (start + along * place).distance(point);
             let length = along.length();
             let from_end = place.min(1.0 - place) * length;
-            // So near an end it may as well lie on another edge from there, unless it is exactly on this one. What is nearer
-            // still is the end: welding has seen to that.
+            // So near an end, the vertex may lie on another edge from that end, unless it is exactly on this one. A
+            // still nearer vertex is the end itself, because it was welded.
             let touching = if from_end > CONTACT * length { CONTACT * length } else { weld };
             if distance <= touching && from_end > weld {
                 places.entry(ends).or_default().push((place, *vertex));

@@ -1,9 +1,10 @@
-//! Surfaces in closed form: the truth that the contours of their meshes are measured against.
+//! Surfaces in closed form: the ground truth for the contours of their meshes.
 //!
-//! In: a [`ClosedForm`] and a [`Scene`] of its mesh. Out: the visible contour of the surface itself, in pixels, by formulas of its own in
-//! f64: no face, no edge and none of the code that finds lines has a part in it. A ray that touches a torus has a double root
-//! there; what is left of its quartic is a quadratic, so that visibility is in closed form, too. Ellipsoids and superquadrics are convex and
-//! hide nothing of their own contour. A [`Patch`] has a quartic of its own. [`distance`] says how far drawn lines are from it.
+//! Input: a [`ClosedForm`] and a [`Scene`] of its mesh. Output: the visible contour of the exact surface, in pixels.
+//! It comes from formulas in f64, independent of faces, edges and the code that finds lines. A ray that touches a
+//! torus has a double root there, and the rest of its quartic is a quadratic, so visibility has a closed form too.
+//! Ellipsoids and superquadrics are convex and hide none of their contour. A [`Patch`] leaves a quartic. [`distance`]
+//! measures the distance of drawn lines from the contour.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {
@@ -44,52 +45,52 @@ use std::f64::consts::{PI, TAU};
 /// A surface around the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClosedForm {
-    /// A convex superquadric: where the sum of the coordinates, each over its half axis and to an even power, is 1. From the fourth power on
-    /// it is flat where its axes leave it.
+    /// A convex superquadric: the sum of the coordinates, each divided by its half axis and raised to an even power,
+    /// is 1. From the fourth power on it is flat at its axes.
     Superquadric {
-        /// Along x, y and z.
+        /// Half axes along x, y and z.
         half_axes: DVec3,
-        /// Even, at least 2.
+        /// The power: even, at least 2.
         power: u32,
     },
-    /// A bicubic patch, open.
+    /// An open bicubic patch.
     Patch(Patch),
-    /// An ellipsoid with these half axes.
+    /// An ellipsoid.
     Ellipsoid {
-        /// Along x, y and z.
+        /// Half axes along x, y and z.
         half_axes: DVec3,
     },
     /// A torus around the y axis.
     Torus {
-        /// Distance of the tube's middle from the axis.
+        /// Distance of the tube's centre from the axis.
         ring: f64,
-        /// The tube's radius, less than the ring's.
+        /// The tube's radius, less than `ring`.
         tube: f64,
     },
 }
 
-/// How far drawn lines and a true contour lie apart, pixels.
+/// The distance between drawn lines and a true contour, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContourDistance {
-    /// The farthest that a point of the true contour is from any drawn line.
+    /// The largest distance of a point of the true contour from all drawn lines.
     pub missed_px: f64,
-    /// The farthest that a point of a drawn line is from the true contour.
+    /// The largest distance of a point of a drawn line from the true contour.
     pub invented_px: f64,
-    /// Mean distance of the drawn lines from the true contour, by length.
+    /// Mean distance of the drawn lines from the true contour, weighted by length.
     pub mean_px: f64,
 }
 
 impl ContourDistance {
-    /// The Hausdorff distance: the larger of both.
+    /// The Hausdorff distance: the larger of the two.
     pub fn hausdorff_px(&self) -> f64 {
         self.missed_px.max(self.invented_px)
     }
 }
 
-/// Places along a contour that are looked at before the ends of what is seen are found by bisection.
+/// Samples along a contour, before bisection finds the ends of its visible parts.
 const STEPS: usize = 16_384;
 
-/// Distance between the points of lines that are held against each other, pixels.
+/// Distance between compared points of lines, pixels.
 const STEP_PX: f64 = 0.25;
 
 impl ClosedForm {
@@ -98,22 +99,23 @@ impl ClosedForm {
         Self::Ellipsoid { half_axes: DVec3::new(x, y, z) }
     }
 
-    /// A mesh of about so many triangles, its vertices on the surface. `jitter` moves them on it at random, by this share of the
-    /// distance of neighbours at most: 0 gives a regular mesh, 0.2 one as from a scan, and from 0.25 on triangles may lose all area. An
-    /// ellipsoid is a cube blown up; the vertices on the cube's edges stay.
+    /// Returns a mesh with about this many triangles and its vertices on the surface. `jitter` moves the vertices on
+    /// the surface at random, by at most this share of the distance between neighbours: 0 gives a regular mesh, 0.2
+    /// one like a scan; from 0.25 on, triangles may lose all area. An ellipsoid is an inflated cube; the vertices on
+    /// the cube's edges stay.
     ///
     /// # Errors
     ///
-    /// As [`Mesh::of_triangles`].
+    /// Those of [`Mesh::of_triangles`].
     pub fn mesh(&self, triangles: usize, jitter: f64) -> Result<Mesh> {
         self.mesh_with(triangles, jitter, &LoadOptions::default())
     }
 
-    /// As [`ClosedForm::mesh`], with options as for a model that is read.
+    /// Like [`ClosedForm::mesh`], with the options for loading a model.
     ///
     /// # Errors
     ///
-    /// As [`Mesh::of_triangles`].
+    /// Those of [`Mesh::of_triangles`].
     pub fn mesh_with(&self, triangles: usize, jitter: f64, options: &LoadOptions) -> Result<Mesh> {
         let mut random = Random(0x9e37_79b9_7f4a_7c15);
         let (positions, faces) = match self {
@@ -133,7 +135,7 @@ impl ClosedForm {
             }
             Self::Patch(patch) => patch.mesh(triangles, jitter, || random.next()),
             Self::Torus { ring, tube } => {
-                // Cells about as long as wide.
+                // Nearly square cells.
                 let slices = (triangles as f64 * 0.5 * (tube / ring)).sqrt().round().max(3.0) as u32;
                 let columns = (triangles as f64 * 0.5 / f64::from(slices)).round().max(3.0) as u32;
                 let mut positions = Vec::new();
@@ -155,8 +157,8 @@ impl ClosedForm {
         Mesh::of_triangles("a closed form", positions, &faces, options)
     }
 
-    /// The visible contour of the surface itself in the picture of a scene whose first object is its mesh: polylines with points no
-    /// farther apart than a quarter of a pixel, in pixels, y down.
+    /// Returns the visible contour of the exact surface, in a scene whose first object is its mesh. The polylines are
+    /// in pixels, y down, with points at most a quarter of a pixel apart.
     pub fn visible_contour(&self, scene: &Scene) -> Vec<Vec<DVec2>> {
         let Some(object) = scene.objects.first() else { return Vec::new() };
         let (space, eye) = (Space::of(scene), scene.eye(object, SilhouetteRule::Exact));
@@ -176,7 +178,7 @@ impl ClosedForm {
         lines
     }
 
-    /// The closed curves along which the surface turns away from an eye outside of it.
+    /// The closed curves along which the surface turns away from an eye outside it.
     fn contours(&self, eye: Eye) -> Vec<Curve> {
         match *self {
             Self::Ellipsoid { half_axes } => {
@@ -195,12 +197,12 @@ impl ClosedForm {
             }
             Self::Superquadric { half_axes, power } => vec![superquadric::contour(half_axes, power, eye)],
             Self::Torus { ring, tube } => torus_contours(ring, tube, eye),
-            // Not made of closed curves.
+            // Its contour is not made of closed curves.
             Self::Patch(_) => Vec::new(),
         }
     }
 
-    /// Whether an eye outside of the surface sees a point of its contour.
+    /// Whether an eye outside the surface sees a point of its contour.
     fn is_seen(&self, point: DVec3, eye: Eye) -> bool {
         let Self::Torus { ring, tube } = *self else { return true };
         let way = match eye {
@@ -223,7 +225,7 @@ fn torus_point(ring: f64, tube: f64, u: f64, v: f64) -> DVec3 {
     DVec3::new(from_axis * u.cos(), tube * v.sin(), from_axis * u.sin())
 }
 
-/// Around the ring at u, the contour is at those two v where a cos v + b sin v = c, as far as there are any.
+/// At each angle u around the ring, the contour is at up to two angles v with a cos v + b sin v = c.
 fn torus_contours(ring: f64, tube: f64, eye: Eye) -> Vec<Curve> {
     let (x, y, z, c, minus) = match eye {
         Eye::Point(eye) => (eye.x, eye.y, eye.z, tube, ring),
@@ -240,7 +242,7 @@ fn torus_contours(ring: f64, tube: f64, eye: Eye) -> Vec<Curve> {
     let Some(gap) = first_gap else {
         return [1.0, -1.0].map(|sign| Box::new(move |place: f64| point(place * TAU, sign)) as Curve).into();
     };
-    // From one gap to the next both branches make one closed curve; the cosine takes it smoothly round its ends.
+    // Between two gaps both branches form one closed curve; the cosine passes its ends smoothly.
     let ranges = visible_ranges(|place| exists(gap + place * TAU));
     let curve = |[from, to]: [f64; 2]| {
         let (middle, half) = (gap + (from + to) * 0.5 * TAU, (to - from) * 0.5 * TAU);
@@ -252,7 +254,7 @@ fn torus_contours(ring: f64, tube: f64, eye: Eye) -> Vec<Curve> {
     ranges.into_iter().map(curve).collect()
 }
 
-/// The ranges from 0 to 1, and over 1 on to the next, in which something holds that is periodic.
+/// The ranges of a periodic condition from 0 to 1; the last may run beyond 1.
 fn visible_ranges(holds: impl Fn(f64) -> bool) -> Vec<[f64; 2]> {
     let at = |step: usize| step as f64 / STEPS as f64;
     let Some(start) = (0..STEPS).find(|step| !holds(at(*step))) else { return vec![[0.0, 1.0]] };
@@ -278,7 +280,7 @@ fn visible_ranges(holds: impl Fn(f64) -> bool) -> Vec<[f64; 2]> {
     ranges
 }
 
-/// The first and last of some points, and of those between as few as leave no gap wider than [`STEP_PX`].
+/// Thins points to as few as possible without a gap wider than [`STEP_PX`]; the first and last stay.
 fn thinned(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
     let mut kept: Vec<DVec2> = Vec::new();
     let mut last = None;
@@ -292,7 +294,7 @@ fn thinned(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
     kept
 }
 
-/// A sphere as a cube blown up, directions and triangles.
+/// A sphere as an inflated cube: directions and triangles.
 fn cube_sphere(triangles: usize, jitter: f64, random: &mut Random) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let cells = (triangles as f64 / 12.0).sqrt().round().max(1.0) as u32;
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
@@ -303,7 +305,7 @@ fn cube_sphere(triangles: usize, jitter: f64, random: &mut Random) -> (Vec<DVec3
         let out = if side.is_multiple_of(2) { out } else { -out };
         let up = out.cross(right);
         let mut at = |column: u32, row: u32| {
-            // Twice the place on the cube's grid, as whole numbers: the same from each side of an edge.
+            // Twice the place on the cube's grid, as integers: the same from each side of an edge.
             let [s, t] = [column, row].map(|number| 2.0 * f64::from(number) - f64::from(cells));
             let place = out * f64::from(cells) + right * s + up * t;
             *known.entry(place.to_array().map(|number| number as i64)).or_insert_with(|| {
@@ -339,9 +341,9 @@ impl Random {
     }
 }
 
-/// How far the silhouettes that are seen among some lines and a true contour lie apart.
+/// Returns the distance between the visible silhouettes among some lines and a true contour.
 ///
-/// Without any line the true contour is missed by infinitely much, and the other way round.
+/// If either is empty, the other is infinitely far from it.
 pub fn distance(lines: &VisibleLines, truth: &[Vec<DVec2>]) -> ContourDistance {
     let is_drawn = |class: Class, is_visible: bool| class == Class::Silhouette && is_visible;
     let drawn = lines.segments.iter().filter(|segment| is_drawn(segment.class, segment.is_visible));
@@ -353,7 +355,7 @@ pub fn distance(lines: &VisibleLines, truth: &[Vec<DVec2>]) -> ContourDistance {
     ContourDistance { missed_px, invented_px, mean_px }
 }
 
-/// The largest and the mean distance of some lines' points from others.
+/// The largest and the mean distance of some lines' points from other lines.
 fn farthest(from: &[[DVec2; 2]], to: &[[DVec2; 2]]) -> (f64, f64) {
     let (mut largest, mut sum, mut length) = (0.0f64, 0.0, 0.0);
     for [a, b] in from {
@@ -369,7 +371,7 @@ fn farthest(from: &[[DVec2; 2]], to: &[[DVec2; 2]]) -> (f64, f64) {
     (largest, if length > 0.0 { sum / length } else { 0.0 })
 }
 
-/// The square of a point's distance from a line.
+/// The squared distance of a point from a line.
 fn square_to(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = b - a;
     let square = along.length_squared();
@@ -387,7 +389,7 @@ mod tests {
     fn eyes() -> [Eye; 5] {
         [
             Eye::Point(DVec3::new(3.0, 2.0, 4.0)),
-            // Low above the ring's plane the contour is cut into parts around it.
+            // From slightly above the ring's plane, the contour falls into parts around it.
             Eye::Point(DVec3::new(2.5, 0.1, 1.0)),
             Eye::Point(DVec3::new(0.3, 5.0, -0.2)),
             Eye::Direction(DVec3::new(1.0, 0.4, -2.0)),
@@ -395,7 +397,7 @@ mod tests {
         ]
     }
 
-    /// Less than 0 inside.
+    /// Negative inside.
     fn implicit(form: ClosedForm, point: DVec3) -> f64 {
         match form {
             ClosedForm::Ellipsoid { half_axes } => (point / half_axes).length_squared() - 1.0,
@@ -443,7 +445,7 @@ mod tests {
                 };
                 let inside = (1..=40_000).map(|k| implicit(TORUS, point + way * (f64::from(k) / 40_000.0)));
                 let deepest = inside.fold(f64::INFINITY, f64::min);
-                // What is grazed by less is not to be told apart by steps.
+                // Grazes shallower than this are below the sampling's resolution.
                 if !(-1e-6..0.0).contains(&deepest) {
                     assert_eq!(TORUS.is_seen(point, eye), deepest >= 0.0, "{point}: {deepest}");
                     hidden += u32::from(deepest < 0.0);

@@ -1,20 +1,24 @@
-//! Which parts of smooth contours are seen.
+//! The visibility of smooth contours.
 //!
-//! A point of a smooth contour lies inside a face, which the eye may see from behind: then the faces beside it, between it and the
-//! polygons' own silhouette, hide it, though the surface that is meant would not. So the point is not asked itself. The plane
-//! through the eye, the point and the smooth normal there cuts the faces in a line; on it the *summit* is asked, the place that lies
-//! farthest out, in the picture, along the normal. The search for it goes both ways from the point: for the length of one edge, and
-//! on until a face's side and its smooth normals agree, all n . v at its corners having the face's sign, or until n . v along the line changes
-//! its sign, that is at another contour; a sharp edge always ends it. The point is seen if no face hides the summit, by the
-//! rule of all other lines. All faces that hide it cut that plane, too, so that none of those passed on the way can.
+//! A point of a smooth contour lies inside a face that may be turned away from the eye. Adjacent faces, up to the
+//! polygons' own silhouette, then hide the point, although the smooth surface would not. Therefore another point is
+//! tested in its place. The plane through the eye, the point and the smooth normal cuts the faces in a line. The
+//! *summit* is the point on this line that lies farthest out in the picture, in the direction of the normal.
 //!
-//! A piece on a sharp edge, at which only the smooth normals turn away, is asked likewise, from the edge into both its faces.
+//! The search for the summit runs both ways from the point, at least for the length of one edge. It then ends where a
+//! face's side agrees with its smooth normals (n . v at all corners has the face's sign), or where n . v along the
+//! line changes its sign, which is another contour. A sharp edge always ends it. The point is visible if no face
+//! hides the summit, by the rule for all other lines. Faces that hide the summit also cut the plane, so the faces
+//! passed on the way cannot hide it.
 //!
-//! Where the surface bends towards the eye on the normal's side, the same holds with the normal turned round: such a place is seen
-//! only from a surface's inner side. On a shell that encloses something it is hidden without being asked.
+//! A segment on a sharp edge where only the smooth normals turn away is tested in the same way, from the edge into
+//! both its faces.
 //!
-//! A piece is cut where its image crosses those of nearer edges at which a surface ends or turns away, and where it passes
-//! through a face; between, its middle decides.
+//! Where the surface bends towards the eye on the normal's side, the normal is reversed. Such a place is visible only
+//! from the surface's inner side; on a closed shell it is hidden without a test.
+//!
+//! A segment is cut where its image crosses nearer edges at which a surface ends or turns away, and where it passes
+//! through a face. Its midpoint decides each part.
 
 use crate::bvh::{Box3, NO_GROUP, steps};
 use crate::edges::Class;
@@ -31,22 +35,23 @@ use crate::threads::{cores, spread_chunks};
 use crate::tolerances::CONTACT;
 use glam::{DVec2, DVec3};
 
-/// A piece of contour in the picture.
+/// A segment of a contour in the picture, with its visible and hidden parts.
 #[derive(Debug, Clone)]
 pub(in crate::lines) struct ContourIntervals {
-    /// Its place among the contours' pieces.
+    /// Its index among the contours' segments.
     pub piece: usize,
     pub image: Image,
     pub intervals: Vec<Interval>,
 }
 
-/// Most faces that the search for a summit passes in one direction: far more than lie between a contour and a silhouette.
+/// Most faces that the search for a summit passes in one direction: far more than lie between a contour and a
+/// silhouette.
 pub(in crate::lines) const MOST_FACES: usize = 64;
 
-/// Contours decided by a thread at once.
+/// Contours per batch of a thread.
 const CHUNK: usize = 32;
 
-/// What smooth contours are decided with.
+/// The data for deciding the visibility of smooth contours.
 pub(in crate::lines) struct ContourLines<'a> {
     pub lines: &'a LineIndex<'a>,
     pub contours: &'a Contours,
@@ -54,7 +59,7 @@ pub(in crate::lines) struct ContourLines<'a> {
 }
 
 impl ContourLines<'_> {
-    /// Every piece inside the picture, told apart, in the contours' order.
+    /// Decides every segment inside the picture, in the contours' order.
     pub(in crate::lines) fn decided(&self, progress: &Progress) -> Vec<ContourIntervals> {
         progress.begin(Phase::Contours, self.contours.pieces.len());
         let chunks = spread_chunks(self.contours.pieces.len(), CHUNK, cores(), |range| {
@@ -69,7 +74,7 @@ impl ContourLines<'_> {
         chunks.concat()
     }
 
-    /// The pieces as they are drawn.
+    /// The segments to draw.
     pub(in crate::lines) fn segments(&self, decided: &[ContourIntervals]) -> Vec<LineSegment> {
         let mut segments = Vec::new();
         for ContourIntervals { piece, image, intervals } in decided {
@@ -90,7 +95,7 @@ impl ContourLines<'_> {
         segments
     }
 
-    /// The edge on which a piece lies, by its vertices in the file.
+    /// The edge that a segment lies on, by its vertices in the file.
     fn edge_in_file(&self, piece: &ContourPiece) -> Option<[u32; 2]> {
         let edges = self.parts[piece.part as usize].edges.get();
         let ends = edges.list().positions()[piece.on_edge? as usize];
@@ -124,7 +129,7 @@ impl ContourLines<'_> {
         whole(intervals)
     }
 
-    /// On which sides of a piece there is background beyond its summit: on its right and on its left.
+    /// Whether there is background beyond a segment's summit, on its right and on its left.
     fn background(&self, image: &Image, summit: &Probe) -> [bool; 2] {
         let lines = self.lines;
         let outwards = DVec2::new(summit.aside.x, -summit.aside.y);
@@ -137,7 +142,7 @@ impl ContourLines<'_> {
         [is_right, !is_right]
     }
 
-    /// Where what is seen of a piece may change.
+    /// The places where a segment's visibility may change.
     fn cuts(&self, piece: &ContourPiece, image: &Image, inside: [f64; 2]) -> Vec<f64> {
         let lines = self.lines;
         let touch_px = image.touch_px(lines.space);
@@ -170,7 +175,7 @@ impl ContourLines<'_> {
         lines.faces.leave_open(lines.space, probe, |column, visit| lines.any_occluder(column, [NO_GROUP; 2], visit))
     }
 
-    /// The summit of a place of a piece, as the faces are asked about it.
+    /// The summit of a place of a segment, as a probe for the visibility test.
     pub(in crate::lines) fn probe(&self, piece: &ContourPiece, image: &Image, place: f64) -> Probe {
         let lines = self.lines;
         let start = lines.space.point(image.at(place), image.key(place));
@@ -186,7 +191,7 @@ impl ContourLines<'_> {
             view: summit,
             px,
             key,
-            // Down in the picture is up in the eye's space.
+            // The picture's y axis points down, that of eye space up.
             aside: DVec3::new(outwards.x, -outwards.y, 0.0),
             line_length: lines.faces.positions[own[0] as usize].distance(lines.faces.positions[own[1] as usize]),
             weld: lines.faces.weld(part.first_position),
@@ -195,7 +200,7 @@ impl ContourLines<'_> {
         }
     }
 
-    /// The summit and the edge it lies on.
+    /// The summit, and the edge that it lies on.
     fn summit(&self, piece: &ContourPiece, start: DVec3, normal: DVec3, outwards: DVec2) -> (DVec3, u32) {
         let space = self.lines.space;
         let plane = space.to_eye(start).cross(normal);
@@ -204,7 +209,7 @@ impl ContourLines<'_> {
         let list = self.parts[piece.part as usize].edges.get().list();
         let near = part.longest_side(&self.lines.faces.positions, piece.face);
         let to_eye = space.to_eye(start);
-        // From inside a face both ways, from an edge into both its faces.
+        // From inside a face in both directions, from an edge into both its faces.
         let ways = match piece.on_edge {
             None => [(piece.face, NONE, 1.0), (piece.face, NONE, -1.0)],
             Some(edge) => {
@@ -225,7 +230,8 @@ impl ContourLines<'_> {
                 if height > best.0 {
                     best = (height, exit.point, exit.edge);
                 }
-                // Towards the eye the surface that is meant shows its front, if it bends away; else its back.
+                // Where the smooth surface bends away, its side towards the eye is its front; otherwise it is its
+                // back.
                 let is_on_its_side = (exit.towards > 0.0) == (is_towards == piece.bends_away);
                 let is_near = exit.point.distance(start) < near;
                 if (!is_near && !is_on_its_side) || part.surface.is_sharp[exit.edge as usize] {
@@ -241,14 +247,14 @@ impl ContourLines<'_> {
         (best.1, best.2)
     }
 
-    /// Whether a face's side and its smooth normals agree.
+    /// Whether a face's side agrees with its smooth normals.
     fn agrees(&self, part: u32, face: u32) -> bool {
         let part = &self.contours.parts[part as usize];
         let is_front = part.is_front_face(self.lines.space, &self.lines.faces.positions, face);
         part.of_face(face).iter().all(|towards| (*towards >= 0.0) == is_front)
     }
 
-    /// Calls `visit` with each face that hides a probe and how far before it that face is, until it returns true.
+    /// Calls `visit` with each face that hides a probe and its distance before the probe, until it returns true.
     pub(in crate::lines) fn any_hider(&self, probe: &Probe, mut visit: impl FnMut(u32, f64) -> bool) -> bool {
         let (space, faces) = (self.lines.space, self.lines.faces);
         let tie_px = space.tie_px(-probe.view.z);

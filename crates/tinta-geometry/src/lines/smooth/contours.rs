@@ -1,14 +1,16 @@
-//! Smooth contours: where the surface that the faces stand for turns away from the eye (Hertzmann and Zorin 2000).
+//! Smooth contours: where the smooth surface that the faces approximate turns away from the eye (Hertzmann and Zorin
+//! 2000).
 //!
-//! In: the scene's parts with their [`SmoothSurface`]s. Out: [`Contours`]. At every corner n . v is known, n the smooth normal
-//! and v the way to the eye; inside a face it is taken to be linear, so that it is 0 along one straight piece at most, which
-//! begins and ends on the face's sides. A side that two faces share without being sharp has one end for both, bit for bit: the pieces chain without
-//! a gap. Exactly 0, and what rounding cannot tell from it, counts as front, as if the eye stood a little farther out along the
-//! normal: no face is crossed by more than one piece, one over which n . v is 0 by none, and through a vertex where it is
-//! 0 the contour goes as if it passed just beside it.
+//! Input: the scene's parts with their [`SmoothSurface`]s. Output: [`Contours`]. n . v is computed at every corner,
+//! where n is the smooth normal and v the direction to the eye. Inside a face it is taken as linear, so it is 0 along
+//! at most one straight segment, which begins and ends on the face's sides. At a side that is not sharp, both faces
+//! get bit-identical ends, so the segments chain without gaps. Exactly 0, or a value within rounding of it, counts as
+//! front, as if the eye were slightly farther out along the normal. So no face has more than one segment, and a face
+//! with n . v = 0 everywhere has none. At a vertex with n . v = 0 the contour passes as if slightly beside it.
 //!
-//! At a sharp edge both its faces have normals of their own. It is silhouette along those parts where one side is front and the
-//! other is not; where a smooth contour ends on it, such a part begins. Between flat faces that is the rule of polygons.
+//! At a sharp edge each face has its own normals. The edge is silhouette along the parts where exactly one side is
+//! front. Such a part begins where a smooth contour ends on the edge. Between flat faces this is the rule for
+//! polygons.
 
 use crate::edges::{CreaseAngle, EdgeList, Eye, Incidence, Shell, SilhouetteRule, SmoothSurface};
 use crate::lines::input::object_edges::ObjectEdges;
@@ -20,78 +22,79 @@ use crate::tolerances::{EDGE_ON, FLAT};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// The smooth contours of a scene, before their visibility is known.
+/// The smooth contours of a scene, before their visibility is decided.
 pub(in crate::lines) struct Contours {
     pub parts: Vec<ObjectSurface>,
-    /// By object, then face; then those on edges; then what is cut off from others at cusps.
+    /// Segments by object, then face; then those on edges; then parts cut off at cusps.
     pub pieces: Vec<ContourPiece>,
-    /// Where they hang together.
+    /// The connections between segments.
     pub links: Vec<Link>,
 }
 
-/// A part's smooth surface as an eye sees it.
+/// The smooth surface of a part, seen from an eye.
 pub(in crate::lines) struct ObjectSurface {
     pub surface: Arc<SmoothSurface>,
     pub mesh: Arc<Mesh>,
-    /// Of each normal n . v, in units of v; 0 where that is rounding.
+    /// n . v of each normal, in units of v; 0 if it is within rounding.
     pub towards: Vec<f64>,
-    /// Of the part's first position among all.
+    /// The part's first position among those of all parts.
     pub first_position: u32,
-    /// Whether the eye may be inside of closed shells.
+    /// Whether the eye may be inside closed shells.
     sees_inside: bool,
-    /// The parts of sharp edges beside curved faces that are silhouette: by edge, then along it.
+    /// The silhouette parts of sharp edges next to curved faces: by edge, then along it.
     pub edge_parts: Vec<(u32, [f64; 2])>,
 }
 
-/// A straight piece of a contour, inside one face or on a sharp edge.
+/// A straight segment of a contour, inside one face or on a sharp edge.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::lines) struct ContourPiece {
-    /// The part and its face, of those that the edges are of.
+    /// The part, and the face in the part's edge list.
     pub part: u32,
     pub face: u32,
-    /// The edges on which it begins and ends, and where: in the eye's space.
+    /// The edges on which it begins and ends, and its ends in eye space.
     pub edges: [u32; 2],
     pub ends: [DVec3; 2],
-    /// The smooth surface's normals there, of any length, in the eye's space.
+    /// The smooth surface's normals at its ends, of any length, in eye space.
     pub normals: [DVec3; 2],
-    /// Whether the front's side of the piece is the nearer one: there the surface bends away from the eye on the normal's side.
+    /// Whether its front side is nearer to the eye; there the surface bends away from the eye on the normal's side.
     pub bends_away: bool,
-    /// What its own face says of that: how much n . v grows towards the eye there, times twice the face's area.
+    /// The same from its face alone: the growth of n . v towards the eye, times twice the face's area.
     pub bend: f64,
-    /// The sharp edge it lies on, if it does: one at which the smooth normals turn away, the faces do not.
+    /// The sharp edge that it lies on, if any: there the smooth normals turn away, but the faces do not.
     pub on_edge: Option<u32>,
 }
 
-/// Two pieces that meet, and which end of each; on an edge, or at a cusp inside a face.
+/// Two segments that meet, on an edge or at a cusp inside a face, and the end of each.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::lines) struct Link {
     pub part: u32,
     pub ends: [(usize, usize); 2],
 }
 
-/// Where a cut through a face leaves it.
+/// The place where a cut through a face leaves it.
 pub(in crate::lines) struct Exit {
     pub point: DVec3,
     pub edge: u32,
-    /// n . v there.
+    /// n . v at this place.
     pub towards: f64,
 }
 
-/// How the smooth rule sees an edge.
+/// An edge under the smooth rule.
 pub(in crate::lines) enum OnEdge {
-    /// By its faces, as the exact rule does.
+    /// The faces decide, as in the exact rule.
     ByFaces,
-    /// It is silhouette between these shares of it, counted from its lower position.
+    /// Silhouette between these shares of it, counted from its lower position.
     Parts(Vec<[f64; 2]>),
-    /// The same, but only its smooth normals turn away, its faces do not: a contour has these parts.
+    /// Like `Parts`, but only the smooth normals turn away, not the faces: the parts belong to a contour.
     OfContour(Vec<[f64; 2]>),
 }
 
-/// Faces looked at by a thread at once.
+/// Faces per batch of a thread.
 const CHUNK: usize = 8192;
 
 impl Contours {
-    /// Finds the pieces, each with what its own face says; `positions` are those of all parts in the eye's space; the near plane may cut faces open.
+    /// Finds the segments, each with the bend of its own face. `positions` are those of all parts in eye space. The
+    /// near plane may cut faces open.
     pub(in crate::lines) fn new(
         scene: &Scene,
         space: &Space,
@@ -136,13 +139,14 @@ impl Contours {
         all
     }
 
-    /// Whether a piece's shell encloses something and it bends towards its inside: it cannot be seen from outside.
+    /// Whether a segment belongs to a closed shell and bends towards its inside, so it cannot be visible from
+    /// outside.
     pub(in crate::lines) fn is_inside(&self, piece: &ContourPiece) -> bool {
         self.parts[piece.part as usize].encloses(piece.face, piece.bends_away)
     }
 }
 
-/// n . v of a normal at a position; 0 where that is rounding.
+/// n . v of a normal at a position; 0 if it is within rounding.
 fn towards(normal: DVec3, position: DVec3, eye: Eye) -> f64 {
     let to_eye = match eye {
         Eye::Point(eye) => eye - position,
@@ -157,12 +161,12 @@ fn is_front(towards: f64) -> bool {
     towards >= 0.0
 }
 
-/// Where along an edge, from its lower position on, a value that is linear along it passes 0.
+/// The place along an edge, from its lower position, where a linear value passes 0.
 fn zero([low, high]: [f64; 2]) -> f64 {
     (low / (low - high)).clamp(0.0, 1.0)
 }
 
-/// A point between two, the ends as they are.
+/// A point between two others; shares of 0 and 1 give them exactly.
 pub(in crate::lines) fn between(from: DVec3, to: DVec3, share: f64) -> DVec3 {
     match share {
         0.0 => from,
@@ -177,18 +181,17 @@ impl ObjectSurface {
         self.surface.corner_normals[face as usize].map(|normal| self.towards[normal as usize])
     }
 
-    /// A face's corners in the eye's space.
+    /// A face's corners in eye space.
     pub(in crate::lines) fn corners(&self, positions: &[DVec3], face: u32) -> [DVec3; 3] {
         self.mesh.triangles[face as usize].map(|position| positions[(position + self.first_position) as usize])
     }
 
-    /// A face's longest side.
     pub(in crate::lines) fn longest_side(&self, positions: &[DVec3], face: u32) -> f64 {
         let [a, b, c] = self.corners(positions, face);
         a.distance(b).max(b.distance(c)).max(c.distance(a))
     }
 
-    /// The piece of contour inside a face, if there is one.
+    /// The contour's segment inside a face; `None` if it has none.
     fn piece(&self, space: &Space, positions: &[DVec3], part: u32, face: u32) -> Option<ContourPiece> {
         let values = self.of_face(face);
         let fronts = values.map(is_front);
@@ -211,7 +214,7 @@ impl ObjectSurface {
         let (first, second) = (crossings.next()?, crossings.next()?);
         let (along, across) = (corners[1] - corners[0], corners[2] - corners[0]);
         let normal = along.cross(across);
-        // The direction in which n . v grows fastest, times the normal's square.
+        // The direction in which n . v grows fastest, times the squared normal.
         let growth = across.cross(normal) * (values[1] - values[0]) + normal.cross(along) * (values[2] - values[0]);
         let bend = growth.dot(space.to_eye((first.1 + second.1) * 0.5)) / normal.length();
         Some(ContourPiece {
@@ -226,7 +229,7 @@ impl ObjectSurface {
         })
     }
 
-    /// Those shares of a sharp edge at which its smooth normals turn away but its faces do not.
+    /// The parts of a sharp edge at which its smooth normals turn away but its faces do not.
     fn pieces_on_edge(
         &self,
         space: &Space,
@@ -257,7 +260,8 @@ impl ObjectSurface {
         shares.into_iter().map(piece).collect()
     }
 
-    /// Where a plane through a point leaves a face by another side than it came in, the farther along a direction.
+    /// The exit of a plane through a point from a face, by another side than it came in; of two exits the farther
+    /// along a direction.
     pub(in crate::lines) fn exit(
         &self,
         positions: &[DVec3],
@@ -282,13 +286,12 @@ impl ObjectSurface {
         exits.max_by(|a, b| way.dot(a.point).total_cmp(&way.dot(b.point)))
     }
 
-    /// Whether the eye sees a face's front.
     pub(in crate::lines) fn is_front_face(&self, space: &Space, positions: &[DVec3], face: u32) -> bool {
         let [a, b, c] = self.corners(positions, face);
         (b - a).cross(c - a).dot(space.to_eye(a)) > 0.0
     }
 
-    /// Where an edge is silhouette.
+    /// The silhouette parts of an edge.
     pub(in crate::lines) fn on_edge(&self, space: &Space, positions: &[DVec3], list: &EdgeList, edge: u32) -> OnEdge {
         if list.incidence()[edge as usize] != Incidence::Inner {
             return OnEdge::ByFaces;
@@ -311,7 +314,7 @@ impl ObjectSurface {
         };
         let parts = places.windows(2).filter(|part| part[0] < part[1] && differs((part[0] + part[1]) * 0.5));
         let parts = parts.map(|part| [part[0], part[1]]).collect();
-        // Where one does not see the bend from outside, the edge is what else it is.
+        // If the bend cannot be seen from outside, the edge keeps its other classes.
         match self.is_front_face(space, positions, first) == self.is_front_face(space, positions, second) {
             false => OnEdge::Parts(parts),
             true if self.encloses(first, self.is_convex(positions, [first, second])) => OnEdge::Parts(Vec::new()),
@@ -319,13 +322,13 @@ impl ObjectSurface {
         }
     }
 
-    /// Whether a second face lies behind a first.
+    /// Whether the second face lies behind the first.
     fn is_convex(&self, positions: &[DVec3], of: [u32; 2]) -> bool {
         let [[a, b, c], other] = of.map(|face| self.corners(positions, face));
         (b - a).cross(c - a).dot((other[0] + other[1] + other[2]) / 3.0 - a) < 0.0
     }
 
-    /// Whether a face's shell encloses something, and what bends so at the face bends towards its inside.
+    /// Whether a face's shell is closed, and a surface with this bend at the face bends towards its inside.
     fn encloses(&self, face: u32, bends_away: bool) -> bool {
         !self.sees_inside
             && match self.surface.shells[face as usize] {
@@ -344,7 +347,7 @@ impl ObjectSurface {
         })
     }
 
-    /// Whether a face's smooth normals at two of its positions are its own.
+    /// Whether a face's smooth normals at two of its positions equal the face's own.
     fn is_flat(&self, face: u32, ends: [u32; 2]) -> bool {
         let corners = self.mesh.triangles[face as usize].map(|position| self.mesh.positions[position as usize]);
         let Some(own) = triangle_normal(corners) else { return true };

@@ -1,9 +1,10 @@
-//! On which side of the surface a smooth contour bends away, told by more than one face; and where that changes, at its cusps.
+//! The bend of smooth contours, averaged over several faces, and their cusps, where it changes.
 //!
-//! In: the pieces of [`Contours`], each with what its own face says. Out: the same, each with what the contour says in the mean
-//! within two edges of it, along it and either way; faces weigh in by their area. Between the middles of two pieces the mean is taken to be linear, so that a cusp has a
-//! place inside a piece, which is cut in two there. Linear n . v has slopes that are right only on average: where the contour runs along the
-//! view, single faces say now this, now that. What lasts for less than two edges is no cusp.
+//! Input: the segments of [`Contours`], each with the bend of its own face. Output: the same segments, each with the
+//! mean bend of its contour within two edges in both directions, weighted by the faces' areas. The mean is linear
+//! between the midpoints of two segments, so a cusp has a place inside a segment, which is cut in two there. Slopes
+//! of a linear n . v are right only on average: where the contour runs along the view, the sign may differ from face
+//! to face. A change that lasts for less than two edges is not a cusp.
 
 use crate::edges::{CreaseAngle, Shell};
 use crate::lines::input::object_edges::ObjectEdges;
@@ -12,7 +13,7 @@ use crate::lines::visible::space::Space;
 use crate::scene::Scene;
 use glam::DVec3;
 
-/// How far a piece is looked around for what its contour does, edges.
+/// How far along its contour a segment's mean reaches, in edges.
 pub(in crate::lines) const REACH: f64 = 2.0;
 
 impl Contours {
@@ -32,7 +33,7 @@ impl Contours {
     }
 }
 
-/// The places where two pieces hang together: on edges that are not sharp.
+/// The places where two segments meet: on edges that are not sharp.
 fn links(parts: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
     let mut ends: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(pieces.len() * 2);
     for (number, piece) in pieces.iter().enumerate() {
@@ -48,7 +49,7 @@ fn links(parts: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
     links.collect()
 }
 
-/// Lets each piece bend as its contour around it does, and cuts those in two within which that changes.
+/// Gives each segment the mean bend of its contour, and cuts segments in two where it changes.
 fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[DVec3], links: &mut Vec<Link>) {
     let mut neighbours = vec![[None; 2]; pieces.len()];
     for Link { ends: [first, second], .. } in links.iter() {
@@ -56,7 +57,7 @@ fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[
         neighbours[second.0][second.1] = Some(*first);
     }
     let lengths: Vec<f64> = pieces.iter().map(|piece| piece.ends[0].distance(piece.ends[1])).collect();
-    // Of each piece the mean around it, and whether its whole contour is shorter than that.
+    // For each segment, the mean around it, and whether its whole contour is shorter than the range of the mean.
     let means: Vec<(f64, bool)> = (0..pieces.len())
         .map(|number| {
             let reach = REACH * parts[pieces[number].part as usize].longest_side(positions, pieces[number].face);
@@ -91,11 +92,11 @@ fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[
         if pieces[first.0].bends_away == pieces[second.0].bends_away || means[first.0].1 || means[second.0].1 {
             continue;
         }
-        // The mean is that in the pieces' middles, and linear between.
+        // The mean applies at the segments' midpoints and is linear between them.
         let halves = [first, second].map(|(piece, _)| lengths[piece] * 0.5);
         let [before, after] = [first, second].map(|(piece, _)| means[piece].0);
         let zero = before / (before - after) * (halves[0] + halves[1]) - halves[0];
-        // The piece in which it changes, and how far from the edge.
+        // The segment in which it changes, and the distance from the edge.
         let (near, far, depth) = if zero < 0.0 { (second, first, -zero) } else { (first, second, zero) };
         let share = depth / lengths[far.0];
         if !(share > 0.0 && share < 1.0) || is_cut[far.0] {
@@ -108,7 +109,7 @@ fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[
         let middle = between(piece.ends[0], piece.ends[1], at);
         let normal = between(piece.normals[0], piece.normals[1], at);
         let mut cut = *piece;
-        // The part at the edge is the new one.
+        // The part at the edge is the new segment.
         (cut.ends[far.1 ^ 1], cut.normals[far.1 ^ 1]) = (middle, normal);
         (piece.ends[far.1], piece.normals[far.1]) = (middle, normal);
         cut.bends_away = !piece.bends_away;

@@ -1,16 +1,18 @@
-//! Form lines: lines on the smooth surface that a mesh stands for, found from its curvature.
+//! Form lines: lines on the smooth surface that a mesh approximates, found from its curvature.
 //!
-//! In: a scene's objects with their [`Curvatures`], the eye, [`FormSettings`]. Out: pieces of lines, one for each face that a line
-//! runs through, whose visibility is decided like that of any other line that runs through faces.
+//! Input: a scene's objects with their [`Curvatures`], the eye, [`FormSettings`]. Output: a line segment for each
+//! face that a line passes through. Their visibility is decided like that of other lines through faces.
 //!
-//! - **Suggestive contours** (DeCarlo et al. 2003): where the curvature along the view is 0 and grows towards the eye.
-//! - **Ridges and valleys** (Ohtake et al. 2004): where the larger principal curvature is largest along its own direction; whatever
-//!   the view.
-//! - **Apparent ridges** (Judd et al. 2007): the same of the curvature that the eye sees, which is larger the more the surface turns
-//!   away.
+//! - **Suggestive contours** (DeCarlo et al. 2003): where the curvature along the view is 0 and grows towards the
+//!   eye.
+//! - **Ridges and valleys** (Ohtake et al. 2004): where the larger principal curvature is greatest along its own
+//!   direction, in any view.
+//! - **Apparent ridges** (Judd et al. 2007): the same for the view-dependent curvature, which grows as the surface
+//!   turns away.
 //!
-//! What is found at a vertex is mixed linearly along each side of a face, and both faces at a side find the same point of it, bit for
-//! bit: so the pieces hang together. They end at creases, where the surface does, and where a line is weaker than its threshold.
+//! Values at the vertices are interpolated linearly along each side of a face. Both faces at a side compute
+//! bit-identical points on it, so the segments connect. Lines end at creases, where the surface ends, and where they
+//! are weaker than their threshold.
 
 mod apparent;
 mod settings;
@@ -39,7 +41,6 @@ use glam::DVec3;
 use std::sync::Arc;
 use trace::{Corners, Crest, crests, zero_set};
 
-/// The curvature of a part.
 pub(in crate::lines) fn curvatures(scene: &Scene, part: &ObjectEdges<'_>, settings: &LineSettings) -> Arc<Curvatures> {
     let &FormSettings { crease_angle, smoothing, .. } = &settings.forms;
     match &part.edges {
@@ -51,7 +52,7 @@ pub(in crate::lines) fn curvatures(scene: &Scene, part: &ObjectEdges<'_>, settin
     }
 }
 
-/// The form lines that are wanted, by object and face; each class's pieces are counted.
+/// The selected form lines, by object and face; counts the segments of each class.
 pub(in crate::lines) fn form_features(
     scene: &Scene,
     space: &Space,
@@ -103,7 +104,7 @@ pub(in crate::lines) fn form_features(
     features
 }
 
-/// What is known at each vertex of an object's surface, seen by an eye. Lists of what is not wanted are empty.
+/// The values at each vertex of an object's surface, for one eye. Lists of unused values are empty.
 struct Forms<'a> {
     mesh: &'a Mesh,
     curvatures: &'a Curvatures,
@@ -111,7 +112,7 @@ struct Forms<'a> {
     /// The cosine of the angle between normal and view.
     cosines: Vec<f64>,
     radial: Vec<Radial>,
-    /// For ridges; for valleys all strengths have the other sign.
+    /// For ridges; valleys use strengths of the opposite sign.
     crests: Vec<Crest>,
     apparent: Vec<Crest>,
     /// The least strength of a ridge or valley, and of an apparent ridge, 1 / length.
@@ -121,9 +122,9 @@ struct Forms<'a> {
 /// The curvature along the view.
 #[derive(Debug, Clone, Copy, Default)]
 struct Radial {
-    /// Times the square of the sine of the angle between normal and view.
+    /// Times the squared sine of the angle between normal and view.
     curvature: f64,
-    /// Above 0 where it grows towards the eye by more than the threshold.
+    /// Above 0 where the curvature grows towards the eye by more than the threshold.
     growth: f64,
 }
 
@@ -162,11 +163,11 @@ impl<'a> Forms<'a> {
         }
     }
 
-    /// The pieces of lines in a face whose corners are here in the eye's space, and whose front is seen or not.
+    /// Adds the line segments in a face, given its corners in eye space and whether its front is visible.
     fn trace(&self, face: usize, view: [DVec3; 3], is_front: bool, mut add: impl FnMut(Class, [DVec3; 2])) {
         let vertices = self.curvatures.corners()[face].map(|vertex| vertex as usize);
         let corners = Corners { numbers: vertices, view };
-        // Seen from behind a surface has the other normal, and all curvatures the other sign.
+        // From behind, a surface has the opposite normal, and all curvatures change sign.
         let side = if is_front { 1.0 } else { -1.0 };
         if self.classes.contains(Class::Suggestive) {
             let radial = vertices.map(|vertex| self.radial[vertex]);
@@ -191,15 +192,15 @@ impl<'a> Forms<'a> {
     }
 }
 
-/// The curvature along the view at a vertex: with the unit vector to the eye v, its part w in the tangent plane and the angle a
-/// between v and the normal it is II(w, w) / sin² a, and grows along w, per sin a of w, by C(w, w, w) / sin² a - 2 cos a t², where t
-/// is the torsion along w (DeCarlo et al. 2004). The growth counts the more the farther the surface turns away: it must be more
-/// than `least` times cos a.
+/// The curvature along the view at a vertex. Let v be the unit vector to the eye, w its part in the tangent plane and
+/// a the angle between v and the normal. The curvature is II(w, w) / sin² a. Its growth along w, per sin a of w, is
+/// C(w, w, w) / sin² a - 2 cos a t², where t is the torsion along w (DeCarlo et al. 2004). The growth must exceed
+/// `least` times cos a, so it counts more the farther the surface turns away.
 fn radial(at: &Curvature, to_eye: DVec3, least: f64) -> Radial {
     let cosine = to_eye.dot(at.normal);
     let across = at.directions.map(|direction| direction.dot(to_eye));
     let sine_squared = across[0] * across[0] + across[1] * across[1];
-    // Head on there is no direction along the view.
+    // Head on, the view has no direction in the tangent plane.
     if sine_squared < HEAD_ON {
         return Radial { curvature: at.second([to_eye; 2]), growth: -1.0 };
     }
@@ -208,5 +209,5 @@ fn radial(at: &Curvature, to_eye: DVec3, least: f64) -> Radial {
     Radial { curvature: at.second([to_eye; 2]), growth: growth - least * cosine }
 }
 
-/// Square of the sine of the angle between normal and view below which a surface is seen head on.
+/// Squared sine of the angle between normal and view below which a surface is seen head on.
 const HEAD_ON: f64 = 1e-12;

@@ -1,11 +1,11 @@
-//! Smooth silhouettes for those who draw with a depth buffer: where the surface that is meant turns away, and how near the eye a line
-//! there must be drawn to be seen.
+//! Smooth silhouettes for drawing with a depth buffer: where the smooth surface turns away, and how far lines must
+//! move towards the eye to be visible.
 //!
-//! A contour runs through faces, some of which the eye sees from behind; the faces beside it then hide it, though the surface that is
-//! meant would not. A drawing that decides every line by itself asks its summit instead (`summits`). A depth buffer knows one depth
-//! a pixel, so here each end is moved towards the eye: the plane through the eye, the end and its normal cuts the mesh in a line, which is followed
-//! towards the eye until it comes before the end again, the last time within the length of an edge, and there the end is put. In the picture it stays
-//! where it is.
+//! A contour runs through faces that may be turned away from the eye. Adjacent faces then hide it, although the
+//! smooth surface would not. Exact lines solve this with a contour's summit. A depth buffer stores one depth per
+//! pixel, so each end is moved towards the eye instead. The plane through the eye, the end and its normal cuts the
+//! mesh in a line. The search follows this line towards the eye to the last place, within the length of an edge,
+//! where it comes in front of the end. The end moves to that depth. Its place in the picture stays the same.
 
 use crate::edges::{CreaseAngle, SilhouetteRule};
 use crate::lines::input::object_edges::{Edges, ObjectEdges};
@@ -21,24 +21,26 @@ use std::collections::HashMap;
 /// The smooth silhouette of one object.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SmoothSilhouette {
-    /// Whole edges, ascending: sharp ones between flat faces, one seen from the front and one not.
+    /// Whole edges, ascending: sharp ones between flat faces of which exactly one is seen from the front.
     pub edges: Vec<u32>,
-    /// Parts of sharp edges beside curved faces, by edge: from where to where, as shares of the way from its lower position to its higher.
+    /// Parts of sharp edges next to curved faces, by edge: start and end as shares of the edge from its lower to its
+    /// higher position.
     pub edge_parts: Vec<(u32, [f64; 2])>,
-    /// What runs through faces, in the mesh's own coordinates, moved towards the eye so that faces of their own object which are next
-    /// to it do not hide it. Pieces that meet share an end bit for bit.
+    /// Segments through faces, in mesh coordinates, moved towards the eye so far that adjacent faces of their object
+    /// do not hide them. Segments that meet share an end bit for bit.
     pub pieces: Vec<[DVec3; 2]>,
 }
 
 impl SmoothSilhouette {
-    /// The parts of an edge that are silhouette, in order; none of one that is not or is as a whole.
+    /// Returns the silhouette parts of an edge, in order; none if the whole edge is silhouette or none of it.
     pub fn parts_of(&self, edge: u32) -> impl Iterator<Item = [f64; 2]> {
         let first = self.edge_parts.partition_point(|(other, _)| *other < edge);
         self.edge_parts[first..].iter().take_while(move |(other, _)| *other == edge).map(|(_, part)| *part)
     }
 }
 
-/// The smooth silhouette of each object of a scene, sharp at creases of this angle; what a closed shell hides of its own is left out.
+/// Returns the smooth silhouette of each object of a scene. Edges above `crease_angle` are sharp. Parts that a closed
+/// shell hides of itself are omitted.
 pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<SmoothSilhouette> {
     let space = Space::of(scene);
     let parts: Vec<ObjectEdges<'_>> =
@@ -63,7 +65,7 @@ pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<Smoot
         silhouette.edge_parts = surface.edge_parts.clone();
         found.push(silhouette);
     }
-    // Pieces that meet are followed from the same face, so that they still do.
+    // Segments that meet are followed from the same face, so they still meet.
     let mut moved: HashMap<(u32, [u64; 3]), DVec3> = HashMap::new();
     let is_seen = |piece: &&ContourPiece| !contours.is_inside(piece);
     for piece in contours.pieces.iter().filter(is_seen) {
@@ -80,7 +82,7 @@ pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<Smoot
     found
 }
 
-/// The end of a piece, moved towards the eye to where the faces beside it do not hide it, in the eye's space.
+/// The end of a segment in eye space, moved towards the eye until adjacent faces do not hide it.
 fn before_own_faces(
     space: &Space,
     positions: &[DVec3],
@@ -96,7 +98,7 @@ fn before_own_faces(
     let list = part.edges.get().list();
     let to_eye = space.to_eye(start).normalize_or_zero();
     let plane = to_eye.cross(normal);
-    // Across the line of sight, to the side where the surface goes beyond the end.
+    // Across the line of sight, towards the side where the surface extends beyond the end.
     let across = plane.cross(to_eye).normalize_or_zero();
     let outwards = if (across.dot(normal) > 0.0) == piece.bends_away { across } else { -across };
     let reach = surface.longest_side(positions, piece.face);
@@ -191,7 +193,7 @@ mod tests {
             let ends = silhouette.pieces.as_flattened();
             let count = ends.iter().filter(|end| hidden(end)).count();
             assert_eq!(count, 0, "{form:?} {jitter}: of {} ends", ends.len());
-            // On the surface itself many are.
+            // Many points on the surface itself are hidden.
             let lines = found(&scene, &smooth());
             let unmoved: Vec<DVec3> = lines
                 .segments
@@ -217,8 +219,8 @@ mod tests {
         let view = crate::camera::CameraSettings { parallel: true, ..camera(11.0, 30.0) };
         let rolled = scene(cylinder(48), view);
         let silhouette = &smooth_silhouettes(&rolled, smooth().crease_angle)[0];
-        // Two straight contours along the side, and of each rim the half where the side shows its front and the end does not, or the
-        // other way round; where a contour ends, a part of an edge may belong to it. All of it is seen.
+        // Two straight contours along the side, and half of each rim: the half where exactly one of side and end
+        // shows its front. Where a contour ends, a part of an edge may belong to it. All of it is visible.
         let edges = rolled.edges(&rolled.objects[0]).list();
         let shares: f64 = silhouette.edge_parts.iter().map(|(_, [from, to])| to - from).sum();
         assert!(shares > 46.0 && shares < 48.0 + 1e-9, "{shares}");

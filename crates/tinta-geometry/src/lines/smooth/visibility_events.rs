@@ -1,15 +1,18 @@
-//! Where along silhouettes what is seen begins or ends, and why: how often visibility breaks without a reason.
+//! Places along silhouettes where visibility begins or ends, and their reasons: how often it breaks without one.
 //!
-//! On a smooth surface a contour that is seen ends at few kinds of places: where something else comes before it (a *crossing*), at a
-//! *cusp*, where it turns away into the surface, and where the surface itself ends. What ends elsewhere is an *inconsistency*: the
-//! faces say something that the surface that is meant does not. Both rules for silhouettes are judged alike:
+//! On a smooth surface a visible contour ends only in three places: at a *crossing*, where something comes in front
+//! of it; at a *cusp*, where it turns away into the surface; and where the surface ends. Any other end is an
+//! *inconsistency*: the faces differ from the smooth surface. Both silhouette rules are classified by the same
+//! criteria:
 //!
-//! - a crossing, if behind the place a face hides the line that is more than two edges away from it, or belongs to another shell;
-//! - a cusp, if the smooth contour has one within two edges, and bends away from the eye for more than two edges before it and
-//!   towards it for more than two after;
+//! - a crossing, if the face that hides the line behind the place is more than two edges away from it, or belongs to
+//!   another shell;
+//! - a cusp, if the smooth contour has one within two edges. It must bend away from the eye for more than two edges
+//!   before the cusp, and towards the eye for more than two after it;
 //! - otherwise an inconsistency.
 //!
-//! An edge is as long as the longest side of the faces there. Ends at sharp edges, open rims and the picture's border are no changes.
+//! The length of an edge is the longest side of the faces there. Ends at sharp edges, open rims and the picture's
+//! border do not count.
 
 use crate::edges::Class;
 use crate::lines::LineSegment;
@@ -22,35 +25,35 @@ use glam::{DVec2, DVec3};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// How often along silhouettes what is seen begins or ends, by reason.
+/// The number of places along silhouettes where visibility begins or ends, by reason.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct VisibilityChanges {
-    /// Something nearer begins or ends to hide the line.
+    /// Something nearer starts or stops hiding the line.
     pub crossings: usize,
     /// The contour turns away from the eye.
     pub cusps: usize,
-    /// For no such reason.
+    /// Without such a reason.
     pub inconsistencies: usize,
-    /// Where these are, each once.
+    /// The places of the inconsistencies, each once.
     pub places: Vec<Inconsistency>,
 }
 
-/// A place at which what is seen of a silhouette ends for no reason that a smooth surface has.
+/// A place where a visible silhouette ends without a reason on the smooth surface.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Inconsistency {
     /// Pixels from the upper left corner, y down.
     pub px: [f64; 2],
-    /// What is there instead of a reason.
+    /// The kind of inconsistency.
     pub kind: InconsistencyKind,
 }
 
-/// What is there where a silhouette ends for no reason.
+/// What happens where a silhouette ends without a reason.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum InconsistencyKind {
     /// Faces within two edges hide the line, without a cusp there.
     Near,
-    /// The contour turns from bending away to bending towards the eye, one of both for less than two edges.
+    /// The contour changes its bend, but one of the two bends lasts for less than two edges.
     Turn,
 }
 
@@ -74,16 +77,15 @@ impl VisibilityChanges {
     }
 }
 
-/// The cusps of smooth contours.
 pub(in crate::lines) struct Cusps {
-    /// In the eye's space, and how far they reach.
+    /// Places in eye space, and the reach of each.
     places: Vec<(DVec3, f64)>,
-    /// Their numbers among the links.
+    /// Their indices in the list of links.
     pub links: HashSet<usize>,
 }
 
 impl Cusps {
-    /// Whether one is within two edges of a place.
+    /// Whether a cusp is within two edges of a place.
     fn are_near(&self, place: DVec3, longest: f64) -> bool {
         self.places.iter().any(|(cusp, reach)| cusp.distance(place) <= reach.max(REACH * longest))
     }
@@ -120,7 +122,7 @@ impl ContourLines<'_> {
         changes
     }
 
-    /// The changes along silhouettes that are edges of the mesh, without sharp ones; `segments` has hidden ones, too.
+    /// The changes along silhouettes that are mesh edges, except sharp ones; `segments` must include hidden ones.
     pub(in crate::lines) fn changes_of_edges(&self, segments: &[LineSegment]) -> VisibilityChanges {
         let cusps = self.cusps();
         let features: HashMap<(u32, Option<[u32; 2]>), usize> =
@@ -131,7 +133,7 @@ impl ContourLines<'_> {
                 meetings.entry((segment.object, bits(end))).or_default().push(index);
             }
         }
-        // Of each piece its feature and the longest side at it, if it is silhouette of something smooth.
+        // For each segment its feature and the longest adjacent side, if it is a silhouette of a smooth surface.
         let smooth: Vec<Option<(usize, f64)>> = segments
             .iter()
             .map(|segment| {
@@ -163,7 +165,7 @@ impl ContourLines<'_> {
         changes
     }
 
-    /// Why a stretch of a piece is hidden.
+    /// The reason why a stretch of a segment is hidden.
     fn reason(&self, decided: &ContourIntervals, hidden: Interval, cusps: &Cusps) -> Reason {
         let piece = &self.contours.pieces[decided.piece];
         let probe = self.probe(piece, &decided.image, (hidden.from + hidden.to) * 0.5);
@@ -175,21 +177,21 @@ impl ContourLines<'_> {
         )
     }
 
-    /// Why a point is hidden.
+    /// The reason why a point is hidden.
     fn reason_of(&self, probe: &Probe, part: u32, longest: f64, cusps: &Cusps) -> Reason {
         let mut is_hidden = false;
         let is_far = self.any_hider(probe, |place, distance| {
             is_hidden = true;
             distance > REACH * longest || self.is_of_another_shell(probe, part, place)
         });
-        // What nothing hides lies on another line, which is nearer.
+        // A point that no face hides is covered by a nearer line.
         if is_far || !is_hidden {
             return Reason::Crossing;
         }
         if cusps.are_near(probe.view, longest) { Reason::Cusp } else { Reason::None(InconsistencyKind::Near) }
     }
 
-    /// Whether a face, by its place, hangs together with a probe's line nowhere.
+    /// Whether a face, by its index, is not connected to a probe's line.
     fn is_of_another_shell(&self, probe: &Probe, part: u32, place: u32) -> bool {
         let surface = &self.contours.parts[part as usize].surface;
         let first = self.contours.parts[part as usize].first_position;
@@ -215,7 +217,7 @@ impl ContourLines<'_> {
         Some(sides.fold(0.0, f64::max))
     }
 
-    /// The cusps with contours of some length on either side.
+    /// The cusps with contours of sufficient length on both sides.
     fn cusps(&self) -> Cusps {
         let pieces = &self.contours.pieces;
         let mut runs: Vec<usize> = (0..pieces.len()).collect();
@@ -252,7 +254,7 @@ impl ContourLines<'_> {
     }
 }
 
-/// The stretch at an end of a piece, if that end is in the picture.
+/// The stretch at an end of a segment, if that end is in the picture.
 fn at_end(decided: &ContourIntervals, end: usize) -> Option<(&ContourIntervals, Interval)> {
     let interval = match end {
         0 => decided.intervals.first().filter(|interval| interval.from == 0.0),
@@ -262,6 +264,6 @@ fn at_end(decided: &ContourIntervals, end: usize) -> Option<(&ContourIntervals, 
 }
 
 fn bits(px: DVec2) -> [u64; 2] {
-    // Adding 0 makes -0 a 0.
+    // Adding 0 turns -0 into 0.
     (px + 0.0).to_array().map(f64::to_bits)
 }

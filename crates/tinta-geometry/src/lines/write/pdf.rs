@@ -1,8 +1,9 @@
-//! Lines as PDF: one page of their true size, with the layers, paths and coordinates of the SVG.
+//! Writes lines as PDF: one page in true size, with the layers, paths and coordinates of the SVG.
 //!
-//! In: [`VisibleLines`] and [`DrawingSettings`]. Out: bytes that are the same for the same input: no time stamps, no identifiers. A
-//! matrix takes the picture's pixels, y down, to points, so that the paths have the numbers that the SVG has. Layers are
-//! optional content (PDF 1.5), which viewers show as such. Ghosts have the colour that their opacity gives on plain paper.
+//! Input: [`VisibleLines`] and [`DrawingSettings`]. Output: bytes that depend on the input only, without time stamps
+//! or identifiers. A matrix maps the picture's pixels, y down, to points, so the paths have the same numbers as in
+//! the SVG. Layers are optional content (PDF 1.5), which viewers show as layers. Ghosts have the colour that their
+//! opacity gives on plain paper.
 
 use crate::error::{Error, Result};
 use crate::lines::VisibleLines;
@@ -16,21 +17,21 @@ use glam::DVec2;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, TextStr};
 
-/// The lines as a PDF file, without spurs and specks.
+/// Returns the lines as a PDF file, without spurs and specks.
 ///
 /// # Errors
 ///
-/// As [`crate::lines::svg`], and [`Error::Setting`] for a page larger than PDF knows.
+/// Those of [`crate::lines::svg`], and [`Error::Setting`] for a page larger than PDF allows.
 pub fn pdf(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<u8>> {
     let lines = lines.without_specks(settings)?;
     pdf_of_paths(&lines, chain(&lines.segments), settings)
 }
 
-/// The lines as they are, for which [`chain`] has made `paths`.
+/// Returns the given lines as a PDF file, with the paths that [`chain`] made of them.
 ///
 /// # Errors
 ///
-/// As [`pdf`].
+/// Those of [`pdf`].
 pub fn pdf_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &DrawingSettings) -> Result<Vec<u8>> {
     let drawing = Drawing::new(lines, paths, settings)?;
     let scale = drawing.page.points_per_px();
@@ -43,7 +44,7 @@ pub fn pdf_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &Drawi
     Ok(written(&drawing, scale))
 }
 
-/// Sides of a page, points (ISO 32000-1, annex C).
+/// Limits for the sides of a page, points (ISO 32000-1, annex C).
 const LARGEST_PAGE: f64 = 14_400.0;
 const SMALLEST_PAGE: f64 = 3.0;
 
@@ -64,7 +65,7 @@ fn written(drawing: &Drawing<'_>, scale: f64) -> Vec<u8> {
     if !layers.is_empty() {
         let mut content = catalog.insert(Name(b"OCProperties")).dict();
         content.insert(Name(b"OCGs")).array().items(layers.iter().copied());
-        // A viewer lists them as they lie, the highest first.
+        // Viewers list the layers in this order, the highest first.
         let mut shown = content.insert(Name(b"D")).dict();
         shown.insert(Name(b"Order")).array().items(layers.iter().rev().copied());
     }
@@ -113,7 +114,7 @@ fn written(drawing: &Drawing<'_>, scale: f64) -> Vec<u8> {
     pdf.finish()
 }
 
-/// What the page calls a layer.
+/// The resource name of a layer on the page.
 fn layer_name(number: usize) -> String {
     format!("L{number}")
 }
@@ -135,7 +136,7 @@ fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, number: usize, content
 }
 
 fn write_path(settings: &DrawingSettings, path: &LinePath, content: &mut Content) {
-    // The very numbers of the SVG.
+    // Exactly the numbers of the SVG.
     let numbers = |point: &[String; 2]| [0, 1].map(|axis| point[axis].parse::<f32>().unwrap_or(0.0));
     if let Some(error_px) = settings.fit_px {
         let (first, steps) = fitted(path, error_px);

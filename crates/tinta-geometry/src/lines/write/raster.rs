@@ -1,8 +1,8 @@
-//! Lines as pixels: what the SVG shows, drawn here, without a rasteriser of others and of any size.
+//! Draws lines as pixels: the same picture as the SVG, at any size, without an external rasteriser.
 //!
-//! In: [`VisibleLines`] and [`DrawingSettings`]. Out: [`Raster`]. All that is drawn is lines with round ends and corners, so that a pixel is
-//! covered by how far its middle lies from the nearest line of a layer. Within a layer the nearest counts, as in the SVG, where lines
-//! of one colour cross without adding up; layers lie over one another.
+//! Input: [`VisibleLines`] and [`DrawingSettings`]. Output: [`Raster`]. All lines have round ends and corners, so the
+//! distance of a pixel's centre from the nearest line gives its coverage. Within a layer the nearest line counts,
+//! because crossing lines of one colour do not add up in the SVG. Layers are composited over one another.
 
 use crate::error::{Error, Result};
 use crate::lines::VisibleLines;
@@ -13,30 +13,30 @@ use crate::lines::drawing::settings::DrawingSettings;
 use crate::scene::{Background, Color, Size};
 use glam::DVec2;
 
-/// A drawing's pixels.
+/// The pixels of a drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Raster {
     /// Width and height.
     pub size: Size,
-    /// Red, green, blue, alpha, not multiplied by it, row by row from the top.
+    /// Red, green, blue and alpha, not premultiplied, row by row from the top.
     pub pixels: Vec<u8>,
 }
 
-/// The lines as pixels, without spurs and specks.
+/// Returns the lines as pixels, without spurs and specks.
 ///
 /// # Errors
 ///
-/// As [`crate::lines::svg`], and [`Error::Setting`] for a page that is not the picture.
+/// Those of [`crate::lines::svg`], and [`Error::Setting`] for a page that is not the whole picture.
 pub fn raster(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Raster> {
     let lines = lines.without_specks(settings)?;
     raster_of_paths(&lines, chain(&lines.segments), settings)
 }
 
-/// The lines as they are, for which [`chain`] has made `paths`.
+/// Returns the given lines as pixels, with the paths that [`chain`] made of them.
 ///
 /// # Errors
 ///
-/// As [`raster`].
+/// Those of [`raster`].
 pub fn raster_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &DrawingSettings) -> Result<Raster> {
     let drawing = Drawing::new(lines, paths, settings)?;
     let size = lines.size;
@@ -67,7 +67,7 @@ fn byte(channel: f32) -> u8 {
     (channel * 255.0).round() as u8
 }
 
-/// A colour of this opacity over a pixel.
+/// Composites a colour with this opacity over a pixel.
 fn lay_over(pixel: &mut [u8], Color(color): Color, opacity: f32) {
     let below = f32::from(pixel[3]) / 255.0 * (1.0 - opacity);
     let alpha = opacity + below;
@@ -77,7 +77,7 @@ fn lay_over(pixel: &mut [u8], Color(color): Color, opacity: f32) {
     pixel[3] = byte(alpha);
 }
 
-/// How much of each pixel a layer covers.
+/// Computes the layer's coverage of each pixel.
 fn cover_layer(layer: &DrawnLayer, settings: &DrawingSettings, size: Size, cover: &mut [f32]) {
     let mut polyline = |points: &[DVec2], is_closed: bool| {
         let closing = is_closed.then(|| [points[points.len() - 1], points[0]]);
@@ -94,9 +94,9 @@ fn cover_layer(layer: &DrawnLayer, settings: &DrawingSettings, size: Size, cover
     }
 }
 
-/// How much of each pixel a line with round ends covers, where that is more than what covers it already.
+/// Raises each pixel's coverage to that of a line with round ends, where that is more.
 fn cover_line([a, b]: [DVec2; 2], width_px: f64, size: Size, cover: &mut [f32]) {
-    // Half a pixel's width beyond its edge a line covers nothing.
+    // Coverage ends half a pixel beyond the line's border.
     let (radius, reach) = (width_px * 0.5, width_px * 0.5 + 0.5);
     let along = b - a;
     let squared = along.length_squared();
@@ -106,7 +106,7 @@ fn cover_line([a, b]: [DVec2; 2], width_px: f64, size: Size, cover: &mut [f32]) 
     };
     for row in pixels(a.y.min(b.y) - reach, a.y.max(b.y) + reach, size.height) {
         let y = row as f64 + 0.5;
-        // The stretch of the line that is not too far above or below.
+        // The stretch of the line that is close enough to this row.
         let at = |y: f64| if along.y == 0.0 { 0.0 } else { ((y - a.y) / along.y).clamp(0.0, 1.0) };
         let ends = match along.y == 0.0 {
             true => [a.x, b.x],
@@ -140,7 +140,7 @@ mod tests {
         for ends in [[[10.0, 15.0], [30.0, 15.0]], [[20.0, 6.0], [20.0, 24.0]], [[9.0, 8.0], [29.0, 22.0]]] {
             for width_px in [1.0, 2.0, 5.0] {
                 let length = DVec2::from_array(ends[0]).distance(DVec2::from_array(ends[1]));
-                // The ends are half disks.
+                // The ends are half-disks.
                 let area = length * width_px + std::f64::consts::PI * width_px * width_px / 4.0;
                 let sum: f64 = covered(ends, width_px).iter().map(|cover| f64::from(*cover)).sum();
                 assert!((sum / area - 1.0).abs() < 0.06, "{ends:?} {width_px}: {sum} {area}");
@@ -153,7 +153,7 @@ mod tests {
         let cover = covered([[10.0, 15.0], [30.0, 15.0]], 2.0);
         let at = |x: usize, y: usize| cover[y * SIZE.width as usize + x];
         assert_eq!([at(20, 13), at(20, 14), at(20, 15), at(20, 16)], [0.0, 1.0, 1.0, 0.0]);
-        // Beyond the picture nothing happens.
+        // Lines outside the picture have no effect.
         assert!(covered([[-50.0, -60.0], [-5.0, -9.0]], 3.0).iter().all(|cover| *cover == 0.0));
         assert_eq!(covered([[5.5, 5.5], [5.5, 5.5]], 1.0)[5 * 40 + 5], 1.0, "a point is a dot");
     }

@@ -1,7 +1,7 @@
-//! A drawing as strokes, for whoever paints it without a file: a window.
+//! A drawing as strokes, for painting in a window without a file.
 //!
-//! In: [`VisibleLines`] and [`DrawingSettings`]. Out: what [`crate::lines::svg`] writes of them, layer by layer, with dashes as polylines of
-//! their own.
+//! Input: [`VisibleLines`] and [`DrawingSettings`]. Output: the contents of [`crate::lines::svg`], layer by layer,
+//! with dashes as separate polylines.
 
 use crate::error::Result;
 use crate::lines::VisibleLines;
@@ -14,18 +14,19 @@ use crate::lines::drawing::settings::DrawingSettings;
 use crate::scene::Color;
 use glam::DVec2;
 
-/// The strokes of a layer: round at ends and joins, and painted as a whole, so that opacity does not add up where they cross.
+/// The strokes of a layer, with round ends and joins. The layer is painted as a whole, so opacity does not add up at
+/// crossings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Strokes {
     /// The layer.
     pub layer: Layer,
     /// Its colour.
     pub color: Color,
-    /// How wide they are, pixels.
+    /// Their width, pixels.
     pub width_px: f64,
-    /// The same in millimetres; `None` where the drawing has no size on paper.
+    /// Their width in millimetres; `None` if the drawing has no size on paper.
     pub width_mm: Option<f64>,
-    /// 1 is opaque.
+    /// Their opacity; 1 is opaque.
     pub opacity: f32,
     /// The strokes.
     pub polylines: Vec<Polyline>,
@@ -34,14 +35,14 @@ pub struct Strokes {
 /// A stroke.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polyline {
-    /// Pixels from the picture's upper left corner, y down; a closed one's first point is not repeated.
+    /// Pixels from the picture's upper left corner, y down; a closed stroke does not repeat its first point.
     pub points_px: Vec<DVec2>,
     /// Whether the last point is joined to the first.
     pub is_closed: bool,
 }
 
 impl Polyline {
-    /// How long it is, pixels.
+    /// Its length, pixels.
     pub fn length_px(&self) -> f64 {
         let closing = self.points_px.first().zip(self.points_px.last()).filter(|_| self.is_closed);
         let along = self.points_px.windows(2).map(|pair| pair[0].distance(pair[1]));
@@ -49,21 +50,21 @@ impl Polyline {
     }
 }
 
-/// The strokes of a drawing from the lowest layer to the highest, without spurs and specks.
+/// Returns the strokes of a drawing from the lowest layer to the highest, without spurs and specks.
 ///
 /// # Errors
 ///
-/// As [`crate::lines::svg`].
+/// Those of [`crate::lines::svg`].
 pub fn strokes(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<Strokes>> {
     let lines = lines.without_specks(settings)?;
     strokes_of_paths(&lines, chain(&lines.segments), settings)
 }
 
-/// The strokes of lines as they are, for which [`chain`] has made `paths`.
+/// Returns the strokes of the given lines, with the paths that [`chain`] made of them.
 ///
 /// # Errors
 ///
-/// As [`crate::lines::svg`].
+/// Those of [`crate::lines::svg`].
 pub fn strokes_of_paths(
     lines: &VisibleLines,
     paths: Vec<LinePath>,
@@ -98,7 +99,7 @@ mod tests {
     use crate::lines::{Hidden, LineSegment, LineTimes};
     use crate::scene::Size;
 
-    /// A crease of 90 pixels that is seen, and one below it that is not.
+    /// A visible crease of 90 pixels, and a hidden one below it.
     fn lines() -> VisibleLines {
         let segment = |y: f64, is_visible: bool| LineSegment {
             class: Class::Crease,
@@ -141,7 +142,7 @@ mod tests {
     #[test]
     fn dashes_are_strokes_of_their_own_as_long_as_the_file_says() {
         let [hidden, _] = &of(Hidden::Dashed)[..] else { panic!("two layers") };
-        // One pixel wide: dashes of 6 pixels and gaps of 5 over 90 pixels are eight whole dashes and one of 2.
+        // One pixel wide: 90 pixels hold eight whole dashes of 6 pixels with gaps of 5, and a dash of 2.
         assert_eq!(hidden.width_px, 1.0);
         let ends = hidden.polylines.iter().map(|dash| [dash.points_px[0].x, dash.points_px[1].x]);
         let expected = (0..9).map(|dash| 5.0 + 11.0 * f64::from(dash)).map(|start| [start, (start + 6.0).min(95.0)]);

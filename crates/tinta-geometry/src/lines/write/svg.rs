@@ -1,8 +1,8 @@
-//! Lines as SVG 1.1: a layer for each class and visibility, polylines in them, nothing else.
+//! Writes lines as SVG 1.1: a layer of polylines for each class and visibility, nothing else.
 //!
-//! In: [`VisibleLines`] and [`DrawingSettings`]. Out: a text that is the same, byte for byte, for the same input: coordinates in
-//! pixels with three decimals, y down, in the order of the pieces. The layers are groups that Inkscape shows as such, hidden
-//! ones below visible ones.
+//! Input: [`VisibleLines`] and [`DrawingSettings`]. Output: a text that is byte-identical for the same input.
+//! Coordinates are pixels with three decimals, y down, in the order of the segments. The layers are groups that
+//! Inkscape shows as layers, hidden ones below visible ones.
 
 use crate::error::Result;
 use crate::lines::VisibleLines;
@@ -17,22 +17,22 @@ use crate::markup::recipe_element;
 use crate::scene::Background;
 use std::fmt::Write;
 
-/// The lines as an SVG file, without spurs and specks.
+/// Returns the lines as an SVG file, without spurs and specks.
 ///
 /// # Errors
 ///
-/// [`crate::Error::Setting`] for settings that [`DrawingSettings::check`] refuses, [`crate::Error::Lines`] for lines that are not
-/// finite or leave the picture.
+/// [`crate::Error::Setting`] for settings that [`DrawingSettings::check`] refuses, [`crate::Error::Lines`] for lines
+/// that are not finite or leave the picture.
 pub fn svg(lines: &VisibleLines, settings: &DrawingSettings) -> Result<String> {
     let lines = lines.without_specks(settings)?;
     svg_of_paths(&lines, chain(&lines.segments), settings)
 }
 
-/// The lines as they are, for which [`chain`] has made `paths`.
+/// Returns the given lines as an SVG file, with the paths that [`chain`] made of them.
 ///
 /// # Errors
 ///
-/// As [`svg`].
+/// Those of [`svg`].
 pub fn svg_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &DrawingSettings) -> Result<String> {
     let drawing = Drawing::new(lines, paths, settings)?;
     let mut out = String::new();
@@ -44,7 +44,7 @@ pub fn svg_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &Drawi
     Ok(out)
 }
 
-/// Everything before the layers.
+/// Writes everything before the layers.
 fn begin(drawing: &Drawing<'_>, out: &mut String) {
     let (settings, page) = (drawing.settings, &drawing.page);
     let [width, height] = page.lengths();
@@ -117,7 +117,7 @@ fn write_path(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut Str
     let _ = writeln!(out, r#" d="{data}"/>"#);
 }
 
-/// Class, object, and for each piece of the path its mesh edge and angle, or `-`.
+/// Class, object, and for each segment of the path its mesh edge and angle, or `-`.
 fn write_provenance(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut String) {
     let _ = write!(out, r#" data-class="{class}" data-object="{}" data-edges=""#, path.object);
     let pieces = || path.segments.iter().map(|piece| &drawing.segments[*piece]);

@@ -1,8 +1,9 @@
-//! Paths along strokes from one place to another near it, for [slivers' sides](super): the shortest first, by A*, over the
-//! places where strokes touch.
+//! Shortest paths along strokes between two nearby places, for [slivers' sides](super): A* over the places where
+//! strokes touch.
 //!
-//! A stroke leads from each place on it to the next on either side. What lies on a stroke, and which strokes go through a place, is found when
-//! it is first asked for and kept. So each way costs what is on it and beside it, however much else lies in the picture.
+//! A stroke connects each place on it to the next on either side. The places on a stroke, and the strokes through a
+//! place, are computed on first use and cached. The cost of a search depends on its surroundings only, not on the
+//! size of the picture.
 
 use super::strokes::{Branch, Stroke, Strokes};
 use crate::bvh::add_steps;
@@ -11,43 +12,43 @@ use glam::DVec2;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Places looked at for one way; where there are more, there is none, and what might have gone stays.
+/// Most places visited in one search; beyond that no path is found, and the segments stay.
 const MOST_PLACES: usize = 512;
 
-/// The ends of the way, among places that are meetings otherwise.
+/// The search's start and end, among places that are otherwise meetings.
 const FROM: usize = usize::MAX - 1;
 const TO: usize = usize::MAX;
 
 /// A meeting on a stroke, with its distance from the stroke's first end.
 type Along = (f64, usize);
 
-/// What is known of places; nothing of those that nobody has asked about.
+/// Cached places and the state of the current search.
 pub(super) struct ShortestPaths {
     meetings: MeetingGrid,
-    /// On each stroke the meetings in their order along it.
+    /// The meetings on each stroke, in order.
     on_strokes: Vec<Option<Box<[Along]>>>,
     /// The strokes through each meeting.
     through: Vec<Option<Box<[usize]>>>,
-    /// The places that the way being looked for has reached.
+    /// The places that the current search has reached.
     reached: Vec<Reached>,
-    /// Of each meeting for which way it was reached last, and its place among the reached ones then.
+    /// For each meeting, the last search that reached it and its index among the reached places of that search.
     known: Vec<[u32; 2]>,
     way: u32,
 }
 
-/// The meetings by the cell of the picture in which they lie, row by row: about one in each.
+/// The meetings by grid cell of the picture, row by row: about one per cell.
 struct MeetingGrid {
     cell_px: f64,
     columns: usize,
     rows: usize,
-    /// Where each cell's begin among all, and where the last one's end.
+    /// Where each cell's meetings begin in the list, and where the last cell's end.
     starts: Vec<u32>,
     meetings: Vec<u32>,
-    /// Where these are.
+    /// The positions of the meetings.
     places: Vec<DVec2>,
 }
 
-/// How a place was reached: by how long a way, and from which other reached one along which stroke at last.
+/// A reached place: the path's length, the previous reached place, and the stroke between them.
 #[derive(Clone, Copy)]
 struct Reached {
     place: usize,
@@ -56,10 +57,10 @@ struct Reached {
     is_done: bool,
 }
 
-/// A reached place to go on from; the one with the shortest way over it comes first.
+/// A reached place to expand; the one with the shortest estimated path comes first.
 #[derive(PartialEq)]
 struct Open {
-    /// The way to it, and from there straight on.
+    /// The path to it plus the straight distance to the end.
     length: f64,
     place: usize,
     number: usize,
@@ -91,11 +92,12 @@ impl ShortestPaths {
         }
     }
 
-    /// Notes a way to a place, if it is shorter than the one that is known; returns the place's number among the reached ones then.
+    /// Records a path to a place if it is shorter than the known one; then returns the place's index among the
+    /// reached ones.
     fn reach(&mut self, place: usize, length: f64, by: Option<(usize, usize)>) -> Option<usize> {
         let reached = Reached { place, length, by, is_done: false };
         let known = match place {
-            // The end is the one place without a meeting that may be reached again.
+            // The end is the only place without a meeting that may be reached again.
             FROM | TO => self.reached.iter().position(|reached| reached.place == place),
             meeting => Some(self.known[meeting]).filter(|[way, _]| *way == self.way).map(|[_, number]| number as usize),
         };
@@ -112,7 +114,8 @@ impl ShortestPaths {
         Some(known.unwrap_or(self.reached.len() - 1))
     }
 
-    /// The strokes of the shortest way between two places beside a branch, as wide and also too short; `None` where there is none.
+    /// The strokes of the shortest path between two places beside a branch, if they are as wide and also too short;
+    /// `None` if none exists.
     pub(super) fn shortest(
         &mut self,
         strokes: &Strokes<'_>,
@@ -199,7 +202,7 @@ impl MeetingGrid {
             let cell = cell_of(&grid, meeting);
             grid.starts[cell] += 1;
         }
-        // Each cell's end first, then as they are put in from behind its start.
+        // First the end of each cell; filling a cell from its end leaves its start.
         let mut end = 0;
         for start in &mut grid.starts {
             end += *start;
@@ -215,13 +218,13 @@ impl MeetingGrid {
         grid
     }
 
-    /// Column and row; of a place beside the picture those of the nearest cell.
+    /// Column and row; for a place outside the picture, those of the nearest cell.
     fn cell(&self, px: DVec2) -> [usize; 2] {
         let at = |px: f64, count: usize| ((px / self.cell_px).max(0.0) as usize).min(count - 1);
         [at(px.x, self.columns), at(px.y, self.rows)]
     }
 
-    /// The meetings on a stroke in their order along it.
+    /// The meetings on a stroke, in order.
     fn on_stroke(&self, stroke: &Stroke) -> Box<[Along]> {
         const MARGIN: f64 = 2.0 * JOINED_PX;
         let [start, end] = stroke.ends;
@@ -230,7 +233,7 @@ impl MeetingGrid {
         let along = end - start;
         let mut on_it = Vec::new();
         for row in top..=bottom {
-            // What of the stroke is near the row, and the cells there.
+            // The stretch of the stroke near this row, and its cells.
             let (mut from_x, mut to_x) = (low.x, high.x);
             if along.y != 0.0 && top < bottom {
                 let share = |y: f64| ((y - start.y) / along.y).clamp(0.0, 1.0);
@@ -258,7 +261,7 @@ impl MeetingGrid {
     }
 }
 
-/// The meetings on a stroke before and after a place, which may be one of them.
+/// The meetings on a stroke before and after a place; the place may be one of them.
 fn neighbours(on_it: &[Along], here: usize, along: f64) -> [Option<usize>; 2] {
     let first = on_it.partition_point(|(other, _)| *other < along);
     let equal =
@@ -272,7 +275,7 @@ fn neighbours(on_it: &[Along], here: usize, along: f64) -> [Option<usize>; 2] {
 }
 
 impl Strokes<'_> {
-    /// The strokes that go by a place so near.
+    /// The strokes within this distance of a place.
     fn through(&self, place: DVec2, reach: f64) -> Vec<usize> {
         let mut through = Vec::new();
         self.any_near([place; 2], reach, |stroke| {
@@ -286,7 +289,6 @@ impl Strokes<'_> {
         through
     }
 
-    /// Where a meeting is.
     fn place(&self, meeting: usize) -> DVec2 {
         let end = self.ends[meeting][0] as usize;
         self.strokes[end / 2].ends[end % 2]

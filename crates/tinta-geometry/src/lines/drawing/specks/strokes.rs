@@ -1,4 +1,4 @@
-//! Pieces of lines as they are drawn, and where they hang together.
+//! Line segments as drawn strokes, and their connections.
 
 use crate::bvh::{Box3, BoxTree};
 use crate::lines::LineSegment;
@@ -8,16 +8,16 @@ use crate::lines::drawing::settings::DrawingSettings;
 use crate::tolerances::JOINED_PX;
 use glam::DVec2;
 
-/// A piece as it is drawn.
+/// A segment as it is drawn.
 pub(super) struct Stroke {
-    /// Its place among all pieces.
+    /// Its index among all segments.
     pub number: usize,
     pub ends: [DVec2; 2],
     pub length: f64,
     pub width: f64,
-    /// Below which length it is too short by itself.
+    /// Length below which it is too short alone.
     pub least: f64,
-    /// Below which length it is too short for one side of something.
+    /// Length below which it is too short for one side of a sliver.
     pub least_side: f64,
 }
 
@@ -35,7 +35,7 @@ impl Stroke {
         }
     }
 
-    /// Its ends, or those of parts of it: the box of a long one that is aslant holds much else.
+    /// Its ends, or those of parts of it: the bounding box of a long diagonal stroke holds many others.
     pub(super) fn parts(&self) -> impl Iterator<Item = [DVec2; 2]> + use<> {
         /// Pixels.
         const LONGEST: f64 = 8.0;
@@ -44,7 +44,6 @@ impl Stroke {
         (0..count as usize).map(move |part| [at(part as f64), at(part as f64 + 1.0)])
     }
 
-    /// Distance from a point.
     pub(super) fn distance(&self, point: DVec2) -> f64 {
         let along = self.ends[1] - self.ends[0];
         let square = along.length_squared();
@@ -53,21 +52,21 @@ impl Stroke {
     }
 }
 
-/// Pieces, where they hang together, and a tree that finds neighbours.
+/// Strokes, their connections, and a tree that finds neighbours.
 pub(super) struct Strokes<'a> {
     pub strokes: &'a [Stroke],
-    /// The picture's lower right corner: lines end at its border without being free.
+    /// The picture's lower right corner: lines that end at its border are not free.
     pub border: DVec2,
     /// The meeting at each end: stroke `k` has ends `2k` and `2k + 1`.
     pub meetings: Vec<usize>,
     /// The ends at each meeting.
     pub ends: Vec<Vec<u32>>,
     pub tree: BoxTree,
-    /// Strokes by the places of their parts in the tree.
+    /// The strokes of the parts in the tree, in the tree's order.
     pub order: Vec<u32>,
 }
 
-/// Strokes that hang together and may be too short as a whole, from one end to another.
+/// Connected strokes that may be too short as a whole, in order from one end to the other.
 pub(super) struct Branch {
     pub strokes: Vec<usize>,
     pub length: f64,
@@ -93,12 +92,11 @@ impl<'a> Strokes<'a> {
         Self { strokes, border, meetings, ends, tree, order }
     }
 
-    /// The least length of what a branch is made of.
     pub(super) fn least(&self, branch: &Branch, least: Least) -> f64 {
         branch.strokes.iter().map(|stroke| least(&self.strokes[*stroke])).fold(f64::INFINITY, f64::min)
     }
 
-    /// From an end on to the next meeting of one or of more than two; `None` once it is long enough, and for a ring.
+    /// The branch from an end to the next free end or fork; `None` if it is long enough, or a ring.
     pub(super) fn branch(&self, from: u32, least: Least) -> Option<(Branch, u32)> {
         let mut branch = Branch { strokes: Vec::new(), length: 0.0 };
         let mut least_length = f64::INFINITY;
@@ -108,7 +106,7 @@ impl<'a> Strokes<'a> {
             branch.strokes.push(number);
             branch.length += self.strokes[number].length;
             least_length = least_length.min(least(&self.strokes[number]));
-            // A stroke's other end.
+            // The stroke's other end.
             end ^= 1;
             if branch.length >= least_length {
                 return None;
@@ -123,10 +121,10 @@ impl<'a> Strokes<'a> {
         }
     }
 
-    /// What hangs together and is too short as a whole.
+    /// Connected sets that are too short as a whole.
     pub(super) fn small_wholes(&self) -> Vec<Branch> {
         let mut is_seen = vec![false; self.strokes.len()];
-        // What meets somewhere is asked for once: of lines around one corner all meet there.
+        // Each meeting is visited once, because all lines around a corner share it.
         let mut is_met = vec![false; self.ends.len()];
         let mut wholes = Vec::new();
         for first in 0..self.strokes.len() {
@@ -158,7 +156,7 @@ impl<'a> Strokes<'a> {
         wholes
     }
 
-    /// From every free end to the first fork.
+    /// The branches from every free end to the first fork.
     pub(super) fn barbs(&self) -> Vec<Branch> {
         let begins = |end: &u32| self.meeting(*end).len() == 1;
         let all = (0..self.strokes.len() as u32 * 2).filter(begins);
@@ -166,7 +164,7 @@ impl<'a> Strokes<'a> {
         branches.filter(|(_, end)| self.meeting(*end).len() > 2).map(|(branch, _)| branch).collect()
     }
 
-    /// From every fork to the next one.
+    /// The branches from every fork to the next one.
     pub(super) fn spans(&self) -> Vec<Branch> {
         let is_fork = |end: &u32| self.meeting(*end).len() > 2;
         let all = (0..self.strokes.len() as u32 * 2).filter(is_fork);
@@ -175,7 +173,7 @@ impl<'a> Strokes<'a> {
         branches.filter(|(from, (_, to))| is_fork(to) && from < to).map(|(_, (branch, _))| branch).collect()
     }
 
-    /// The places at which a branch hangs on the rest, touches it or ends at the picture's border; of more than two only three.
+    /// The places where a branch meets the rest, touches it or ends at the picture's border; at most three.
     pub(super) fn places_touched(&self, branch: &Branch) -> Vec<DVec2> {
         let mut places: Vec<DVec2> = Vec::new();
         let add = |places: &mut Vec<DVec2>, place: DVec2| {
@@ -206,13 +204,13 @@ impl<'a> Strokes<'a> {
         places
     }
 
-    /// Calls `visit` with each stroke of which the box of a part comes so near to that of two points, perhaps several times, until
-    /// it returns true; returns whether it did.
+    /// Calls `visit` with strokes near a segment until it returns true; returns whether it did. A stroke is near if
+    /// the bounding box of a part of it is within `distance` of the segment's; it may be visited more than once.
     pub(super) fn any_near(&self, [a, b]: [DVec2; 2], distance: f64, mut visit: impl FnMut(usize) -> bool) -> bool {
         let query = Box3::new((a.min(b) - distance).extend(0.0), (a.max(b) + distance).extend(0.0));
         self.tree.any(&query, |place| visit(self.order[place as usize] as usize))
     }
 }
 
-/// Which length of a stroke is meant.
+/// Selects one of a stroke's least lengths.
 pub(super) type Least = fn(&Stroke) -> f64;

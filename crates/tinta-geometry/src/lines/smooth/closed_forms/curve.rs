@@ -5,5 +5,5 @@ use glam::DVec3;
 /// A closed curve on the surface, with a parameter from 0 to 1.
 pub(super) type Curve = Box<dyn Fn(f64) -> DVec3>;
 
-/// Halvings of a step: beyond them f64 has no places left.
+/// Bisections of a step; more exceed the precision of f64.
 pub(super) const HALVINGS: usize = 48;

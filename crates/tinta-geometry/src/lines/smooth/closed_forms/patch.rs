@@ -1,8 +1,9 @@
-//! A bicubic patch: the height y over a square is a polynomial of third degree in x and in z.
+//! A bicubic patch: the height y over a square is a cubic polynomial in x and in z.
 //!
-//! In: its coefficients and an eye. Out: its contour on both of its sides in short straight pieces, and which of them are seen. Along a ray from
-//! a point of the contour the height over the patch is a polynomial of sixth degree with a double root at the point; what is left
-//! has degree four, and its roots before the square's rim are what hides. They are found between those of its derivative.
+//! Input: its coefficients and an eye. Output: the contour on both of its sides as short straight segments, and which
+//! of them are visible. Along a ray from a point of the contour, the height over the patch is a polynomial of degree
+//! six with a double root at the point. The remaining factor has degree four; any root of it inside the square hides
+//! the point. Its roots are found between those of its derivative.
 
 use crate::edges::Eye;
 use glam::{DVec2, DVec3};
@@ -10,14 +11,14 @@ use glam::{DVec2, DVec3};
 /// A patch over the square from -1 to 1 in x and z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
-    /// `coefficients[i][j]` is the share of `x^i z^j` in y.
+    /// `coefficients[i][j]` is the coefficient of `x^i z^j` in y.
     pub coefficients: [[f64; 4]; 4],
 }
 
-/// Cells of the square, each way, whose sides are looked at for the contour.
+/// Cells of the square in each direction; their sides are searched for the contour.
 const CELLS: usize = 768;
 
-/// Halvings of a cell's side, or of a root's range: beyond them f64 has no places left.
+/// Bisections of a cell's side or of a root's range; more exceed the precision of f64.
 const HALVINGS: usize = 52;
 
 impl Patch {
@@ -26,7 +27,7 @@ impl Patch {
         coefficients: [[0.1, 0.9, 0.0, -1.1], [-0.8, 0.2, 0.3, 0.0], [0.1, 0.0, -0.4, 0.2], [1.0, 0.1, 0.0, 0.0]],
     };
 
-    /// Hills by a number: none as steep as a wall, most with contours from the side.
+    /// Hills from a seed: none as steep as a wall, most with contours from the side.
     #[cfg(test)]
     pub(in crate::lines) fn random(number: u64) -> Self {
         let mut state = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -34,20 +35,20 @@ impl Patch {
         for (place, share) in coefficients.as_flattened_mut().iter_mut().enumerate() {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let from_minus_one_to_one = (state >> 33) as f64 / f64::from(1u32 << 30) - 1.0;
-            // Products of high powers count for little.
+            // Small weights for high powers.
             *share = from_minus_one_to_one / (1 + (place % 4) * (place / 4)) as f64;
         }
         Self { coefficients }
     }
 
-    /// A point over a place of the square.
+    /// The point over a place of the square.
     pub(super) fn point(&self, place: DVec2) -> DVec3 {
         let row = |row: &[f64; 4]| row.iter().rev().fold(0.0, |sum, share| sum * place.y + share);
         let height = self.coefficients.iter().rev().fold(0.0, |sum, shares| sum * place.x + row(shares));
         DVec3::new(place.x, height, place.y)
     }
 
-    /// The normal there, of any length.
+    /// The normal at a place, of any length.
     fn normal(&self, place: DVec2) -> DVec3 {
         let (mut along_x, mut along_z) = (0.0, 0.0);
         for (i, shares) in self.coefficients.iter().enumerate() {
@@ -64,7 +65,8 @@ impl Patch {
         DVec3::new(-along_x, 1.0, -along_z)
     }
 
-    /// The vertices and triangles of a mesh of about so many triangles; `random` gives numbers from -1 to 1 that move those
+    /// The vertices and triangles of a mesh with about this many triangles. `random` gives numbers from -1 to 1 that
+    /// move inner vertices by up to `jitter` of a cell.
     /// vertices inside the rim by up to `jitter` of a cell.
     pub(super) fn mesh(
         &self,
@@ -91,7 +93,7 @@ impl Patch {
         (positions, faces.collect())
     }
 
-    /// The pieces of the contour that are seen, each shorter than a cell.
+    /// The visible segments of the contour, each shorter than a cell.
     pub(super) fn visible_pieces(&self, eye: Eye) -> Vec<[DVec3; 2]> {
         let mut seen = Vec::new();
         for [a, b] in self.contour(eye) {
@@ -107,7 +109,7 @@ impl Patch {
         seen
     }
 
-    /// Where in the square the surface turns away, as pieces through cells.
+    /// The contour in the square, as segments through cells.
     pub(super) fn contour(&self, eye: Eye) -> Vec<[DVec2; 2]> {
         let is_front = |place: DVec2| self.normal(place).dot(way(eye, self.point(place))) >= 0.0;
         let at = |column: usize, row: usize| DVec2::new(column as f64, row as f64) * (2.0 / CELLS as f64) - 1.0;
@@ -135,7 +137,7 @@ impl Patch {
     pub(super) fn is_seen(&self, place: DVec2, eye: Eye) -> bool {
         let point = self.point(place);
         let way = way(eye, point);
-        // The height of the ray over the patch, as far as the ray is over the square.
+        // The height of the ray over the patch, while the ray is over the square.
         let mut height = [0.0; 7];
         let line = |start: f64, step: f64, exponent: usize| {
             (0..exponent).fold(vec![1.0], |power: Vec<f64>, _| {
@@ -159,12 +161,12 @@ impl Patch {
         let leaves = |start: f64, step: f64| if step == 0.0 { f64::INFINITY } else { (step.signum() - start) / step };
         let end = leaves(place.x, way.x).min(leaves(place.y, way.z));
         let end = if matches!(eye, Eye::Point(_)) { end.min(1.0) } else { end };
-        // The double root is taken out; in the linear part, which belongs to it, is nothing but rounding.
+        // Without the double root; the linear term, which belongs to it, is pure rounding.
         roots(&height[2..], [0.0, end]).is_empty()
     }
 }
 
-/// The way from a point to the eye.
+/// The direction from a point to the eye.
 fn way(eye: Eye, point: DVec3) -> DVec3 {
     match eye {
         Eye::Point(eye) => eye - point,
@@ -172,7 +174,7 @@ fn way(eye: Eye, point: DVec3) -> DVec3 {
     }
 }
 
-/// Where between two places a condition that holds at one of them and not at the other changes.
+/// The place between two others where a condition changes; it holds at exactly one of them.
 fn change(holds: impl Fn(f64) -> bool, [mut from, mut to]: [f64; 2]) -> f64 {
     let at_from = holds(from);
     for _ in 0..HALVINGS {
@@ -182,7 +184,7 @@ fn change(holds: impl Fn(f64) -> bool, [mut from, mut to]: [f64; 2]) -> f64 {
     (from + to) * 0.5
 }
 
-/// The places between two at which a polynomial changes its sign; its coefficients from the constant on.
+/// The sign changes of a polynomial between two places; coefficients start with the constant.
 fn roots(polynomial: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
     if polynomial.len() < 2 {
         return Vec::new();
@@ -197,7 +199,6 @@ fn roots(polynomial: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
     changed.map(|ends| change(|place| value(place) > 0.0, [ends[0], ends[1]])).collect()
 }
 
-/// Two triangles.
 pub(super) fn quad([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }
@@ -234,7 +235,7 @@ mod tests {
                     let heights = over.map(|at| at.y - patch.point(DVec2::new(at.x, at.z)).y);
                     let (low, high) =
                         heights.fold((0.0f64, 0.0f64), |(low, high), height| (low.min(height), high.max(height)));
-                    // What is grazed by less is not to be told apart by steps.
+                    // Grazes shallower than this are below the sampling's resolution.
                     if low < -1e-5 && high > 1e-5 {
                         assert!(!patch.is_seen(place, eye), "{number} {place} {eye:?}: {low} {high}");
                         hidden += 1;

@@ -1,5 +1,5 @@
-//! A superquadric: where the sum of the coordinates, each over its half axis and to an even power, is 1. It is convex, so that its contour goes
-//! once around and hides nothing of itself.
+//! A superquadric: the sum of the coordinates, each divided by its half axis and raised to an even power, is 1. It is
+//! convex, so its contour is one closed curve and fully visible.
 
 use super::curve::{Curve, HALVINGS};
 use crate::edges::Eye;
@@ -13,9 +13,10 @@ pub(super) fn unit_point(direction: DVec3, power: u32) -> DVec3 {
     direction * sum.powf(-1.0 / f64::from(power))
 }
 
-/// Around the way to the eye, the surface turns away at one angle from it in each direction, as it is convex.
+/// The contour: because the surface is convex, it turns away at exactly one angle in each direction around the line
+/// to the eye.
 pub(super) fn contour(half_axes: DVec3, power: u32, eye: Eye) -> Curve {
-    // With half axes of 1 the normal is each coordinate to the power less one, and its product with the point is 1.
+    // With half axes of 1, the normal is each coordinate to the power minus one, and its product with the point is 1.
     let (eye, least) = match eye {
         Eye::Point(eye) => (eye / half_axes, 1.0),
         Eye::Direction(direction) => (direction / half_axes, 0.0),

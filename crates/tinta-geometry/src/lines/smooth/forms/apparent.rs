@@ -1,4 +1,4 @@
-//! The curvature that the eye sees (Judd et al. 2007): how fast the normal turns for each step in the picture.
+//! The view-dependent curvature (Judd et al. 2007): how fast the normal turns per step in the picture.
 
 use super::trace::Crest;
 use crate::curvature::{Curvature, Curvatures};
@@ -6,10 +6,12 @@ use crate::mesh::Mesh;
 use crate::threads::filled;
 use glam::DVec3;
 
-/// Least cosine between normal and view at which a line is looked for: at the contour the curvature that is seen has no bound.
+/// Least cosine between normal and view at which lines are traced: at the contour the view-dependent curvature is
+/// unbounded.
 pub(super) const LEAST_COSINE: f64 = 0.02;
 
-/// The strongest of the curvatures seen at each vertex, with its direction on the surface and its growth along that.
+/// The largest view-dependent curvature at each vertex, with its direction on the surface and its growth along that
+/// direction.
 pub(super) fn crests(
     mesh: &Mesh,
     curvatures: &Curvatures,
@@ -19,10 +21,10 @@ pub(super) fn crests(
 ) -> Vec<Crest> {
     let all = curvatures.all();
     let seen = filled(all.len(), threads, (0.0, DVec3::ZERO), |vertex| strongest(&all[vertex], to_eye(vertex)));
-    // The mean of the gradients in the faces around each vertex, by area.
+    // The mean of the gradients in the faces around each vertex, weighted by area.
     let mut gradients = vec![(DVec3::ZERO, 0.0); all.len()];
     for (vertices, triangle) in curvatures.corners().iter().zip(&mesh.triangles) {
-        // Across the contour what is seen falls off again.
+        // Beyond the contour the view-dependent curvature falls again.
         let is_front = vertices.map(|vertex| cosines[vertex as usize] > 0.0);
         if is_front != [is_front[0]; 3] {
             continue;
@@ -47,10 +49,10 @@ pub(super) fn crests(
     })
 }
 
-/// The largest singular value of the curvature seen, and its direction on the surface, a unit vector.
+/// The largest singular value of the view-dependent curvature, and its direction on the surface, a unit vector.
 ///
-/// A step s in the picture is one of P⁻¹ s on the surface: longer by 1 / cos along the view's part in the tangent plane, as long
-/// across it. The normal turns by Q s = S P⁻¹ s.
+/// A step s in the picture is P⁻¹ s on the surface: longer by 1 / cos along the view's part in the tangent plane,
+/// unchanged across it. The normal turns by Q s = S P⁻¹ s.
 fn strongest(at: &Curvature, to_eye: DVec3) -> (f64, DVec3) {
     let cosine = to_eye.dot(at.normal);
     let along = (to_eye - at.normal * cosine).try_normalize().unwrap_or(at.directions[0]);

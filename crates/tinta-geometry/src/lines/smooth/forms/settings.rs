@@ -4,26 +4,27 @@ use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
 use crate::settings::{Setting, under};
 
-/// Which form lines are strong enough to be drawn. Thresholds have no unit: lengths are measured in the model's feature size,
-/// [`crate::curvature::Curvatures::feature_size`], so that neither its scale nor its unit matters.
+/// Which form lines are strong enough to be drawn. Thresholds have no unit, because lengths are relative to the
+/// model's feature size, [`crate::curvature::Curvatures::feature_size`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormSettings {
-    /// How fast the curvature along the view must grow towards the eye for a suggestive contour. Default 0.01; more leaves out the
-    /// shallow ones, which come and go as the model turns.
+    /// Least growth of the curvature along the view, towards the eye, for a suggestive contour. Default 0.01; a
+    /// larger value drops shallow contours, which come and go as the model turns.
     pub suggestive_threshold: f64,
-    /// The least curvature of a ridge or valley. Default 0.1; more leaves only the sharp ones.
+    /// Least curvature of a ridge or valley. Default 0.1; a larger value keeps only sharp ones.
     pub ridge_threshold: f64,
-    /// The least curvature, as the eye sees it, of an apparent ridge. Default 0.2; more leaves only the sharp ones.
+    /// Least view-dependent curvature of an apparent ridge. Default 0.2; a larger value keeps only sharp ones.
     pub apparent_ridge_threshold: f64,
-    /// From which angle between faces the smooth surface is broken. Default the listing's 66.4 degrees: what a drawing shows as a
-    /// crease from 30 degrees on is in a coarse mesh of a round shape often none. More smooths sharper edges over.
+    /// Angle between faces above which the smooth surface breaks. Default the listing's 66.4 degrees, because a
+    /// coarse mesh of a round shape has many edges above the 30 degrees at which a drawing shows a crease. A larger
+    /// angle smooths over sharper edges.
     pub crease_angle: CreaseAngle,
-    /// Standard deviation of the Gaussian by which normals are smoothed before curvature is computed from them, edge lengths.
-    /// Default 1; more draws fewer and longer lines and moves them off small features.
+    /// Standard deviation of the Gaussian that smooths normals before curvature is computed, in edge lengths. Default
+    /// 1; a larger value draws fewer, longer lines and moves them off small features.
     pub smoothing: f64,
 }
 
-/// Largest smoothing, edge lengths: beyond, a mesh has hardly any shape left, and it takes long.
+/// Largest smoothing, in edge lengths: more leaves hardly any shape and takes long.
 const LARGEST_SMOOTHING: f64 = 10.0;
 
 impl Default for FormSettings {
@@ -39,7 +40,7 @@ impl Default for FormSettings {
 }
 
 impl FormSettings {
-    /// The settings, for a table of something that has form lines in it.
+    /// The settings, for tables of structs that contain form lines.
     pub fn settings() -> Vec<Setting<Self>> {
         let settings = vec![
             Setting::field(
@@ -87,7 +88,7 @@ impl FormSettings {
         under("Style lines: form lines, with --classes suggestive, ridge, valley, apparent-ridge", settings).collect()
     }
 
-    /// Refuses what is no threshold.
+    /// Refuses invalid thresholds.
     pub(in crate::lines) fn check(&self) -> Result<()> {
         let thresholds = [
             ("suggestive-threshold", self.suggestive_threshold),

@@ -1,4 +1,4 @@
-//! Form lines where little is left to find them by: nearly flat surfaces, normals that are wrong or none, noise.
+//! Form lines on hard input: nearly flat surfaces, wrong or missing normals, noise.
 
 use super::tests::{length, on_torus, parameters, raw, traced};
 use super::*;
@@ -7,14 +7,14 @@ use crate::mesh::{LoadOptions, read_bytes};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
-/// Nothing smoothed, and every suggestive contour.
+/// Without smoothing, and with every suggestive contour.
 fn whole() -> FormSettings {
     FormSettings { suggestive_threshold: 0.0, ..raw() }
 }
 
 const ALL: [Class; 4] = [Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge];
 
-/// Waves of a height along x, three wide, with what `more` adds to each height.
+/// Three waves along x with this height; `more` is added to each height.
 fn waves(height: f64, more: impl Fn(DVec3) -> f64) -> Mesh {
     grid([240, 20], [false; 2], |u, v| {
         let flat = DVec3::new((u - 0.5) * 3.0 * TAU, 4.0 * v, 0.0);
@@ -60,7 +60,7 @@ fn what_is_flat_but_for_rounding_has_no_form_lines() {
     }
 }
 
-/// An OBJ file of a mesh, with what `normal` says at each position.
+/// A mesh read from an OBJ file, with the normal that `normal` gives at each position.
 fn obj(mesh: &Mesh, normal: Option<&dyn Fn(usize) -> DVec3>) -> Mesh {
     let mut text = String::new();
     for (number, DVec3 { x, y, z }) in mesh.positions.iter().enumerate() {
@@ -97,7 +97,7 @@ fn a_files_wrong_normals_change_no_form_line() {
 
 #[test]
 fn vertices_whose_normals_cancel_leave_the_rest_as_it_is() {
-    // Of every twentieth triangle there is one more, the other way round: around it the sum of normals says nothing.
+    // Every twentieth triangle is repeated in the opposite orientation; around it the sum of normals is meaningless.
     let good = torus([60, 30], [1.0, 0.4]);
     let mut triangles = good.triangles.clone();
     triangles.extend(good.triangles.iter().step_by(97).map(|[a, b, c]| [*a, *c, *b]));
@@ -113,7 +113,7 @@ fn vertices_whose_normals_cancel_leave_the_rest_as_it_is() {
 fn noise_moves_smoothed_suggestive_contours_by_little() {
     let (radii, to_eye) = ([1.0, 0.4], DVec3::new(1.0, 0.2, 0.5).normalize());
     let good = torus([140, 70], radii);
-    // Of the closed form's curvature along the view, shares of the largest there is: 0 on the line itself.
+    // The exact curvature along the view, as shares of its largest value: 0 on the line itself.
     let off = |noise: f64, smoothing: f64| {
         let positions = good.positions.iter().map(|point| *point * (1.0 + noise * scattered(*point))).collect();
         let mesh = Mesh::of_triangles("noise", positions, &good.triangles, &LoadOptions::default()).unwrap();
@@ -129,7 +129,7 @@ fn noise_moves_smoothed_suggestive_contours_by_little() {
     for noise in [0.0002, 0.001, 0.002] {
         let by_smoothing = [0.0, 1.0, 2.0].map(|smoothing| off(noise, smoothing));
         println!("noise {noise}: {by_smoothing:?}, without {clean} {whole}");
-        // Where there is hardly any noise, smoothing moves lines more than noise does.
+        // With hardly any noise, smoothing moves lines more than the noise does.
         assert!(noise < 0.001 || by_smoothing[1][0] < 0.7 * by_smoothing[0][0], "{noise}: {by_smoothing:?}");
         for [off, length] in &by_smoothing[1..] {
             assert!(*off < 0.01 && (length / whole - 1.0).abs() < 0.1, "{noise}: {off} {length} {whole}");

@@ -6,7 +6,7 @@ use crate::edges::{EdgeList, Side, side_of_face};
 use crate::mesh::LoadOptions;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// The lines of a class on a mesh, in its own space.
+/// The lines of a class on a mesh, in the mesh's space.
 pub(super) fn traced(mesh: &Mesh, class: Class, eye: Eye, settings: &FormSettings) -> Vec<[DVec3; 2]> {
     let settings = LineSettings { classes: ClassSet::of(&[class]), forms: settings.clone(), ..LineSettings::default() };
     let curvatures = Curvatures::new(mesh, &EdgeList::new(mesh), settings.forms.crease_angle, settings.forms.smoothing);
@@ -28,27 +28,27 @@ pub(super) fn length(lines: &[[DVec3; 2]]) -> f64 {
     lines.iter().map(|[from, to]| from.distance(*to)).sum()
 }
 
-/// How far a point is from the nearest of some lines' ends.
+/// The distance of a point from the nearest end of some lines.
 fn distance(lines: &[[DVec3; 2]], point: DVec3) -> f64 {
     lines.iter().flatten().map(|end| end.distance(point)).fold(f64::INFINITY, f64::min)
 }
 
-/// How many ends meet no other, bit for bit.
+/// The number of ends that meet no other, bit for bit.
 fn loose_ends(lines: &[[DVec3; 2]]) -> usize {
     let mut ends: Vec<[u64; 3]> = lines.iter().flatten().map(|end| (*end + 0.0).to_array().map(f64::to_bits)).collect();
     ends.sort_unstable();
     ends.chunk_by(|a, b| a == b).filter(|meeting| meeting.len() == 1).count()
 }
 
-/// Of a torus the curvature along the view and its growth towards the eye, times sines of the angle to the view as [`Radial`] has
-/// them, in a closed form.
+/// The curvature of a torus along the view and its growth towards the eye, in closed form, with the factors of sines
+/// of [`Radial`].
 pub(super) fn on_torus([large, small]: [f64; 2], [u, v]: [f64; 2], to_eye: DVec3) -> [f64; 2] {
     let across = large + small * v.cos();
     let around = DVec3::new(-u.sin(), u.cos(), 0.0);
     let up = DVec3::new(-v.sin() * u.cos(), -v.sin() * u.sin(), v.cos());
     let (x, y) = (to_eye.dot(around), to_eye.dot(up));
     let (k, l) = (v.cos() / across, 1.0 / small);
-    // Along the second direction the first curvature changes, and with it what of the derivative mixes both.
+    // The first curvature changes along the second direction, and so do the mixed terms of the derivative.
     let growth = -v.sin() * large / (across * across) / small;
     let normal = DVec3::new(v.cos() * u.cos(), v.cos() * u.sin(), v.sin());
     let (squares, torsion) = (x * x + y * y, (l - k) * x * y / (x * x + y * y));
@@ -56,7 +56,7 @@ pub(super) fn on_torus([large, small]: [f64; 2], [u, v]: [f64; 2], to_eye: DVec3
     [k * x * x + l * y * y, third / squares - 2.0 * normal.dot(to_eye) * torsion * torsion]
 }
 
-/// The parameters of the point of a torus nearest to a point.
+/// The parameters of the torus's nearest point to a point.
 pub(super) fn parameters(large: f64, point: DVec3) -> [f64; 2] {
     [point.y.atan2(point.x), point.z.atan2(point.truncate().length() - large)]
 }
@@ -78,10 +78,10 @@ fn suggestive_contours_of_a_torus_are_where_the_curvature_along_the_view_is_zero
                 continue;
             }
             let [curvature, growth] = on_torus(radii, at, to_eye);
-            // On the inner half only, between the parabolic circles, and growing.
+            // Only on the inner half, between the parabolic circles, and growing.
             assert!(at[1].cos() < 0.1, "{at:?}");
             assert!(growth > -0.3, "{at:?}: {growth}");
-            // By how much the line is off: the curvature over its slope.
+            // The error of the line's place: the curvature over its slope.
             let step = 1e-5;
             let slope = |axis: usize| {
                 let mut beside = at;
@@ -92,7 +92,7 @@ fn suggestive_contours_of_a_torus_are_where_the_curvature_along_the_view_is_zero
             errors.push(curvature.abs() / per_unit);
         }
         errors.sort_unstable_by(f64::total_cmp);
-        // All that is clearly there is found.
+        // All clear lines are found.
         let (mut sought, mut missed) = (0, 0);
         for i in 0..400 {
             for j in 0..400 {
@@ -118,7 +118,7 @@ fn suggestive_contours_of_a_torus_are_where_the_curvature_along_the_view_is_zero
 
 #[test]
 fn suggestive_contours_of_waves_are_the_turning_points_towards_the_eye() {
-    // A wave along x, high where x is 0, seen from the side of larger x.
+    // A wave along x, high at x = 0, seen from the side of larger x.
     let waves = |counts| {
         grid(counts, [false; 2], |u, v| {
             let x = (u - 0.5) * 3.0 * TAU;
@@ -127,7 +127,7 @@ fn suggestive_contours_of_waves_are_the_turning_points_towards_the_eye() {
     };
     let to_eye = DVec3::new(0.5, 0.0, 1.0);
     let found = traced(&waves([240, 20]), Class::Suggestive, Eye::Direction(to_eye), &raw());
-    // One line a wave, across it from end to end; none at the other turning points.
+    // One line per wave, across it from end to end; none at the other turning points.
     for [from, to] in &found {
         for end in [from, to] {
             let turning = (end.x + FRAC_PI_2).rem_euclid(TAU);
@@ -136,7 +136,7 @@ fn suggestive_contours_of_waves_are_the_turning_points_towards_the_eye() {
     }
     assert!((length(&found) - 3.0 * 4.0).abs() < 0.2, "{}", length(&found));
     assert!(loose_ends(&found) <= 8, "{}", loose_ends(&found));
-    // Seen from behind it is the other way round: what was hollow bulges.
+    // From behind the sides are swapped: hollows bulge.
     let behind = traced(&waves([240, 20]), Class::Suggestive, Eye::Direction(-to_eye), &raw());
     assert!(!behind.is_empty());
 }
@@ -153,7 +153,7 @@ fn ridges_and_valleys_of_waves_are_their_crests_and_troughs() {
         for end in found.iter().flatten() {
             let period = if class == Class::ApparentRidge { PI } else { TAU };
             let off = (end.x - at).rem_euclid(period);
-            // Seen aslant the strongest curvature is a little beside the crest.
+            // Seen obliquely, the largest curvature lies slightly beside the crest.
             let near = if class == Class::ApparentRidge { 0.15 } else { 0.01 };
             let is_rim = end.x.abs() > 3.0 * PI - 0.4 || end.y < 0.3 || end.y > 3.7;
             assert!(off.min(period - off) < near || is_rim, "{class:?}: {end}");

@@ -1,36 +1,36 @@
-//! Where a line runs through a face: from what is known at its three corners.
+//! Traces lines through a face from the values at its three corners.
 
 use crate::tolerances::{CREST_SHARPNESS, THROUGH_VERTEX};
 use glam::DVec3;
 
-/// A face's corners.
 pub(super) struct Corners {
-    /// The vertices' numbers: what is found along a side begins at the lower one, whichever face asks.
+    /// The vertices' numbers: a side begins at its lower vertex, whichever face it is traced from.
     pub numbers: [usize; 3],
-    /// In the eye's space.
+    /// Positions in eye space.
     pub view: [DVec3; 3],
 }
 
-/// A point of a line with what must be above 0 for the line to be drawn there.
+/// A point of a line, with the values that must be above 0 for the line to be drawn there.
 #[derive(Clone, Copy)]
 struct End {
     view: DVec3,
     tests: [f64; 2],
 }
 
-/// How strongly a surface is curved at a vertex.
+/// The curvature at a vertex for ridges.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Crest {
     /// The curvature, 1 / length.
     pub strength: f64,
-    /// The direction in which it is most curved, a unit vector; which of both, is all the same.
+    /// The direction of largest curvature, a unit vector with arbitrary sign.
     pub direction: DVec3,
-    /// How the strength grows along it. The sign of a 0 counts too, so that a crest which runs through vertices has no gaps.
+    /// The growth of the strength along the direction. The sign of a 0 counts too, so a crest through vertices has no
+    /// gaps.
     pub growth: f64,
 }
 
 impl Crest {
-    /// The same with the strength times 1 or -1.
+    /// Returns it with the strength times 1 or -1.
     pub(super) fn times(self, sign: f64) -> Self {
         Self { strength: self.strength * sign, growth: self.growth * sign, ..self }
     }
@@ -43,8 +43,8 @@ impl Corners {
         if self.numbers[corner] <= self.numbers[next] { [corner, next] } else { [next, corner] }
     }
 
-    /// A place on a side that is so far along it, or its end where that is next to it: pieces of lines around a vertex that are too
-    /// short to be drawn then leave no gap.
+    /// A place on a side, or its end if that is close by. Segments around a vertex that are too short to draw then
+    /// leave no gap.
     fn at(&self, [from, to]: [usize; 2], share: f64, tests: &[[f64; 3]; 2]) -> End {
         let share = match share {
             share if share < THROUGH_VERTEX => 0.0,
@@ -56,7 +56,7 @@ impl Corners {
     }
 }
 
-/// A point of a line; its ends are themselves.
+/// A point between two others; shares of 0 and 1 give them exactly.
 fn between(from: DVec3, to: DVec3, share: f64) -> DVec3 {
     match share {
         0.0 => from,
@@ -65,8 +65,8 @@ fn between(from: DVec3, to: DVec3, share: f64) -> DVec3 {
     }
 }
 
-/// The line in a face along which what is linear between these values is 0, as far as both tests are above 0. A corner's 0 is
-/// above, so that a face which has nothing else has no line.
+/// The line in a face where a linear function with these corner values is 0, clipped to where both tests are above 0.
+/// A corner value of 0 counts as above; a face with no value below 0 has no line.
 pub(super) fn zero_set(corners: &Corners, values: [f64; 3], tests: [[f64; 3]; 2]) -> Option<[DVec3; 2]> {
     let is_above = values.map(|value| value >= 0.0);
     if is_above == [true; 3]
@@ -83,12 +83,12 @@ pub(super) fn zero_set(corners: &Corners, values: [f64; 3], tests: [[f64; 3]; 2]
     clipped([ends.next()?, ends.next()?])
 }
 
-/// The lines in a face along which the strength is largest across them, as far as it is above `least` (Ohtake et al. 2004): a side
-/// is crossed where the strength stops growing between its ends. Three crossings meet in the middle; `place` gives the corners in
-/// the mesh's own space.
+/// The lines in a face where the strength is largest across them, clipped to where it is above `least` (Ohtake et al.
+/// 2004). A line crosses a side if the strength stops growing between its ends. Three crossings meet in the middle.
+/// `place` gives the corners in the mesh's space.
 ///
-/// Whether it is a largest strength or a least one, and whether there is any to speak of, is asked of the face as a whole: where a
-/// crest runs along a side nothing but rounding says on which end's side it crosses it.
+/// The whole face decides whether the strength has a maximum or a minimum, and whether it is significant. Along a
+/// side that a crest follows, rounding alone would decide on which side it crosses.
 pub(super) fn crests(
     corners: &Corners,
     place: impl Fn() -> [DVec3; 3],
@@ -100,7 +100,7 @@ pub(super) fn crests(
         return;
     }
     let turns = |[from, to]: [usize; 2]| {
-        // Both directions may be taken either way round.
+        // The signs of both directions are arbitrary.
         let is_turned = at[from].direction.dot(at[to].direction) < 0.0;
         (at[from].growth.is_sign_negative() != at[to].growth.is_sign_negative()) != is_turned
     };
@@ -119,7 +119,7 @@ pub(super) fn crests(
             falls += (at[from].direction * at[from].growth - at[to].direction * at[to].growth).dot(along);
         }
     }
-    // Where curvature is as good as constant along its own direction, as on pipes, there is no crest but in the last digits.
+    // If the curvature is almost constant along its own direction, as on pipes, a crest would be rounding only.
     if falls <= 0.0 || sharpest <= CREST_SHARPNESS {
         return;
     }
@@ -141,7 +141,7 @@ pub(super) fn crests(
     }
 }
 
-/// What of a piece both tests are above 0 on.
+/// The part of a segment where both tests are above 0.
 fn clipped([from, to]: [End; 2]) -> Option<[DVec3; 2]> {
     let (mut start, mut end) = (0.0f64, 1.0f64);
     for (first, second) in from.tests.into_iter().zip(to.tests) {

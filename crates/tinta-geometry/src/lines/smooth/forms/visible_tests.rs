@@ -1,4 +1,4 @@
-//! Form lines as drawings have them: what is hidden, what hangs together, what is counted.
+//! Form lines in drawings: hidden parts, connections, counts.
 
 use crate::camera::CameraSettings;
 use crate::curvature::shapes::{ball, grid, torus};
@@ -34,7 +34,7 @@ fn length(lines: &VisibleLines, class: Class, is_visible: bool) -> f64 {
     wanted.map(|segment| segment.ends_px[0].distance(segment.ends_px[1])).sum()
 }
 
-/// Three waves along x over a square of eight.
+/// Three waves along x over a square of size eight.
 fn waves() -> Mesh {
     grid([240, 24], [false; 2], |u, v| {
         let x = (u - 0.5) * 8.0;
@@ -59,7 +59,7 @@ fn what_a_sheet_covers_of_ridges_and_valleys_is_hidden() {
         }
         let mut counts = lines.edges;
         assert!(*counts.of(Class::Ridge) > 100 && *counts.of(Class::Suggestive) == 0);
-        // Without what is hidden the visible lines are the same.
+        // Without hidden lines the visible ones are the same.
         let seen = LineSettings { finds_hidden: false, ..of(&classes) };
         let seen = VisibleLines::of(&seen_from(vec![waves(), sheet(z)], DVec3::Z * 20.0), &seen).unwrap();
         for class in classes {
@@ -74,7 +74,8 @@ fn lines_hang_together_from_face_to_face() {
     let lines =
         VisibleLines::of(&seen_from(vec![ellipsoid], DVec3::new(8.0, -9.0, 12.0)), &of(&[Class::Ridge])).unwrap();
     let paths = chain(&lines.segments);
-    // Where the rim passes the contour of the polygons short pieces of it come and go; between, it is one line.
+    // Short segments come and go where the rim passes the contour of the polygons; between these places it is one
+    // line.
     for is_visible in [true, false] {
         let lengths = paths.iter().filter(|path| path.is_visible == is_visible).map(|path| path.points_px.len());
         let (longest, all) = lengths.fold((0, 0), |(longest, all), length| (longest.max(length), all + length));
@@ -91,7 +92,7 @@ fn every_class_together_is_drawn_and_the_default_is_without_form_lines() {
     let all = VisibleLines::of(&scene, &settings).unwrap();
     all.check().unwrap();
     assert!(length(&all, Class::Suggestive, true) > 10.0);
-    // A pipe bent to a ring is as round everywhere: no crest.
+    // A pipe bent into a ring has no crest: it is equally round everywhere.
     assert_eq!(length(&all, Class::Ridge, true) + length(&all, Class::Valley, true), 0.0);
     let plain = VisibleLines::of(&scene, &LineSettings::default()).unwrap();
     assert!(plain.segments.iter().all(|segment| ClassSet::EDGES.contains(segment.class)));
