@@ -2,7 +2,7 @@
 //!
 //! Pictures, animations and texts all go through here. Nothing half is left however the program ends, without handling
 //! signals: what is written is complete in memory first, and on the disk before it gets its name. The price is its size in
-//! memory. What holds when, and what no program can promise: docs/dev/faults.md.
+//! memory. What holds when, and what no program can promise: docs/dev/limits.md.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
