@@ -1,4 +1,4 @@
-//! The cartoon's frame and cold start beside the programs people would otherwise take. docs/results/performance.md has the command.
+//! The cartoon's frame and cold start beside the programs people would otherwise take. docs/results/measuring.md has the command.
 //!
 //! Rounds are interleaved: in each, every contestant runs once, so that a busy moment of the machine hits all of them.
 //! Reported are medians over all rounds and their ratios; all raw values go to `target/bench/cartoon.json`.

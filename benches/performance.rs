@@ -1,5 +1,5 @@
 //! What leaving out saves, and how a frame's cost grows with triangles and with pixels, beside the limits: clearing, drawing
-//! the mesh once, one filter over the picture. docs/results/performance.md has the command.
+//! the mesh once, one filter over the picture. docs/results/measuring.md has the command.
 //!
 //! Contestants take turns, round by round. The model turns by 3 degrees a round; making the plan and pruning it is part of
 //! every frame, finding out what holds for all views is not: it is timed by itself.

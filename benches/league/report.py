@@ -122,8 +122,8 @@ def beaten(summaries):
         return [f"- {peer['name']} has less error than {own['name']} ({peer['f1']:.3f}, {own['f1']:.3f}) in {peer['seconds'] / own['seconds']:.2f} of its time" for peer, own in better] + [""]
     fastest, slowest = min(peers, key=lambda row: row["seconds"]), max(ours, key=lambda row: row["seconds"])
     return [
-        f"In the mean over the pictures no other program's process is as fast as that of tinta's slowest style ({slowest['name']}, {slowest['seconds']:.2f} s; {fastest['name']} "
-        f"{fastest['seconds']:.2f} s), so nothing is compared at equal time. How much of the others' time is start, \"of that, drawing\" says, and the second table has single models.",
+        f"On average, tinta's slowest style ({slowest['name']}, {slowest['seconds']:.2f} s) is faster than every peer ({fastest['name']}, {fastest['seconds']:.2f} s), "
+        'so no comparison at equal time is possible. "Of that, drawing" excludes the start.',
         "",
     ]
 
@@ -242,9 +242,10 @@ def main():
     (folder / "plot.svg").write_text(picture)
     sheet(folder, rows, [row["name"] for row in summaries])
     if asked.document:
-        (asked.document.parent / "pictures/league.svg").write_text(picture)
-        shutil.copy(folder / "sheet.png", asked.document.parent / "pictures/league-sheet.png")
-        put(asked.document, f"![error against time](pictures/league.svg)\n\n{text}")
+        pictures = asked.document.parent.parent / "pictures"
+        (pictures / "league.svg").write_text(picture)
+        shutil.copy(folder / "sheet.png", pictures / "league-sheet.png")
+        put(asked.document, f"![error against time](../pictures/league.svg)\n\n{text}")
     page = folder / "page"
     shutil.rmtree(page, ignore_errors=True)
     merged = [str(folder / "judged" / case / "results.jsonl") for case in by_case]

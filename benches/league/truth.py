@@ -1,6 +1,6 @@
 """How wrong the exact lines are themselves: random points of each model's edges, each judged by casting a ray at it.
 
-    python benches/league/truth.py --models DIR -o truth --document docs/results/benchmark.md
+    python benches/league/truth.py --models DIR -o truth --document docs/results/league.md
 
 Twelve models, nine fetched and three made here, from 26 sides. Edges, their classes, and who hides what are found here anew, in f64,
 with nothing of tinta's: points are spread evenly over the length in the picture of all silhouettes, creases, borders and non-manifold
@@ -281,7 +281,7 @@ def main():
                 log.flush()
     text = table(rows)
     if asked.document:
-        put(asked.document, text)
+        put(asked.document, text, "truth")
     print(text)
 
 

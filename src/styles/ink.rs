@@ -1,7 +1,7 @@
 //! `ink`: the best ink an image-space filter was found to draw at no more than the faithful three passes' time.
 //!
 //! Evangelista's three passes with another map and another filter: the map holds each pixel's own plane, the filter asks
-//! whether neighbouring planes meet. What was measured is in `docs/results/ink.md`.
+//! whether neighbouring planes meet. `docs/results/measuring.md` has its measurements.
 
 use super::border::{reach, taps};
 use super::lens::DepthRange;
@@ -153,7 +153,7 @@ impl Ink {
                  normals (only where they are split, see --smooth-angle)",
                 |ink: &mut Self| &mut ink.crease_by,
             )
-            .ours("what was measured (ink.md)"),
+            .ours("the measured setting (measuring.md)"),
             Setting::open_field(
                 "remove-specks",
                 ON_OFF,
@@ -186,7 +186,7 @@ impl Ink {
                  lines",
                 |ink: &mut Self| &mut ink.least_gap_px,
             )
-            .ours("the best of those measured (ink.md)")
+            .ours("the best of those measured (measuring.md)")
             .range(0.0, 20.0, 2),
             Setting::field(
                 "gap-per-slope",
@@ -194,7 +194,7 @@ impl Ink {
                 "Addition to --least-gap per unit of slope; more draws fewer lines near outlines",
                 |ink: &mut Self| &mut ink.gap_per_slope,
             )
-            .ours("the best of those measured (ink.md)")
+            .ours("the best of those measured (measuring.md)")
             .range(0.0, 5.0, 2),
         ];
         under(ALL_STYLES, common)

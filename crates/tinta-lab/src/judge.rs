@@ -2,7 +2,7 @@
 //! it is hidden.
 //!
 //! In: a picture or an SVG by any program, and the scene it was drawn of. Out: a [`Judgement`]. What the numbers mean stands in
-//! docs/results/judging.md.
+//! docs/results/league.md.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
