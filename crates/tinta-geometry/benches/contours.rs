@@ -1,5 +1,5 @@
 //! Measures the error of silhouettes against the smooth surface's, the breaks in their visibility, and their cost.
-//! docs/guide/smooth.md has the commands and the results.
+//! docs/results/exactness.md has the commands and the results.
 
 #[path = "contours/flicker.rs"]
 mod flicker;

@@ -43,7 +43,7 @@ const TORUS: ClosedForm = ClosedForm::Torus { ring: 1.0, tube: 0.4 };
 fn closed_forms_of_ten_thousand_triangles_are_met_within_half_a_pixel() {
     let views = [(30.0, 15.0), (112.0, 38.0), (-71.0, -22.0), (5.0, 74.0)];
     let (sphere, ellipsoid) = (ClosedForm::ellipsoid(1.0, 1.0, 1.0), ClosedForm::ellipsoid(1.0, 0.6, 1.4));
-    // A torus with moved vertices is omitted: the ends of its contour at cusps move farther, as docs/guide/smooth.md
+    // A torus with moved vertices is omitted: the ends of its contour at cusps move farther, as docs/results/exactness.md
     // states.
     for (form, jitters) in [(sphere, &[0.0f64, 0.2][..]), (ellipsoid, &[0.0, 0.2]), (TORUS, &[0.0])] {
         for &jitter in jitters {
