@@ -27,7 +27,7 @@ pub enum Action {
     View(&'static str),
     /// Choose a style by its number in [`StyleName::ALL`].
     Style(usize),
-    /// Show exact lines by themselves.
+    /// Show exact lines alone.
     Lines,
     /// Lay exact lines over the picture, or not.
     Overlay,
@@ -131,7 +131,7 @@ const ROWS: &[Row] = &[
             ("9", Nothing, Style(8)),
         ],
     ),
-    window("0", "lines: exact lines by themselves", &[("0", Nothing, Lines)]),
+    window("0", "lines: exact lines alone", &[("0", Nothing, Lines)]),
     window("E", "exact lines over the picture, or not", &[("E", Nothing, Overlay)]),
     window("S", "one style; two with a divider to drag; two and their difference", &[("S", Nothing, Layout)]),
     row("O", "the other side: its style by number, its settings in the panel", &[("O", Nothing, OtherSide)]),
@@ -176,7 +176,7 @@ const ROWS: &[Row] = &[
     window("drop a file", "show that model; a preset (.toml): its style and settings", &[]),
     window("F11", "full screen", &[("F11", Nothing, FullScreen)]),
     row("H", "this sheet", &[("H", Nothing, KeySheet)]),
-    window("Esc", "close what is open: sheet, times, panel, full screen", &[("Escape", Nothing, Close)]),
+    window("Esc", "close the sheet, times, panel or full screen", &[("Escape", Nothing, Close)]),
     window("Q", "quit", &[("Q", Nothing, Quit), ("Q", Ctrl, Quit)]),
 ];
 

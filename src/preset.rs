@@ -69,7 +69,7 @@ impl Preset {
                         Some(meant) => format!("did you mean {PREFIX}{meant}?"),
                         None => format!("there are {}", shipped_names()),
                     };
-                    Err(refused(name, format!("there is no shipped preset of this name; {choice}")))
+                    Err(refused(name, format!("no shipped preset has this name; {choice}")))
                 }
             };
         }

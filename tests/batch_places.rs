@@ -25,7 +25,7 @@ fn lists_whose_jobs_write_the_same_by_a_number_or_in_a_folder_are_refused_before
     );
     refuse(
         &[one("b", "a-3.png"), one("c", "c.png"), turn("a", "a-%d.png", 3)],
-        "line 3: output: a-%d.png writes a-3.png, and so does line 1 by a-3.png; name another",
+        "line 3: output: a-%d.png writes a-3.png, as does line 1 by a-3.png; name another",
     );
     refuse(
         &[turn("a", "x/%02d.png", 12), turn("b", "x/1%d.png", 2)],

@@ -144,7 +144,7 @@ const MISTAKES: [(&str, &str); 88] = [
     ),
     (
         "render triangle.obj -o out.xyz",
-        "out.xyz: nothing is written as .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for lines, .gif or .apng for an animation",
+        "out.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for lines, .gif or .apng for an animation",
     ),
     ("render triangle.obj -o nowhere/out.png", "nowhere/out.png: the folder nowhere does not exist; create it first"),
     ("render triangle.obj -o dir", "dir: this is a directory; name a file in it"),
@@ -189,7 +189,7 @@ const MISTAKES: [(&str, &str); 88] = [
     ),
     (
         "render triangle.obj -o out.png --preset paper:evangelista-tree-pass",
-        "paper:evangelista-tree-pass: there is no shipped preset of this name; did you mean paper:evangelista-three-pass?",
+        "paper:evangelista-tree-pass: no shipped preset has this name; did you mean paper:evangelista-three-pass?",
     ),
     (
         "render triangle.obj -o out.png --preset unknown.toml",

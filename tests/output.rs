@@ -208,7 +208,7 @@ fn a_read_only_folder_is_refused_before_the_work() {
             ("exit 2", format!("holds {file}").as_str(), "what was there"),
             "{text}"
         );
-        let is_refused = said.contains("there is no permission to write into the folder ");
+        let is_refused = said.contains("no permission to write into the folder ");
         assert!(is_refused && said.contains(file) && said.ends_with("; choose another"), "{said}");
     }
 }

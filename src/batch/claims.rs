@@ -99,7 +99,7 @@ impl Claim {
         let pattern = shown(&before.output);
         Some(match self.place == shared {
             true => format!("{output} is also written by line {line}, as one of {pattern}; name another"),
-            false => format!("{output} writes {}, and so does line {line} by {pattern}; name another", shown(&shared)),
+            false => format!("{output} writes {}, as does line {line} by {pattern}; name another", shown(&shared)),
         })
     }
 }

@@ -118,7 +118,7 @@ impl Asked {
             Some(Value::String(id)) => id,
             Some(Value::Number(id)) if id.is_u64() || id.is_i64() => id.to_string(),
             Some(_) => return Err("id: write a text or a whole number".to_owned()),
-            None => return Err("it has no id; give each job one of its own".to_owned()),
+            None => return Err("it has no id; give each job its own".to_owned()),
         };
         check_id(&id)?;
         let command = match take("command") {

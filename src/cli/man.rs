@@ -52,7 +52,7 @@ struct Page {
 const DESCRIPTION: &str = "Draws 3D models as cartoons, ink, charcoal and line art. It runs OpenGL 2.1 programs \
 published between 2001 and 2007, almost as printed, and computes exact visible lines. It needs neither a display nor a \
 graphics card: OpenGL comes from EGL or OSMesa, and Mesa's software renderer is enough. Models are files, or built in, \
-such as builtin:bust. Each command has a page of its own with all its options and their defaults.";
+such as builtin:bust. Each command has its own page with all its options and their defaults.";
 
 /// Where a window opens.
 const DISPLAY: (&str, &str) =

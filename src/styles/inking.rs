@@ -146,7 +146,7 @@ impl Inking {
                  (test)",
                 |inking: &mut Self| &mut inking.writes_depth,
             )
-            .deduced("D, Inking: the listing leaves the depth mask as it is"),
+            .deduced("D, Inking: the listing does not change the depth mask"),
             Setting::field(
                 "polygon-offset",
                 "F,U",
@@ -304,7 +304,7 @@ impl Inking {
             ));
         }
         if show == Show::Borders && !self.is_inked {
-            return Err(Error::value("show", "borders", "there are none with --no-borders; leave out one of the two"));
+            return Err(Error::value("show", "borders", "--no-borders leaves none to show; leave out one of the two"));
         }
         let has_picture = |material: &crate::mesh::Material| material.has_texture();
         if self.has_texture && !scene.objects.iter().any(|object| object.mesh.materials.iter().any(has_picture)) {

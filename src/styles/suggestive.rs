@@ -61,7 +61,7 @@ impl Suggestive {
             Setting::field(
                 "valley-radius",
                 "PIXELS",
-                "Radius of the neighbourhood in which a pixel can be a valley, in pixels, 1 to 16; more draws wider \
+                "Radius of the neighbourhood searched for valleys of shade, in pixels, 1 to 16; more draws wider \
                  lines",
                 |style: &mut Self| &mut style.radius_px,
             )
@@ -119,7 +119,7 @@ impl Suggestive {
             return Err(Error::setting("show", problem));
         }
         if !self.is_inked && matches!(show, Show::Borders | Show::Map) {
-            return Err(Error::setting("show", "there is no ink with --no-borders; leave out one of the two"));
+            return Err(Error::setting("show", "--no-borders leaves no ink to show; leave out one of the two"));
         }
         if !(1..=LARGEST_RADIUS).contains(&self.radius_px) {
             let problem = format!("the radius is 1 to {LARGEST_RADIUS} pixels");

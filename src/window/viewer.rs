@@ -385,7 +385,7 @@ impl Viewer {
         let job = self.job().map(|job| Job { is_coarse: false, ..job });
         let is_shown = self.drawn.as_ref().is_some_and(|drawn| !drawn.is_coarse);
         let Some(job) = job.filter(|_| is_shown) else {
-            self.state.message = Some("there is nothing to save yet; wait until the picture is there".to_owned());
+            self.state.message = Some("no picture to save yet; wait until one is drawn".to_owned());
             return;
         };
         let (state, shown, surroundings) = (self.state.clone(), self.shown(), self.surroundings.clone());
@@ -512,7 +512,7 @@ impl Viewer {
             false => self.costs.view_changed(),
         }
         self.drawn = Some(job);
-        // Of sides that show exact lines by themselves there is nothing new.
+        // Of sides that show exact lines alone there is nothing new.
         if !drawings.is_empty() || !self.drawings.is_empty() {
             self.drawings_number += 1;
             self.picture_number += 1;

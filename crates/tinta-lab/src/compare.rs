@@ -24,7 +24,7 @@ use serde::Serialize;
 use tinta::picture::Picture;
 use tinta::scene::Size;
 
-/// Darkness from which a pixel is ink, of 255.
+/// Least darkness of a pixel that counts as ink, of 255.
 const INK_FROM: u8 = 64;
 
 /// Which pixels of a picture are ink.

@@ -77,7 +77,7 @@ pub fn record(row: &Row) -> Vec<(String, serde_json::Value)> {
 /// [`Error::File`] when a file cannot be written, and without any row.
 pub fn write(folder: &Path, rows: &[Row], info: &ReportInfo) -> Result<()> {
     if rows.is_empty() {
-        return Err(Error::file(FileKind::Rows, folder, "there is no row to report on; measure something first"));
+        return Err(Error::file(FileKind::Rows, folder, "no row to report on; measure something first"));
     }
     // They belong together: none appears before all are on the disk.
     let stage = |name: &str, text: &str| Staged::new(&folder.join(name), text.as_bytes());

@@ -76,8 +76,8 @@ impl WorkerProcess {
         Ok(Outcome::failed(
             "crash",
             format!(
-                "its worker process ended ({ended}), perhaps because the driver crashed or memory ran out; try it by \
-                 itself"
+                "its worker process ended ({ended}), perhaps because the driver crashed or memory ran out; run this job \
+                 alone"
             ),
         ))
     }

@@ -58,7 +58,7 @@ impl Format {
             (false, None) if output == "-" || Path::new(output).is_dir() => Ok(None),
             (false, None) => match extension(output) {
                 Some(extension) if !is_of_a_picture(extension) => refuse(format!(
-                    "nothing is written as .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for \
+                    "tinta writes no .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for \
                      lines, .gif or .apng for an animation"
                 )),
                 _ => Ok(None),

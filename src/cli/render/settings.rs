@@ -182,7 +182,7 @@ impl RunSettings {
         Self::refuse(&[("dump", self.dump.is_some()), ("frames", self.frames != 1)], problem)?;
         let problem = "style lines is computed, not drawn by passes; leave it out here";
         Self::refuse(&[("verify", self.verify)], problem)?;
-        let problem = "without a limit there is no part; add --within SECONDS, or leave it out";
+        let problem = "it needs a time limit; add --within SECONDS, or leave it out";
         Self::refuse(&[("partial", self.partial && self.within.is_none())], problem)
     }
 }

@@ -166,7 +166,7 @@ impl OsMesaContext {
 impl Platform for OsMesaContext {
     fn resize(&mut self, size: Size) -> Result<(), String> {
         let mut memory = Vec::new();
-        memory.try_reserve_exact(size.pixel_count()).map_err(|_| "there is not enough memory".to_owned())?;
+        memory.try_reserve_exact(size.pixel_count()).map_err(|_| "not enough memory".to_owned())?;
         memory.resize(size.pixel_count(), 0);
         *self.memory.borrow_mut() = memory;
         self.size = size;

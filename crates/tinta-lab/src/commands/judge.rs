@@ -292,7 +292,7 @@ fn in_words(name: &str, size: Size, judgement: &Judgement) -> String {
             format!("{chamfer:.2} px in the mean (Chamfer), {hausdorff:.2} px for 95 % of it (Hausdorff)"),
         );
     } else {
-        line("distance", format!("none: there is no ink from darkness {INK_FROM} of 255 on, or no line"));
+        line("distance", format!("none: no ink from darkness {INK_FROM} of 255 on, or no line"));
     }
     line("hidden lines", format!("{:.1} of {:.1} px are drawn", hidden.drawn_px, hidden.length_px));
     let classes: Vec<String> =

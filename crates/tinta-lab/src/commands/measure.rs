@@ -201,7 +201,7 @@ fn measured(
         counted(asked.sizes.len(), "size"),
         counted(how.frames, "frame"),
         in_words(Duration::from_secs_f64(seconds)),
-        if results.is_empty() { "" } else { ", minus what is done already" }
+        if results.is_empty() { "" } else { ", minus those done already" }
     ));
     let progress = TimedProgress::new("measuring", &expected);
     for (number, group) in groups.into_iter().enumerate() {

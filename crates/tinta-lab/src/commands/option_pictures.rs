@@ -255,7 +255,7 @@ fn the_pictures_of_the_options_are_what_their_commands_draw() {
             }
         }
     }
-    let how = "if the change is wanted: TINTA_UPDATE_PICTURES=1 cargo test -p tinta-lab --all-features option_pictures, and look at them; \
+    let how = "if you intended the change: TINTA_UPDATE_PICTURES=1 cargo test -p tinta-lab --all-features option_pictures, and look at them; \
                an option's name instead of 1 updates that one";
     assert!(failures.is_empty(), "{}\n{how}", failures.join("\n"));
     assert!(update.is_none(), "the pictures were written anew: look at them, then run without TINTA_UPDATE_PICTURES");

@@ -94,8 +94,8 @@ fn write(out: &mut String, shown: Shown<'_>, gl: &str, size: Size) -> std::fmt::
         out,
         "<p>Every figure of the three texts by its own number, diagrams included: drawn anew with models of our own, or named with \
          the reason why not. Drawn by tinta {version} at {size} pixels on {}; the files beside this page hold each picture in all \
-         its colours.</p>\n<p>The originals' pictures were not at hand: the texts were read as text alone, and what a figure shows \
-         is known from its caption and from what is said of it.</p>",
+         its colours.</p>\n<p>The originals' pictures were not at hand: the texts were read as text alone, so a figure's content is \
+         known from its caption and the text around it.</p>",
         escaped(gl)
     )?;
     if let Some(numbers) = numbers {

@@ -201,13 +201,13 @@ fn joint(numbers: &Numbers) -> Option<String> {
     let verdict = if (ratio - 1.0).abs() * 100.0 <= EQUAL_PERCENT {
         "the same, as in the paper"
     } else if ratio < 1.0 {
-        "less: what is written, read and blended once more is spared"
+        "less: one write, read and blend are saved"
     } else {
         "more"
     };
     (ratio.is_finite() && ratio > 0.0).then(|| {
         format!(
-            "The joint shader costs {ratio:.2} times what the two others cost together (in the paper's numbers 1.02), {verdict}."
+            "The joint shader costs {ratio:.2} times the cost of the two others together (in the paper's numbers 1.02), {verdict}."
         )
     })
 }

@@ -59,7 +59,7 @@ impl FromStr for InkColor {
             "alpha" => Ok(Self::Alpha),
             _ => match Color::parse(text) {
                 Ok(Color(channels)) if channels.iter().all(|channel| *channel >= 1.0) => {
-                    Err(Error::setting("ink", "white ink on white is none; choose light for white ink on black"))
+                    Err(Error::setting("ink", "white ink on white is invisible; choose light for white ink on black"))
                 }
                 Ok(color) => Ok(Self::Color(color)),
                 Err(_) => {

@@ -63,7 +63,7 @@ pub struct LineError {
     pub against: Against,
     /// Distance within which ink and line count as the same, pixels.
     pub tolerance_px: f64,
-    /// Darkness from which a pixel is ink, of 255.
+    /// Least darkness of a pixel that counts as ink, of 255.
     pub ink_from: u8,
     /// Angles between faces, degrees: creases between the two are neither missed nor invented.
     pub ignored_creases_degrees: [f64; 2],

@@ -101,7 +101,7 @@ fn tone(row: &Row, value: impl Fn(&ToneError) -> Option<f64>) -> Value {
 
 fn setting_columns() -> Vec<Column> {
     vec![
-        column("model", "Model", 0, |row| text(&row.model), "The model, as it was named.").main(),
+        column("model", "Model", 0, |row| text(&row.model), "The model's name, as given.").main(),
         column("style", "Style", 0, |row| text(&row.style), "The style drawn.").main(),
         column(
             "options",
@@ -208,7 +208,7 @@ fn line_columns() -> Vec<Column> {
             3,
             |row| line(row, |lines| Some(lines.f1)),
             "Harmonic mean of precision and recall of the picture's ink against the exact visible lines: 1 is full \
-             agreement, 0 is none.",
+             agreement, 0 no agreement.",
         )
         .main(),
         column(
@@ -216,7 +216,7 @@ fn line_columns() -> Vec<Column> {
             "Precision",
             3,
             |row| line(row, |lines| Some(lines.precision)),
-            "Share of the ink from the threshold (Ink from) on, weighted by darkness, within the tolerance of an exact line; the rest is invented.",
+            "Share of the ink at or above the threshold (Ink from), weighted by darkness, within the tolerance of an exact line; the rest is invented.",
         )
         .main(),
         column(
@@ -253,7 +253,7 @@ fn line_columns() -> Vec<Column> {
             "Ink from",
             0,
             |row| line(row, |lines| Some(lines.ink_from.into())),
-            "Darkness from which a pixel is ink, of 255.",
+            "Least darkness of a pixel that counts as ink, of 255.",
         ),
         column(
             "ignored_from_degrees",

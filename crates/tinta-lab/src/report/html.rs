@@ -231,7 +231,7 @@ fn machine_table(machines: &[Machine<'_>]) -> String {
         machines[1..].iter().map(|machine| format!("{}, times the first", machine.name)).collect();
     let head = |title, meaning, is_number| Head { title, meaning, is_number, is_main: true };
     let mut heads = vec![
-        head("Setting", "The style and what differs from other settings.", false),
+        head("Setting", "The style and its differences from other settings.", false),
         head("Models", "Models measured on all of these machines.", true),
     ];
     heads.extend(times.iter().map(|title| head(title, "Geometric mean over those models of the median time.", true)));
@@ -259,7 +259,7 @@ fn pictures(info: &ReportInfo, models: &[&str]) -> String {
         return String::new();
     }
     let mut text =
-        "<section id=\"pictures\">\n<h2>What is drawn and where its errors lie</h2>\n<p>Beside each drawing its lines: black is ink on a line, red a line without ink, blue ink without a line, grey ink that does not count (soft creases). Shown are each style's published settings and the best. Press a picture to see it in full size.</p>\n\
+        "<section id=\"pictures\">\n<h2>Drawings and their errors</h2>\n<p>Beside each drawing its lines: black is ink on a line, red a line without ink, blue ink without a line, grey ink that does not count (soft creases). Shown are each style's published settings and the best. Press a picture to see it in full size.</p>\n\
                     <div class=\"pictures\">\n"
             .to_owned();
     let names = model_names(models.iter().copied());
@@ -368,7 +368,7 @@ fn meanings() -> String {
         (name, escaped(&column.meaning))
     });
     format!(
-        "<section id=\"columns\">\n<h2>What the columns mean</h2>\n<p>The second name is the column's in results.csv.</p>\n\
+        "<section id=\"columns\">\n<h2>Meaning of the columns</h2>\n<p>The second name is the column's in results.csv.</p>\n\
          {}</section>\n",
         definitions(entries)
     )

@@ -343,7 +343,7 @@ fn legend(points: &[Point], layout: &Layout) -> Vec<Item> {
     if points.iter().any(|point| !point.is_faithful) {
         items.push((Mark::Style(styles[0].to_owned(), false), "hollow: not the published settings".to_owned()));
     }
-    items.push((Mark::Front, "Pareto front: nothing is both faster and closer".to_owned()));
+    items.push((Mark::Front, "Pareto front: no setting is both faster and closer".to_owned()));
     let mut left = MARGIN;
     let mut line = 0;
     let mut placed = Vec::new();

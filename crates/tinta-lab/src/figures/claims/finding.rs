@@ -83,7 +83,7 @@ impl Finding {
     /// Confirmed if the rule holds, refuted if not. A number that is none decides nothing.
     pub(super) fn of(holds: bool, numbers: Vec<Number>) -> Self {
         if numbers.iter().any(|number| !number.value.is_finite()) {
-            return Self { numbers: Vec::new(), ..Self::nowhere("what was to be measured took no measurable time") };
+            return Self { numbers: Vec::new(), ..Self::nowhere("the measured work took no measurable time") };
         }
         let verdict = if holds { Verdict::Confirmed } else { Verdict::Refuted };
         Self { verdict, numbers, reason: None }

@@ -87,9 +87,9 @@ const COLUMNS: &str = "\
 const HEAD: &str = "\
 # Claims
 
-Every sentence of the three texts that says something which can be measured, beside what is measured here. A rule in the code
-decides between confirmed and refuted; nobody wrote a verdict down. A verdict is about this program on this machine: the texts had
-other hardware, and what they measured they measured there.
+Every measurable sentence of the three texts, beside the measurement here. A rule in the code
+decides between confirmed and refuted; no verdict is written by hand. A verdict is about this program on this machine: the texts had
+other hardware, and measured there.
 
 E stands for Evangelista et al. 2005, V for Valente 2007, D for Dachsbacher; the number is the line of the transcript that this
 project was made from, and the section is the text's own. The words are ours. `tinta figures` measures them all, writes

@@ -23,8 +23,8 @@ pub(super) fn summary(numbers: &Numbers) -> String {
 /// Frames from which medians and ratios begin to agree on a busy machine.
 const ENOUGH_FRAMES: usize = 11;
 
-const TOO_FEW: &str = " So few frames say little: times, gains and what is concluded from them below may contradict each \
-                       other; more frames settle it.";
+const TOO_FEW: &str = " So few frames say little: the times, gains and conclusions below may contradict each other; more frames \
+                       settle it.";
 
 /// What belongs to this figure.
 pub(super) fn tables(out: &mut String, id: &str, numbers: &Numbers) -> Result {
