@@ -11,17 +11,17 @@ use tinta_geometry::mesh::{LoadOptions, LoadStage, Loaded, read_bytes};
 pub struct Builtin {
     /// Its name behind `builtin:`.
     pub name: &'static str,
-    /// What it shows, for help pages.
+    /// A description of the model, for help pages.
     pub what: &'static str,
     source: Source,
 }
 
-/// What a built-in model is made of.
+/// The source of a built-in model's triangles.
 #[derive(Debug, Clone, Copy)]
 enum Source {
     /// The model's file, and those that it names.
     File(&'static [u8], &'static [(&'static str, &'static [u8])]),
-    /// A surface, of which any number of triangles can be had.
+    /// A surface that can be tessellated into any number of triangles.
     Surface(ClosedForm),
 }
 
@@ -38,12 +38,12 @@ impl Builtin {
     }
 }
 
-/// A built-in model by the name a user gives: `builtin:NAME`, for a surface also `builtin:NAME:TRIANGLES`.
+/// A built-in model by the name a user gives: `builtin:NAME`, or `builtin:NAME:TRIANGLES` for a surface.
 #[derive(Debug, Clone, Copy)]
 pub struct Named {
     /// Which.
     pub builtin: Builtin,
-    /// About so many triangles, for a surface.
+    /// The approximate number of triangles, for a surface.
     pub triangles: usize,
 }
 
@@ -146,7 +146,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
     load_watched(path, options, &|_| {})
 }
 
-/// As [`load`], for whoever shows how far it is: `watch` is told of each stage when it begins.
+/// Like [`load`], with progress: `watch` receives each stage when it begins.
 ///
 /// # Errors
 ///

@@ -77,8 +77,8 @@ pub fn main(program: &Program) -> ExitCode {
     }
 }
 
-/// Lets a write beyond the limit on files' sizes (`ulimit -f`) fail like any other, whoever writes, the GL driver too: by
-/// default it ends the program by a signal. A handler that does nothing is the safe way to ignore it.
+/// Makes a write beyond the limit on file sizes (`ulimit -f`) fail like any other write, in the GL driver too. By default the
+/// limit ends the program by a signal. A handler that does nothing is the safe way to ignore that signal.
 fn outlive_the_limit_on_files() {
     // Where it cannot be had the program is as it would be without.
     #[cfg(unix)]

@@ -11,7 +11,7 @@
 use crate::styles::StyleName;
 use serde::Serialize;
 
-/// What a key does. Which side it does that to, and what follows, are the window's and the page's own.
+/// The effect of a key. The window and the page decide which side it affects and what follows.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Action {
@@ -59,16 +59,16 @@ pub enum Action {
     FullScreen,
     /// The sheet of keys.
     KeySheet,
-    /// Close what is open.
+    /// Close the topmost open part.
     Close,
     /// Quit.
     Quit,
 }
 
-/// What is held down beside a key.
+/// A modifier held down with a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum With {
-    /// Nothing, or what has no meaning with this key.
+    /// No modifier, or one without a meaning for this key.
     Nothing,
     Shift,
     /// Ctrl, or the command key where there is one.
@@ -180,7 +180,7 @@ const ROWS: &[Row] = &[
     window("Q", "quit", &[("Q", Nothing, Quit), ("Q", Ctrl, Quit)]),
 ];
 
-/// What a sheet of keys says, line by line: keys, and what they do; all that the window has, or what the page has of it.
+/// Returns the lines of the sheet of keys: keys and their effects, either all of the window's or those that the page has.
 pub fn sheet(is_page: bool) -> impl Iterator<Item = (&'static str, String)> {
     // Those after the ninth have no key.
     let names: Vec<&str> = StyleName::ALL.iter().map(|(name, _)| *name).take(9).collect();
@@ -188,14 +188,13 @@ pub fn sheet(is_page: bool) -> impl Iterator<Item = (&'static str, String)> {
     rows.map(move |row| (row.keys, row.what.replace(STYLES, &names.join(", "))))
 }
 
-/// What the window's sheet says of the key that does something; nothing where no key does.
+/// Returns the window's sheet text for the key of an action, or `None` if it has no key.
 pub fn about(action: Action) -> Option<String> {
     let row = ROWS.iter().find(|row| row.bindings.iter().any(|(.., does)| *does == action))?;
     Some(format!("{}: {}", row.keys, row.what))
 }
 
-/// What the key does for which `is_key` is true of its name, as [`Action`]; `None` where that is nothing. Shift counts where it
-/// has a meaning with the key.
+/// Returns the [`Action`] of the key whose name satisfies `is_key`, or `None`. Shift counts where it has a meaning with the key.
 pub fn action(is_key: impl Fn(&str) -> bool, has_shift: bool, has_ctrl: bool) -> Option<Action> {
     let bindings = || ROWS.iter().flat_map(|row| row.bindings).filter(|(key, ..)| is_key(key));
     let of = |with: With| bindings().find(|binding| binding.1 == with).map(|(.., action)| *action);

@@ -118,7 +118,7 @@ impl Orbit {
     }
 }
 
-/// Angles are multiples of this, degrees: less is seen by nobody, and three decimals can be read.
+/// Angles are multiples of this, degrees. Smaller steps are invisible, and three decimals are readable.
 const ANGLE_STEP: f64 = 0.001;
 
 /// A camera whose numbers have few digits: places are multiples of a power of ten that is less than a hundred-thousandth of the distance

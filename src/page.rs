@@ -96,7 +96,7 @@ mod tests {
             assert!(text.is_none_or(|text| name(text).is_some()), "a text's colour has a name: {text:?}");
             match (text.and_then(name), background.and_then(name)) {
                 (Some(text), Some(background)) => pairs.push((text, background)),
-                // What has no background of its own may stand on the page or on a band.
+                // An element without a background may stand on the page or on a band.
                 (Some(text), None) => pairs.extend([(text, "--paper"), (text, "--band")]),
                 (None, Some(background)) => pairs.extend([("--ink", background), ("--soft", background)]),
                 (None, None) => {}

@@ -45,7 +45,7 @@ pub const PREFIX: &str = "paper:";
 pub struct Preset {
     /// The file as the user named it, or `paper:…`.
     pub name: String,
-    /// What it sets.
+    /// The options it sets.
     pub options: Options,
     lines: BTreeMap<String, u64>,
 }

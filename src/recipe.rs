@@ -1,7 +1,7 @@
 //! A picture's recipe: all that is needed to make it again, carried in the picture itself.
 //!
-//! In PNG it is a `tEXt` chunk, in SVG an element of `<metadata>`; both hold the same JSON in ASCII. There is no date in it, nor
-//! where the picture was written: the same drawing is the same bytes.
+//! PNG stores it in a `tEXt` chunk, SVG in an element of `<metadata>`; both hold the same JSON in ASCII. It contains neither a
+//! date nor the output path: the same drawing is the same bytes.
 //!
 //! ```
 //! use tinta::Recipe;
@@ -44,7 +44,7 @@ pub const LARGEST_BYTES: usize = 256 << 10;
 /// How much of an SVG is looked through: its metadata stands at its head.
 const HEAD_BYTES: u64 = 2 << 20;
 
-/// What a picture was made of.
+/// Everything needed to make a picture again.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Recipe {
     /// tinta's version.
@@ -65,7 +65,7 @@ pub struct Recipe {
     pub gl: Option<Driver>,
 }
 
-/// A file as it was when it was read.
+/// A file's state when it was read.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRecord {
     /// As the user, or a model, named it.
@@ -161,8 +161,8 @@ pub fn draws_with_textures(style: &Style, scene: &Scene) -> bool {
     }
 }
 
-/// The files that a picture was made of, each once: the models, what they brought with them, and where a style drew it what that
-/// draws with. `scene` begins with the models; built-in ones are no files.
+/// Returns the files that a picture was made from, each once: the models, the files they refer to, and the files of the style, if
+/// one drew the picture. `scene` begins with the models; built-in models are not files.
 pub fn files_read(models: &[String], beside: &[PathBuf], scene: &Scene, style: Option<&Style>) -> Vec<PathBuf> {
     let mut paths: Vec<PathBuf> =
         models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
@@ -247,7 +247,7 @@ impl Recipe {
         Ok(recipe)
     }
 
-    /// The command line that makes the picture, for a shell.
+    /// Returns a shell command line that makes the picture.
     pub fn command_line(&self, output: &str) -> String {
         let mut words = vec![self.command.clone()];
         // A name that begins with a dash would be taken for an option.
@@ -263,7 +263,7 @@ impl Recipe {
         shell::command_line(words.into_iter())
     }
 
-    /// What is not as it was when `self` was made: version, files, driver, size; a sentence each.
+    /// Returns one sentence for each difference from `self`: version, files, driver, size.
     pub fn differences(&self, now: &Self) -> Vec<String> {
         let mut all = Vec::new();
         let mut say = |what: &str, then: &dyn std::fmt::Display, now: &dyn std::fmt::Display| {

@@ -1,4 +1,4 @@
-//! One drawing as it is asked for: models, how they are read, scene and camera, style, and what is made of it.
+//! One requested drawing: models, how to read them, scene and camera, style, and output.
 //!
 //! Every door makes a [`Request`] of layers of options, each beating those below it, and hands it to a [`Session`]: the command
 //! line, a batch, a recipe, the window, Python and the browser differ in where the options come from and where the drawing goes.
@@ -42,14 +42,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// What is asked for.
+/// A requested drawing.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// The models, as the user named them. Default none.
     pub models: Vec<String>,
     /// How they are read.
     pub read: LoadOptions,
-    /// What is put together of them, from where it is seen, how large the picture is.
+    /// How the models are arranged, the camera, and the picture's size.
     pub scene: SceneSettings,
     /// The style with its settings. Default three-pass as published.
     pub style: Style,
@@ -59,13 +59,13 @@ pub struct Request {
     pub animation: AnimationSettings,
     /// The way to OpenGL. Default the first that works.
     pub backend: Backend,
-    /// What is left out of the published plan.
+    /// What to leave out of the published plan.
     pub pruning: PruneSettings,
     /// Whether all pieces of exact lines are found, whatever the drawing shows of them, and none is left out for being short. Default no.
     pub tells_all: bool,
     /// Whether hidden lines are found though the drawing does not show them, and it is counted where smooth silhouettes break. Default no.
     pub tells_hidden: bool,
-    /// The options that it was made of: what a recipe and a preset keep.
+    /// The options that the request was made from. Recipes and presets keep them.
     pub options: Options,
     /// Where options that come from a look or a file stand.
     sources: BTreeMap<String, Source>,
@@ -97,7 +97,7 @@ pub struct AnimationSettings {
     pub frame_delay_ms: Option<u32>,
 }
 
-/// What is left out of a plan.
+/// What to leave out of a plan.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PruneSettings {
     /// Nothing. Default no.
@@ -285,7 +285,7 @@ impl Request {
         Self { models, ..self }
     }
 
-    /// The models' names without their folders: what a drawing of them is titled.
+    /// Returns the models' names without their folders, the title of a drawing of them.
     pub fn title(&self) -> String {
         let names = self.models.iter().map(|model| match Path::new(model).file_name() {
             Some(name) => name.to_string_lossy(),
@@ -299,7 +299,7 @@ impl Request {
         self.scene.background == crate::scene::Background::Transparent
     }
 
-    /// The same in another style, with what the options say of it.
+    /// Returns the same request in another style, with the options that apply to it.
     ///
     /// # Errors
     ///

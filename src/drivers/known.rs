@@ -1,4 +1,4 @@
-//! What is known to be wrong with drivers, and what is done about it: each was seen with tinta.
+//! Known driver faults and their workarounds. Each was observed with tinta.
 
 use crate::gl::ContextInfo;
 use serde::Serialize;
@@ -10,7 +10,7 @@ pub struct KnownFault {
     pub name: &'static str,
     /// The first version it was seen in.
     pub first_seen: &'static str,
-    /// The last one; versions in which nobody looked are not said to be free of it.
+    /// The last version with the fault; untested versions may have it too.
     pub last_seen: &'static str,
     /// What tinta does about it.
     pub workaround: &'static str,

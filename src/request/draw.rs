@@ -29,17 +29,17 @@ pub enum Drawn {
 pub struct DrawnPicture {
     /// The scene.
     pub scene: Scene,
-    /// What was read besides the models' own files.
+    /// The files read besides the models' own files.
     pub files: Vec<PathBuf>,
-    /// What the style does for the scene, before anything is left out.
+    /// The style's plan for the scene, before pruning.
     pub published: Plan,
-    /// What was drawn.
+    /// The executed plan.
     pub plan: Plan,
-    /// What was left out, and why.
+    /// The omitted steps, with reasons.
     pub omissions: Vec<Omission>,
-    /// What was not, and why.
+    /// The candidates that were kept, with reasons.
     pub kept: Vec<Kept>,
-    /// What is to be known of it, a sentence each.
+    /// Remarks for the user, a sentence each.
     pub remarks: Vec<String>,
     /// The picture.
     pub picture: Picture,
@@ -71,7 +71,7 @@ pub struct Times {
 pub struct DrawnLines {
     /// The scene.
     pub scene: Scene,
-    /// What was read besides the models' own files.
+    /// The files read besides the models' own files.
     pub files: Vec<PathBuf>,
     /// The style that they are drawn in.
     pub style: LineStyle,
@@ -94,7 +94,7 @@ pub struct ReadModels {
     pub ms: f64,
 }
 
-/// A scene ready to be drawn, and what is to be done for it.
+/// A scene ready to draw, with its plan.
 struct Planned {
     scene: Scene,
     files: Vec<PathBuf>,
@@ -150,7 +150,7 @@ impl Request {
         Some(LineStyle { lines, drawing })
     }
 
-    /// What is to be found for this style.
+    /// The lines to find for this style.
     fn wanted(&self, style: &LineStyle) -> LineSettings {
         let mut wanted = style.wanted();
         wanted.finds_hidden |= self.tells_all || self.tells_hidden;
@@ -194,7 +194,7 @@ impl Request {
         }
     }
 
-    /// What the style does for a scene, as published and without what cannot change the picture.
+    /// Returns the style's plan for a scene, as published and pruned of everything that cannot change the picture.
     ///
     /// # Errors
     ///
@@ -205,7 +205,7 @@ impl Request {
         Ok((published, pruned))
     }
 
-    /// A plan without what cannot change the picture.
+    /// Prunes a plan of everything that cannot change the picture.
     fn pruned(&self, published: &Plan, scene: &Scene, renderer: &mut Renderer) -> Result<Pruned> {
         renderer.choose_context(scene, published)?;
         Ok(match self.pruning.pruning(renderer) {
@@ -267,7 +267,7 @@ impl Request {
                 session.keep(backend, renderer);
                 (times, loaded)
             }
-            // What is wrong with the models is said first.
+            // Errors of the models come first.
             Err(error) => (Times::default(), loaded.and(Err(error))),
         }
     }

@@ -1,6 +1,6 @@
 //! The window itself: winit's events in, egui's frames out, and recordings played in it.
 //!
-//! Frames are painted when there is something new to see and at no other time.
+//! The window paints frames only when the picture changes.
 
 use super::player::{PlayedRecord, Player};
 use super::replay::Replay;
@@ -23,7 +23,7 @@ pub struct WindowOptions {
     pub size: Size,
     /// A recording that is played; then the window closes.
     pub replay: Option<Replay>,
-    /// When the program began, for the time to the first picture.
+    /// When the program began, to time the first picture.
     pub started: Instant,
 }
 
@@ -31,7 +31,7 @@ pub struct WindowOptions {
 #[derive(Debug, Clone, Copy)]
 struct News;
 
-/// Opens the window and returns when it is closed; of a recording what it took.
+/// Opens the window and returns when it is closed, with the measurements of a recording.
 ///
 /// # Errors
 ///
@@ -45,7 +45,7 @@ pub fn open(mut options: WindowOptions) -> Result<Option<PlayedRecord>> {
     let wake = move || {
         let _ = proxy.send_event(News);
     };
-    // A recording says by itself what is open.
+    // A recording opens its own models.
     if options.replay.is_none() {
         let state = &mut options.viewer.state;
         (state.has_panel, state.has_hint) = (options.size.width >= NARROW, true);

@@ -7,12 +7,12 @@ use crate::scene::Color;
 use crate::styles::{ClassColors, Inking, PaintMode, Show, Style, StyleName};
 use std::str::FromStr;
 
-/// What is shown of a style.
+/// One of a style's pictures or maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Buffer {
     /// One of its pictures.
     Show(Show),
-    /// The model's edges, each class in a colour of its own; the same for all styles.
+    /// The model's edges, one colour a class; the same for all styles.
     EdgeClasses,
 }
 

@@ -1,4 +1,4 @@
-//! What is drawn while the model moves, where the user allows it to be coarser than at rest.
+//! Drawings while the model moves, coarser than at rest if the user allows it.
 //!
 //! In: a style and a size. Out: a style that draws much the same sooner, at half the width and height, and a picture of the
 //! first size with each pixel twice as wide and high.
@@ -27,7 +27,7 @@ pub(super) fn style(style: &Style) -> Style {
     for (name, value) in [("cull", "back"), ("supersample", "1")] {
         if let Some(setting) = Style::table().find(&coarse, name) {
             let mut changed = coarse.clone();
-            // Where it cannot be so it stays as it is.
+            // Where it cannot be coarser it does not change.
             if setting.set(&mut changed, value).is_ok() {
                 coarse = changed;
             }

@@ -1,7 +1,7 @@
 //! The settings of the styles as controls: which of them a panel has, and how they are read and set.
 //!
-//! Values are the texts that the command line takes, so that a control, a recorded event and a command say the same thing in
-//! the same words. What there is to turn is declared beside the styles; nothing is listed here.
+//! Values are the texts that the command line takes: a control, a recorded event and a command use the same words. The settings
+//! are declared with the styles; this file lists none.
 
 use super::line_style::LINE_SETTINGS;
 use crate::error::Result;
@@ -59,7 +59,7 @@ pub(super) fn look_of_sibling(style: &Style) -> Option<Look> {
     LOOKS.into_iter().rev().find(is_of)
 }
 
-/// What a look makes of what draws a side and of the scene. What another look sets of the scene is as by default again.
+/// Returns the style and scene settings after choosing a look. Settings of the scene from another look return to their defaults.
 ///
 /// # Errors
 ///
@@ -143,8 +143,8 @@ impl<T: Clone + 'static> Control<T> {
 ///
 /// # Errors
 ///
-/// A sentence that begins with the option, for a style without it and for values it cannot have. What no value of its own
-/// can tell, the style's plan refuses.
+/// Returns a sentence that begins with the option, for a style without it and for invalid values. The style's plan refuses
+/// invalid combinations.
 pub(super) fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result<(), String> {
     let setting = find(style, option)?;
     set(setting, style, option, value)
@@ -152,7 +152,7 @@ pub(super) fn turn(style: &mut Style, option: &str, value: &str) -> std::result:
 
 /// Settings beside those of styles that a window shows and sets.
 pub(super) struct Group {
-    /// Whose they are, as a sentence about one that there is not says it.
+    /// The owner of the settings, for the error about an unknown one.
     what: &'static str,
     names: &'static [&'static str],
 }
@@ -223,7 +223,7 @@ fn set<T: Clone + 'static>(
     turned(setting.set(of, value))
 }
 
-/// Sets it back to what is published.
+/// Restores the published value.
 ///
 /// # Errors
 ///

@@ -12,7 +12,7 @@ const MARGIN: f32 = 8.0;
 /// Around the text, points.
 const PADDING: f32 = 3.0;
 
-/// What a side shows: the look's name, or the style's and where its settings come from.
+/// The label of a side: the look's name, or the style's and the origin of its settings.
 pub(super) fn label(state: &ViewerState, side: Side) -> String {
     let name = state.drawn_name(side);
     if let Some(look) = state.look_of(side).filter(|look| look.has_settings()) {

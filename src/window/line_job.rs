@@ -1,4 +1,4 @@
-//! Which exact lines are wanted, and those found: values that the viewer and its thread of lines exchange.
+//! The requested exact lines and the found ones: values that the viewer and its line thread exchange.
 
 use super::job::Job;
 use super::paint::over;
@@ -6,10 +6,10 @@ use crate::picture::Picture;
 use crate::scene::{SceneSettings, Size};
 use crate::styles::LineStyle;
 
-/// Whose lines are wanted, drawn how.
+/// The requested lines and how to draw them.
 #[derive(Debug, Clone)]
 pub struct LineJob {
-    /// The view; what else is drawn of it does not matter.
+    /// The view; other contents of the job do not matter.
     pub view: Job,
     /// Which lines, and how they look.
     pub style: LineStyle,
@@ -43,18 +43,18 @@ pub struct Found {
     pub ink: Picture,
     /// How many of their strokes are those of the view before.
     pub stayed: Stayed,
-    /// What that took, milliseconds.
+    /// Time taken, milliseconds.
     pub ms: f64,
 }
 
 impl Found {
-    /// They as a picture by themselves.
+    /// The lines alone as a picture.
     pub fn alone(&self) -> Picture {
         over(&self.ink, &ground(self.ink.size, &self.job.view.settings))
     }
 }
 
-/// What is behind lines that are a picture by themselves.
+/// The background of lines drawn alone.
 pub(super) fn ground(size: Size, settings: &SceneSettings) -> Picture {
     let pixel = settings.background.clear_color().map(|channel| (channel * 255.0).round() as u8);
     Picture { size, pixels: pixel.repeat(size.pixel_count()) }

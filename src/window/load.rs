@@ -1,4 +1,4 @@
-//! Reads models on their own thread, so that the window stays responsive.
+//! Reads models on a separate thread; the window stays responsive.
 
 use super::report::{LoadedModels, Report, Reporter, Stage};
 use crate::error::Result;
@@ -30,7 +30,7 @@ impl Loader {
     ///
     /// # Errors
     ///
-    /// When there is no thread to be had.
+    /// When the thread cannot be started.
     pub(super) fn start(&self, models: Vec<String>, options: LoadOptions) -> std::io::Result<()> {
         let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
         let reporter = self.reporter.clone();
@@ -45,10 +45,10 @@ impl Loader {
     }
 }
 
-/// Steps in which a model is read.
+/// Steps of reading a model.
 const STEPS_A_MODEL: usize = 4;
 
-/// Reads models and puts them together; says what it does.
+/// Reads models, puts them together, and reports progress.
 fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> Result<LoadedModels> {
     let (mut meshes, mut remarks): (Vec<Arc<Mesh>>, Vec<String>) = Default::default();
     let mut files: Vec<PathBuf> =

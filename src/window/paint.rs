@@ -1,8 +1,8 @@
 //! Paints strokes: exact lines as pixels, antialiased, with round ends and joins.
 //!
-//! In: [`Strokes`] from the lowest layer to the highest. Out: a [`Picture`] with colours multiplied by alpha, to be laid over
-//! another. A pixel's share of a stroke is what the stroke covers of a pixel's width across it: exact along a straight line, and
-//! as good as any at ends and joins. Within a layer the largest share counts, so that strokes that cross or join do not add up.
+//! Takes [`Strokes`] from the lowest layer to the highest, and returns a [`Picture`] with colours multiplied by alpha, to lay
+//! over another. A pixel's share of a stroke is the covered part of a pixel's width across the stroke: exact along a straight
+//! line, approximate at ends and joins. Within a layer the largest share counts: strokes that cross or join do not add up.
 
 use crate::lines::Strokes;
 use crate::picture::Picture;
@@ -81,7 +81,7 @@ impl Layer {
         }
     }
 
-    /// Lays the layer over what is there and empties it.
+    /// Lays the layer over the pixels and empties it.
     fn blend_into(&mut self, pixels: &mut [u8], color: Color, opacity: f32) {
         let width = self.size.width as usize;
         let bytes = color.0.map(|channel| (channel * 255.0).round());

@@ -10,14 +10,14 @@ use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
 
-/// What a recording took.
+/// The measurements of a recording.
 #[derive(Debug, Clone, Serialize)]
 pub struct PlayedRecord {
     /// From the program's start to the first picture on the screen.
     pub first_picture_ms: f64,
     /// Each frame, from its events to its being shown; in frames that wait for their pictures with that.
     pub frame_ms: Summary,
-    /// Frames that went on while something was being read or drawn.
+    /// Frames that ran while something was being read or drawn.
     pub free_frame_ms: Summary,
     /// In drags, from one new picture on the screen to the next.
     pub drag_frame_ms: Summary,
@@ -29,7 +29,7 @@ pub struct PlayedRecord {
 pub(super) struct Player {
     replay: Replay,
     frame: u64,
-    /// Whether frames go on without waiting for what they started.
+    /// Whether frames run without waiting for the work they started.
     is_free: bool,
     /// In a drag: the number of the picture shown last, and when that was.
     dragged: Option<(u64, Instant)>,
@@ -59,7 +59,7 @@ impl Player {
         self.replay.has_sizes()
     }
 
-    /// What it took.
+    /// Returns the measurements.
     pub(super) fn record(self) -> PlayedRecord {
         let Times { first_picture_ms, frame_ms, free_frame_ms, drag_frame_ms, scale } = self.times;
         PlayedRecord {
@@ -83,7 +83,7 @@ impl Player {
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for an event that cannot be and for what cannot be drawn, and what keeps pictures from being written.
+    /// [`Error::Setting`] for an invalid event and for drawing failures, and the errors of writing pictures.
     pub(super) fn play(&mut self, shown: &mut Shown) -> Result<bool> {
         self.times.scale = shown.scale();
         if self.is_free {
@@ -142,7 +142,7 @@ impl Player {
         Ok(self.is_over() || shown.is_over)
     }
 
-    /// A frame that goes on with what the one before it has started.
+    /// A frame that continues the work of the one before it.
     fn play_free(&mut self, shown: &mut Shown) -> Result<()> {
         let start = Instant::now();
         shown.viewer.take_reports()?;

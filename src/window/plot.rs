@@ -1,4 +1,4 @@
-//! Times and errors of what is shown, as numbers and a small plot.
+//! Times and errors of the shown picture, as numbers and a small plot.
 
 use super::cost::{Costs, Point};
 use super::line_style::LinesShown;
@@ -104,7 +104,7 @@ fn free_place(point: Pos2, size: Vec2, area: Rect, taken: &[Rect]) -> Rect {
     let is_free = |label: &Rect| area.contains_rect(*label) && !taken.iter().any(|other| other.intersects(*label));
     let steps = [0, 1, -1, 2, -2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12];
     let all = steps.into_iter().flat_map(|step| [at(true, step), at(false, step)]);
-    // Where there is no room at all they lie on one another.
+    // Without any free place they overlap.
     all.into_iter().find(is_free).unwrap_or_else(|| at(true, 0))
 }
 

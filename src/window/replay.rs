@@ -6,8 +6,8 @@
 //! {"frame": 2, "event": "key-sheet", "window": "keys.png"}
 //! ```
 //!
-//! A frame's events happen first, then its picture is drawn, then it is taken: `screenshot` has the panes as they are shown,
-//! `window` the whole window.
+//! A frame's events happen first, then its picture is drawn, then it is saved: `screenshot` has the panes, `window` the whole
+//! window.
 
 use super::event::ViewerEvent;
 use crate::error::{Error, Result};
@@ -22,11 +22,11 @@ pub struct Line {
     pub frame: Option<u64>,
     /// What happens.
     pub event: Option<ViewerEvent>,
-    /// A file for what the panes show.
+    /// A file for the picture of the panes.
     pub screenshot: Option<String>,
-    /// A file for what the window shows.
+    /// A file for the picture of the window.
     pub window: Option<String>,
-    /// Frames go on without waiting for what the event starts; how long each takes is in the record.
+    /// Frames run without waiting for the work that the event starts; the record has each frame's time.
     #[serde(default)]
     pub free: bool,
     /// The frame is one of a drag: it shows the newest picture there is as soon as its own is begun.

@@ -20,7 +20,7 @@ const TEXT_GREY: u8 = 215;
 /// A window less wide, in points, begins without the panel, and folds it when it becomes so.
 pub(super) const NARROW: u32 = 800;
 
-/// How long a pointer that drags rests before what it drags is drawn in full.
+/// How long a dragging pointer rests before the full picture is drawn.
 const STILL: Duration = Duration::from_millis(200);
 
 /// What there is once there is a window.
@@ -36,7 +36,7 @@ pub(super) struct Shown {
     pub follows_window: bool,
     /// Whether it is to be closed.
     pub is_over: bool,
-    /// Whether there is no room for the panel beside the panes.
+    /// Whether the window is too narrow for the panel beside the panes.
     is_narrow: bool,
     /// Whether a recording says what happens, and when the view moves.
     is_played: bool,
@@ -90,8 +90,8 @@ impl Shown {
         Size { width: size.width, height: size.height }
     }
 
-    /// Paints a frame and lets happen what was done in it. What the window then shows is returned if asked for, and how long
-    /// nothing need be painted.
+    /// Paints a frame and applies its events. Returns the window's picture if requested, and how long the window can wait before
+    /// the next paint.
     pub(super) fn frame(&mut self, is_wanted: bool) -> Result<(Option<Picture>, Duration)> {
         let input = self.egui.take_egui_input(&self.window);
         let context = self.egui.egui_ctx().clone();
@@ -168,7 +168,7 @@ pub(super) fn dress(context: &egui::Context) {
     });
 }
 
-/// DejaVu for everything: egui's own fonts have licences of their own.
+/// DejaVu for everything: egui's own fonts have separate licences.
 pub(super) fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     for (name, data, family) in [

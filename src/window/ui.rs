@@ -22,10 +22,10 @@ const PANEL_SHARE: f32 = 0.36;
 /// Height of the line below the panes, points.
 pub(super) const STATUS_HEIGHT: f32 = 24.0;
 
-/// Height of what stands around the list of keys, points.
+/// Height of the parts around the list of keys, points.
 const KEY_SHEET_MARGIN: f32 = 136.0;
 
-/// What of a window of this width panel and status line take, points.
+/// Size that the panel and the status line take from a window of this width, points.
 pub(super) fn taken(state: &ViewerState, window_width: f32) -> [f32; 2] {
     [if state.has_panel { panel_width(window_width) } else { 0.0 }, STATUS_HEIGHT]
 }
@@ -39,7 +39,7 @@ fn panel_width(window_width: f32) -> f32 {
 /// A window this wide, points, has the list of keys in two columns.
 const WIDE: f32 = 1100.0;
 
-/// Letters of what a key does that stand on one line.
+/// Letters on one line of a key's description.
 const LINE_LETTERS: usize = 44;
 
 /// How far from the divider a pointer takes it, points.
@@ -80,7 +80,7 @@ fn put(context: &Context, texture: &mut Option<TextureHandle>, picture: Option<&
         *texture = None;
         return;
     };
-    // A map's depth lies in its alpha, which is not meant to be seen through.
+    // A map's depth lies in its alpha, which must not show as transparency.
     let image = egui::ColorImage::from_rgba_premultiplied(
         [picture.size.width as usize, picture.size.height as usize],
         &picture.clone().opaque().pixels,
@@ -91,7 +91,7 @@ fn put(context: &Context, texture: &mut Option<TextureHandle>, picture: Option<&
     }
 }
 
-/// Shows a frame and returns what was done in it. `follows_window`: the drawing area is as large as the window leaves it.
+/// Shows a frame and returns its events. `follows_window`: the drawing area is as large as the window allows.
 pub(super) fn frame(
     context: &Context,
     viewer: &Viewer,
@@ -171,7 +171,7 @@ fn status(ui: &mut Ui, viewer: &Viewer) {
     });
 }
 
-/// The pictures where they belong, and what the mouse does to them.
+/// The pictures in their places, and the mouse's actions on them.
 fn panes(ui: &mut Ui, viewer: &Viewer, textures: &Textures, follows_window: bool, events: &mut Vec<ViewerEvent>) {
     let area = ui.max_rect();
     let scale = ui.ctx().pixels_per_point();
@@ -180,7 +180,7 @@ fn panes(ui: &mut Ui, viewer: &Viewer, textures: &Textures, follows_window: bool
     if follows_window && pixels != [state.area.width, state.area.height] {
         events.push(ViewerEvent::Resize(pixels));
     }
-    // On whole pixels, so that each of the picture's is one of the screen's.
+    // Aligned to whole pixels: each pixel of the picture is one of the screen's.
     let corner = Pos2::new((area.left() * scale).round() / scale, (area.top() * scale).round() / scale);
     let response = ui.interact(area, ui.id().with("panes"), Sense::click_and_drag());
     for pane in state.panes() {
@@ -261,7 +261,7 @@ fn hint(context: &Context) {
     });
 }
 
-/// What lies over the panes: keys, costs, what is wrong, what is being read.
+/// The sheets over the panes: keys, costs, problems, progress of reading.
 fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     let state = &viewer.state;
     let window = |title: &str| egui::Window::new(title.to_owned()).collapsible(false).resizable(false).movable(false);
